@@ -1,0 +1,3 @@
+//! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
+
+pub mod ids;

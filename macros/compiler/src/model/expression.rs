@@ -1,0 +1,64 @@
+//! Values as the user wrote them, with names resolved and units converted to SI.
+
+use std::rc::Rc;
+
+use crate::base::ids::{ConstantId, CoordinateId, DesignId, InputId, PointId};
+
+/// A scalar value in SI; dimensions have been checked and are gone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// A number in SI.
+    Number(f64),
+    /// A design variable.
+    Design(DesignId),
+    /// An input.
+    Input(InputId),
+    /// A named constant.
+    Constant(ConstantId),
+    /// A joint coordinate (in outputs only).
+    Coordinate(CoordinateId),
+    /// Component 0, 1 or 2 of a point's position in the ground frame (in outputs only).
+    Position(PointId, usize),
+    /// `-a`.
+    Negate(Rc<Expr>),
+    /// `a + b`.
+    Add(Rc<Expr>, Rc<Expr>),
+    /// `a - b`.
+    Subtract(Rc<Expr>, Rc<Expr>),
+    /// `a * b`.
+    Multiply(Rc<Expr>, Rc<Expr>),
+    /// `a / b`.
+    Divide(Rc<Expr>, Rc<Expr>),
+    /// `a ^ n` with an integer exponent.
+    PowerInteger(Rc<Expr>, i32),
+    /// `a ^ b` with a positive base.
+    Power(Rc<Expr>, Rc<Expr>),
+    /// An elementary function of one argument.
+    Call(Function, Rc<Expr>),
+    /// `atan2(y, x)`.
+    Atan2(Rc<Expr>, Rc<Expr>),
+}
+
+/// Elementary functions of one argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    /// Square root.
+    Sqrt,
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Tangent.
+    Tan,
+    /// Inverse sine.
+    Asin,
+    /// Inverse cosine.
+    Acos,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+}
+
+/// Three components.
+pub type Vector = [Expr; 3];

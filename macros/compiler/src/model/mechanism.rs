@@ -1,0 +1,321 @@
+//! The mechanism: tables of what was declared.
+
+use proc_macro2::Ident;
+
+use super::expression::{Expr, Vector};
+use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
+
+/// A declared mechanism. Every `Ident` keeps the span of its declaration.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// Name of the generated type.
+    pub name: Ident,
+    /// Visibility of the generated type.
+    pub visibility: syn::Visibility,
+    /// Doc comments and other attributes on the declaration.
+    pub attributes: Vec<syn::Attribute>,
+    /// Inputs.
+    pub inputs: Vec<Input>,
+    /// Design variables.
+    pub design: Vec<DesignVariable>,
+    /// Named constants, each using only earlier ones.
+    pub constants: Vec<Constant>,
+    /// Acceleration of gravity in the ground frame, m/s^2; zero when not declared.
+    pub gravity: Vector,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Joint coordinates, in the order of their joints.
+    pub coordinates: Vec<Coordinate>,
+    /// Named points.
+    pub points: Vec<Point>,
+    /// Force elements.
+    pub forces: Vec<Force>,
+    /// Outputs.
+    pub outputs: Vec<Output>,
+}
+
+/// A unit as declared: a value in SI is the value in this unit times `scale`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// As declared, without spaces.
+    pub symbol: String,
+    /// SI value of one unit.
+    pub scale: f64,
+}
+
+/// An operating parameter chosen at run time.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Declared name.
+    pub name: Ident,
+    /// Doc comments.
+    pub docs: Vec<String>,
+    /// Declared unit.
+    pub unit: Unit,
+}
+
+/// A design variable.
+#[derive(Clone, Debug)]
+pub struct DesignVariable {
+    /// Declared name.
+    pub name: Ident,
+    /// Doc comments.
+    pub docs: Vec<String>,
+    /// Unit of the nominal value.
+    pub unit: Unit,
+    /// Nominal value, SI.
+    pub nominal: f64,
+    /// Half-width of the tolerance, SI; zero when none is declared.
+    pub tolerance: f64,
+}
+
+/// A named constant: an expression of numbers, design variables, inputs and earlier constants.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// Declared name.
+    pub name: Ident,
+    /// Its value.
+    pub value: Expr,
+}
+
+/// What a body frame can belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Frame {
+    /// The inertial frame.
+    Ground,
+    /// The frame fixed in a body.
+    Body(BodyId),
+}
+
+/// A rigid body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Declared name.
+    pub name: Ident,
+    /// Mass distribution.
+    pub shape: Shape,
+}
+
+/// Mass distribution in the body frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// No mass.
+    Massless,
+    /// A point mass.
+    Point {
+        /// Mass.
+        mass: Expr,
+        /// Position.
+        center: Vector,
+    },
+    /// A uniform slender bar.
+    Rod {
+        /// Mass.
+        mass: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of the bar, a unit vector.
+        along: Vector,
+        /// Centre of mass; half the length along the bar from the body's origin unless given.
+        center: Vector,
+    },
+    /// A uniform thin disk.
+    Disk {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid cylinder.
+    Cylinder {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid box with edges along the body axes.
+    Cuboid {
+        /// Mass.
+        mass: Expr,
+        /// Edge lengths.
+        size: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid sphere.
+    Sphere {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// Any rigid body.
+    Rigid {
+        /// Mass.
+        mass: Expr,
+        /// Centre of mass.
+        center: Vector,
+        /// Inertia tensor about the centre of mass along the body axes: xx, yy, zz, xy, yz, xz; the products are the
+        /// tensor's entries, `Jxy = -integral x y dm`.
+        inertia: [Expr; 6],
+    },
+}
+
+/// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the one before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// Origin.
+    pub offset: Vector,
+    /// Rotations in order: unit axis, angle in rad.
+    pub rotations: Vec<(Vector, Expr)>,
+}
+
+/// A joint between two frames. Its frame on the `from` side turns or slides about `axis` into its frame on the `to` side.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Declared name.
+    pub name: Ident,
+    /// Kind of joint, with its axis as a unit vector in the joint frame.
+    pub kind: JointKind,
+    /// Inboard side as declared.
+    pub from: Frame,
+    /// Outboard side as declared.
+    pub to: Frame,
+    /// Joint frame in `from`.
+    pub from_placement: Placement,
+    /// Joint frame in `to`.
+    pub to_placement: Placement,
+}
+
+/// Kinds of joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointKind {
+    /// No relative motion.
+    Fixed,
+    /// Rotation about an axis.
+    Revolute {
+        /// Unit vector in the joint frame.
+        axis: Vector,
+        /// Angle, rad.
+        coordinate: CoordinateId,
+    },
+    /// Translation along an axis.
+    Prismatic {
+        /// Unit vector in the joint frame.
+        axis: Vector,
+        /// Displacement, m.
+        coordinate: CoordinateId,
+    },
+}
+
+/// A joint coordinate.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// Name: the joint's.
+    pub name: Ident,
+    /// The joint it belongs to.
+    pub joint: JointId,
+    /// Angle or displacement.
+    pub quantity: CoordinateQuantity,
+    /// Free or driven.
+    pub motion: Motion,
+}
+
+/// What a coordinate measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateQuantity {
+    /// An angle, rad.
+    Angle,
+    /// A displacement, m.
+    Displacement,
+}
+
+/// How a coordinate moves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Found by the equations of motion.
+    Free,
+    /// Prescribed constant speed, rad/s or m/s: an expression of inputs and design variables.
+    Driven(Expr),
+}
+
+/// A named point fixed in a frame.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Declared name.
+    pub name: Ident,
+    /// The frame it is fixed in.
+    pub frame: Frame,
+    /// Its position there.
+    pub position: Vector,
+}
+
+/// A force element.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Declared name.
+    pub name: Ident,
+    /// The law.
+    pub law: ForceLaw,
+}
+
+/// Force laws.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ForceLaw {
+    /// `-stiffness (q - rest)` on a coordinate.
+    CoordinateSpring {
+        /// The coordinate.
+        coordinate: CoordinateId,
+        /// N m/rad or N/m.
+        stiffness: Expr,
+        /// rad or m.
+        rest: Expr,
+    },
+    /// `-damping qdot` on a coordinate.
+    CoordinateDamper {
+        /// The coordinate.
+        coordinate: CoordinateId,
+        /// N m s/rad or N s/m.
+        damping: Expr,
+    },
+    /// Tension `stiffness (distance - length) + damping d(distance)/dt` between two points.
+    SpringDamper {
+        /// One end.
+        from: PointId,
+        /// The other end.
+        to: PointId,
+        /// N/m.
+        stiffness: Expr,
+        /// N s/m.
+        damping: Expr,
+        /// Free length, m.
+        length: Expr,
+    },
+}
+
+/// A declared output: an expression of coordinates, points, inputs and design variables at the equilibrium.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Declared name.
+    pub name: Ident,
+    /// Doc comments.
+    pub docs: Vec<String>,
+    /// SI unit of the value.
+    pub unit: Unit,
+    /// The value.
+    pub value: Expr,
+}

@@ -1,0 +1,4 @@
+//! The mechanism in the user's terms: names resolved to ids, values in SI, every rule checked.
+
+pub mod expression;
+pub mod mechanism;

@@ -1,0 +1,294 @@
+//! The contract between compile time and run time: what generated code provides.
+
+use crate::Real;
+
+/// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
+///
+/// Implemented by `mechanism!`. Every method is a straight line of arithmetic over plain arrays: no allocation, no
+/// branch, no panic. All quantities are SI, angles in radians. Arguments everywhere:
+///
+/// - `q`: free coordinates, `u`: inputs, `b`: design variables, in the order of [`Mechanism::DESCRIPTION`];
+/// - matrices are `[[T; N]; N]`, `matrix[i][j]` the derivative of residual `i` by coordinate `j`;
+/// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (THEORY eq. 12): equal to zero along a motion, positive
+///   when inertia exceeds the applied forces.
+///
+/// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which
+/// the solvers of this crate turn into typed errors.
+pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>: Sync {
+    /// Names, units, nominal values and what the compiler proved.
+    const DESCRIPTION: Description;
+
+    /// Residual at rest, `g(0, 0, q; u, b)` (eq. 10): zero at a dynamic equilibrium.
+    fn residual<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; N];
+
+    /// The residual at rest split into inertia and applied forces: `g = inertia - applied` (eq. 10).
+    fn residual_parts<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> RestParts<T, N>;
+
+    /// The full nonlinear equations of motion, `g(qddot, qdot, q; u, b)` (eq. 12).
+    fn motion_residual<T: Real>(
+        &self,
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> [T; N];
+
+    /// Generalised mass matrix `M*(q; b)` (eq. 8) and right-hand side `Q* = -h(q, qdot, u; b)` (eq. 9).
+    fn motion<T: Real>(
+        &self,
+        velocity: &[T; N],
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([[T; N]; N], [T; N]);
+
+    /// Residual at rest and its Jacobian `Khat`: what a Newton step needs.
+    fn residual_and_stiffness<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([T; N], [[T; N]; N]);
+
+    /// `Mhat`, `Chat` and `Khat` (eqs. 15-17).
+    fn linear<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N>;
+
+    /// Explicit partial derivatives of the residual at rest by every input and design variable.
+    fn residual_partials<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([[T; U]; N], [[T; P]; N]);
+
+    /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` by every coordinate, input and design variable.
+    fn linear_partials<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> LinearPartials<T, N, U, P>;
+
+    /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
+    fn linear_along<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        dq: &[T; N],
+        du: &[T; U],
+        db: &[T; P],
+    ) -> Linear<T, N>;
+
+    /// Gradient of `a(q, u, b) = phi^T (Khat - lambda Mhat) phi`, `phi` and `lambda` held fixed, by reverse
+    /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
+    fn mode_gradient<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        phi: &[T; N],
+        lambda: T,
+    ) -> Gradient<T, N, U, P>;
+
+    /// Gradient of `w^T g(0, 0, q; u, b)` with `w` held fixed.
+    fn residual_gradient<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        w: &[T; N],
+    ) -> Gradient<T, N, U, P>;
+
+    /// Directional derivative of [`Mechanism::mode_gradient`] along (`dq`, `du`, `db`, `dphi`, `dlambda`).
+    #[allow(clippy::too_many_arguments)]
+    fn mode_gradient_along<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        phi: &[T; N],
+        lambda: T,
+        dq: &[T; N],
+        du: &[T; U],
+        db: &[T; P],
+        dphi: &[T; N],
+        dlambda: T,
+    ) -> Gradient<T, N, U, P>;
+
+    /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).
+    #[allow(clippy::too_many_arguments)]
+    fn residual_gradient_along<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        w: &[T; N],
+        dq: &[T; N],
+        du: &[T; U],
+        db: &[T; P],
+        dw: &[T; N],
+    ) -> Gradient<T, N, U, P>;
+
+    /// The declared outputs.
+    fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
+
+    /// Explicit partial derivatives of the outputs by every coordinate, input and design variable.
+    fn output_partials<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+}
+
+/// The residual at rest in two parts, `g = inertia - applied` (eq. 10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestParts<T, const N: usize> {
+    /// `B_R^T (M Bdot_D u + gyroscopic terms)`: N or N m by coordinate.
+    pub inertia: [T; N],
+    /// `B_R^T Q`: gravity, springs and dampers.
+    pub applied: [T; N],
+}
+
+/// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear<T, const N: usize> {
+    /// `Mhat`, symmetric.
+    pub mass: [[T; N]; N],
+    /// `Chat`.
+    pub damping: [[T; N]; N],
+    /// `Khat`.
+    pub stiffness: [[T; N]; N],
+}
+
+/// Explicit partial derivatives of the linearised matrices; `by_coordinate[k]` is the derivative by coordinate `k`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
+    /// By each free coordinate.
+    pub by_coordinate: [Linear<T, N>; N],
+    /// By each input.
+    pub by_input: [Linear<T, N>; U],
+    /// By each design variable.
+    pub by_design: [Linear<T, N>; P],
+}
+
+/// Partial derivatives of one scalar by everything it depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
+    /// By each free coordinate.
+    pub coordinates: [T; N],
+    /// By each input.
+    pub inputs: [T; U],
+    /// By each design variable.
+    pub design: [T; P],
+}
+
+/// What a mechanism is made of, and what the compiler proved about it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Description {
+    /// Name of the declared type.
+    pub name: &'static str,
+    /// Free coordinates, in the order of `q`.
+    pub coordinates: &'static [CoordinateInfo],
+    /// Inputs, in the order of `u`.
+    pub inputs: &'static [InputInfo],
+    /// Design variables, in the order of `b`.
+    pub design: &'static [DesignInfo],
+    /// Outputs, in the order of [`Mechanism::outputs`].
+    pub outputs: &'static [OutputInfo],
+    /// `Khat` is symmetric for every design, input and position.
+    pub symmetric_stiffness: bool,
+    /// What `Chat` can be.
+    pub damping: DampingKind,
+    /// The generated functions and their cost.
+    pub kernels: &'static [KernelInfo],
+}
+
+/// What the compiler proved about `Chat`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DampingKind {
+    /// Zero for every design, input and position.
+    Zero,
+    /// Skew-symmetric: gyroscopic coupling without dissipation.
+    Gyroscopic,
+    /// Anything else.
+    General,
+}
+
+/// A unit of measure: a value in SI is the value in this unit times `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// As declared, for example `mm` or `N*m/rad`; empty for a pure number.
+    pub symbol: &'static str,
+    /// SI value of one unit.
+    pub scale: f64,
+}
+
+/// A free coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoordinateInfo {
+    /// Declared name.
+    pub name: &'static str,
+    /// `rad` or `m`.
+    pub unit: Unit,
+}
+
+/// An input: an operating parameter chosen at run time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InputInfo {
+    /// Declared name.
+    pub name: &'static str,
+    /// Declared unit; kernels take SI.
+    pub unit: Unit,
+}
+
+/// A design variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DesignInfo {
+    /// Declared name.
+    pub name: &'static str,
+    /// Declared unit; kernels take SI.
+    pub unit: Unit,
+    /// Nominal value, SI.
+    pub nominal: f64,
+    /// Half-width of the declared tolerance, SI; zero when none is declared.
+    pub tolerance: f64,
+}
+
+/// A declared output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputInfo {
+    /// Declared name.
+    pub name: &'static str,
+    /// SI unit of the value.
+    pub unit: Unit,
+}
+
+/// The cost of one generated function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KernelInfo {
+    /// Method name.
+    pub name: &'static str,
+    /// Additions, subtractions and multiplications.
+    pub operations: usize,
+    /// Divisions, roots and elementary functions.
+    pub functions: usize,
+}
+
+/// Index of a free coordinate of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Coordinate(pub usize);
+
+/// Index of an input of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Input(pub usize);
+
+/// Index of a design variable of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DesignVariable(pub usize);
+
+/// Index of an output of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Output(pub usize);
