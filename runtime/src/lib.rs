@@ -8,6 +8,6 @@ pub use eigentol_macros::mechanism;
 pub use mechanism::{Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
     CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo, Linear,
-    LinearPartials, Mechanism, OutputInfo, RestParts, Unit,
+    LinearPartials, Mechanism, OutputInfo, RestParts, Unit, Violation,
 };
 pub use real::Real;

@@ -131,6 +131,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         dw: &[T; N],
     ) -> Gradient<T, N, U, P>;
 
+    /// The first physical requirement that the inputs and design variables break: a mass or a length that is not
+    /// positive, an inertia that no body can have. NaN breaks every requirement.
+    fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>>;
+
     /// The declared outputs.
     fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
 
@@ -141,6 +145,17 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+}
+
+/// A physical requirement that is not met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Violation<T> {
+    /// What is wrong, for example `mass of bar1`.
+    pub quantity: &'static str,
+    /// What it has to be, for example `positive`.
+    pub requirement: &'static str,
+    /// What it is, SI.
+    pub value: T,
 }
 
 /// The residual at rest in two parts, `g = inertia - applied` (eq. 10).
