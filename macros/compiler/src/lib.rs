@@ -1,5 +1,6 @@
 //! The compiler behind `mechanism!`: a declaration in, specialised Rust out.
 
+pub mod algebra;
 pub mod base;
 pub mod model;
 pub mod topology;

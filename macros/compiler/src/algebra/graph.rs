@@ -1,0 +1,290 @@
+//! The expression graph: equal expressions are one node, and operands are always older than what uses them.
+
+use rustc_hash::FxHashMap;
+
+use super::rules;
+use crate::base::ids::{ExprId, SymbolId};
+
+/// When a symbol's value becomes known: an evaluation redoes only what comes after the stage that moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Known to the compiler.
+    Constant,
+    /// Changes with the design.
+    Design,
+    /// Changes with the operating point.
+    Input,
+    /// Changes with the position.
+    Configuration,
+    /// Changes with velocity, acceleration or a direction of differentiation.
+    Rate,
+}
+
+/// A free variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Symbol {
+    /// Name for reading; not necessarily unique.
+    pub name: String,
+    /// When its value is known.
+    pub stage: Stage,
+}
+
+/// Operators of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operator {
+    /// `a + b`.
+    Add,
+    /// `a - b`.
+    Subtract,
+    /// `a * b`.
+    Multiply,
+    /// `a / b`.
+    Divide,
+    /// `a ^ b`, `a > 0`.
+    Power,
+    /// `atan2(a, b)`.
+    Atan2,
+}
+
+/// Operators of one operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Unary {
+    /// `-a`.
+    Negate,
+    /// Square root.
+    Sqrt,
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Tangent.
+    Tan,
+    /// Inverse sine.
+    Asin,
+    /// Inverse cosine.
+    Acos,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+    /// `a ^ n`.
+    PowerInteger(i32),
+}
+
+/// A node. Constants are held by their bits so that nodes compare and hash exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number, as `f64::to_bits`.
+    Constant(u64),
+    /// A free variable.
+    Symbol(SymbolId),
+    /// One operand.
+    Unary(Unary, ExprId),
+    /// Two operands; those of commutative operators are in order of id.
+    Binary(Operator, ExprId, ExprId),
+}
+
+/// The graph. Nodes are only ever added; an id stays valid and its operands have smaller ids.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    /// Which symbols a node depends on: one bit per symbol modulo 128, so a clear bit is a proof of independence.
+    support: Vec<u128>,
+    interned: FxHashMap<Node, ExprId>,
+    symbols: Vec<Symbol>,
+    names: FxHashMap<ExprId, String>,
+}
+
+impl Graph {
+    /// An empty graph.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether the graph has no node.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The node behind an id.
+    pub fn node(&self, id: ExprId) -> Node {
+        self.nodes[id.index()]
+    }
+
+    /// The symbol behind an id.
+    pub fn symbol_info(&self, id: SymbolId) -> &Symbol {
+        &self.symbols[id.index()]
+    }
+
+    /// Number of symbols.
+    pub fn symbol_count(&self) -> usize {
+        self.symbols.len()
+    }
+
+    /// Whether `id` may depend on a symbol of `mask` (see [`Graph::mask`]); `false` is certain.
+    pub fn may_depend(&self, id: ExprId, mask: u128) -> bool {
+        self.support[id.index()] & mask != 0
+    }
+
+    /// The mask of a set of symbols.
+    pub fn mask(symbols: impl IntoIterator<Item = SymbolId>) -> u128 {
+        symbols
+            .into_iter()
+            .fold(0, |mask, symbol| mask | bit(symbol))
+    }
+
+    /// Gives a node a name for readers of the generated code; the first name stays. Constants and symbols keep theirs,
+    /// and a negated node passes the name on to what it negates.
+    pub fn set_name(&mut self, id: ExprId, name: impl FnOnce() -> String) {
+        match self.node(id) {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Unary(Unary::Negate, operand) => self.set_name(operand, name),
+            _ => {
+                self.names.entry(id).or_insert_with(name);
+            }
+        }
+    }
+
+    /// The name given to a node, or a symbol's own.
+    pub fn name(&self, id: ExprId) -> Option<&str> {
+        match self.node(id) {
+            Node::Symbol(symbol) => Some(&self.symbols[symbol.index()].name),
+            _ => self.names.get(&id).map(String::as_str),
+        }
+    }
+
+    /// The value of a constant node.
+    pub fn constant_value(&self, id: ExprId) -> Option<f64> {
+        match self.node(id) {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// Whether the node is the constant `value`.
+    pub fn is(&self, id: ExprId, value: f64) -> bool {
+        self.constant_value(id) == Some(value)
+    }
+
+    /// A number; negative zero becomes zero.
+    pub fn constant(&mut self, value: f64) -> ExprId {
+        self.intern(Node::Constant((value + 0.0).to_bits()))
+    }
+
+    /// Zero.
+    pub fn zero(&mut self) -> ExprId {
+        self.constant(0.0)
+    }
+
+    /// A new free variable.
+    pub fn symbol(&mut self, name: impl Into<String>, stage: Stage) -> (SymbolId, ExprId) {
+        let id = SymbolId::new(self.symbols.len());
+        self.symbols.push(Symbol {
+            name: name.into(),
+            stage,
+        });
+        (id, self.intern(Node::Symbol(id)))
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Add, a, b)
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Subtract, a, b)
+    }
+
+    /// `a * b`.
+    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Multiply, a, b)
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Divide, a, b)
+    }
+
+    /// `-a`.
+    pub fn neg(&mut self, a: ExprId) -> ExprId {
+        self.unary(Unary::Negate, a)
+    }
+
+    /// `factor * a`.
+    pub fn scale(&mut self, factor: f64, a: ExprId) -> ExprId {
+        let factor = self.constant(factor);
+        self.mul(factor, a)
+    }
+
+    /// The sum of some terms, from the first to the last.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
+        let zero = self.zero();
+        terms
+            .into_iter()
+            .fold(zero, |sum, term| self.add(sum, term))
+    }
+
+    /// An operator of one operand, simplified.
+    pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
+        rules::simplify_unary(self, operator, a)
+            .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
+    }
+
+    /// An operator of two operands, simplified.
+    pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
+        if let Some(simpler) = rules::simplify_binary(self, operator, a, b) {
+            return simpler;
+        }
+        let (a, b) = match operator {
+            Operator::Add | Operator::Multiply if b < a => (b, a),
+            _ => (a, b),
+        };
+        self.intern(Node::Binary(operator, a, b))
+    }
+
+    /// The latest stage that each node depends on.
+    pub fn stages(&self) -> Vec<Stage> {
+        let mut stages: Vec<Stage> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            stages.push(match *node {
+                Node::Constant(_) => Stage::Constant,
+                Node::Symbol(symbol) => self.symbols[symbol.index()].stage,
+                Node::Unary(_, a) => stages[a.index()],
+                Node::Binary(_, a, b) => stages[a.index()].max(stages[b.index()]),
+            });
+        }
+        stages
+    }
+
+    /// The id of a node that exists already.
+    pub(super) fn find(&self, node: Node) -> Option<ExprId> {
+        self.interned.get(&node).copied()
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(&id) = self.interned.get(&node) {
+            return id;
+        }
+        let id = ExprId::new(self.nodes.len());
+        let support = match node {
+            Node::Constant(_) => 0,
+            Node::Symbol(symbol) => bit(symbol),
+            Node::Unary(_, a) => self.support[a.index()],
+            Node::Binary(_, a, b) => self.support[a.index()] | self.support[b.index()],
+        };
+        self.nodes.push(node);
+        self.support.push(support);
+        self.interned.insert(node, id);
+        id
+    }
+}
+
+fn bit(symbol: SymbolId) -> u128 {
+    1 << (symbol.0 % 128)
+}

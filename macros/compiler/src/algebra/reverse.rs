@@ -1,0 +1,64 @@
+//! Reverse differentiation: the derivatives of one expression by many symbols, for a small multiple of its cost.
+
+use super::count::reachable;
+use super::forward::{slope, slopes};
+use super::graph::{Graph, Node, Operator, Unary};
+use crate::base::ids::{ExprId, SymbolId};
+
+/// Derivatives of `root` by each of `symbols`.
+pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<ExprId> {
+    let mask = Graph::mask(symbols.iter().copied());
+    let zero = graph.zero();
+    let mut adjoints = vec![zero; root.index() + 1];
+    adjoints[root.index()] = graph.constant(1.0);
+    let mut by_symbol = vec![zero; graph.symbol_count()];
+    for id in reachable(graph, &[root]).into_iter().rev() {
+        let adjoint = adjoints[id.index()];
+        if adjoint == zero || !graph.may_depend(id, mask) {
+            continue;
+        }
+        if let Some(name) = graph.name(id).map(|name| format!("{name}_adjoint")) {
+            graph.set_name(adjoint, || name);
+        }
+        let mut accumulate = |graph: &mut Graph, operand: ExprId, slope: ExprId| {
+            if graph.may_depend(operand, mask) {
+                let share = graph.mul(slope, adjoint);
+                let slot = &mut adjoints[operand.index()];
+                *slot = graph.add(*slot, share);
+            }
+        };
+        match graph.node(id) {
+            Node::Constant(_) => {}
+            Node::Symbol(symbol) => by_symbol[symbol.index()] = adjoint,
+            Node::Unary(Unary::Negate, a) => {
+                let minus = graph.constant(-1.0);
+                accumulate(graph, a, minus);
+            }
+            Node::Unary(operator, a) => {
+                let slope = slope(graph, operator, id, a);
+                accumulate(graph, a, slope);
+            }
+            Node::Binary(Operator::Divide, a, b) => {
+                let share = graph.div(adjoint, b);
+                if graph.may_depend(a, mask) {
+                    let slot = &mut adjoints[a.index()];
+                    *slot = graph.add(*slot, share);
+                }
+                if graph.may_depend(b, mask) {
+                    let loss = graph.mul(id, share);
+                    let slot = &mut adjoints[b.index()];
+                    *slot = graph.sub(*slot, loss);
+                }
+            }
+            Node::Binary(operator, a, b) => {
+                let (by_a, by_b) = slopes(graph, operator, id, a, b);
+                accumulate(graph, a, by_a);
+                accumulate(graph, b, by_b);
+            }
+        }
+    }
+    symbols
+        .iter()
+        .map(|symbol| by_symbol[symbol.index()])
+        .collect()
+}

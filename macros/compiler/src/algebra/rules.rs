@@ -1,0 +1,402 @@
+//! The rewrite rules: a named table with side conditions. The right side is never dearer than the left.
+//!
+//! A rule sees the operands of a node about to be built and may answer with something simpler. Every rule is sampled
+//! numerically by a test that also checks that it fires.
+
+use super::evaluate::{apply_binary, apply_unary};
+use super::graph::{Graph, Node, Operator, Unary};
+use crate::base::ids::ExprId;
+
+/// One rewrite rule for `a op b`; operators of one operand ignore `b`.
+pub struct Rule {
+    /// What it does, left to right.
+    pub name: &'static str,
+    /// Where both sides are equal; empty when everywhere.
+    pub condition: &'static str,
+    /// The simpler form, if the rule applies.
+    pub apply: fn(&mut Graph, ExprId, ExprId) -> Option<ExprId>,
+}
+
+/// The rules of one operator, tried in order.
+pub struct Table {
+    /// The operator they are for.
+    pub operator: TableOperator,
+    /// The rules.
+    pub rules: &'static [Rule],
+}
+
+/// What a table is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableOperator {
+    /// An operator of two operands.
+    Binary(Operator),
+    /// Negation.
+    Negate,
+    /// A sine.
+    Sin,
+    /// A cosine.
+    Cos,
+}
+
+const fn rule(
+    name: &'static str,
+    condition: &'static str,
+    apply: fn(&mut Graph, ExprId, ExprId) -> Option<ExprId>,
+) -> Rule {
+    Rule {
+        name,
+        condition,
+        apply,
+    }
+}
+
+/// Every table, for documentation and tests.
+pub const TABLES: &[Table] = &[
+    Table {
+        operator: TableOperator::Binary(Operator::Add),
+        rules: ADD,
+    },
+    Table {
+        operator: TableOperator::Binary(Operator::Subtract),
+        rules: SUBTRACT,
+    },
+    Table {
+        operator: TableOperator::Binary(Operator::Multiply),
+        rules: MULTIPLY,
+    },
+    Table {
+        operator: TableOperator::Binary(Operator::Divide),
+        rules: DIVIDE,
+    },
+    Table {
+        operator: TableOperator::Negate,
+        rules: NEGATE,
+    },
+    Table {
+        operator: TableOperator::Sin,
+        rules: SIN,
+    },
+    Table {
+        operator: TableOperator::Cos,
+        rules: COS,
+    },
+];
+
+const ADD: &[Rule] = &[
+    rule("0 + a = a", "", |g, a, b| {
+        if g.is(a, 0.0) {
+            Some(b)
+        } else if g.is(b, 0.0) {
+            Some(a)
+        } else {
+            None
+        }
+    }),
+    rule("a + (-b) = a - b", "", |g, a, b| {
+        match (negated(g, a), negated(g, b)) {
+            (Some(a), Some(b)) => {
+                let sum = g.add(a, b);
+                Some(g.neg(sum))
+            }
+            (None, Some(b)) => Some(g.sub(a, b)),
+            (Some(a), None) => Some(g.sub(b, a)),
+            (None, None) => None,
+        }
+    }),
+    rule("a + a = 2 a", "", |g, a, b| {
+        (a == b).then(|| g.scale(2.0, a))
+    }),
+    rule("(a - b) + b = a", "", |g, a, b| {
+        match (difference(g, a), difference(g, b)) {
+            (Some((x, y)), _) if y == b => Some(x),
+            (_, Some((x, y))) if y == a => Some(x),
+            _ => None,
+        }
+    }),
+    rule("c a + d a = (c + d) a for constants c, d", "", |g, a, b| {
+        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+        (x == y).then(|| g.scale(c + d, x))
+    }),
+    rule("sin(x)^2 + cos(x)^2 = 1", "", |g, a, b| {
+        match (square(g, a), square(g, b)) {
+            (Some(Node::Unary(Unary::Sin, x)), Some(Node::Unary(Unary::Cos, y)))
+            | (Some(Node::Unary(Unary::Cos, x)), Some(Node::Unary(Unary::Sin, y)))
+                if x == y =>
+            {
+                Some(g.constant(1.0))
+            }
+            _ => None,
+        }
+    }),
+];
+
+const SUBTRACT: &[Rule] = &[
+    rule("a - 0 = a", "", |g, a, b| g.is(b, 0.0).then_some(a)),
+    rule("0 - a = -a", "", |g, a, b| g.is(a, 0.0).then(|| g.neg(b))),
+    rule("a - a = 0", "", |g, a, b| (a == b).then(|| g.zero())),
+    rule("a - (-b) = a + b", "", |g, a, b| {
+        match (negated(g, a), negated(g, b)) {
+            (Some(a), Some(b)) => Some(g.sub(b, a)),
+            (None, Some(b)) => Some(g.add(a, b)),
+            (Some(a), None) => {
+                let sum = g.add(a, b);
+                Some(g.neg(sum))
+            }
+            (None, None) => None,
+        }
+    }),
+    rule("(a + b) - b = a", "", |g, a, b| match sum(g, a) {
+        Some((x, y)) if y == b => Some(x),
+        Some((x, y)) if x == b => Some(y),
+        _ => None,
+    }),
+    rule("a - (a - b) = b", "", |g, a, b| match difference(g, b) {
+        Some((x, y)) if x == a => Some(y),
+        _ => None,
+    }),
+    rule("c a - d a = (c - d) a for constants c, d", "", |g, a, b| {
+        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+        (x == y).then(|| g.scale(c - d, x))
+    }),
+    rule("a - b = -(b - a) where b - a is known", "", |g, a, b| {
+        let known = g.find(Node::Binary(Operator::Subtract, b, a))?;
+        Some(g.neg(known))
+    }),
+];
+
+const MULTIPLY: &[Rule] = &[
+    rule("0 a = 0", "a is finite", |g, a, b| {
+        (g.is(a, 0.0) || g.is(b, 0.0)).then(|| g.zero())
+    }),
+    rule("1 a = a", "", |g, a, b| {
+        if g.is(a, 1.0) {
+            Some(b)
+        } else if g.is(b, 1.0) {
+            Some(a)
+        } else {
+            None
+        }
+    }),
+    rule("(-a) b = -(a b)", "", |g, a, b| {
+        match (negated(g, a), negated(g, b)) {
+            (Some(x), Some(y)) => Some(g.mul(x, y)),
+            (Some(x), None) => {
+                let product = g.mul(x, b);
+                Some(g.neg(product))
+            }
+            (None, Some(y)) => {
+                let product = g.mul(a, y);
+                Some(g.neg(product))
+            }
+            (None, None) => None,
+        }
+    }),
+    rule("c (d a) = (c d) a for constants c, d", "", |g, a, b| {
+        let (c, other) = match (g.constant_value(a), g.constant_value(b)) {
+            (Some(c), None) => (c, b),
+            (None, Some(c)) => (c, a),
+            _ => return None,
+        };
+        match scaled(g, other) {
+            (_, x) if x == other => None,
+            (d, x) => Some(g.scale(c * d, x)),
+        }
+    }),
+    rule(
+        "a (1 / a) = 1, a (b / a) = b",
+        "a is not zero",
+        |g, a, b| match (quotient(g, a), quotient(g, b)) {
+            (Some((x, y)), _) if y == b => Some(x),
+            (_, Some((x, y))) if y == a => Some(x),
+            _ => None,
+        },
+    ),
+    rule(
+        "sqrt(a) sqrt(a) = a",
+        "a is not negative",
+        |g, a, b| match g.node(a) {
+            Node::Unary(Unary::Sqrt, x) if a == b => Some(x),
+            _ => None,
+        },
+    ),
+];
+
+const DIVIDE: &[Rule] = &[
+    rule("a / 1 = a", "", |g, a, b| g.is(b, 1.0).then_some(a)),
+    rule("0 / a = 0", "a is not zero", |g, a, _| {
+        g.is(a, 0.0).then(|| g.zero())
+    }),
+    rule("a / a = 1", "a is not zero", |g, a, b| {
+        (a == b).then(|| g.constant(1.0))
+    }),
+    rule(
+        "a / c = (1 / c) a for a constant c",
+        "c is not zero",
+        |g, a, b| {
+            let c = g.constant_value(b).filter(|&c| c != 0.0)?;
+            Some(g.scale(1.0 / c, a))
+        },
+    ),
+    rule("(-a) / b = -(a / b)", "", |g, a, b| {
+        match (negated(g, a), negated(g, b)) {
+            (Some(a), Some(b)) => Some(g.div(a, b)),
+            (Some(a), None) => {
+                let ratio = g.div(a, b);
+                Some(g.neg(ratio))
+            }
+            (None, Some(b)) => {
+                let ratio = g.div(a, b);
+                Some(g.neg(ratio))
+            }
+            (None, None) => None,
+        }
+    }),
+    rule("(a b) / b = a", "b is not zero", |g, a, b| {
+        match product(g, a) {
+            Some((x, y)) if y == b => Some(x),
+            Some((x, y)) if x == b => Some(y),
+            _ => None,
+        }
+    }),
+    rule(
+        "a / sqrt(a) = sqrt(a)",
+        "a is positive",
+        |g, a, b| match g.node(b) {
+            Node::Unary(Unary::Sqrt, x) if x == a => Some(b),
+            _ => None,
+        },
+    ),
+];
+
+const NEGATE: &[Rule] = &[rule("-(-a) = a", "", |g, a, _| match g.node(a) {
+    Node::Unary(Unary::Negate, x) => Some(x),
+    _ => None,
+})];
+
+const SIN: &[Rule] = &[rule("sin(-a) = -sin(a)", "", |g, a, _| {
+    let a = negated(g, a)?;
+    let sine = g.unary(Unary::Sin, a);
+    Some(g.neg(sine))
+})];
+
+const COS: &[Rule] = &[rule("cos(-a) = cos(a)", "", |g, a, _| {
+    let a = negated(g, a)?;
+    Some(g.unary(Unary::Cos, a))
+})];
+
+/// Simplifies `a op b`, if a rule applies.
+pub(super) fn simplify_binary(
+    g: &mut Graph,
+    operator: Operator,
+    a: ExprId,
+    b: ExprId,
+) -> Option<ExprId> {
+    if let (Some(x), Some(y)) = (g.constant_value(a), g.constant_value(b)) {
+        let value = apply_binary(operator, x, y);
+        if value.is_finite() {
+            return Some(g.constant(value));
+        }
+    }
+    let rules = match operator {
+        Operator::Add => ADD,
+        Operator::Subtract => SUBTRACT,
+        Operator::Multiply => MULTIPLY,
+        Operator::Divide => DIVIDE,
+        Operator::Power | Operator::Atan2 => &[],
+    };
+    rules.iter().find_map(|rule| (rule.apply)(g, a, b))
+}
+
+/// Simplifies an operator of one operand, if a rule applies.
+pub(super) fn simplify_unary(g: &mut Graph, operator: Unary, a: ExprId) -> Option<ExprId> {
+    if let Some(x) = g.constant_value(a) {
+        let value = apply_unary(operator, x);
+        if value.is_finite() {
+            return Some(g.constant(value));
+        }
+    }
+    let rules = match operator {
+        Unary::Negate => NEGATE,
+        Unary::Sin => SIN,
+        Unary::Cos => COS,
+        Unary::PowerInteger(exponent) => return small_power(g, a, exponent),
+        _ => &[],
+    };
+    rules.iter().find_map(|rule| (rule.apply)(g, a, a))
+}
+
+/// Powers from -4 to 4 as products.
+fn small_power(g: &mut Graph, a: ExprId, exponent: i32) -> Option<ExprId> {
+    match exponent {
+        0 => Some(g.constant(1.0)),
+        1 => Some(a),
+        2 => Some(g.mul(a, a)),
+        3 => {
+            let square = g.mul(a, a);
+            Some(g.mul(square, a))
+        }
+        4 => {
+            let square = g.mul(a, a);
+            Some(g.mul(square, square))
+        }
+        -4..=-1 => {
+            let power = small_power(g, a, -exponent)?;
+            let one = g.constant(1.0);
+            Some(g.div(one, power))
+        }
+        _ => None,
+    }
+}
+
+/// `x` when the node is `-x`, or the constant `-c` when it is a negative constant multiple `c x`.
+fn negated(g: &mut Graph, a: ExprId) -> Option<ExprId> {
+    match g.node(a) {
+        Node::Unary(Unary::Negate, x) => Some(x),
+        Node::Constant(bits) if f64::from_bits(bits) < 0.0 => {
+            Some(g.constant(-f64::from_bits(bits)))
+        }
+        _ => None,
+    }
+}
+
+fn sum(g: &Graph, a: ExprId) -> Option<(ExprId, ExprId)> {
+    operands(g, a, Operator::Add)
+}
+
+fn difference(g: &Graph, a: ExprId) -> Option<(ExprId, ExprId)> {
+    operands(g, a, Operator::Subtract)
+}
+
+fn product(g: &Graph, a: ExprId) -> Option<(ExprId, ExprId)> {
+    operands(g, a, Operator::Multiply)
+}
+
+fn quotient(g: &Graph, a: ExprId) -> Option<(ExprId, ExprId)> {
+    operands(g, a, Operator::Divide)
+}
+
+fn operands(g: &Graph, a: ExprId, wanted: Operator) -> Option<(ExprId, ExprId)> {
+    match g.node(a) {
+        Node::Binary(operator, x, y) if operator == wanted => Some((x, y)),
+        _ => None,
+    }
+}
+
+/// The node as a constant times a node: `(c, x)` of `c x`, or `(1, a)`.
+fn scaled(g: &Graph, a: ExprId) -> (f64, ExprId) {
+    match product(g, a) {
+        Some((x, y)) => match (g.constant_value(x), g.constant_value(y)) {
+            (Some(c), _) => (c, y),
+            (_, Some(c)) => (c, x),
+            _ => (1.0, a),
+        },
+        None => (1.0, a),
+    }
+}
+
+/// The node that `a` is the square of.
+fn square(g: &Graph, a: ExprId) -> Option<Node> {
+    product(g, a)
+        .filter(|(x, y)| x == y)
+        .map(|(x, _)| g.node(x))
+}

@@ -1,0 +1,40 @@
+//! Replacing symbols: the graph is rebuilt above them and simplifies as it goes.
+
+use super::count::reachable;
+use super::graph::{Graph, Node};
+use crate::base::ids::{ExprId, SymbolId};
+
+/// `roots` with each listed symbol replaced.
+pub fn substitute(
+    graph: &mut Graph,
+    roots: &[ExprId],
+    replacements: &[(SymbolId, ExprId)],
+) -> Vec<ExprId> {
+    let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
+    let mut image: Vec<ExprId> = (0..graph.len()).map(ExprId::new).collect();
+    for id in reachable(graph, roots) {
+        if !graph.may_depend(id, mask) {
+            continue;
+        }
+        let replaced = match graph.node(id) {
+            Node::Constant(_) => id,
+            Node::Symbol(symbol) => replacements
+                .iter()
+                .find(|(s, _)| *s == symbol)
+                .map_or(id, |(_, replacement)| *replacement),
+            Node::Unary(operator, a) => {
+                let a = image[a.index()];
+                graph.unary(operator, a)
+            }
+            Node::Binary(operator, a, b) => {
+                let (a, b) = (image[a.index()], image[b.index()]);
+                graph.binary(operator, a, b)
+            }
+        };
+        if let Some(name) = graph.name(id).map(str::to_owned) {
+            graph.set_name(replaced, || name);
+        }
+        image[id.index()] = replaced;
+    }
+    roots.iter().map(|root| image[root.index()]).collect()
+}

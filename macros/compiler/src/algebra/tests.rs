@@ -1,0 +1,230 @@
+//! The graph against plain numbers: rules, derivatives in both directions, substitution.
+
+use super::rules::TableOperator;
+use super::*;
+use crate::base::ids::{ExprId, SymbolId};
+
+/// A small deterministic generator: tests of this crate need no library for it.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn symbols(g: &mut Graph, n: usize) -> (Vec<SymbolId>, Vec<ExprId>) {
+    (0..n)
+        .map(|i| g.symbol(format!("s{i}"), Stage::Design))
+        .unzip()
+}
+
+/// A random expression that is positive and of moderate size wherever its symbols are.
+fn expression(g: &mut Graph, random: &mut Random, leaves: &[ExprId], depth: usize) -> ExprId {
+    if depth == 0 || random.below(4) == 0 {
+        return if random.below(4) == 0 {
+            let value = [0.0, 1.0, -1.0, 2.0, 0.5, -3.0][random.below(6)];
+            g.constant(value)
+        } else {
+            leaves[random.below(leaves.len())]
+        };
+    }
+    let a = expression(g, random, leaves, depth - 1);
+    match random.below(12) {
+        0 => g.neg(a),
+        1 => g.unary(Unary::Sin, a),
+        2 => g.unary(Unary::Cos, a),
+        3 => {
+            let square = g.mul(a, a);
+            g.unary(Unary::Sqrt, square)
+        }
+        4 => g.mul(a, a),
+        n => {
+            let b = expression(g, random, leaves, depth - 1);
+            match n {
+                5 | 6 => g.add(a, b),
+                7 | 8 => g.sub(a, b),
+                9 | 10 => g.mul(a, b),
+                _ => {
+                    let (square, two) = (g.mul(b, b), g.constant(2.0));
+                    let denominator = g.add(square, two);
+                    g.div(a, denominator)
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_rule_fires_and_keeps_the_value() {
+    for table in TABLES {
+        for rule in table.rules {
+            let mut random = Random(0x9e37_79b9_7f4a_7c15);
+            let mut fired = 0;
+            for _ in 0..20_000 {
+                let mut g = Graph::new();
+                let (ids, leaves) = symbols(&mut g, 2);
+                let values = [0.3 + random.unit(), 0.3 + random.unit()];
+                let value =
+                    |g: &Graph, id| evaluate(g, &[id], |s| values[usize::from(s != ids[0])])[0];
+                let depth = 1 + random.below(2);
+                let (mut a, mut b) = (
+                    expression(&mut g, &mut random, &leaves, depth),
+                    expression(&mut g, &mut random, &leaves, depth),
+                );
+                match random.below(6) {
+                    0 => a = g.unary(Unary::Sqrt, b),
+                    1 => b = g.unary(Unary::Sqrt, a),
+                    2 => a = g.div(leaves[0], b),
+                    3 => _ = g.sub(b, a),
+                    _ => {}
+                }
+                if !matches!(table.operator, TableOperator::Binary(_)) {
+                    b = a;
+                }
+                let nodes = cost(&g, &[a, b]).operations + 1;
+                let functions = cost(&g, &[a, b]).functions + 1;
+                let Some(simple) = (rule.apply)(&mut g, a, b) else {
+                    continue;
+                };
+                let (x, y) = (value(&g, a), value(&g, b));
+                let expected = match table.operator {
+                    TableOperator::Binary(Operator::Add) => x + y,
+                    TableOperator::Binary(Operator::Subtract) => x - y,
+                    TableOperator::Binary(Operator::Multiply) => x * y,
+                    TableOperator::Binary(Operator::Divide) => x / y,
+                    TableOperator::Binary(_) => unreachable!("no such table"),
+                    TableOperator::Negate => -x,
+                    TableOperator::Sin => x.sin(),
+                    TableOperator::Cos => x.cos(),
+                };
+                if !expected.is_finite() || (x == 0.0 && y == 0.0) {
+                    continue;
+                }
+                fired += 1;
+                let got = value(&g, simple);
+                let scale = 1.0 + x.abs() + y.abs() + expected.abs();
+                assert!(
+                    (got - expected).abs() < 1e-12 * scale,
+                    "{}: {got} {expected}",
+                    rule.name
+                );
+                let after = cost(&g, &[simple]);
+                assert!(after.operations <= nodes + 1, "{} costs more", rule.name);
+                assert!(after.functions <= functions, "{} costs more", rule.name);
+            }
+            assert!(fired > 0, "rule `{}` never fired", rule.name);
+        }
+    }
+}
+
+#[test]
+fn derivatives_agree_with_complex_free_differences_and_each_other() {
+    let mut random = Random(42);
+    for _ in 0..300 {
+        let mut g = Graph::new();
+        let (ids, leaves) = symbols(&mut g, 3);
+        let root = expression(&mut g, &mut random, &leaves, 5);
+        let at: Vec<f64> = (0..3).map(|_| 0.4 + random.unit()).collect();
+        let eval = |g: &Graph, id, at: &[f64]| evaluate(g, &[id], |s| at[s.index()])[0];
+        let gradient = gradient(&mut g, root, &ids);
+        for (k, &symbol) in ids.iter().enumerate() {
+            let direction = Direction::unit(&mut g, symbol);
+            let tangent = derivatives_along(&mut g, &[root], &direction)[0];
+            let (forward, reverse) = (eval(&g, tangent, &at), eval(&g, gradient[k], &at));
+            if !forward.is_finite() {
+                continue;
+            }
+            assert!((forward - reverse).abs() <= 1e-9 * (1.0 + forward.abs()));
+            let step = 1e-5;
+            let shifted = |by: f64| {
+                let mut at = at.clone();
+                at[k] += by;
+                eval(&g, root, &at)
+            };
+            let difference = (shifted(step) - shifted(-step)) / (2.0 * step);
+            assert!(
+                (forward - difference).abs() <= 1e-4 * (1.0 + forward.abs()),
+                "{forward} {difference}"
+            );
+        }
+    }
+}
+
+#[test]
+fn elementary_functions_differentiate() {
+    let cases: [(Unary, f64, f64); 8] = [
+        (Unary::Sqrt, 0.7, 0.5 / 0.7f64.sqrt()),
+        (Unary::Tan, 0.7, 1.0 / (0.7f64.cos() * 0.7f64.cos())),
+        (Unary::Asin, 0.3, 1.0 / (1.0 - 0.09f64).sqrt()),
+        (Unary::Acos, 0.3, -1.0 / (1.0 - 0.09f64).sqrt()),
+        (Unary::Exp, 0.7, 0.7f64.exp()),
+        (Unary::Ln, 0.7, 1.0 / 0.7),
+        (Unary::PowerInteger(-2), 0.7, -2.0 / 0.343),
+        (Unary::PowerInteger(7), 0.7, 7.0 * 0.7f64.powi(6)),
+    ];
+    for (operator, at, expected) in cases {
+        let mut g = Graph::new();
+        let (ids, leaves) = symbols(&mut g, 1);
+        let root = g.unary(operator, leaves[0]);
+        let slope = gradient(&mut g, root, &ids)[0];
+        let got = evaluate(&g, &[slope], |_| at)[0];
+        assert!(
+            (got - expected).abs() < 1e-13 * expected.abs(),
+            "{operator:?}"
+        );
+    }
+    let mut g = Graph::new();
+    let (ids, leaves) = symbols(&mut g, 2);
+    for (operator, expected) in [
+        (
+            Operator::Power,
+            [1.3 * 0.7f64.powf(0.3), 0.7f64.powf(1.3) * 0.7f64.ln()],
+        ),
+        (Operator::Atan2, [1.3 / (0.49 + 1.69), -0.7 / (0.49 + 1.69)]),
+    ] {
+        let root = g.binary(operator, leaves[0], leaves[1]);
+        let slopes = gradient(&mut g, root, &ids);
+        let got = evaluate(&g, &slopes, |s| [0.7, 1.3][s.index()]);
+        for (got, expected) in got.iter().zip(expected) {
+            assert!((got - expected).abs() < 1e-13, "{operator:?}");
+        }
+    }
+}
+
+#[test]
+fn substitution_simplifies() {
+    let mut g = Graph::new();
+    let (ids, leaves) = symbols(&mut g, 2);
+    let product = g.mul(leaves[0], leaves[1]);
+    let root = g.add(product, leaves[1]);
+    let zero = g.zero();
+    assert_eq!(
+        substitute(&mut g, &[root], &[(ids[0], zero)]),
+        vec![leaves[1]]
+    );
+}
+
+#[test]
+fn rotation_about_an_axis_has_unit_columns() {
+    let mut g = Graph::new();
+    let (_, leaves) = symbols(&mut g, 1);
+    let axis = Vector3([0.6, 0.0, 0.8].map(|x| g.constant(x)));
+    let rotation = Matrix3::rotation(&mut g, axis, leaves[0]);
+    let transposed = rotation.transpose();
+    let product = transposed.multiply(&mut g, rotation);
+    for (j, column) in product.0.iter().enumerate() {
+        for (i, value) in evaluate(&g, &column.0, |_| 0.7).into_iter().enumerate() {
+            assert!((value - f64::from(u8::from(i == j))).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Vectors and matrices of expressions in three dimensions.
+
+use super::graph::{Graph, Unary};
+use crate::base::ids::ExprId;
+
+/// Three components in one frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vector3(pub [ExprId; 3]);
+
+impl Vector3 {
+    /// The zero vector.
+    pub fn zero(g: &mut Graph) -> Self {
+        Self([g.zero(); 3])
+    }
+
+    /// Whether every component is the constant zero.
+    pub fn is_zero(self, g: &Graph) -> bool {
+        self.0.iter().all(|&x| g.is(x, 0.0))
+    }
+
+    /// Component-wise combination.
+    fn zip(self, other: Self, mut f: impl FnMut(ExprId, ExprId) -> ExprId) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    /// `self + other`.
+    pub fn add(self, g: &mut Graph, other: Self) -> Self {
+        self.zip(other, |a, b| g.add(a, b))
+    }
+
+    /// `self - other`.
+    pub fn sub(self, g: &mut Graph, other: Self) -> Self {
+        self.zip(other, |a, b| g.sub(a, b))
+    }
+
+    /// `-self`.
+    pub fn neg(self, g: &mut Graph) -> Self {
+        Self(self.0.map(|x| g.neg(x)))
+    }
+
+    /// `factor * self`.
+    pub fn scale(self, g: &mut Graph, factor: ExprId) -> Self {
+        Self(self.0.map(|x| g.mul(factor, x)))
+    }
+
+    /// `self . other`.
+    pub fn dot(self, g: &mut Graph, other: Self) -> ExprId {
+        let terms: [ExprId; 3] = std::array::from_fn(|i| g.mul(self.0[i], other.0[i]));
+        g.sum(terms)
+    }
+
+    /// `self x other`.
+    pub fn cross(self, g: &mut Graph, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        let mut minor = |p, q, r, s| {
+            let (left, right) = (g.mul(p, q), g.mul(r, s));
+            g.sub(left, right)
+        };
+        Self([minor(b, z, c, y), minor(c, x, a, z), minor(a, y, b, x)])
+    }
+
+    /// Length.
+    pub fn norm(self, g: &mut Graph) -> ExprId {
+        let square = self.dot(g, self);
+        g.unary(Unary::Sqrt, square)
+    }
+
+    /// Names the three components `name_x`, `name_y`, `name_z`.
+    pub fn set_name(self, g: &mut Graph, name: &str) -> Self {
+        for (component, axis) in self.0.into_iter().zip(["x", "y", "z"]) {
+            g.set_name(component, || format!("{name}_{axis}"));
+        }
+        self
+    }
+}
+
+/// A matrix by columns: for a rotation `R_AB`, the axes of B expressed in A.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Matrix3(pub [Vector3; 3]);
+
+impl Matrix3 {
+    /// The identity.
+    pub fn identity(g: &mut Graph) -> Self {
+        let (zero, one) = (g.zero(), g.constant(1.0));
+        Self(std::array::from_fn(|j| {
+            Vector3(std::array::from_fn(|i| if i == j { one } else { zero }))
+        }))
+    }
+
+    /// `self v`.
+    pub fn apply(self, g: &mut Graph, v: Vector3) -> Vector3 {
+        let terms: [Vector3; 3] = std::array::from_fn(|j| self.0[j].scale(g, v.0[j]));
+        let sum = terms[0].add(g, terms[1]);
+        sum.add(g, terms[2])
+    }
+
+    /// `self other`.
+    pub fn multiply(self, g: &mut Graph, other: Self) -> Self {
+        Self(other.0.map(|column| self.apply(g, column)))
+    }
+
+    /// The transpose: of a rotation, its inverse.
+    pub fn transpose(self) -> Self {
+        Self(std::array::from_fn(|j| {
+            Vector3(std::array::from_fn(|i| self.0[i].0[j]))
+        }))
+    }
+
+    /// Rotation by `angle` about the unit vector `axis` (Rodrigues).
+    pub fn rotation(g: &mut Graph, axis: Vector3, angle: ExprId) -> Self {
+        let (sine, cosine) = (g.unary(Unary::Sin, angle), g.unary(Unary::Cos, angle));
+        let one = g.constant(1.0);
+        let versine = g.sub(one, cosine);
+        let identity = Self::identity(g);
+        Self(std::array::from_fn(|j| {
+            // Along a coordinate axis the general form would leave cos + (1 - cos) unsimplified.
+            if g.is(axis.0[j], 1.0) || g.is(axis.0[j], -1.0) {
+                return identity.0[j];
+            }
+            let turned = axis.cross(g, identity.0[j]).scale(g, sine);
+            let kept = identity.0[j].scale(g, cosine);
+            let factor = g.mul(versine, axis.0[j]);
+            let along = axis.scale(g, factor);
+            let sum = kept.add(g, turned);
+            sum.add(g, along)
+        }))
+    }
+}
