@@ -2,7 +2,9 @@
 
 pub mod algebra;
 pub mod base;
+pub mod mechanics;
 pub mod model;
+pub mod program;
 pub mod topology;
 
 use proc_macro2::TokenStream;

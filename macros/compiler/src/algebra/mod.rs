@@ -5,6 +5,7 @@
 mod count;
 mod evaluate;
 mod forward;
+mod function;
 mod graph;
 mod reverse;
 mod rules;
@@ -12,8 +13,10 @@ mod substitute;
 mod vector;
 
 pub use count::{Cost, cost, reachable};
+pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use evaluate::{Evaluation, evaluate, evaluate_with_magnitude};
 pub use forward::{Direction, derivatives_along};
+pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};

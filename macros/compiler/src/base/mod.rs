@@ -1,3 +1,5 @@
 //! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
 
+pub mod diagnostics;
 pub mod ids;
+pub mod span;

@@ -1,0 +1,174 @@
+//! The recipe from a mechanism to its functions.
+
+use crate::algebra::{Graph, substitute};
+use crate::base::diagnostics::Diagnostics;
+use crate::base::ids::ExprId;
+use crate::model::mechanism::{Mechanism, Motion};
+use crate::topology::Topology;
+
+use super::functions::Functions;
+use super::kinematics::{CoordinateMotion, Kinematics};
+use super::linearise::kernels;
+use super::newton_euler::residual;
+use super::properties;
+use super::requirements::requirements;
+use super::sources::Sources;
+use super::steady_state;
+use super::symbols::Symbols;
+use super::values::Values;
+
+/// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
+/// where nothing resists one: what only the equations can tell about a declaration.
+pub fn derive(mechanism: &Mechanism, topology: &Topology) -> Result<Functions, Diagnostics> {
+    let mut graph = Graph::new();
+    let g = &mut graph;
+    let symbols = Symbols::new(g, mechanism, topology);
+    let values = Values::new(g, mechanism, &symbols);
+    let problem = Problem {
+        mechanism,
+        topology,
+        symbols: &symbols,
+        values: &values,
+    };
+
+    steady_state::check(g, &problem)?;
+    let equations = Equations::new(g, &problem);
+    properties::check(g, &problem, &equations)?;
+    let properties = properties::establish(g, &problem, &equations);
+    let functions = kernels(g, &symbols, &equations, properties);
+    let requirements = requirements(g, mechanism, &values);
+    Ok(Functions {
+        graph,
+        functions,
+        requirements,
+        properties,
+    })
+}
+
+/// What every step of the derivation reads.
+pub(super) struct Problem<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) topology: &'a Topology,
+    pub(super) symbols: &'a Symbols,
+    pub(super) values: &'a Values<'a>,
+}
+
+impl Problem<'_> {
+    /// Motion of every frame while the driven coordinates stand at `driven`.
+    pub(super) fn kinematics(&self, g: &mut Graph, driven: &[ExprId]) -> Kinematics {
+        let zero = g.zero();
+        let still = CoordinateMotion {
+            position: zero,
+            velocity: zero,
+            acceleration: zero,
+        };
+        let mut coordinates = vec![still; self.mechanism.coordinates.len()];
+        for (k, id) in self.topology.free.iter().enumerate() {
+            coordinates[id.index()] = CoordinateMotion {
+                position: self.symbols.q.values[k],
+                velocity: self.symbols.velocity.values[k],
+                acceleration: self.symbols.acceleration.values[k],
+            };
+        }
+        for (k, id) in self.topology.driven.iter().enumerate() {
+            let coordinate = &self.mechanism.coordinates[id.index()];
+            if let Motion::Driven(speed) = &coordinate.motion {
+                let velocity = self.values.scalar(g, speed);
+                g.set_name(velocity, || format!("speed_{}", coordinate.name));
+                coordinates[id.index()] = CoordinateMotion {
+                    position: driven[k],
+                    velocity,
+                    acceleration: zero,
+                };
+            }
+        }
+        Kinematics::new(g, self.mechanism, self.topology, self.values, coordinates)
+    }
+
+    /// The residual along the free coordinates.
+    pub(super) fn residual(
+        &self,
+        g: &mut Graph,
+        kinematics: &Kinematics,
+        sources: Sources,
+    ) -> Vec<ExprId> {
+        let all = residual(
+            g,
+            self.mechanism,
+            self.topology,
+            self.values,
+            kinematics,
+            sources,
+        );
+        self.topology
+            .free
+            .iter()
+            .map(|id| all[id.index()])
+            .collect()
+    }
+
+    /// The outputs.
+    pub(super) fn outputs(&self, g: &mut Graph, kinematics: &Kinematics) -> Vec<ExprId> {
+        let outputs = &self.mechanism.outputs;
+        outputs
+            .iter()
+            .map(|output| self.values.scalar_at(g, &output.value, kinematics))
+            .collect()
+    }
+}
+
+/// The equations with the driven coordinates at zero, which a steady state allows.
+pub(super) struct Equations {
+    /// `g(qddot, qdot, q; u, b)`.
+    pub(super) motion: Vec<ExprId>,
+    /// `g(qddot, 0, q; u, b)`.
+    pub(super) without_velocity: Vec<ExprId>,
+    /// `g(0, 0, q; u, b)`.
+    pub(super) rest: Vec<ExprId>,
+    /// The part of `rest` due to inertia.
+    pub(super) rest_inertia: Vec<ExprId>,
+    /// The part of `rest` due to applied forces, with the sign of a force: `rest = rest_inertia - rest_applied`.
+    pub(super) rest_applied: Vec<ExprId>,
+    /// Outputs at rest.
+    pub(super) outputs: Vec<ExprId>,
+}
+
+impl Equations {
+    fn new(g: &mut Graph, problem: &Problem) -> Self {
+        let zero = g.zero();
+        let symbols = problem.symbols;
+        let kinematics = problem.kinematics(g, &vec![zero; problem.topology.driven.len()]);
+        let zeros = vec![zero; symbols.q.ids.len()];
+        let at_rest = |g: &mut Graph, roots: &[ExprId]| {
+            let still: Vec<_> = symbols
+                .velocity
+                .with(&zeros)
+                .chain(symbols.acceleration.with(&zeros))
+                .collect();
+            substitute(g, roots, &still)
+        };
+
+        let motion = problem.residual(g, &kinematics, Sources::ALL);
+        let inertia = problem.residual(g, &kinematics, Sources::INERTIA);
+        let applied = problem.residual(g, &kinematics, Sources::APPLIED);
+        let outputs = problem.outputs(g, &kinematics);
+        let without: Vec<_> = symbols.velocity.with(&zeros).collect();
+        let without_velocity = substitute(g, &motion, &without);
+        let rest = at_rest(g, &motion);
+        let rest_inertia = at_rest(g, &inertia);
+        let minus_applied = at_rest(g, &applied);
+        let rest_applied = minus_applied
+            .into_iter()
+            .map(|force| g.neg(force))
+            .collect();
+        let outputs = at_rest(g, &outputs);
+        Self {
+            motion,
+            without_velocity,
+            rest,
+            rest_inertia,
+            rest_applied,
+            outputs,
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Mass distributions of the shapes, in the form in which the equations of motion are cheapest.
+//!
+//! A body's inertia force and moment need only integrals of `rho` and `rho rho^T` over its mass, `rho` the position from
+//! the body's origin. Written over a few body-fixed vectors, the arms `d_k`:
+//!
+//! - `integral rho dm = sum_k first_k d_k`,
+//! - `integral rho rho^T dm = isotropic 1 + sum_kj second_kj d_k d_j^T`.
+//!
+//! A bar needs one arm, a disk one and the isotropic part, any body at most three more than its centre of mass.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::model::expression::Vector;
+use crate::model::mechanism::Shape;
+
+use super::values::Values;
+
+/// A mass distribution over arms.
+#[derive(Clone, Debug)]
+pub(super) struct MassDistribution {
+    /// Total mass, kg.
+    pub(super) mass: ExprId,
+    /// Multiple of the identity in the second moment, kg m^2.
+    pub(super) isotropic: ExprId,
+    /// The vectors everything else is written over.
+    pub(super) arms: Vec<Arm>,
+}
+
+/// One arm.
+#[derive(Clone, Debug)]
+pub(super) struct Arm {
+    /// In the body frame.
+    pub(super) direction: Vector3,
+    /// Weight in the first moment.
+    pub(super) first: ExprId,
+    /// Weights in the second moment with each arm.
+    pub(super) second: Vec<ExprId>,
+}
+
+impl MassDistribution {
+    /// The mass distribution of a shape; `None` when massless.
+    pub(super) fn new(g: &mut Graph, values: &Values, shape: &Shape) -> Option<Self> {
+        match shape {
+            Shape::Massless => None,
+            Shape::Point { mass, center } => {
+                let mass = values.scalar(g, mass);
+                Some(Self::point(g, values, mass, center))
+            }
+            Shape::Rod {
+                mass,
+                length,
+                along,
+                center,
+            } => {
+                let (mass, length) = (values.scalar(g, mass), values.scalar(g, length));
+                let along = values.vector(g, along);
+                Some(Self::rod(g, values, mass, length, along, center))
+            }
+            Shape::Disk {
+                mass,
+                radius,
+                axis,
+                center,
+            } => {
+                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
+                let across = quadratic(g, 0.25, mass, radius);
+                let minus = g.neg(across);
+                let axis = values.vector(g, axis);
+                Some(Self::point(g, values, mass, center).with(g, across, &[(axis, minus)]))
+            }
+            Shape::Cylinder {
+                mass,
+                radius,
+                length,
+                axis,
+                center,
+            } => {
+                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
+                let length = values.scalar(g, length);
+                let across = quadratic(g, 0.25, mass, radius);
+                let along = quadratic(g, 1.0 / 12.0, mass, length);
+                let excess = g.sub(along, across);
+                let axis = values.vector(g, axis);
+                Some(Self::point(g, values, mass, center).with(g, across, &[(axis, excess)]))
+            }
+            Shape::Cuboid { mass, size, center } => {
+                let mass = values.scalar(g, mass);
+                let size = values.vector(g, size);
+                let second = size.0.map(|edge| quadratic(g, 1.0 / 12.0, mass, edge));
+                let zero = g.zero();
+                let body = Self::point(g, values, mass, center);
+                Some(body.with_tensor(g, second, [zero; 3]))
+            }
+            Shape::Sphere {
+                mass,
+                radius,
+                center,
+            } => {
+                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
+                let isotropic = quadratic(g, 0.2, mass, radius);
+                Some(Self::point(g, values, mass, center).with(g, isotropic, &[]))
+            }
+            Shape::Rigid {
+                mass,
+                center,
+                inertia,
+            } => {
+                let mass = values.scalar(g, mass);
+                let [xx, yy, zz, xy, yz, xz] =
+                    std::array::from_fn(|i| values.scalar(g, &inertia[i]));
+                let sum = g.sum([xx, yy, zz]);
+                let half_trace = g.scale(0.5, sum);
+                let diagonal = [xx, yy, zz].map(|j| g.sub(half_trace, j));
+                let products = [xy, yz, xz].map(|j| g.neg(j));
+                let body = Self::point(g, values, mass, center);
+                Some(body.with_tensor(g, diagonal, products))
+            }
+        }
+    }
+
+    fn point(g: &mut Graph, values: &Values, mass: ExprId, center: &Vector) -> Self {
+        let center = values.vector(g, center);
+        let isotropic = g.zero();
+        let mut body = Self {
+            mass,
+            isotropic,
+            arms: Vec::new(),
+        };
+        body.add_arm(g, center, mass, mass);
+        body
+    }
+
+    /// A bar whose centre lies on its own line through the origin needs one arm for all moments.
+    fn rod(
+        g: &mut Graph,
+        values: &Values,
+        mass: ExprId,
+        length: ExprId,
+        along: Vector3,
+        center: &Vector,
+    ) -> Self {
+        let half_length = g.scale(0.5, length);
+        let natural_center = along.scale(g, half_length);
+        if values.vector(g, center) != natural_center {
+            let second = quadratic(g, 1.0 / 12.0, mass, length);
+            let zero = g.zero();
+            return Self::point(g, values, mass, center).with(g, zero, &[(along, second)]);
+        }
+        let first = g.mul(mass, half_length);
+        let moment = g.mul(first, length);
+        let second = g.scale(2.0 / 3.0, moment);
+        let isotropic = g.zero();
+        let mut body = Self {
+            mass,
+            isotropic,
+            arms: Vec::new(),
+        };
+        body.add_arm(g, along, first, second);
+        body
+    }
+
+    /// Adds an isotropic second moment and second moments along single directions.
+    fn with(mut self, g: &mut Graph, isotropic: ExprId, along: &[(Vector3, ExprId)]) -> Self {
+        self.isotropic = g.add(self.isotropic, isotropic);
+        let zero = g.zero();
+        for &(direction, second) in along {
+            self.add_arm(g, direction, zero, second);
+        }
+        self
+    }
+
+    /// Adds a second-moment tensor over the body axes; `products` are xy, yz, xz. One diagonal entry moves into the
+    /// isotropic part: the choice that leaves fewest arms.
+    fn with_tensor(self, g: &mut Graph, diagonal: [ExprId; 3], products: [ExprId; 3]) -> Self {
+        let zero = g.zero();
+        let unit: [Vector3; 3] = crate::algebra::Matrix3::identity(g).0;
+        if products.iter().all(|&p| p == zero) {
+            let equal = |k: usize| diagonal.iter().filter(|&&d| d == diagonal[k]).count();
+            let pivot = (0..3).rev().max_by_key(|&k| equal(k)).unwrap_or(0);
+            let isotropic = diagonal[pivot];
+            let rest: Vec<(Vector3, ExprId)> = (0..3)
+                .filter(|&k| diagonal[k] != isotropic)
+                .map(|k| (unit[k], g.sub(diagonal[k], isotropic)))
+                .collect();
+            return self.with(g, isotropic, &rest);
+        }
+        let [xy, yz, xz] = products;
+        let tensor = [
+            [diagonal[0], xy, xz],
+            [xy, diagonal[1], yz],
+            [xz, yz, diagonal[2]],
+        ];
+        let mut body = self;
+        let start = body.arms.len();
+        for direction in unit {
+            body.add_arm(g, direction, zero, zero);
+        }
+        for (i, row) in tensor.into_iter().enumerate() {
+            for (j, entry) in row.into_iter().enumerate() {
+                body.arms[start + i].second[start + j] = entry;
+            }
+        }
+        body
+    }
+
+    fn add_arm(&mut self, g: &mut Graph, direction: Vector3, first: ExprId, second: ExprId) {
+        if direction.is_zero(g) {
+            return;
+        }
+        let zero = g.zero();
+        for arm in &mut self.arms {
+            arm.second.push(zero);
+        }
+        let mut row = vec![zero; self.arms.len()];
+        row.push(second);
+        self.arms.push(Arm {
+            direction,
+            first,
+            second: row,
+        });
+    }
+}
+
+/// `factor mass length^2`.
+fn quadratic(g: &mut Graph, factor: f64, mass: ExprId, length: ExprId) -> ExprId {
+    let square = g.mul(length, length);
+    let moment = g.mul(mass, square);
+    g.scale(factor, moment)
+}

@@ -1,0 +1,25 @@
+//! From bodies and joints to equations: recursive kinematics and Newton-Euler on the expression graph, linearised by
+//! differentiating the graph.
+//!
+//! The only bridge between the wing that knows mechanisms and the wing that knows expressions.
+
+mod derive;
+mod forces;
+mod functions;
+mod inertia;
+mod kinematics;
+mod linearise;
+mod newton_euler;
+mod orientation;
+mod properties;
+mod requirements;
+mod sources;
+mod steady_state;
+mod symbols;
+mod values;
+
+pub use derive::derive;
+pub use functions::{Damping, Functions, Properties, Requirement};
+
+#[cfg(test)]
+mod tests;

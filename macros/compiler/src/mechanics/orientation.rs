@@ -1,0 +1,70 @@
+//! How a body is turned against the common frame.
+
+use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::base::ids::ExprId;
+
+/// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so that a
+/// chain of parallel joints needs one sine and cosine per body and no product of matrices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Orientation {
+    base: Matrix3,
+    turn: Option<(Vector3, ExprId)>,
+    /// The axes of the body in the common frame.
+    pub(super) axes: Matrix3,
+}
+
+impl Orientation {
+    /// Aligned with the common frame.
+    pub(super) fn aligned(g: &mut Graph) -> Self {
+        Self::fixed(Matrix3::identity(g))
+    }
+
+    fn fixed(axes: Matrix3) -> Self {
+        Self {
+            base: axes,
+            turn: None,
+            axes,
+        }
+    }
+
+    /// Followed by a constant rotation.
+    pub(super) fn then_fixed(self, g: &mut Graph, rotation: Option<Matrix3>) -> Self {
+        match rotation {
+            Some(rotation) => Self::fixed(self.axes.multiply(g, rotation)),
+            None => self,
+        }
+    }
+
+    /// Followed by a rotation by `angle` about the body's own unit vector `axis`.
+    pub(super) fn then_turned(
+        self,
+        g: &mut Graph,
+        axis: Vector3,
+        angle: ExprId,
+        name: &str,
+    ) -> Self {
+        let (base, total) = match self.turn {
+            Some((same, before)) if same == axis => (self.base, g.add(before, angle)),
+            _ => (self.axes, angle),
+        };
+        if g.is(total, 0.0) {
+            return self;
+        }
+        g.set_name(total, || format!("{name}_angle"));
+        let rotation = Matrix3::rotation(g, axis, total);
+        let axes = base.multiply(g, rotation);
+        Self {
+            base,
+            turn: Some((axis, total)),
+            axes,
+        }
+    }
+
+    /// A body-fixed vector in the common frame. About the axis of a pure turn this does not need the angle.
+    pub(super) fn express(self, g: &mut Graph, vector: Vector3) -> Vector3 {
+        match self.turn {
+            Some((axis, _)) if axis == vector => self.base.apply(g, vector),
+            _ => self.axes.apply(g, vector),
+        }
+    }
+}

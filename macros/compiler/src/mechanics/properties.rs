@@ -1,0 +1,178 @@
+//! What holds for a mechanism at every state: established structurally where the graph shows it, and otherwise by
+//! evaluation at random states, where a value must vanish up to rounding each time.
+
+use crate::algebra::{Direction, Evaluation, Graph, derivatives_along, evaluate_with_magnitude};
+use crate::base::diagnostics::Diagnostics;
+use crate::base::ids::{ExprId, SymbolId};
+use crate::model::mechanism::CoordinateQuantity;
+
+use super::derive::{Equations, Problem};
+use super::functions::{Damping, Properties};
+use super::linearise::{columns, damping_columns, mass_columns};
+
+/// Finite random states wanted for a numerical proof, and attempts allowed to find them.
+const STATES: usize = 4;
+const ATTEMPTS: u64 = 16;
+
+/// Values of `roots` at random states. Fewer than [`STATES`] come back only where the equations are rarely finite.
+pub(super) fn probe(g: &Graph, problem: &Problem, roots: &[ExprId]) -> Vec<Vec<Evaluation>> {
+    (1..=ATTEMPTS)
+        .map(|seed| evaluate_with_magnitude(g, roots, |symbol| state(problem, seed, symbol)))
+        .filter(|values| {
+            values
+                .iter()
+                .all(|v| v.value.is_finite() && v.magnitude.is_finite())
+        })
+        .take(STATES)
+        .collect()
+}
+
+/// Whether each root vanishes at every probed state.
+pub(super) fn vanish(g: &Graph, problem: &Problem, roots: &[ExprId]) -> Vec<bool> {
+    let probes = probe(g, problem, roots);
+    (0..roots.len())
+        .map(|k| {
+            g.is(roots[k], 0.0)
+                || (!probes.is_empty() && probes.iter().all(|values| values[k].is_negligible()))
+        })
+        .collect()
+}
+
+/// Rejects a mechanism whose mass matrix is singular, or in which nothing resists a coordinate.
+pub(super) fn check(
+    g: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+) -> Result<(), Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let name = |k: usize| &problem.mechanism.coordinates[problem.topology.free[k].index()].name;
+    if let Some(k) = coordinate_without_inertia(g, problem, equations) {
+        diagnostics.error_with_help(
+            name(k).span(),
+            format!(
+                "no mass moves when only `{}` changes, so its motion is undetermined",
+                name(k)
+            ),
+            "give a mass to a body that this joint carries, or drive or fix the joint",
+        );
+    }
+    let stiffness = columns(g, &equations.rest, &problem.symbols.q);
+    for (k, column) in stiffness.iter().enumerate() {
+        if vanish(g, problem, column).into_iter().all(|zero| zero) {
+            diagnostics.error_with_help(
+                name(k).span(),
+                format!(
+                    "nothing resists `{}`: every value of it is an equilibrium, and it has no natural frequency",
+                    name(k)
+                ),
+                "add a spring on it, drive it, or make the joint fixed",
+            );
+        }
+    }
+    diagnostics.into_result(())
+}
+
+/// What can be said of `Khat` and `Chat`.
+pub(super) fn establish(g: &mut Graph, problem: &Problem, equations: &Equations) -> Properties {
+    let n = equations.rest.len();
+    let stiffness = columns(g, &equations.rest, &problem.symbols.q);
+    let damping = damping_columns(g, problem.symbols, equations);
+    let mut asymmetry = Vec::new();
+    let mut symmetric_damping = Vec::new();
+    for j in 0..n {
+        for i in 0..=j {
+            asymmetry.push(g.sub(stiffness[j][i], stiffness[i][j]));
+            symmetric_damping.push(g.add(damping[j][i], damping[i][j]));
+        }
+    }
+    let all = |g: &Graph, roots: &[ExprId]| vanish(g, problem, roots).into_iter().all(|zero| zero);
+    let damping = if all(g, &damping.concat()) {
+        Damping::Zero
+    } else if all(g, &symmetric_damping) {
+        Damping::Gyroscopic
+    } else {
+        Damping::General
+    };
+    Properties {
+        symmetric_stiffness: all(g, &asymmetry),
+        damping,
+    }
+}
+
+/// The first coordinate that leaves the mass matrix singular at every probed state.
+fn coordinate_without_inertia(
+    g: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+) -> Option<usize> {
+    let n = equations.rest.len();
+    let mass = mass_columns(g, problem.symbols, equations).concat();
+    let singular: Vec<Option<usize>> = probe(g, problem, &mass)
+        .iter()
+        .map(|values| first_zero_pivot(n, &values.iter().map(|v| v.value).collect::<Vec<_>>()))
+        .collect();
+    let first = singular.first().copied().flatten()?;
+    singular.iter().all(Option::is_some).then_some(first)
+}
+
+/// Position of the first pivot of a symmetric matrix that vanishes against its diagonal entry.
+fn first_zero_pivot(n: usize, matrix: &[f64]) -> Option<usize> {
+    let mut a = matrix.to_vec();
+    for k in 0..n {
+        if a[k * n + k] <= 1e-10 * matrix[k * n + k].abs() {
+            return Some(k);
+        }
+        for i in k + 1..n {
+            let factor = a[i * n + k] / a[k * n + k];
+            for j in k..n {
+                a[i * n + j] -= factor * a[k * n + j];
+            }
+        }
+    }
+    None
+}
+
+/// A symbol's value in the random state number `seed`: the design near its nominal values, everything else of the order
+/// of one.
+fn state(problem: &Problem, seed: u64, symbol: SymbolId) -> f64 {
+    let signed = 2.0 * random(seed, symbol) - 1.0;
+    let symbols = problem.symbols;
+    let position = |list: &[SymbolId]| list.iter().position(|&s| s == symbol);
+    if let Some(k) = position(&symbols.b.ids) {
+        let nominal = problem.mechanism.design[k].nominal;
+        return if nominal == 0.0 {
+            0.1 * signed
+        } else {
+            nominal * (1.0 + 0.1 * signed)
+        };
+    }
+    if position(&symbols.u.ids).is_some() {
+        return 1.5 + signed;
+    }
+    if let Some(k) = position(&symbols.q.ids) {
+        let coordinate = &problem.mechanism.coordinates[problem.topology.free[k].index()];
+        return match coordinate.quantity {
+            CoordinateQuantity::Angle => 1.2 * signed,
+            CoordinateQuantity::Displacement => 0.3 * signed,
+        };
+    }
+    signed
+}
+
+/// A number in [0, 1) that depends on nothing but its arguments (SplitMix64).
+fn random(seed: u64, symbol: SymbolId) -> f64 {
+    let mut x = seed
+        .wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        .wrapping_add(u64::from(symbol.0).wrapping_mul(0xd1b5_4a32_d192_ed03));
+    for shift in [30, 27] {
+        x = (x ^ (x >> shift)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    }
+    x ^= x >> 31;
+    (x >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Derivative of `roots` along one symbol.
+pub(super) fn by_symbol(g: &mut Graph, roots: &[ExprId], symbol: SymbolId) -> Vec<ExprId> {
+    let direction = Direction::unit(g, symbol);
+    derivatives_along(g, roots, &direction)
+}

@@ -1,0 +1,94 @@
+//! A steady state exists only if the equations do not change while the driven coordinates turn (THEORY section 1).
+
+use crate::algebra::Graph;
+use crate::base::diagnostics::Diagnostics;
+use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
+
+use super::derive::Problem;
+use super::kinematics::Kinematics;
+use super::properties::{by_symbol, vanish};
+use super::sources::{Selection, Sources};
+
+/// Rejects a mechanism whose equations or outputs depend on a driven coordinate, naming the cause.
+pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let kinematics = problem.kinematics(g, &problem.symbols.driven.values);
+    let residual = problem.residual(g, &kinematics, Sources::ALL);
+    let outputs = problem.outputs(g, &kinematics);
+    for (k, &symbol) in problem.symbols.driven.ids.iter().enumerate() {
+        let name = &problem.mechanism.coordinates[problem.topology.driven[k].index()].name;
+        if depends(g, problem, &residual, symbol) {
+            let causes = causes(g, problem, &kinematics, symbol);
+            diagnostics.error_with_help(
+                name.span(),
+                format!(
+                    "the equations of motion depend on the driven coordinate `{name}`, so there is no steady state: {}",
+                    causes.join("; ")
+                ),
+                "make what it names symmetric about the axis of the drive, or attach it to what turns with the drive",
+            );
+        }
+        for (&value, output) in outputs.iter().zip(&problem.mechanism.outputs) {
+            if depends(g, problem, &[value], symbol) {
+                diagnostics.error_with_help(
+                    output.name.span(),
+                    format!(
+                        "output `{}` depends on the driven coordinate `{name}` and is not constant in steady motion",
+                        output.name
+                    ),
+                    "use a quantity that the drive leaves unchanged: a height, a distance, a distance from the axis",
+                );
+            }
+        }
+    }
+    diagnostics.into_result(())
+}
+
+fn depends(g: &mut Graph, problem: &Problem, roots: &[ExprId], symbol: SymbolId) -> bool {
+    let change = by_symbol(g, roots, symbol);
+    vanish(g, problem, &change).into_iter().any(|zero| !zero)
+}
+
+/// The causes of force that alone make the equations depend on `symbol`.
+fn causes(
+    g: &mut Graph,
+    problem: &Problem,
+    kinematics: &Kinematics,
+    symbol: SymbolId,
+) -> Vec<String> {
+    let none = Sources {
+        inertia: Selection::None,
+        forces: Selection::None,
+        gravity: false,
+    };
+    let mut candidates = vec![(
+        Sources {
+            gravity: true,
+            ..none
+        },
+        "gravity is not parallel to its axis".to_owned(),
+    )];
+    for (index, force) in problem.mechanism.forces.iter().enumerate() {
+        candidates.push((
+            Sources {
+                forces: Selection::One(ForceId::new(index)),
+                ..none
+            },
+            format!("the force `{}` changes with it", force.name),
+        ));
+    }
+    for (index, body) in problem.mechanism.bodies.iter().enumerate() {
+        candidates.push((
+            Sources {
+                inertia: Selection::One(BodyId::new(index)),
+                ..none
+            },
+            format!("the inertia of `{}` changes with it", body.name),
+        ));
+    }
+    candidates.retain(|(sources, _)| {
+        let part = problem.residual(g, kinematics, *sources);
+        depends(g, problem, &part, symbol)
+    });
+    candidates.into_iter().map(|(_, cause)| cause).collect()
+}

@@ -1,0 +1,106 @@
+//! The symbols that the equations are written in.
+
+use crate::algebra::{Graph, Stage};
+use crate::base::ids::{ExprId, SymbolId};
+use crate::model::mechanism::{Mechanism, Motion};
+use crate::topology::Topology;
+
+/// A list of symbols with their expressions, one per entry of an array.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SymbolList {
+    /// Ids, for differentiation and substitution.
+    pub(super) ids: Vec<SymbolId>,
+    /// The same as expressions.
+    pub(super) values: Vec<ExprId>,
+}
+
+impl SymbolList {
+    fn new(g: &mut Graph, stage: Stage, names: impl IntoIterator<Item = String>) -> Self {
+        let (ids, values) = names.into_iter().map(|name| g.symbol(name, stage)).unzip();
+        Self { ids, values }
+    }
+
+    /// Pairs each symbol with a value: a direction or a replacement.
+    pub(super) fn with<'a>(
+        &'a self,
+        values: &'a [ExprId],
+    ) -> impl Iterator<Item = (SymbolId, ExprId)> + 'a {
+        self.ids.iter().copied().zip(values.iter().copied())
+    }
+}
+
+/// Every symbol of a mechanism's equations.
+#[derive(Clone, Debug)]
+pub(super) struct Symbols {
+    /// Free coordinates.
+    pub(super) q: SymbolList,
+    /// Their rates.
+    pub(super) velocity: SymbolList,
+    /// Their second derivatives.
+    pub(super) acceleration: SymbolList,
+    /// Driven coordinates; they occur only while the steady state is being checked.
+    pub(super) driven: SymbolList,
+    /// Inputs.
+    pub(super) u: SymbolList,
+    /// Design variables.
+    pub(super) b: SymbolList,
+    /// A mode.
+    pub(super) phi: SymbolList,
+    /// Its eigenvalue (one entry).
+    pub(super) lambda: SymbolList,
+    /// A weight on the residual.
+    pub(super) w: SymbolList,
+    /// Direction of the coordinates, and so on for the others.
+    pub(super) dq: SymbolList,
+    pub(super) du: SymbolList,
+    pub(super) db: SymbolList,
+    pub(super) dphi: SymbolList,
+    pub(super) dlambda: SymbolList,
+    pub(super) dw: SymbolList,
+}
+
+impl Symbols {
+    pub(super) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
+        let coordinate = |id: &crate::base::ids::CoordinateId| {
+            mechanism.coordinates[id.index()].name.to_string()
+        };
+        let free: Vec<String> = topology.free.iter().map(coordinate).collect();
+        let driven: Vec<String> = topology.driven.iter().map(coordinate).collect();
+        let inputs: Vec<String> = mechanism
+            .inputs
+            .iter()
+            .map(|x| x.name.to_string())
+            .collect();
+        let design: Vec<String> = mechanism
+            .design
+            .iter()
+            .map(|x| x.name.to_string())
+            .collect();
+        let one = |name: &str| vec![name.to_owned()];
+        let named = |prefix: &str, names: &[String]| -> Vec<String> {
+            names.iter().map(|name| format!("{prefix}{name}")).collect()
+        };
+        debug_assert!(
+            topology.driven.iter().all(|id| {
+                matches!(mechanism.coordinates[id.index()].motion, Motion::Driven(_))
+            })
+        );
+        Self {
+            b: SymbolList::new(g, Stage::Design, design.clone()),
+            u: SymbolList::new(g, Stage::Input, inputs.clone()),
+            q: SymbolList::new(g, Stage::Configuration, free.clone()),
+            driven: SymbolList::new(g, Stage::Configuration, driven),
+            velocity: SymbolList::new(g, Stage::Rate, named("rate_", &free)),
+            acceleration: SymbolList::new(g, Stage::Rate, named("acceleration_", &free)),
+            phi: SymbolList::new(g, Stage::Rate, named("phi_", &free)),
+            lambda: SymbolList::new(g, Stage::Rate, one("lambda")),
+            w: SymbolList::new(g, Stage::Rate, named("w_", &free)),
+            dq: SymbolList::new(g, Stage::Rate, named("d_", &free)),
+            du: SymbolList::new(g, Stage::Rate, named("d_", &inputs)),
+            db: SymbolList::new(g, Stage::Rate, named("d_", &design)),
+            dphi: SymbolList::new(g, Stage::Rate, named("d_phi_", &free)),
+            dlambda: SymbolList::new(g, Stage::Rate, one("d_lambda")),
+            dw: SymbolList::new(g, Stage::Rate, named("d_w_", &free)),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Values of the declaration as expressions of the graph.
+
+use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
+use crate::base::ids::{ConstantId, CoordinateId, ExprId, PointId};
+use crate::model::expression::{Expr, Function, Vector};
+use crate::model::mechanism::{Mechanism, Placement};
+
+use super::symbols::Symbols;
+
+/// Translates values; what depends on the position of the mechanism is looked up in `state`.
+pub(super) struct Values<'a> {
+    symbols: &'a Symbols,
+    constants: Vec<ExprId>,
+}
+
+/// Where outputs find coordinates and points.
+pub(super) trait State {
+    /// A joint coordinate.
+    fn coordinate(&self, id: CoordinateId) -> ExprId;
+    /// A point in the ground frame.
+    fn point(&self, id: PointId) -> Vector3;
+}
+
+/// No state: for values that depend on inputs and design only. Resolution has checked that nothing else occurs.
+struct Stateless;
+
+impl State for Stateless {
+    fn coordinate(&self, _: CoordinateId) -> ExprId {
+        unreachable!("resolution admits coordinates in outputs only")
+    }
+    fn point(&self, _: PointId) -> Vector3 {
+        unreachable!("resolution admits points in outputs only")
+    }
+}
+
+impl<'a> Values<'a> {
+    /// Translates the named constants once; each uses only earlier ones.
+    pub(super) fn new(g: &mut Graph, mechanism: &Mechanism, symbols: &'a Symbols) -> Self {
+        let mut values = Self {
+            symbols,
+            constants: Vec::new(),
+        };
+        for constant in &mechanism.constants {
+            let value = values.scalar(g, &constant.value);
+            g.set_name(value, || constant.name.to_string());
+            values.constants.push(value);
+        }
+        values
+    }
+
+    /// A scalar that depends on inputs and design only.
+    pub(super) fn scalar(&self, g: &mut Graph, value: &Expr) -> ExprId {
+        self.scalar_at(g, value, &Stateless)
+    }
+
+    /// A vector that depends on inputs and design only.
+    pub(super) fn vector(&self, g: &mut Graph, value: &Vector) -> Vector3 {
+        Vector3(std::array::from_fn(|i| self.scalar(g, &value[i])))
+    }
+
+    /// A placement as offset and rotation; `None` for no rotation.
+    pub(super) fn placement(
+        &self,
+        g: &mut Graph,
+        placement: &Placement,
+    ) -> (Vector3, Option<Matrix3>) {
+        let offset = self.vector(g, &placement.offset);
+        let mut rotation: Option<Matrix3> = None;
+        for (axis, angle) in &placement.rotations {
+            let (axis, angle) = (self.vector(g, axis), self.scalar(g, angle));
+            let next = Matrix3::rotation(g, axis, angle);
+            rotation = Some(match rotation {
+                Some(so_far) => so_far.multiply(g, next),
+                None => next,
+            });
+        }
+        (offset, rotation)
+    }
+
+    /// A scalar that may depend on the position of the mechanism.
+    pub(super) fn scalar_at(&self, g: &mut Graph, value: &Expr, state: &impl State) -> ExprId {
+        let mut binary = |operator, a: &Expr, b: &Expr| {
+            let (a, b) = (self.scalar_at(g, a, state), self.scalar_at(g, b, state));
+            g.binary(operator, a, b)
+        };
+        match value {
+            Expr::Number(value) => g.constant(*value),
+            Expr::Design(id) => self.symbols.b.values[id.index()],
+            Expr::Input(id) => self.symbols.u.values[id.index()],
+            Expr::Constant(id) => self.constant(*id),
+            Expr::Coordinate(id) => state.coordinate(*id),
+            Expr::Position(id, axis) => state.point(*id).0[*axis],
+            Expr::Add(a, b) => binary(Operator::Add, a, b),
+            Expr::Subtract(a, b) => binary(Operator::Subtract, a, b),
+            Expr::Multiply(a, b) => binary(Operator::Multiply, a, b),
+            Expr::Divide(a, b) => binary(Operator::Divide, a, b),
+            Expr::Power(a, b) => binary(Operator::Power, a, b),
+            Expr::Atan2(a, b) => binary(Operator::Atan2, a, b),
+            Expr::Negate(a) => self.unary(g, Unary::Negate, a, state),
+            Expr::PowerInteger(a, n) => self.unary(g, Unary::PowerInteger(*n), a, state),
+            Expr::Call(function, a) => {
+                let operator = match function {
+                    Function::Sqrt => Unary::Sqrt,
+                    Function::Sin => Unary::Sin,
+                    Function::Cos => Unary::Cos,
+                    Function::Tan => Unary::Tan,
+                    Function::Asin => Unary::Asin,
+                    Function::Acos => Unary::Acos,
+                    Function::Exp => Unary::Exp,
+                    Function::Ln => Unary::Ln,
+                };
+                self.unary(g, operator, a, state)
+            }
+        }
+    }
+
+    fn unary(&self, g: &mut Graph, operator: Unary, a: &Expr, state: &impl State) -> ExprId {
+        let a = self.scalar_at(g, a, state);
+        g.unary(operator, a)
+    }
+
+    fn constant(&self, id: ConstantId) -> ExprId {
+        self.constants[id.index()]
+    }
+}

@@ -1,0 +1,45 @@
+//! Running a program without compiling it: for tests, and for tools that read mechanisms at run time.
+
+use crate::algebra::{apply_binary, apply_unary};
+
+use super::{Kernel, Operand, Operation, Program};
+
+impl Program {
+    /// Evaluates a kernel; `None` when there is none of this name. See [`Kernel::evaluate`].
+    pub fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
+        self.kernel(kernel).map(|kernel| kernel.evaluate(arguments))
+    }
+}
+
+impl Kernel {
+    /// Values of the results for the given arguments, arrays flattened with the first index outermost.
+    ///
+    /// # Panics
+    ///
+    /// When the number or the lengths of the arguments are not those of [`Kernel::parameters`].
+    pub fn evaluate(&self, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
+        assert_eq!(arguments.len(), self.parameters.len(), "arguments of `{}`", self.name);
+        for (argument, parameter) in arguments.iter().zip(&self.parameters) {
+            assert_eq!(argument.len(), parameter.entries.len(), "`{}`", parameter.name);
+        }
+        let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
+        let read = |values: &[f64], operand| match operand {
+            Operand::Constant(value) => value,
+            Operand::Parameter(position, entry) => arguments[position][entry],
+            Operand::Instruction(index) => values[index],
+        };
+        for instruction in &self.instructions {
+            let value = match instruction.operation {
+                Operation::Unary(operator, a) => apply_unary(operator, read(&values, a)),
+                Operation::Binary(operator, a, b) => {
+                    apply_binary(operator, read(&values, a), read(&values, b))
+                }
+            };
+            values.push(value);
+        }
+        self.results
+            .iter()
+            .map(|array| array.values.iter().map(|&operand| read(&values, operand)).collect())
+            .collect()
+    }
+}

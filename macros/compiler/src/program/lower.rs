@@ -1,0 +1,106 @@
+//! From expressions to instructions.
+
+use crate::algebra::{Function, Graph, Node, reachable};
+use crate::base::ids::{ExprId, SymbolId};
+
+use super::{Array, Instruction, Kernel, Operand, Operation, Parameter, Program};
+
+/// Lowers every function.
+pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
+    let stages = graph.stages();
+    let kernels = functions
+        .iter()
+        .map(|function| {
+            let parameters = function
+                .parameters
+                .iter()
+                .map(|parameter| Parameter {
+                    name: parameter.name,
+                    entries: parameter
+                        .symbols
+                        .iter()
+                        .map(|&symbol| graph.symbol_info(symbol).name.clone())
+                        .collect(),
+                    scalar: parameter.scalar,
+                })
+                .collect();
+            let roots = function.roots();
+            let mut order: Vec<ExprId> = reachable(graph, &roots)
+                .into_iter()
+                .filter(|&id| !matches!(graph.node(id), Node::Constant(_) | Node::Symbol(_)))
+                .collect();
+            // Stable: within a stage operands keep coming before their users.
+            order.sort_by_key(|id| stages[id.index()]);
+            let mut lowering = Lowering::new(graph, function);
+            let instructions = order
+                .into_iter()
+                .map(|id| lowering.instruction(id, stages[id.index()]))
+                .collect();
+            let results = function
+                .results
+                .iter()
+                .map(|array| Array {
+                    name: array.name,
+                    shape: array.shape.clone(),
+                    values: array.values.iter().map(|&id| lowering.operand(id)).collect(),
+                })
+                .collect();
+            Kernel {
+                name: function.name,
+                parameters,
+                instructions,
+                results,
+                cost: function.cost(graph),
+            }
+        })
+        .collect();
+    Program { kernels }
+}
+
+struct Lowering<'a> {
+    graph: &'a Graph,
+    symbols: Vec<Option<(usize, usize)>>,
+    done: Vec<Option<usize>>,
+    count: usize,
+}
+
+impl<'a> Lowering<'a> {
+    fn new(graph: &'a Graph, function: &Function) -> Self {
+        let mut symbols = vec![None; graph.symbol_count()];
+        for (position, parameter) in function.parameters.iter().enumerate() {
+            for (entry, symbol) in parameter.symbols.iter().enumerate() {
+                symbols[symbol.index()] = Some((position, entry));
+            }
+        }
+        Self { graph, symbols, done: vec![None; graph.len()], count: 0 }
+    }
+
+    fn instruction(&mut self, id: ExprId, stage: crate::algebra::Stage) -> Instruction {
+        let operation = match self.graph.node(id) {
+            Node::Unary(operator, a) => Operation::Unary(operator, self.operand(a)),
+            Node::Binary(operator, a, b) => {
+                Operation::Binary(operator, self.operand(a), self.operand(b))
+            }
+            Node::Constant(_) | Node::Symbol(_) => unreachable!("leaves are operands"),
+        };
+        self.done[id.index()] = Some(self.count);
+        self.count += 1;
+        Instruction { name: self.graph.name(id).map(str::to_owned), stage, operation }
+    }
+
+    fn operand(&self, id: ExprId) -> Operand {
+        match self.graph.node(id) {
+            Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
+            Node::Symbol(symbol) => self.parameter(symbol),
+            _ => Operand::Instruction(
+                self.done[id.index()].expect("operands come before their users"),
+            ),
+        }
+    }
+
+    fn parameter(&self, symbol: SymbolId) -> Operand {
+        let (position, entry) = self.symbols[symbol.index()]
+            .expect("a function takes every symbol that its results depend on");
+        Operand::Parameter(position, entry)
+    }
+}

@@ -1,0 +1,122 @@
+//! Straight-line code: what is computed, in which order, and nothing that is not needed.
+//!
+//! Dead code and common subexpressions are gone by construction: a kernel is made from the nodes that its results reach,
+//! and equal expressions are one node. This wing knows no mechanics.
+
+mod interpret;
+mod lower;
+mod print;
+
+pub use lower::lower;
+
+use crate::algebra::{Cost, Operator, Stage, Unary};
+
+/// All kernels of a mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// In the order of the runtime's contract.
+    pub kernels: Vec<Kernel>,
+}
+
+/// One function as straight-line code.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kernel {
+    /// Name of the generated method.
+    pub name: &'static str,
+    /// Arguments.
+    pub parameters: Vec<Parameter>,
+    /// Every operand is an earlier instruction. Ordered by stage: what changes least comes first.
+    pub instructions: Vec<Instruction>,
+    /// Results.
+    pub results: Vec<Array>,
+    /// Operations in all.
+    pub cost: Cost,
+}
+
+/// An argument.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name of the argument.
+    pub name: &'static str,
+    /// Names of its entries.
+    pub entries: Vec<String>,
+    /// A number rather than an array.
+    pub scalar: bool,
+}
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instruction {
+    /// Name given by the derivation.
+    pub name: Option<String>,
+    /// The latest stage of its operands.
+    pub stage: Stage,
+    /// What it computes.
+    pub operation: Operation,
+}
+
+/// What an instruction computes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operation {
+    /// An operator of one operand.
+    Unary(Unary, Operand),
+    /// An operator of two operands.
+    Binary(Operator, Operand, Operand),
+}
+
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand {
+    /// A number.
+    Constant(f64),
+    /// Entry of an argument: its position among the arguments, and the entry.
+    Parameter(usize, usize),
+    /// The result of an instruction.
+    Instruction(usize),
+}
+
+/// A result: nested arrays, flattened with the first index outermost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Name of the result.
+    pub name: &'static str,
+    /// Lengths, outermost first.
+    pub shape: Vec<usize>,
+    /// Entries.
+    pub values: Vec<Operand>,
+}
+
+impl Operation {
+    /// The operands, one or two.
+    pub fn operands(&self) -> impl Iterator<Item = Operand> {
+        let (first, second) = match *self {
+            Self::Unary(_, a) => (a, None),
+            Self::Binary(_, a, b) => (a, Some(b)),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
+
+impl Program {
+    /// The kernel of a name.
+    pub fn kernel(&self, name: &str) -> Option<&Kernel> {
+        self.kernels.iter().find(|kernel| kernel.name == name)
+    }
+}
+
+impl Kernel {
+    /// Operations of each stage that occurs, signs not counted: what is saved when only later stages move.
+    pub fn cost_by_stage(&self) -> Vec<(Stage, usize)> {
+        let mut counts: Vec<(Stage, usize)> = Vec::new();
+        for instruction in &self.instructions {
+            if matches!(instruction.operation, Operation::Unary(Unary::Negate, _)) {
+                continue;
+            }
+            match counts.last_mut() {
+                Some((stage, count)) if *stage == instruction.stage => *count += 1,
+                _ => counts.push((instruction.stage, 1)),
+            }
+        }
+        counts
+    }
+}
