@@ -1,5 +1,7 @@
 //! The contract between compile time and run time: what generated code provides.
 
+use core::array::from_fn;
+
 use crate::Real;
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
@@ -63,12 +65,22 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     ) -> ([[T; U]; N], [[T; P]; N]);
 
     /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` by every coordinate, input and design variable.
+    ///
+    /// Generated for small mechanisms; a large one takes them one direction at a time, as here, because straight-line
+    /// code for all of them grows with the cube of its size.
     fn linear_partials<T: Real>(
         &self,
         q: &[T; N],
         u: &[T; U],
         b: &[T; P],
-    ) -> LinearPartials<T, N, U, P>;
+    ) -> LinearPartials<T, N, U, P> {
+        let (dq, du, db) = (zeros(), zeros(), zeros());
+        LinearPartials {
+            by_coordinate: from_fn(|k| self.linear_along(q, u, b, &unit(k), &du, &db)),
+            by_input: from_fn(|k| self.linear_along(q, u, b, &dq, &unit(k), &db)),
+            by_design: from_fn(|k| self.linear_along(q, u, b, &dq, &du, &unit(k))),
+        }
+    }
 
     /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
     fn linear_along<T: Real>(
@@ -145,6 +157,14 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+}
+
+fn zeros<T: Real, const K: usize>() -> [T; K] {
+    [T::constant(0.0); K]
+}
+
+fn unit<T: Real, const K: usize>(k: usize) -> [T; K] {
+    from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))
 }
 
 /// A physical requirement that is not met.

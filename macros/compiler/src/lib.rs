@@ -2,6 +2,7 @@
 
 pub mod algebra;
 pub mod base;
+pub mod emit;
 pub mod mechanics;
 pub mod model;
 pub mod program;

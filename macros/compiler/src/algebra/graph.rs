@@ -138,12 +138,20 @@ impl Graph {
             .fold(0, |mask, symbol| mask | bit(symbol))
     }
 
-    /// Gives a node a name for readers of the generated code; the first name stays. Constants and symbols keep theirs,
-    /// and a negated node passes the name on to what it negates.
+    /// Gives a node a name for readers of the generated code; the first name stays, and constants and symbols keep
+    /// theirs. What is negated to make `name` becomes `minus_name`, because signs have no statement of their own.
     pub fn set_name(&mut self, id: ExprId, name: impl FnOnce() -> String) {
         match self.node(id) {
             Node::Constant(_) | Node::Symbol(_) => {}
-            Node::Unary(Unary::Negate, operand) => self.set_name(operand, name),
+            Node::Unary(Unary::Negate, operand) => {
+                if self.name(operand).is_none() {
+                    let name = name();
+                    self.set_name(operand, || match name.strip_prefix("minus_") {
+                        Some(positive) => positive.to_owned(),
+                        None => format!("minus_{name}"),
+                    });
+                }
+            }
             _ => {
                 self.names.entry(id).or_insert_with(name);
             }

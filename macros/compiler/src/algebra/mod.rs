@@ -13,8 +13,8 @@ mod substitute;
 mod vector;
 
 pub use count::{Cost, cost, reachable};
-pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use evaluate::{Evaluation, evaluate, evaluate_with_magnitude};
+pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};

@@ -1,5 +1,3 @@
 //! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
 
-pub mod diagnostics;
 pub mod ids;
-pub mod span;

@@ -1,14 +1,14 @@
 //! The recipe from a mechanism to its functions.
 
-use crate::algebra::{Graph, substitute};
+use crate::algebra::{Array, Function, Graph, substitute};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::ExprId;
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
 
-use super::functions::Functions;
+use super::functions::{Functions, Limits, Requirement};
 use super::kinematics::{CoordinateMotion, Kinematics};
-use super::linearise::kernels;
+use super::linearise::{kernels, parameter};
 use super::newton_euler::residual;
 use super::properties;
 use super::requirements::requirements;
@@ -19,7 +19,11 @@ use super::values::Values;
 
 /// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
 /// where nothing resists one: what only the equations can tell about a declaration.
-pub fn derive(mechanism: &Mechanism, topology: &Topology) -> Result<Functions, Diagnostics> {
+pub fn derive(
+    mechanism: &Mechanism,
+    topology: &Topology,
+    limits: Limits,
+) -> Result<Functions, Diagnostics> {
     let mut graph = Graph::new();
     let g = &mut graph;
     let symbols = Symbols::new(g, mechanism, topology);
@@ -35,14 +39,29 @@ pub fn derive(mechanism: &Mechanism, topology: &Topology) -> Result<Functions, D
     let equations = Equations::new(g, &problem);
     properties::check(g, &problem, &equations)?;
     let properties = properties::establish(g, &problem, &equations);
-    let functions = kernels(g, &symbols, &equations, properties);
+    let mut functions = kernels(g, &symbols, &equations, properties, limits);
     let requirements = requirements(g, mechanism, &values);
+    functions.push(check_of(&requirements, &symbols));
     Ok(Functions {
         graph,
         functions,
         requirements,
         properties,
     })
+}
+
+/// The function whose results have to be positive.
+fn check_of(requirements: &[Requirement], symbols: &Symbols) -> Function {
+    let values: Vec<ExprId> = requirements.iter().map(|r| r.value).collect();
+    Function {
+        name: "violation",
+        parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
+        results: vec![Array {
+            name: "requirements",
+            shape: vec![values.len()],
+            values,
+        }],
+    }
 }
 
 /// What every step of the derivation reads.

@@ -16,6 +16,23 @@ pub struct Functions {
     pub properties: Properties,
 }
 
+/// Bounds on what is generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most entries of explicit partial derivatives of the linearised matrices, `3 n^2 (n + inputs + design)`, that are
+    /// written out. A larger mechanism computes them column by column from directional derivatives: its code would
+    /// grow with the cube of its size.
+    pub explicit_partials: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            explicit_partials: 8192,
+        }
+    }
+}
+
 /// A value that must be positive.
 #[derive(Clone, Debug)]
 pub struct Requirement {

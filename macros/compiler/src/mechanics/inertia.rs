@@ -118,6 +118,18 @@ impl MassDistribution {
         }
     }
 
+    /// Names the moments for readers.
+    pub(super) fn set_names(&self, g: &mut Graph, body: &str) {
+        g.set_name(self.mass, || format!("{body}_mass"));
+        g.set_name(self.isotropic, || format!("{body}_isotropic_moment"));
+        for arm in &self.arms {
+            g.set_name(arm.first, || format!("{body}_first_moment"));
+            for &second in &arm.second {
+                g.set_name(second, || format!("{body}_second_moment"));
+            }
+        }
+    }
+
     fn point(g: &mut Graph, values: &Values, mass: ExprId, center: &Vector) -> Self {
         let center = values.vector(g, center);
         let isotropic = g.zero();

@@ -254,7 +254,13 @@ impl FrameMotion {
 /// `[alpha]x + omega omega^T - |omega|^2 1`.
 fn second_rate(g: &mut Graph, omega: Vector3, alpha: Vector3) -> Matrix3 {
     let ([wx, wy, wz], [ax, ay, az]) = (omega.0, alpha.0);
-    let (xx, yy, zz) = (g.mul(wx, wx), g.mul(wy, wy), g.mul(wz, wz));
+    let [xx, yy, zz] = omega.0.map(|w| {
+        let square = g.mul(w, w);
+        if let Some(name) = g.name(w).map(|name| format!("{name}_squared")) {
+            g.set_name(square, || name);
+        }
+        square
+    });
     let (xy, yz, zx) = (g.mul(wx, wy), g.mul(wy, wz), g.mul(wz, wx));
     let mut minus_sum = |a, b| {
         let sum = g.add(a, b);

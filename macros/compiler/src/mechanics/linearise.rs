@@ -6,7 +6,7 @@ use crate::algebra::{
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::derive::Equations;
-use super::functions::{Damping, Properties};
+use super::functions::{Damping, Limits, Properties};
 use super::properties::by_symbol;
 use super::symbols::{SymbolList, Symbols};
 
@@ -143,6 +143,7 @@ pub(super) fn kernels(
     s: &Symbols,
     e: &Equations,
     properties: Properties,
+    limits: Limits,
 ) -> Vec<Function> {
     let n = e.rest.len();
     let vector = |name, values: &[ExprId]| Array {
@@ -174,10 +175,14 @@ pub(super) fn kernels(
 
     let by_input = columns(g, &e.rest, &s.u);
     let by_design = columns(g, &e.rest, &s.b);
-    let mut partials = Vec::new();
-    for list in [&s.q, &s.u, &s.b] {
-        partials.extend(linear.partials(g, n, list));
-    }
+    let arguments = [&s.q, &s.u, &s.b];
+    let entries = 3 * n * n * arguments.iter().map(|list| list.ids.len()).sum::<usize>();
+    let partials: Option<Vec<Array>> = (entries <= limits.explicit_partials).then(|| {
+        arguments
+            .iter()
+            .flat_map(|list| linear.partials(g, n, list))
+            .collect()
+    });
     let along = direction("_along", [(&s.q, &s.dq), (&s.u, &s.du), (&s.b, &s.db)]);
     let linear_along = derivatives_along(g, &linear.roots(), &along);
 
@@ -215,7 +220,7 @@ pub(super) fn kernels(
     };
     let mode = || vec![parameter("phi", &s.phi), scalar("lambda", &s.lambda)];
 
-    vec![
+    let mut functions = vec![
         function(
             "residual",
             vec![],
@@ -262,7 +267,6 @@ pub(super) fn kernels(
                 rows("by_design", n, &by_design),
             ],
         ),
-        function("linear_partials", vec![], vec![], partials),
         function(
             "linear_along",
             vec![],
@@ -314,7 +318,9 @@ pub(super) fn kernels(
                 .map(|(name, columns)| rows(name, e.outputs.len(), columns))
                 .collect(),
         ),
-    ]
+    ];
+    functions.extend(partials.map(|arrays| function("linear_partials", vec![], vec![], arrays)));
+    functions
 }
 
 /// `phi^T (Khat - lambda Mhat) phi` without either matrix: the derivative of `phi^T g` along
@@ -381,7 +387,7 @@ fn direction<const K: usize>(suffix: &str, moves: [(&SymbolList, &SymbolList); K
     Direction::new(suffix, rates)
 }
 
-fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
+pub(super) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
     Parameter {
         name,
         symbols: list.ids.clone(),

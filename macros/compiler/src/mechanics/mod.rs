@@ -19,7 +19,7 @@ mod symbols;
 mod values;
 
 pub use derive::derive;
-pub use functions::{Damping, Functions, Properties, Requirement};
+pub use functions::{Damping, Functions, Limits, Properties, Requirement};
 
 #[cfg(test)]
 mod tests;

@@ -34,6 +34,7 @@ pub(super) fn residual(
             continue;
         }
         if let Some(mass) = MassDistribution::new(g, values, &body.shape) {
+            mass.set_names(g, &body.name.to_string());
             let motion = &kinematics.bodies[index].frame;
             let load = inertia_wrench(g, &mass, motion, gravity, with_inertia);
             add(g, &mut loads[index], Frame::Ground, load);

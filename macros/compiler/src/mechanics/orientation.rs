@@ -1,6 +1,6 @@
 //! How a body is turned against the common frame.
 
-use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::algebra::{Graph, Matrix3, Unary, Vector3};
 use crate::base::ids::ExprId;
 
 /// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so that a
@@ -51,6 +51,11 @@ impl Orientation {
             return self;
         }
         g.set_name(total, || format!("{name}_angle"));
+        for (operator, function) in [(Unary::Sin, "sin"), (Unary::Cos, "cos")] {
+            let value = g.unary(operator, total);
+            let angle = g.name(total).unwrap_or(name).to_owned();
+            g.set_name(value, || format!("{function}_{angle}"));
+        }
         let rotation = Matrix3::rotation(g, axis, total);
         let axes = base.multiply(g, rotation);
         Self {

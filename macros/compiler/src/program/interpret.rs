@@ -18,9 +18,19 @@ impl Kernel {
     ///
     /// When the number or the lengths of the arguments are not those of [`Kernel::parameters`].
     pub fn evaluate(&self, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-        assert_eq!(arguments.len(), self.parameters.len(), "arguments of `{}`", self.name);
+        assert_eq!(
+            arguments.len(),
+            self.parameters.len(),
+            "arguments of `{}`",
+            self.name
+        );
         for (argument, parameter) in arguments.iter().zip(&self.parameters) {
-            assert_eq!(argument.len(), parameter.entries.len(), "`{}`", parameter.name);
+            assert_eq!(
+                argument.len(),
+                parameter.entries.len(),
+                "`{}`",
+                parameter.name
+            );
         }
         let mut values: Vec<f64> = Vec::with_capacity(self.instructions.len());
         let read = |values: &[f64], operand| match operand {
@@ -39,7 +49,13 @@ impl Kernel {
         }
         self.results
             .iter()
-            .map(|array| array.values.iter().map(|&operand| read(&values, operand)).collect())
+            .map(|array| {
+                array
+                    .values
+                    .iter()
+                    .map(|&operand| read(&values, operand))
+                    .collect()
+            })
             .collect()
     }
 }

@@ -42,7 +42,11 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
                 .map(|array| Array {
                     name: array.name,
                     shape: array.shape.clone(),
-                    values: array.values.iter().map(|&id| lowering.operand(id)).collect(),
+                    values: array
+                        .values
+                        .iter()
+                        .map(|&id| lowering.operand(id))
+                        .collect(),
                 })
                 .collect();
             Kernel {
@@ -72,7 +76,12 @@ impl<'a> Lowering<'a> {
                 symbols[symbol.index()] = Some((position, entry));
             }
         }
-        Self { graph, symbols, done: vec![None; graph.len()], count: 0 }
+        Self {
+            graph,
+            symbols,
+            done: vec![None; graph.len()],
+            count: 0,
+        }
     }
 
     fn instruction(&mut self, id: ExprId, stage: crate::algebra::Stage) -> Instruction {
@@ -85,7 +94,11 @@ impl<'a> Lowering<'a> {
         };
         self.done[id.index()] = Some(self.count);
         self.count += 1;
-        Instruction { name: self.graph.name(id).map(str::to_owned), stage, operation }
+        Instruction {
+            name: self.graph.name(id).map(str::to_owned),
+            stage,
+            operation,
+        }
     }
 
     fn operand(&self, id: ExprId) -> Operand {

@@ -32,9 +32,7 @@ impl fmt::Display for Kernel {
         )?;
         let text = |operand: Operand| match operand {
             Operand::Constant(value) => format!("{value}"),
-            Operand::Parameter(position, entry) => {
-                self.parameters[position].entries[entry].clone()
-            }
+            Operand::Parameter(position, entry) => self.parameters[position].entries[entry].clone(),
             Operand::Instruction(index) => format!("%{index}"),
         };
         for (index, instruction) in self.instructions.iter().enumerate() {
@@ -63,7 +61,13 @@ impl fmt::Display for Kernel {
         }
         for array in &self.results {
             let values: Vec<String> = array.values.iter().map(|&v| text(v)).collect();
-            writeln!(f, "  {} {:?} = [{}]", array.name, array.shape, values.join(", "))?;
+            writeln!(
+                f,
+                "  {} {:?} = [{}]",
+                array.name,
+                array.shape,
+                values.join(", ")
+            )?;
         }
         Ok(())
     }

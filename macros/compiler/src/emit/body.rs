@@ -1,0 +1,263 @@
+//! The statements of a method.
+
+use std::fmt::Write;
+
+use crate::algebra::Unary;
+use crate::program::{Kernel, Operand, Operation};
+
+use super::expression::Text;
+use super::names::{Names, wanted};
+
+/// Statements in one block. A long chain of plain `let`s nests one scope per statement, which rustc cannot take beyond a
+/// few thousand; longer bodies declare the names of each block at once and assign them in turn.
+const BLOCK: usize = 256;
+
+/// Operations that an unnamed value used once may have to be written where it is used.
+const INLINE: usize = 6;
+
+/// A method body: statements, and the text of every operand that results refer to.
+pub(super) struct Body<'a> {
+    kernel: &'a Kernel,
+    texts: Vec<Option<Text>>,
+    entries: Vec<Vec<String>>,
+    statements: Vec<Statement>,
+}
+
+struct Statement {
+    names: Vec<String>,
+    value: String,
+}
+
+impl<'a> Body<'a> {
+    /// Writes the statements of a kernel.
+    pub(super) fn new(kernel: &'a Kernel) -> Self {
+        let mut names = Names::new(
+            kernel
+                .parameters
+                .iter()
+                .map(|p| p.name)
+                .chain(["T", "self"]),
+        );
+        let mut this = Self {
+            kernel,
+            texts: vec![None; kernel.instructions.len()],
+            entries: Vec::new(),
+            statements: Vec::new(),
+        };
+        this.load_parameters(&mut names);
+        this.compute(&mut names);
+        this
+    }
+
+    /// The text of an operand.
+    pub(super) fn text(&self, operand: Operand) -> Text {
+        match operand {
+            Operand::Constant(value) => Text::constant(value),
+            Operand::Parameter(position, entry) => {
+                Text::atom(self.entries[position][entry].clone())
+            }
+            Operand::Instruction(index) => self.texts[index]
+                .clone()
+                .unwrap_or_else(|| Text::constant(0.0)),
+        }
+    }
+
+    /// The statements as text.
+    pub(super) fn statements(&self) -> String {
+        let mut text = String::new();
+        let pattern = |names: &[String]| match names {
+            [name] => name.clone(),
+            names => format!("({})", names.join(", ")),
+        };
+        if self.statements.len() <= BLOCK {
+            for statement in &self.statements {
+                let _ = writeln!(
+                    text,
+                    "let {} = {};",
+                    pattern(&statement.names),
+                    statement.value
+                );
+            }
+            return text;
+        }
+        for block in self.statements.chunks(BLOCK) {
+            let names: Vec<&str> = block
+                .iter()
+                .flat_map(|s| &s.names)
+                .map(String::as_str)
+                .collect();
+            let _ = writeln!(text, "let ({},);", names.join(", "));
+            for statement in block {
+                let _ = writeln!(text, "{} = {};", pattern(&statement.names), statement.value);
+            }
+        }
+        text
+    }
+
+    fn load_parameters(&mut self, names: &mut Names) {
+        let used = self.used_entries();
+        for (parameter, used) in self.kernel.parameters.iter().zip(used) {
+            let mut entries = Vec::new();
+            for (entry, wanted) in parameter.entries.iter().enumerate() {
+                if parameter.scalar {
+                    entries.push(parameter.name.to_owned());
+                    continue;
+                }
+                if !used[entry] {
+                    entries.push(String::new());
+                    continue;
+                }
+                let name = names.unique(wanted);
+                let value = format!("{}[{entry}]", parameter.name);
+                self.statements.push(Statement {
+                    names: vec![name.clone()],
+                    value,
+                });
+                entries.push(name);
+            }
+            self.entries.push(entries);
+        }
+    }
+
+    fn used_entries(&self) -> Vec<Vec<bool>> {
+        let mut used: Vec<Vec<bool>> = self
+            .kernel
+            .parameters
+            .iter()
+            .map(|p| vec![false; p.entries.len()])
+            .collect();
+        let operands = self
+            .kernel
+            .instructions
+            .iter()
+            .flat_map(|i| i.operation.operands());
+        let results = self
+            .kernel
+            .results
+            .iter()
+            .flat_map(|array| array.values.iter().copied());
+        for operand in operands.chain(results) {
+            if let Operand::Parameter(position, entry) = operand {
+                used[position][entry] = true;
+            }
+        }
+        used
+    }
+
+    fn compute(&mut self, names: &mut Names) {
+        let instructions = &self.kernel.instructions;
+        let uses = self.uses();
+        let partners = self.sine_partners();
+        let mut size = vec![1; instructions.len()];
+        for (index, instruction) in instructions.iter().enumerate() {
+            if self.texts[index].is_some() {
+                continue;
+            }
+            if let Some(cosine) = partners[index] {
+                let Operation::Unary(_, angle) = instruction.operation else {
+                    continue;
+                };
+                let (first, second) = (index, cosine);
+                let pair = [first, second].map(|k| {
+                    let name = wanted(&instructions[k], |operand| self.name(operand));
+                    names.unique(&name)
+                });
+                let sine_first = matches!(instruction.operation, Operation::Unary(Unary::Sin, _));
+                let order = if sine_first { [0, 1] } else { [1, 0] };
+                let call = Text::unary(Unary::Sin, &self.text(angle)).text;
+                let value = format!("{}.sin_cos()", call.trim_end_matches(".sin()"));
+                self.statements.push(Statement {
+                    names: order.map(|k| pair[k].clone()).to_vec(),
+                    value,
+                });
+                for (k, name) in [first, second].into_iter().zip(pair) {
+                    self.texts[k] = Some(Text::atom(name));
+                }
+                continue;
+            }
+            let (text, operations) = match instruction.operation {
+                Operation::Unary(operator, a) => {
+                    (Text::unary(operator, &self.text(a)), self.size(&size, a))
+                }
+                Operation::Binary(operator, a, b) => (
+                    Text::binary(operator, &self.text(a), &self.text(b)),
+                    self.size(&size, a) + self.size(&size, b),
+                ),
+            };
+            let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
+            let inline =
+                sign || (uses[index] == 1 && instruction.name.is_none() && operations < INLINE);
+            if inline {
+                size[index] = operations + usize::from(!sign);
+                self.texts[index] = Some(text);
+                continue;
+            }
+            size[index] = 0;
+            let wanted = wanted(instruction, |operand| self.name(operand));
+            let name = names.unique(&wanted);
+            self.statements.push(Statement {
+                names: vec![name.clone()],
+                value: text.text,
+            });
+            self.texts[index] = Some(Text::atom(name));
+        }
+    }
+
+    /// How often each value is written; a sign passes the count on to its operand, because signs are never stored.
+    fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.kernel.instructions.len()];
+        for array in &self.kernel.results {
+            for value in &array.values {
+                if let Operand::Instruction(index) = *value {
+                    uses[index] += 1;
+                }
+            }
+        }
+        for (index, instruction) in self.kernel.instructions.iter().enumerate().rev() {
+            let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
+            let count = if sign { uses[index] } else { 1 };
+            for operand in instruction.operation.operands() {
+                if let Operand::Instruction(operand) = operand {
+                    uses[operand] += count;
+                }
+            }
+        }
+        uses
+    }
+
+    /// For the first of a sine and a cosine of one angle, the other.
+    fn sine_partners(&self) -> Vec<Option<usize>> {
+        let instructions = &self.kernel.instructions;
+        let mut partners = vec![None; instructions.len()];
+        let mut first: Vec<(Operand, Unary, usize)> = Vec::new();
+        for (index, instruction) in instructions.iter().enumerate() {
+            if let Operation::Unary(operator @ (Unary::Sin | Unary::Cos), angle) =
+                instruction.operation
+            {
+                match first.iter().find(|(a, o, _)| *a == angle && *o != operator) {
+                    Some(&(_, _, earlier)) => partners[earlier] = Some(index),
+                    None => first.push((angle, operator, index)),
+                }
+            }
+        }
+        partners
+    }
+
+    fn size(&self, size: &[usize], operand: Operand) -> usize {
+        match operand {
+            Operand::Instruction(index) => size[index],
+            _ => 0,
+        }
+    }
+
+    /// The name of a stored value.
+    fn name(&self, operand: Operand) -> Option<String> {
+        if let Operand::Constant(_) = operand {
+            return None;
+        }
+        let text = self.text(operand).text;
+        text.bytes()
+            .all(|b| b.is_ascii_alphanumeric() || b == b'_')
+            .then_some(text)
+    }
+}

@@ -1,0 +1,78 @@
+//! Single expressions as Rust text.
+
+use crate::algebra::{Operator, Unary};
+
+/// How tightly a piece of text holds together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// A piece of Rust text.
+#[derive(Clone, Debug)]
+pub(super) struct Text {
+    pub(super) text: String,
+    pub(super) binding: Binding,
+}
+
+impl Text {
+    /// A name or a call.
+    pub(super) fn atom(text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            binding: Binding::Atom,
+        }
+    }
+
+    /// A number.
+    pub(super) fn constant(value: f64) -> Self {
+        Self::atom(format!("T::constant({value:?})"))
+    }
+
+    fn within(&self, least: Binding) -> String {
+        if self.binding >= least {
+            self.text.clone()
+        } else {
+            format!("({})", self.text)
+        }
+    }
+
+    /// An operator of one operand.
+    pub(super) fn unary(operator: Unary, a: &Self) -> Self {
+        let call = |function: &str| Self::atom(format!("{}.{function}()", a.within(Binding::Atom)));
+        match operator {
+            Unary::Negate => Self {
+                text: format!("-{}", a.within(Binding::Atom)),
+                binding: Binding::Sign,
+            },
+            Unary::PowerInteger(n) => Self::atom(format!("{}.powi({n})", a.within(Binding::Atom))),
+            Unary::Sqrt => call("sqrt"),
+            Unary::Sin => call("sin"),
+            Unary::Cos => call("cos"),
+            Unary::Tan => call("tan"),
+            Unary::Asin => call("asin"),
+            Unary::Acos => call("acos"),
+            Unary::Exp => call("exp"),
+            Unary::Ln => call("ln"),
+        }
+    }
+
+    /// An operator of two operands. The order of evaluation is the graph's: the right operand keeps its parentheses.
+    pub(super) fn binary(operator: Operator, a: &Self, b: &Self) -> Self {
+        let infix = |sign, left, right, binding| Self {
+            text: format!("{} {sign} {}", a.within(left), b.within(right)),
+            binding,
+        };
+        match operator {
+            Operator::Add => infix("+", Binding::Sum, Binding::Product, Binding::Sum),
+            Operator::Subtract => infix("-", Binding::Sum, Binding::Product, Binding::Sum),
+            Operator::Multiply => infix("*", Binding::Product, Binding::Sign, Binding::Product),
+            Operator::Divide => infix("/", Binding::Product, Binding::Sign, Binding::Product),
+            Operator::Power => Self::atom(format!("{}.powf({})", a.within(Binding::Atom), b.text)),
+            Operator::Atan2 => Self::atom(format!("{}.atan2({})", a.within(Binding::Atom), b.text)),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! From a program to Rust items that a person can read.
+//!
+//! ```text
+//! pub struct Pendulum;
+//! impl Pendulum { pub const theta: Coordinate = Coordinate(0); pub const omega: Input = Input(0); .. }
+//! impl Mechanism<1, 1, 2, 0> for Pendulum {
+//!     const DESCRIPTION: Description = ..;
+//!     fn residual<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> [T; 1] {
+//!         let l = b[0];
+//!         let theta = q[0];
+//!         let (sin_theta, cos_theta) = theta.sin_cos();
+//!         ..
+//!     }
+//! }
+//! ```
+//!
+//! Method bodies are written as text and parsed once: building them token by token costs more than the algebra.
+
+mod body;
+mod contract;
+mod description;
+mod expression;
+mod names;
+mod violation;
+
+use std::fmt::Write;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::mechanics::{Properties, Requirement};
+use crate::model::mechanism::Mechanism;
+use crate::program::Program;
+use crate::topology::Topology;
+
+/// Generates the type, its handles and its implementation of the runtime's contract.
+pub fn emit(
+    mechanism: &Mechanism,
+    topology: &Topology,
+    properties: Properties,
+    requirements: &[Requirement],
+    program: &Program,
+) -> TokenStream {
+    let sizes = contract::Sizes {
+        coordinates: topology.free.len(),
+        inputs: mechanism.inputs.len(),
+        design: mechanism.design.len(),
+        outputs: mechanism.outputs.len(),
+    };
+    let mut methods = String::new();
+    for kernel in &program.kernels {
+        let method = match contract::form(kernel.name) {
+            Some(form) => contract::method(kernel, form, sizes),
+            None => violation::method(kernel, requirements),
+        };
+        let _ = writeln!(methods, "{method}");
+    }
+    let methods: TokenStream = methods
+        .parse()
+        .expect("the emitter writes well-formed tokens");
+
+    let Mechanism {
+        name,
+        visibility,
+        attributes,
+        ..
+    } = mechanism;
+    let handles = description::handles(mechanism, topology);
+    let description = description::description(mechanism, topology, properties, program);
+    let contract::Sizes {
+        coordinates,
+        inputs,
+        design,
+        outputs,
+    } = sizes;
+    quote! {
+        #(#attributes)*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        #visibility struct #name;
+
+        #[allow(non_upper_case_globals)]
+        impl #name {
+            #handles
+        }
+
+        #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
+        impl ::eigentol::Mechanism<#coordinates, #inputs, #design, #outputs> for #name {
+            #description
+            #methods
+        }
+    }
+}

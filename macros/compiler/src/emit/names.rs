@@ -1,0 +1,106 @@
+//! Names of local variables: those the derivation gave, or made from what is computed.
+
+use std::collections::BTreeMap;
+
+use crate::algebra::{Operator, Unary};
+use crate::program::{Instruction, Operand, Operation};
+
+/// Longest name that is built from the names of two operands.
+const COMPOUND: usize = 28;
+
+/// Hands out names, each once.
+pub(super) struct Names {
+    taken: BTreeMap<String, usize>,
+}
+
+impl Names {
+    /// Starts with the names that a body must not shadow.
+    pub(super) fn new<'a>(reserved: impl IntoIterator<Item = &'a str>) -> Self {
+        let taken = reserved
+            .into_iter()
+            .map(|name| (name.to_owned(), 1))
+            .collect();
+        Self { taken }
+    }
+
+    /// `wanted`, with a number behind it when it is taken already.
+    pub(super) fn unique(&mut self, wanted: &str) -> String {
+        let wanted = wanted.trim_start_matches("r#");
+        let keyword = syn::parse_str::<syn::Ident>(wanted).is_err();
+        let base = if keyword {
+            format!("{wanted}_value")
+        } else {
+            wanted.to_owned()
+        };
+        let count = self.taken.entry(base.clone()).or_insert(0);
+        *count += 1;
+        if *count == 1 {
+            return base;
+        }
+        let mut number = *count;
+        loop {
+            let name = format!("{base}_{number}");
+            if !self.taken.contains_key(&name) {
+                self.taken.insert(base, number);
+                self.taken.insert(name.clone(), 1);
+                return name;
+            }
+            number += 1;
+        }
+    }
+}
+
+/// What to call the value of an instruction whose operands have the given names, if they have any.
+pub(super) fn wanted(
+    instruction: &Instruction,
+    operand: impl Fn(Operand) -> Option<String>,
+) -> String {
+    if let Some(name) = &instruction.name {
+        return name.clone();
+    }
+    let of = |word: &str, a: Operand| match operand(a) {
+        Some(name) if name.len() <= COMPOUND => format!("{word}_{name}"),
+        _ => word.to_owned(),
+    };
+    match instruction.operation {
+        Operation::Unary(operator, a) => of(function_name(operator), a),
+        Operation::Binary(operator, a, b) => match (operator, operand(a), operand(b)) {
+            (Operator::Multiply, Some(x), Some(y)) if x == y && x.len() <= COMPOUND => {
+                format!("{x}_squared")
+            }
+            (Operator::Multiply, Some(x), Some(y)) if x.len() + y.len() < COMPOUND => {
+                format!("{x}_{y}")
+            }
+            (Operator::Multiply, None, Some(x)) | (Operator::Multiply, Some(x), None)
+                if x.len() <= COMPOUND =>
+            {
+                format!("scaled_{x}")
+            }
+            (Operator::Divide, Some(x), Some(y)) if x.len() + y.len() < COMPOUND => {
+                format!("{x}_per_{y}")
+            }
+            (Operator::Divide, _, Some(x)) if x.len() <= COMPOUND => format!("inverse_{x}"),
+            (Operator::Add, ..) => "sum".to_owned(),
+            (Operator::Subtract, ..) => "difference".to_owned(),
+            (Operator::Multiply, ..) => "product".to_owned(),
+            (Operator::Divide, ..) => "ratio".to_owned(),
+            (Operator::Power, ..) => "power".to_owned(),
+            (Operator::Atan2, ..) => "angle".to_owned(),
+        },
+    }
+}
+
+fn function_name(operator: Unary) -> &'static str {
+    match operator {
+        Unary::Negate => "minus",
+        Unary::Sqrt => "sqrt",
+        Unary::Sin => "sin",
+        Unary::Cos => "cos",
+        Unary::Tan => "tan",
+        Unary::Asin => "asin",
+        Unary::Acos => "acos",
+        Unary::Exp => "exp",
+        Unary::Ln => "ln",
+        Unary::PowerInteger(_) => "power",
+    }
+}

@@ -1,0 +1,48 @@
+//! The recipe: every stage in order.
+
+use proc_macro2::TokenStream;
+
+use crate::base::diagnostics::Diagnostics;
+use crate::emit::emit;
+use crate::mechanics::{Functions, Limits, derive};
+use crate::model::mechanism::Mechanism;
+use crate::model::resolve::resolve;
+use crate::program::{Program, lower};
+use crate::syntax::ast::Ast;
+use crate::syntax::parse::parse;
+use crate::topology::Topology;
+use crate::topology::build::build;
+
+/// A declaration at every stage of its compilation.
+#[derive(Clone, Debug)]
+pub struct Compilation {
+    /// The declaration as written.
+    pub ast: Ast,
+    /// Names resolved, values in SI, every rule checked.
+    pub mechanism: Mechanism,
+    /// The spanning forest.
+    pub topology: Topology,
+    /// The equations and what is derived from them.
+    pub functions: Functions,
+    /// Straight-line kernels.
+    pub program: Program,
+}
+
+/// Runs every stage up to the program. The mistakes of one stage are reported together; a later stage runs only on
+/// what the earlier ones accepted.
+pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
+    let ast = parse(declaration)?;
+    let mechanism = resolve(&ast)?;
+    let topology = build(&mechanism)?;
+    let functions = derive(&mechanism, &topology, limits)?;
+    let program = lower(&functions.graph, &functions.functions);
+    Ok(Compilation { ast, mechanism, topology, functions, program })
+}
+
+impl Compilation {
+    /// The generated items.
+    pub fn emit(&self) -> TokenStream {
+        let Functions { requirements, properties, .. } = &self.functions;
+        emit(&self.mechanism, &self.topology, *properties, requirements, &self.program)
+    }
+}
