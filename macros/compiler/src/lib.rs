@@ -1,16 +1,50 @@
 //! The compiler behind `mechanism!`: a declaration in, specialised Rust out.
+//!
+//! Seven types, six arrows; each arrow is a folder, and a stage never looks back:
+//!
+//! ```text
+//! TokenStream -> Ast -> Mechanism -> Topology -> Functions -> Program -> TokenStream
+//!          parse   resolve     cut loops    derive      lower     emit
+//! ```
+//!
+//! [`expand`] is the macro. For build scripts, snapshot tests and tools there are also [`expand_pretty`] (with the
+//! feature `pretty`), [`program`] for evaluation without compiling, and [`compile`] with every stage.
+//!
+//! Architecture invariant: nothing in here depends on the runtime.
 
 pub mod algebra;
 pub mod base;
 pub mod emit;
 pub mod mechanics;
 pub mod model;
+mod pipeline;
 pub mod program;
+pub mod syntax;
 pub mod topology;
 
+pub use pipeline::{Compilation, compile};
+
+use base::diagnostics::Diagnostics;
+use mechanics::Limits;
 use proc_macro2::TokenStream;
 
-/// Expands a declaration to Rust items, or to `compile_error!`s.
-pub fn expand(_declaration: TokenStream) -> TokenStream {
-    TokenStream::new()
+/// Expands a declaration to Rust items, or to one `compile_error!` per mistake at the offending tokens.
+pub fn expand(declaration: TokenStream) -> TokenStream {
+    match compile(declaration, Limits::default()) {
+        Ok(compilation) => compilation.emit(),
+        Err(mistakes) => mistakes.into_compile_errors(),
+    }
+}
+
+/// The kernels of a declaration, ready to be evaluated without a Rust compiler.
+pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics> {
+    compile(declaration, Limits::default()).map(|compilation| compilation.program)
+}
+
+/// The generated items, formatted for reading.
+#[cfg(feature = "pretty")]
+pub fn expand_pretty(declaration: TokenStream) -> Result<String, Diagnostics> {
+    let items = compile(declaration, Limits::default())?.emit();
+    let file = syn::parse2(items).expect("the emitter writes well-formed items");
+    Ok(prettyplease::unparse(&file))
 }
