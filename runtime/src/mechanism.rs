@@ -151,6 +151,7 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
 
     /// Explicit partial derivatives of the outputs by every coordinate, input and design variable.
+    #[allow(clippy::type_complexity)]
     fn output_partials<T: Real>(
         &self,
         q: &[T; N],

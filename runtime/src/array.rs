@@ -1,0 +1,225 @@
+//! Linear algebra on plain arrays: small systems stay on the stack, whatever their size, without a matrix library.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+/// A square matrix, `matrix[row][column]`.
+pub(crate) type Square<const N: usize> = [[f64; N]; N];
+
+pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..N {
+        sum += a[i] * b[i];
+    }
+    sum
+}
+
+pub(crate) fn times<const R: usize, const C: usize>(
+    matrix: &[[f64; C]; R],
+    x: &[f64; C],
+) -> [f64; R] {
+    core::array::from_fn(|i| dot(&matrix[i], x))
+}
+
+/// `a + factor * b`.
+pub(crate) fn add_scaled<const N: usize>(a: &[f64; N], factor: f64, b: &[f64; N]) -> [f64; N] {
+    core::array::from_fn(|i| a[i] + factor * b[i])
+}
+
+/// Quadratic form `x^T matrix y`.
+pub(crate) fn form<const N: usize>(x: &[f64; N], matrix: &Square<N>, y: &[f64; N]) -> f64 {
+    dot(x, &times(matrix, y))
+}
+
+pub(crate) fn transpose<const R: usize, const C: usize>(matrix: &[[f64; C]; R]) -> [[f64; R]; C] {
+    core::array::from_fn(|j| core::array::from_fn(|i| matrix[i][j]))
+}
+
+pub(crate) fn largest<const N: usize>(x: &[f64; N]) -> f64 {
+    x.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+pub(crate) fn largest_element<const N: usize>(matrix: &Square<N>) -> f64 {
+    matrix
+        .iter()
+        .fold(0.0, |most: f64, row| most.max(largest(row)))
+}
+
+pub(crate) fn all_finite<const N: usize>(x: &[f64; N]) -> bool {
+    x.iter().all(|value| value.is_finite())
+}
+
+pub(crate) fn all_finite_square<const N: usize>(matrix: &Square<N>) -> bool {
+    matrix.iter().all(all_finite)
+}
+
+/// Greatest difference of mirrored elements, relative to the greatest element.
+pub(crate) fn asymmetry<const N: usize>(matrix: &Square<N>) -> f64 {
+    let size = largest_element(matrix);
+    let mut most = 0.0_f64;
+    for i in 0..N {
+        for j in 0..i {
+            most = most.max((matrix[i][j] - matrix[j][i]).abs());
+        }
+    }
+    if size > 0.0 { most / size } else { 0.0 }
+}
+
+/// Cholesky factor of a symmetric positive definite matrix (lower triangle, `matrix = L L^T`).
+pub(crate) struct Cholesky<const N: usize> {
+    lower: Square<N>,
+}
+
+impl<const N: usize> Cholesky<N> {
+    /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
+    pub(crate) fn new(matrix: &Square<N>) -> Result<Self, usize> {
+        let threshold = 8.0 * N as f64 * f64::EPSILON;
+        let mut lower = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..=i {
+                let mut sum = matrix[i][j];
+                for k in 0..j {
+                    sum -= lower[i][k] * lower[j][k];
+                }
+                if i != j {
+                    lower[i][j] = sum / lower[j][j];
+                } else if sum > threshold * matrix[i][i].abs() && sum.is_finite() {
+                    lower[i][i] = sum.sqrt();
+                } else {
+                    return Err(i);
+                }
+            }
+        }
+        Ok(Self { lower })
+    }
+
+    pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
+        let mut x = *right;
+        for i in 0..N {
+            for k in 0..i {
+                x[i] -= self.lower[i][k] * x[k];
+            }
+            x[i] /= self.lower[i][i];
+        }
+        for i in (0..N).rev() {
+            for k in i + 1..N {
+                x[i] -= self.lower[k][i] * x[k];
+            }
+            x[i] /= self.lower[i][i];
+        }
+        x
+    }
+}
+
+/// Triangular factors of a general matrix with row exchanges.
+pub(crate) struct Lu<const N: usize> {
+    factors: Square<N>,
+    order: [usize; N],
+    odd: bool,
+}
+
+impl<const N: usize> Lu<N> {
+    /// Factors `matrix`; `None` when a pivot does not rise above the rounding of its own row.
+    pub(crate) fn new(matrix: &Square<N>) -> Option<Self> {
+        let threshold = 8.0 * N as f64 * f64::EPSILON;
+        let mut factors = *matrix;
+        let mut order: [usize; N] = core::array::from_fn(|i| i);
+        let mut size: [f64; N] = core::array::from_fn(|i| largest(&matrix[i]));
+        let mut odd = false;
+        for k in 0..N {
+            let mut best = k;
+            let mut most = -1.0;
+            for i in k..N {
+                let relative = factors[i][k].abs() / size[i];
+                if relative > most {
+                    best = i;
+                    most = relative;
+                }
+            }
+            if most.is_nan() || most <= threshold {
+                return None;
+            }
+            if best != k {
+                factors.swap(k, best);
+                order.swap(k, best);
+                size.swap(k, best);
+                odd = !odd;
+            }
+            for i in k + 1..N {
+                let factor = factors[i][k] / factors[k][k];
+                factors[i][k] = factor;
+                for j in k + 1..N {
+                    factors[i][j] -= factor * factors[k][j];
+                }
+            }
+        }
+        Some(Self {
+            factors,
+            order,
+            odd,
+        })
+    }
+
+    pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
+        let mut x: [f64; N] = core::array::from_fn(|i| right[self.order[i]]);
+        for i in 0..N {
+            for k in 0..i {
+                x[i] -= self.factors[i][k] * x[k];
+            }
+        }
+        for i in (0..N).rev() {
+            for k in i + 1..N {
+                x[i] -= self.factors[i][k] * x[k];
+            }
+            x[i] /= self.factors[i][i];
+        }
+        x
+    }
+
+    /// Whether the determinant is negative.
+    pub(crate) fn negative_determinant(&self) -> bool {
+        (0..N).fold(self.odd, |negative, i| {
+            negative != (self.factors[i][i] < 0.0)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_factorisations_solve() {
+        let matrix = [[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 5.0]];
+        let x = [1.0, -2.0, 3.0];
+        let right = times(&matrix, &x);
+        let Ok(cholesky) = Cholesky::new(&matrix) else {
+            panic!("positive definite")
+        };
+        let Some(lu) = Lu::new(&matrix) else {
+            panic!("regular")
+        };
+        for solution in [cholesky.solve(&right), lu.solve(&right)] {
+            assert!(largest(&add_scaled(&solution, -1.0, &x)) < 1e-14);
+        }
+        assert!(!lu.negative_determinant());
+    }
+
+    #[test]
+    fn singular_matrices_are_refused() {
+        let singular = [[1.0, 2.0], [2.0, 4.0]];
+        assert_eq!(Cholesky::new(&singular).err(), Some(1));
+        assert!(Lu::new(&singular).is_none());
+        assert!(Lu::new(&[[0.0; 2]; 2]).is_none());
+        assert!(Lu::new(&[[f64::NAN; 2]; 2]).is_none());
+    }
+
+    #[test]
+    fn sign_of_determinant_follows_exchanges() {
+        let Some(swap) = Lu::new(&[[0.0, 1.0], [1.0, 0.0]]) else {
+            panic!("regular")
+        };
+        assert!(swap.negative_determinant());
+    }
+}

@@ -1,0 +1,264 @@
+//! Stable equilibria of a mechanism with symmetric `Khat`: the residual is then the gradient of an amended potential,
+//! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
+//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle.
+
+use super::Found;
+use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::problem::{Failure, Problem};
+use crate::Mechanism;
+use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
+use crate::modes::neutral_threshold;
+use crate::modes::symmetric;
+
+const MAX_ITERATIONS: usize = 300;
+const MAX_DEPARTURES: usize = 8;
+/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
+const FIRST_RADIUS: f64 = 1.0;
+/// Displacement (rad or m) by which an unstable equilibrium is left.
+const DEPARTURE: f64 = 1e-3;
+
+/// Descends from `start` to a minimum of the amended potential.
+pub(super) fn stable<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+) -> Result<Found<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut q = *start;
+    let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
+    let mut radius = FIRST_RADIUS;
+    let mut departures = 0;
+    let mut left_unstable_region = false;
+    let mut watch = Watch::new();
+    for iterations in 0..MAX_ITERATIONS {
+        let convex = Cholesky::new(&stiffness).ok();
+        let solved = watch.finished(problem, &q, &residual, &stiffness);
+        let mut step = match &convex {
+            Some(_) if solved => {
+                return Ok(found(
+                    &q,
+                    &residual,
+                    &stiffness,
+                    iterations,
+                    left_unstable_region,
+                ));
+            }
+            Some(cholesky) => cholesky.solve(&residual).map(|value| -value),
+            None => {
+                let mass = problem.linear(&q)?.mass;
+                let pairs = symmetric::solve(&stiffness, &mass)?;
+                let threshold = neutral_threshold(&pairs.lambda);
+                let unstable = pairs.lambda[0] < -threshold;
+                left_unstable_region |= unstable;
+                if solved && !unstable {
+                    return Ok(found(
+                        &q,
+                        &residual,
+                        &stiffness,
+                        iterations,
+                        left_unstable_region,
+                    ));
+                }
+                if solved {
+                    departures += 1;
+                    if departures > MAX_DEPARTURES {
+                        return Err(failure(problem, "only unstable equilibria", &q, iterations));
+                    }
+                    let step = departure(&pairs.shapes[0], &mass, &q, start);
+                    q = add_scaled(&q, 1.0, &step);
+                    (residual, stiffness) = problem.evaluate_start(&q)?;
+                    watch = Watch::new();
+                    continue;
+                }
+                curved_step(&pairs, &residual)
+            }
+        };
+        let size = largest(&step);
+        let limited = size > radius;
+        if limited {
+            step = step.map(|value| value * radius / size);
+        }
+        if solved_by_rounding(&q, &step) {
+            let relative = relative_residual(problem, &q, &residual, &stiffness);
+            if relative <= TOLERANCE && convex.is_some() {
+                return Ok(found(
+                    &q,
+                    &residual,
+                    &stiffness,
+                    iterations,
+                    left_unstable_region,
+                ));
+            }
+        }
+        let Some(next) = search(problem, &q, &residual, &stiffness, &step) else {
+            let relative = relative_residual(problem, &q, &residual, &stiffness);
+            if relative <= TOLERANCE && convex.is_some() {
+                return Ok(found(
+                    &q,
+                    &residual,
+                    &stiffness,
+                    iterations,
+                    left_unstable_region,
+                ));
+            }
+            return Err(failure(
+                problem,
+                "no descent from the last state",
+                &q,
+                iterations,
+            ));
+        };
+        if next.length < 1.0 {
+            radius = radius.min(2.0 * next.length * largest(&step));
+        } else if limited && next.predicted {
+            radius *= 4.0;
+        }
+        (q, residual, stiffness) = (next.q, next.residual, next.stiffness);
+        if escaped(&q, start) {
+            return Err(failure(
+                problem,
+                "the coordinates escape to infinity",
+                &q,
+                iterations,
+            ));
+        }
+    }
+    Err(failure(problem, "too many iterations", &q, MAX_ITERATIONS))
+}
+
+fn found<const N: usize>(
+    q: &[f64; N],
+    residual: &[f64; N],
+    stiffness: &Square<N>,
+    iterations: usize,
+    left_unstable_region: bool,
+) -> Found<N> {
+    Found {
+        coordinates: *q,
+        residual: *residual,
+        stiffness: *stiffness,
+        iterations,
+        left_unstable_region,
+    }
+}
+
+fn solved_by_rounding<const N: usize>(q: &[f64; N], step: &[f64; N]) -> bool {
+    (0..N).all(|i| step[i].abs() <= f64::EPSILON * q[i].abs())
+}
+
+/// Descent along every mode with the size of its curvature, so that the unstable ones are left, not approached.
+fn curved_step<const N: usize>(pairs: &symmetric::Pairs<N>, residual: &[f64; N]) -> [f64; N] {
+    let floor = 1e-8 * largest(&pairs.lambda);
+    let mut step = [0.0; N];
+    for r in 0..N {
+        let slope = dot(&pairs.shapes[r], residual);
+        if slope != 0.0 {
+            let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
+            let amount = (slope / curvature).clamp(-1e100, 1e100);
+            step = add_scaled(&step, -amount, &pairs.shapes[r]);
+        }
+    }
+    step
+}
+
+/// A small step along the unstable mode, towards the user's start value when that tells a side.
+fn departure<const N: usize>(
+    shape: &[f64; N],
+    mass: &Square<N>,
+    q: &[f64; N],
+    start: &[f64; N],
+) -> [f64; N] {
+    let offset = add_scaled(start, -1.0, q);
+    let side = dot(&offset, &times(mass, shape));
+    let size = form(&offset, mass, &offset).max(0.0).sqrt();
+    // Below a thousandth of the distance the projection says nothing about a side.
+    let sign = if side.abs() > 1e-3 * size && largest(&offset) > 1e-9 {
+        side.signum()
+    } else {
+        1.0
+    };
+    let scale = sign * DEPARTURE / largest(shape);
+    shape.map(|value| value * scale)
+}
+
+struct Next<const N: usize> {
+    q: [f64; N],
+    residual: [f64; N],
+    stiffness: Square<N>,
+    /// Accepted fraction of the step.
+    length: f64,
+    /// The linear model predicted the slope at the end.
+    predicted: bool,
+}
+
+/// Line search on the change of the potential, which is integrated from the slopes and curvatures at both ends
+/// (corrected trapezoidal rule), since the potential itself is not available.
+fn search<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    q: &[f64; N],
+    residual: &[f64; N],
+    stiffness: &Square<N>,
+    step: &[f64; N],
+) -> Option<Next<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let slope_0 = dot(step, residual);
+    let curvature_0 = form(step, stiffness, step);
+    if slope_0.is_nan() || slope_0 >= 0.0 {
+        return None;
+    }
+    let mut length = 1.0;
+    for _ in 0..60 {
+        let trial = add_scaled(q, length, step);
+        let Some((residual, stiffness)) = problem.evaluate(&trial) else {
+            length *= 0.25;
+            continue;
+        };
+        let slope = dot(step, &residual);
+        let curvature = form(step, &stiffness, step);
+        let change =
+            0.5 * length * (slope_0 + slope) + length * length / 12.0 * (curvature_0 - curvature);
+        let settled = slope.abs() <= 0.5 * slope_0.abs() && curvature >= 0.0;
+        if settled || change <= 1e-4 * length * slope_0 {
+            let expected = slope_0 + length * curvature_0;
+            let predicted = (slope - expected).abs() <= 0.25 * slope_0.abs();
+            return Some(Next {
+                q: trial,
+                residual,
+                stiffness,
+                length,
+                predicted,
+            });
+        }
+        length *= if slope > 0.0 {
+            (slope_0 / (slope_0 - slope)).clamp(0.1, 0.7)
+        } else {
+            0.5
+        };
+    }
+    None
+}
+
+fn failure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    reason: &'static str,
+    q: &[f64; N],
+    iterations: usize,
+) -> Failure<N>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let relative = problem
+        .evaluate(q)
+        .map_or(f64::INFINITY, |(residual, stiffness)| {
+            relative_residual(problem, q, &residual, &stiffness)
+        });
+    Failure::NotFound {
+        reason,
+        coordinates: *q,
+        iterations,
+        relative,
+    }
+}

@@ -1,0 +1,137 @@
+//! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would (THEORY section 2).
+
+mod continuation;
+mod convergence;
+mod critical;
+mod descent;
+mod multistart;
+mod newton;
+mod problem;
+mod root;
+mod stability;
+
+pub use continuation::{SweepPoint, sweep};
+pub use critical::{CriticalState, Crossing, Range, critical_state, crossings};
+pub use multistart::{Search, find_equilibria};
+pub use stability::{Doubt, Stability};
+
+pub(crate) use problem::{Failure, Problem};
+
+use crate::{Description, Error, Linear, Mechanism};
+use convergence::relative_residual;
+
+/// Which equilibrium is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Policy {
+    /// A stable one, by descent in the amended potential; where descent finds none, the nearest one, whose
+    /// [`Stability`] then says what it is. Needs a symmetric `Khat`; without it the same as `Nearest`.
+    #[default]
+    Stable,
+    /// The one that Newton's method reaches from the start value, whatever its stability.
+    Nearest,
+}
+
+/// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
+    /// `q*`, rad or m.
+    pub coordinates: [f64; N],
+    /// The inputs it belongs to, SI.
+    pub inputs: [f64; U],
+    /// The design variables it belongs to, SI.
+    pub design: [f64; P],
+    /// Whether the mechanism would stay there.
+    pub stability: Stability,
+    /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
+    pub linear: Linear<f64, N>,
+    /// Remaining residual, N or N m.
+    pub residual: [f64; N],
+    /// Greatest remaining residual relative to the forces and stiffnesses in it.
+    pub relative_residual: f64,
+    /// Iterations spent.
+    pub iterations: usize,
+    /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
+    pub left_unstable_region: bool,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+/// Finds a dynamic equilibrium from the start value `start`.
+///
+/// `u` inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
+/// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component.
+///
+/// # Errors
+/// [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
+/// [`Error::NoEquilibrium`].
+pub fn equilibrium<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    u: &[f64; U],
+    b: &[f64; P],
+    start: &[f64; N],
+    policy: Policy,
+) -> Result<Equilibrium<N, U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let problem = Problem::new(mechanism, u, b)?;
+    problem.check_start(start)?;
+    settle(&problem, start, policy).map_err(|failure| failure.explain(problem.description()))
+}
+
+/// As [`equilibrium`], for values already checked; a failure owns nothing.
+pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    policy: Policy,
+) -> Result<Equilibrium<N, U, P>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    if policy == Policy::Nearest || !M::DESCRIPTION.symmetric_stiffness {
+        return newton::nearest(problem, start).and_then(|found| finish(problem, found));
+    }
+    descent::stable(problem, start)
+        .or_else(|failure| match failure {
+            Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
+            _ => newton::nearest(problem, start).map_err(|_| failure),
+        })
+        .and_then(|found| finish(problem, found))
+}
+
+/// What a solver found, before its stability is judged.
+pub(crate) struct Found<const N: usize> {
+    pub(crate) coordinates: [f64; N],
+    pub(crate) residual: [f64; N],
+    pub(crate) stiffness: [[f64; N]; N],
+    pub(crate) iterations: usize,
+    pub(crate) left_unstable_region: bool,
+}
+
+fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    found: Found<N>,
+) -> Result<Equilibrium<N, U, P>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let linear = problem.linear(&found.coordinates)?;
+    let stability = stability::judge(&M::DESCRIPTION, &linear)?;
+    Ok(Equilibrium {
+        coordinates: found.coordinates,
+        inputs: *problem.inputs,
+        design: *problem.design,
+        stability,
+        linear,
+        residual: found.residual,
+        relative_residual: relative_residual(
+            problem,
+            &found.coordinates,
+            &found.residual,
+            &found.stiffness,
+        ),
+        iterations: found.iterations,
+        left_unstable_region: found.left_unstable_region,
+        description: problem.description(),
+    })
+}

@@ -1,0 +1,142 @@
+//! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
+
+use super::Found;
+use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::problem::{Failure, Problem};
+use crate::Mechanism;
+use crate::array::{Cholesky, Lu, Square, add_scaled, largest, times, transpose};
+
+const MAX_ITERATIONS: usize = 300;
+/// Greatest change of a coordinate in the first step, rad or m; grows while steps succeed.
+const FIRST_RADIUS: f64 = 1.0;
+
+/// Solves `g = 0` from `start`.
+pub(super) fn nearest<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+) -> Result<Found<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut q = *start;
+    let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
+    let weight = weights(&problem.linear(&q)?.mass)?;
+    let mut radius = FIRST_RADIUS;
+    let mut watch = Watch::new();
+    for iterations in 0..MAX_ITERATIONS {
+        let found = Found {
+            coordinates: q,
+            residual,
+            stiffness,
+            iterations,
+            left_unstable_region: false,
+        };
+        if watch.finished(problem, &q, &residual, &stiffness) {
+            return Ok(found);
+        }
+        let mut step = newton_step(&residual, &stiffness, &weight);
+        let size = largest(&step);
+        let limited = size > radius;
+        if limited {
+            step = step.map(|value| value * radius / size);
+        }
+        let Some((next, length)) = search(problem, &q, &residual, &step, &weight) else {
+            let relative = relative_residual(problem, &q, &residual, &stiffness);
+            if relative <= TOLERANCE {
+                return Ok(found);
+            }
+            let reason = "the residual has a minimum that is not zero";
+            return Err(Failure::NotFound {
+                reason,
+                coordinates: q,
+                iterations,
+                relative,
+            });
+        };
+        if length < 1.0 {
+            radius = radius.min(2.0 * length * largest(&step));
+        } else if limited {
+            radius *= 2.0;
+        }
+        (q, residual, stiffness) = next;
+        if escaped(&q, start) {
+            break;
+        }
+    }
+    let relative = relative_residual(problem, &q, &residual, &stiffness);
+    let reason = if escaped(&q, start) {
+        "the coordinates escape to infinity"
+    } else {
+        "too many iterations"
+    };
+    Err(Failure::NotFound {
+        reason,
+        coordinates: q,
+        iterations: MAX_ITERATIONS,
+        relative,
+    })
+}
+
+/// Inverse generalised masses: they make the squares of forces and of moments comparable.
+fn weights<const N: usize>(mass: &Square<N>) -> Result<[f64; N], Failure<N>> {
+    let mut weight = [0.0; N];
+    for i in 0..N {
+        if mass[i][i].is_nan() || mass[i][i] <= 0.0 {
+            return Err(Failure::SingularMass(i));
+        }
+        weight[i] = 1.0 / mass[i][i];
+    }
+    Ok(weight)
+}
+
+fn merit<const N: usize>(residual: &[f64; N], weight: &[f64; N]) -> f64 {
+    (0..N).fold(0.0, |sum, i| sum + weight[i] * residual[i] * residual[i])
+}
+
+/// The Newton step; where `Khat` is singular, a damped least-squares step.
+fn newton_step<const N: usize>(
+    residual: &[f64; N],
+    stiffness: &Square<N>,
+    weight: &[f64; N],
+) -> [f64; N] {
+    if let Some(lu) = Lu::new(stiffness) {
+        return lu.solve(residual).map(|value| -value);
+    }
+    let weighted: Square<N> = core::array::from_fn(|i| stiffness[i].map(|value| value * weight[i]));
+    let right = times(&transpose(&weighted), residual).map(|value| -value);
+    let columns = transpose(stiffness);
+    let mut normal: Square<N> = core::array::from_fn(|i| {
+        core::array::from_fn(|j| (0..N).fold(0.0, |sum, k| sum + columns[i][k] * weighted[k][j]))
+    });
+    let trace = (0..N).fold(0.0, |sum, i| sum + normal[i][i]);
+    for (i, row) in normal.iter_mut().enumerate() {
+        row[i] += 1e-8 * trace + f64::MIN_POSITIVE;
+    }
+    Cholesky::new(&normal).map_or(right, |cholesky| cholesky.solve(&right))
+}
+
+type Evaluated<const N: usize> = ([f64; N], [f64; N], Square<N>);
+
+fn search<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    q: &[f64; N],
+    residual: &[f64; N],
+    step: &[f64; N],
+    weight: &[f64; N],
+) -> Option<(Evaluated<N>, f64)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let before = merit(residual, weight);
+    let mut length = 1.0;
+    for _ in 0..40 {
+        let trial = add_scaled(q, length, step);
+        if let Some((residual, stiffness)) = problem.evaluate(&trial)
+            && merit(&residual, weight) <= before * (1.0 - 1e-4 * length)
+        {
+            return Some(((trial, residual, stiffness), length));
+        }
+        length *= 0.5;
+    }
+    None
+}

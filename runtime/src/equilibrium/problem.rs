@@ -1,0 +1,172 @@
+//! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
+
+use crate::array::{Square, all_finite, all_finite_square};
+use crate::modes::symmetric::Trouble;
+use crate::{Description, Error, Linear, Mechanism};
+
+/// A mechanism at given inputs and design variables.
+pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
+    pub(crate) mechanism: &'a M,
+    pub(crate) inputs: &'a [f64; U],
+    pub(crate) design: &'a [f64; P],
+}
+
+impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize>
+    Problem<'a, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    const DESCRIPTION: &'static Description = &M::DESCRIPTION;
+
+    /// Checks that the values are finite and describe bodies that can exist.
+    pub(crate) fn new(
+        mechanism: &'a M,
+        inputs: &'a [f64; U],
+        design: &'a [f64; P],
+    ) -> Result<Self, Error> {
+        let names = M::DESCRIPTION;
+        for (index, &value) in inputs.iter().enumerate() {
+            let name = names.inputs.get(index).map_or("?", |info| info.name);
+            finite("input", name, value)?;
+        }
+        for (index, &value) in design.iter().enumerate() {
+            let name = names.design.get(index).map_or("?", |info| info.name);
+            finite("design variable", name, value)?;
+        }
+        if let Some(violation) = mechanism.violation(inputs, design) {
+            return Err(Error::Unphysical {
+                quantity: violation.quantity,
+                requirement: violation.requirement,
+                value: violation.value,
+            });
+        }
+        Ok(Self {
+            mechanism,
+            inputs,
+            design,
+        })
+    }
+
+    /// For values that a caller has checked itself.
+    pub(crate) fn unchecked(mechanism: &'a M, inputs: &'a [f64; U], design: &'a [f64; P]) -> Self {
+        Self {
+            mechanism,
+            inputs,
+            design,
+        }
+    }
+
+    pub(crate) fn description(&self) -> &'static Description {
+        Self::DESCRIPTION
+    }
+
+    pub(crate) fn check_start(&self, start: &[f64; N]) -> Result<(), Error> {
+        for (index, &value) in start.iter().enumerate() {
+            let name = M::DESCRIPTION
+                .coordinates
+                .get(index)
+                .map_or("?", |info| info.name);
+            finite("start value of coordinate", name, value)?;
+        }
+        Ok(())
+    }
+
+    /// Residual and stiffness; `None` when either is not finite.
+    pub(crate) fn evaluate(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
+        let (residual, stiffness) =
+            self.mechanism
+                .residual_and_stiffness(q, self.inputs, self.design);
+        (all_finite(&residual) && all_finite_square(&stiffness)).then_some((residual, stiffness))
+    }
+
+    pub(crate) fn evaluate_start(&self, q: &[f64; N]) -> Result<([f64; N], Square<N>), Failure<N>> {
+        self.evaluate(q).ok_or(Failure::OutsideDomain {
+            what: "the residual",
+            coordinates: *q,
+        })
+    }
+
+    pub(crate) fn linear(&self, q: &[f64; N]) -> Result<Linear<f64, N>, Failure<N>> {
+        let linear = self.mechanism.linear(q, self.inputs, self.design);
+        for (what, matrix) in [
+            ("the mass matrix", &linear.mass),
+            ("the damping matrix", &linear.damping),
+            ("the stiffness matrix", &linear.stiffness),
+        ] {
+            if !all_finite_square(matrix) {
+                return Err(Failure::OutsideDomain {
+                    what,
+                    coordinates: *q,
+                });
+            }
+        }
+        Ok(linear)
+    }
+}
+
+fn finite(kind: &'static str, name: &'static str, value: f64) -> Result<(), Error> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::NotFinite { kind, name, value })
+    }
+}
+
+/// Why a solve failed; owns nothing, so that a failing sample costs no allocation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Failure<const N: usize> {
+    OutsideDomain {
+        what: &'static str,
+        coordinates: [f64; N],
+    },
+    NotFound {
+        reason: &'static str,
+        coordinates: [f64; N],
+        iterations: usize,
+        relative: f64,
+    },
+    SingularMass(usize),
+    Mode {
+        mode: usize,
+        residual: f64,
+    },
+}
+
+impl<const N: usize> From<Trouble> for Failure<N> {
+    fn from(trouble: Trouble) -> Self {
+        match trouble {
+            Trouble::SingularMass(row) => Self::SingularMass(row),
+            Trouble::Inaccurate { mode, residual } => Self::Mode { mode, residual },
+        }
+    }
+}
+
+impl<const N: usize> Failure<N> {
+    pub(crate) fn explain(self, description: &'static Description) -> Error {
+        match self {
+            Self::OutsideDomain { what, coordinates } => Error::OutsideDomain {
+                mechanism: description.name,
+                what,
+                coordinates: coordinates.to_vec(),
+            },
+            Self::NotFound {
+                reason,
+                coordinates,
+                iterations,
+                relative,
+            } => Error::NoEquilibrium {
+                reason,
+                iterations,
+                coordinates: coordinates.to_vec(),
+                relative_residual: relative,
+            },
+            Self::SingularMass(row) => Error::SingularMass {
+                coordinate: description
+                    .coordinates
+                    .get(row)
+                    .map_or("?", |info| info.name),
+            },
+            Self::Mode { mode, residual } => Error::ModesNotFound { mode, residual },
+        }
+    }
+}

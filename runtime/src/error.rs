@@ -1,0 +1,146 @@
+//! What can go wrong when a mechanism is solved, in the user's terms.
+
+use thiserror::Error as ThisError;
+
+/// A failure of one of the solvers. Values are SI.
+#[derive(Clone, Debug, PartialEq, ThisError)]
+#[non_exhaustive]
+pub enum Error {
+    /// An input, a design variable or a start value is NaN or infinite.
+    #[error("{kind} `{name}` is {value}: give a finite value")]
+    NotFinite {
+        /// What kind of quantity it is: `input`, `design variable`, `start value of coordinate` ...
+        kind: &'static str,
+        /// Its declared name.
+        name: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// A physical requirement is not met.
+    #[error("{quantity} must be {requirement}, but is {value}")]
+    Unphysical {
+        /// What is wrong, for example `mass of bar1`.
+        quantity: &'static str,
+        /// What it has to be.
+        requirement: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// The residual or its derivatives are NaN or infinite although everything given is finite.
+    #[error(
+        "{what} of `{mechanism}` is not finite at q = {coordinates:?}: the state lies outside the \
+         domain of an expression"
+    )]
+    OutsideDomain {
+        /// Name of the mechanism.
+        mechanism: &'static str,
+        /// What was evaluated.
+        what: &'static str,
+        /// Where.
+        coordinates: Vec<f64>,
+    },
+    /// No equilibrium was found from the start value.
+    #[error(
+        "no equilibrium found after {iterations} iterations ({reason}); last state q = {coordinates:?}, \
+         relative residual {relative_residual:.3e}: try another start value"
+    )]
+    NoEquilibrium {
+        /// Why the search ended.
+        reason: &'static str,
+        /// Iterations spent.
+        iterations: usize,
+        /// Last state.
+        coordinates: Vec<f64>,
+        /// Residual there, relative to the forces and stiffnesses in it.
+        relative_residual: f64,
+    },
+    /// The mass matrix is not positive definite: a coordinate moves no mass.
+    #[error(
+        "the mass matrix is singular: coordinate `{coordinate}` moves no mass of its own, so it has no \
+         natural frequency"
+    )]
+    SingularMass {
+        /// The coordinate whose pivot vanishes.
+        coordinate: &'static str,
+    },
+    /// The stiffness matrix is singular: the equilibrium is a critical state.
+    #[error(
+        "the stiffness matrix is singular at this equilibrium (critical state): its shift by design \
+         variables is not defined; `critical_sensitivity` treats this state"
+    )]
+    CriticalState,
+    /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
+    #[error(
+        "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): this mechanism needs \
+         general modes, which this version does not have"
+    )]
+    NonsymmetricStiffness {
+        /// Greatest difference of mirrored elements relative to the greatest element.
+        asymmetry: f64,
+    },
+    /// The eigenvalue iteration did not converge or gave a pair that fails its residual check.
+    #[error("mode {mode} was not found to working accuracy: relative residual {residual:.3e}")]
+    ModesNotFound {
+        /// Position of the worst pair, from 0.
+        mode: usize,
+        /// Its residual relative to the sizes of `Khat` and `lambda Mhat`.
+        residual: f64,
+    },
+    /// A mode's frequency was asked for that does not oscillate.
+    #[error("mode {mode} does not oscillate (lambda = {lambda:.6e}): it has no frequency")]
+    NotOscillating {
+        /// Position of the mode, from 0.
+        mode: usize,
+        /// Its eigenvalue, 1/s^2.
+        lambda: f64,
+    },
+    /// A mode is one of a cluster of nearly equal eigenvalues: it has no derivative of its own.
+    #[error(
+        "mode {mode} lies in a cluster of nearly equal eigenvalues: it has no derivative of its own"
+    )]
+    ClusteredMode {
+        /// Position of the mode, from 0.
+        mode: usize,
+    },
+    /// No sign change was found in the range.
+    #[error("no {what} in the range {low} to {high} of input `{input}`")]
+    NotInRange {
+        /// What was looked for: `critical value` or `crossing`.
+        what: &'static str,
+        /// Name of the input.
+        input: &'static str,
+        /// Low end, SI.
+        low: f64,
+        /// High end, SI.
+        high: f64,
+    },
+    /// The sensitivity of a critical value or crossing does not exist.
+    #[error("the sensitivity does not exist: {reason}")]
+    NoSensitivity {
+        /// Why.
+        reason: &'static str,
+    },
+    /// A setting makes no sense.
+    #[error("{setting}: {reason}")]
+    Setting {
+        /// Which one.
+        setting: &'static str,
+        /// Why it is refused.
+        reason: String,
+    },
+    /// A handle belongs to another mechanism: its index is out of range.
+    #[error("there is no {kind} number {index} in `{mechanism}`, which has {count}")]
+    UnknownHandle {
+        /// `coordinate`, `input` or `design variable`.
+        kind: &'static str,
+        /// The handle's index.
+        index: usize,
+        /// Name of the mechanism.
+        mechanism: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+    /// The worker threads could not be started.
+    #[error("cannot start the worker threads: {0}")]
+    Threads(String),
+}

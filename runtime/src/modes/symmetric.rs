@@ -1,0 +1,241 @@
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, solved by code that is compiled once in this crate
+//! for each small size, so that a user's build compiles no linear algebra.
+
+use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
+
+/// Why the eigenproblem was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Trouble {
+    /// The mass matrix has no positive pivot in this row.
+    SingularMass(usize),
+    /// This pair did not pass its residual check.
+    Inaccurate { mode: usize, residual: f64 },
+}
+
+/// Eigenvalues ascending; `shapes[r]` the vector of eigenvalue `r` with `phi^T M phi = 1`, largest component positive.
+pub(crate) struct Pairs<const N: usize> {
+    pub(crate) lambda: [f64; N],
+    pub(crate) shapes: [[f64; N]; N],
+    pub(crate) residuals: [f64; N],
+}
+
+/// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
+const ACCEPTED: f64 = 1e-9;
+
+/// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
+pub(crate) fn solve<const N: usize>(
+    stiffness: &[[f64; N]; N],
+    mass: &[[f64; N]; N],
+) -> Result<Pairs<N>, Trouble> {
+    let mut lambda = [0.0; N];
+    let mut shapes = [[0.0; N]; N];
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
+    let vectors = shapes.as_flattened_mut();
+    match N {
+        0 => {}
+        1 => one(k, m, &mut lambda, vectors)?,
+        2 => two(k, m, &mut lambda, vectors)?,
+        3 => small_3(k, m, &mut lambda, vectors)?,
+        4 => small_4(k, m, &mut lambda, vectors)?,
+        5 => small_5(k, m, &mut lambda, vectors)?,
+        6 => small_6(k, m, &mut lambda, vectors)?,
+        7 => small_7(k, m, &mut lambda, vectors)?,
+        8 => small_8(k, m, &mut lambda, vectors)?,
+        _ => large(N, k, m, &mut lambda, vectors)?,
+    }
+    let mut pairs = Pairs {
+        lambda,
+        shapes,
+        residuals: [0.0; N],
+    };
+    finish(stiffness, mass, &mut pairs)?;
+    Ok(pairs)
+}
+
+fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    lambda[0] = k[0] / m[0];
+    vectors[0] = 1.0 / m[0].sqrt();
+    Ok(())
+}
+
+/// Size two directly: Cholesky reduction by hand and one Jacobi rotation.
+fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 16.0 * f64::EPSILON;
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    let l00 = m[0].sqrt();
+    let l10 = m[2] / l00;
+    let pivot = m[3] - l10 * l10;
+    if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
+        return Err(Trouble::SingularMass(1));
+    }
+    let l11 = pivot.sqrt();
+    // A = L^-1 K L^-T
+    let a00 = k[0] / m[0];
+    let a10 = (k[2] - l10 * k[0] / l00) / (l00 * l11);
+    let a11 = (k[3] - 2.0 * l10 * k[2] / l00 + l10 * l10 * a00) / pivot;
+    let (c, s) = if a10 == 0.0 {
+        (1.0, 0.0)
+    } else {
+        let ratio = (a11 - a00) / (2.0 * a10);
+        let t = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
+        let c = 1.0 / t.hypot(1.0);
+        (c, t * c)
+    };
+    let tangent = if c == 0.0 { 0.0 } else { s / c };
+    lambda[0] = a00 - tangent * a10;
+    lambda[1] = a11 + tangent * a10;
+    // phi = L^-T y with y = (c, -s) and (s, c)
+    for (r, (y0, y1)) in [(c, -s), (s, c)].into_iter().enumerate() {
+        let x1 = y1 / l11;
+        vectors[2 * r] = (y0 - l10 * x1) / l00;
+        vectors[2 * r + 1] = x1;
+    }
+    Ok(())
+}
+
+/// One function for each size, with a literal size, so that it is compiled here.
+macro_rules! small {
+    ($($name:ident $size:literal)*) => {$(
+        fn $name(
+            k: &[f64],
+            m: &[f64],
+            lambda: &mut [f64],
+            vectors: &mut [f64],
+        ) -> Result<(), Trouble> {
+            let lower = factor($size, m)?;
+            let lower = SMatrix::<f64, $size, $size>::from_row_slice(&lower[..$size * $size]);
+            let mut reduced = SMatrix::<f64, $size, $size>::from_row_slice(k);
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let mut reduced = reduced.transpose();
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let reduced = (reduced + reduced.transpose()) * 0.5;
+            let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size) else {
+                return Err(Trouble::Inaccurate { mode: 0, residual: f64::INFINITY });
+            };
+            let mut shapes = eigen.eigenvectors;
+            lower.tr_solve_lower_triangular_mut(&mut shapes);
+            lambda.copy_from_slice(eigen.eigenvalues.as_slice());
+            vectors.copy_from_slice(shapes.as_slice());
+            Ok(())
+        }
+    )*};
+}
+small! { small_3 3 small_4 4 small_5 5 small_6 6 small_7 7 small_8 8 }
+
+/// Lower Cholesky factor of a mass matrix of size up to 8, row by row.
+fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
+    let mut lower = [0.0; 64];
+    factor_into(n, m, &mut lower)?;
+    Ok(lower)
+}
+
+fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 8.0 * n as f64 * f64::EPSILON;
+    for i in 0..n {
+        for j in 0..=i {
+            let mut sum = m[i * n + j];
+            for k in 0..j {
+                sum -= lower[i * n + k] * lower[j * n + k];
+            }
+            if i != j {
+                lower[i * n + j] = sum / lower[j * n + j];
+            } else if sum > threshold * m[i * n + i].abs() && sum.is_finite() {
+                lower[i * n + i] = sum.sqrt();
+            } else {
+                return Err(Trouble::SingularMass(i));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn large(
+    n: usize,
+    k: &[f64],
+    m: &[f64],
+    lambda: &mut [f64],
+    vectors: &mut [f64],
+) -> Result<(), Trouble> {
+    let mut lower = vec![0.0; n * n];
+    factor_into(n, m, &mut lower)?;
+    let lower = DMatrix::<f64>::from_row_slice(n, n, &lower);
+    let mut reduced = DMatrix::<f64>::from_row_slice(n, n, k);
+    lower.solve_lower_triangular_mut(&mut reduced);
+    let mut reduced = reduced.transpose();
+    lower.solve_lower_triangular_mut(&mut reduced);
+    let reduced = (&reduced + reduced.transpose()) * 0.5;
+    let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * n) else {
+        return Err(Trouble::Inaccurate {
+            mode: 0,
+            residual: f64::INFINITY,
+        });
+    };
+    let mut shapes = eigen.eigenvectors;
+    lower.tr_solve_lower_triangular_mut(&mut shapes);
+    lambda.copy_from_slice(eigen.eigenvalues.as_slice());
+    vectors.copy_from_slice(shapes.as_slice());
+    Ok(())
+}
+
+/// Sorts, fixes signs, refines each eigenvalue by its Rayleigh quotient and checks each residual.
+fn finish<const N: usize>(
+    stiffness: &[[f64; N]; N],
+    mass: &[[f64; N]; N],
+    pairs: &mut Pairs<N>,
+) -> Result<(), Trouble> {
+    for i in 1..N {
+        let mut j = i;
+        while j > 0 && pairs.lambda[j] < pairs.lambda[j - 1] {
+            pairs.lambda.swap(j, j - 1);
+            pairs.shapes.swap(j, j - 1);
+            j -= 1;
+        }
+    }
+    for r in 0..N {
+        let mut lead = 0;
+        for i in 1..N {
+            // The margin keeps the choice stable when two components are equal but for rounding.
+            if pairs.shapes[r][i].abs() > pairs.shapes[r][lead].abs() * (1.0 + 1e-9) {
+                lead = i;
+            }
+        }
+        if pairs.shapes[r][lead] < 0.0 {
+            pairs.shapes[r] = pairs.shapes[r].map(|value| -value);
+        }
+        let residual = relative_residual(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]);
+        if residual.is_nan() || residual > ACCEPTED {
+            return Err(Trouble::Inaccurate { mode: r, residual });
+        }
+        pairs.residuals[r] = residual;
+    }
+    Ok(())
+}
+
+/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+fn relative_residual<const N: usize>(
+    stiffness: &[[f64; N]; N],
+    mass: &[[f64; N]; N],
+    lambda: f64,
+    phi: &[f64; N],
+) -> f64 {
+    let (mut most, mut size) = (0.0_f64, 0.0_f64);
+    for i in 0..N {
+        let (mut sum, mut terms) = (0.0, 0.0);
+        for j in 0..N {
+            let (k, m) = (stiffness[i][j] * phi[j], lambda * mass[i][j] * phi[j]);
+            sum += k - m;
+            terms += k.abs() + m.abs();
+        }
+        if sum.is_nan() {
+            return f64::NAN;
+        }
+        most = most.max(sum.abs());
+        size = size.max(terms);
+    }
+    if most == 0.0 { 0.0 } else { most / size }
+}

@@ -1,0 +1,7 @@
+//! Results as text: every result type prints itself as an aligned table with names and units.
+
+mod equilibrium;
+mod modes;
+mod sensitivity;
+mod table;
+mod tolerance;

@@ -1,0 +1,127 @@
+//! Derivatives as text, by SI units of the variables as declared.
+
+use core::fmt;
+
+use super::table::{Table, cells, heading, number, per};
+use crate::Sensitivities;
+use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities};
+use crate::{Description, Unit};
+
+/// Names and units of all variables, inputs first.
+fn variables(d: &Description) -> Vec<(&'static str, Unit)> {
+    let inputs = d.inputs.iter().map(|info| (info.name, info.unit));
+    inputs
+        .chain(d.design.iter().map(|info| (info.name, info.unit)))
+        .collect()
+}
+
+/// A table of derivatives: one row for each variable, in its declared unit.
+fn derivatives(
+    d: &Description,
+    columns: Vec<String>,
+    value: impl Fn(usize, usize) -> Option<f64>,
+) -> Table {
+    let mut head = cells(["derivative by"]);
+    let count = columns.len();
+    head.extend(columns);
+    let mut table = Table::new(head);
+    for (j, (name, unit)) in variables(d).into_iter().enumerate() {
+        let mut row = vec![per(name, unit)];
+        row.extend((0..count).map(|column| {
+            super::table::optional(value(column, j).map(|value| value * unit.scale))
+        }));
+        table.row(row);
+    }
+    table
+}
+
+/// Element `j` of inputs followed by design variables.
+fn pick<const U: usize, const P: usize>(
+    inputs: &[f64; U],
+    design: &[f64; P],
+    j: usize,
+) -> Option<f64> {
+    inputs
+        .get(j)
+        .or_else(|| design.get(j.checked_sub(U)?))
+        .copied()
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}",
+            match self {
+                Self::Adjoint => "exact (adjoint)",
+                Self::Explicit => "exact (explicit partials)",
+                Self::FrozenEquilibrium => "equilibrium frozen: NOT the true derivatives",
+                Self::FiniteDifference => "central differences",
+            }
+        )
+    }
+}
+
+impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivities<N, U, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{}: sensitivities of the frequencies, {}",
+            self.description.name, self.method
+        )?;
+        let columns = (1..=N).map(|r| format!("omega{r} [rad/s]")).collect();
+        let table = derivatives(self.description, columns, |r, j| {
+            let mode = &self.modes[r];
+            pick(&mode.omega_by_input?, &mode.omega_by_design?, j)
+        });
+        write!(f, "{table}")?;
+        for (r, mode) in self.modes.iter().enumerate() {
+            if mode.clustered {
+                writeln!(
+                    f,
+                    "  Mode {} has nearly equal neighbours: a derivative of its own does not exist.",
+                    r + 1
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize, const U: usize, const P: usize> fmt::Display for EquilibriumShift<N, U, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.description;
+        writeln!(f, "{}: shift of the equilibrium", d.name)?;
+        let columns = d
+            .coordinates
+            .iter()
+            .map(|info| heading(info.name, info.unit))
+            .collect();
+        let table = derivatives(d, columns, |i, j| {
+            let unit = d.coordinates.get(i)?.unit;
+            Some(pick(self.by_input.get(i)?, self.by_design.get(i)?, j)? / unit.scale)
+        });
+        write!(f, "{table}")
+    }
+}
+
+impl<const U: usize, const P: usize, const O: usize> fmt::Display for OutputSensitivities<U, P, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.description;
+        writeln!(f, "{}: outputs", d.name)?;
+        for (info, &value) in d.outputs.iter().zip(&self.values) {
+            let value = number(value / info.unit.scale);
+            writeln!(f, "  {} = {value} {}", info.name, info.unit.symbol)?;
+        }
+        let columns = d
+            .outputs
+            .iter()
+            .map(|info| heading(info.name, info.unit))
+            .collect();
+        let table = derivatives(d, columns, |o, j| {
+            let unit = d.outputs.get(o)?.unit;
+            Some(pick(self.by_input.get(o)?, self.by_design.get(o)?, j)? / unit.scale)
+        });
+        write!(f, "{table}")
+    }
+}

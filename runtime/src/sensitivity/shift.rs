@@ -1,0 +1,64 @@
+//! How the equilibrium itself moves: `Khat dq* = -dg` for every input and design variable with one factorisation.
+
+use crate::array::{Lu, transpose};
+use crate::{Description, Equilibrium, Error, Mechanism};
+
+/// Derivatives of the equilibrium coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquilibriumShift<const N: usize, const U: usize, const P: usize> {
+    /// `by_input[i][j] = dq*_i/du_j`, SI.
+    pub by_input: [[f64; U]; N],
+    /// `by_design[i][j] = dq*_i/db_j`, SI.
+    pub by_design: [[f64; P]; N],
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+/// The shift of an equilibrium by every input and design variable.
+///
+/// # Errors
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
+pub fn equilibrium_shift<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+) -> Result<EquilibriumShift<N, U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let factors = Lu::new(&at.linear.stiffness).ok_or(Error::CriticalState)?;
+    let (by_input, by_design) =
+        mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let shift = EquilibriumShift {
+        by_input: solve_columns(&factors, &by_input),
+        by_design: solve_columns(&factors, &by_design),
+        description: at.description,
+    };
+    let finite = shift
+        .by_input
+        .iter()
+        .flatten()
+        .chain(shift.by_design.iter().flatten());
+    if finite.copied().all(f64::is_finite) {
+        Ok(shift)
+    } else {
+        Err(outside_domain(at))
+    }
+}
+
+fn solve_columns<const N: usize, const C: usize>(
+    factors: &Lu<N>,
+    partials: &[[f64; C]; N],
+) -> [[f64; C]; N] {
+    let columns = transpose(partials);
+    transpose(&columns.map(|column| factors.solve(&column).map(|value| -value)))
+}
+
+pub(super) fn outside_domain<const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
+) -> Error {
+    Error::OutsideDomain {
+        mechanism: at.description.name,
+        what: "a derivative",
+        coordinates: at.coordinates.to_vec(),
+    }
+}

@@ -1,0 +1,142 @@
+//! Half-widths, the number of standard deviations they hold, and how variables vary together.
+
+use crate::{Description, Error};
+
+/// Tolerances of the `P` design variables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances<const P: usize> {
+    half_widths: [f64; P],
+    sigma_level: f64,
+    correlation: Option<[[f64; P]; P]>,
+    /// Lower factor of the covariance matrix.
+    factor: [[f64; P]; P],
+}
+
+impl<const P: usize> Tolerances<P> {
+    /// The declared half-widths, three standard deviations each, independent of each other.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when a declared half-width is negative or not finite.
+    pub fn declared(description: &Description) -> Result<Self, Error> {
+        let half_widths =
+            core::array::from_fn(|j| description.design.get(j).map_or(0.0, |info| info.tolerance));
+        Self::new(half_widths, 3.0, None)
+    }
+
+    /// Half-widths in SI units that hold `sigma_level` standard deviations; `correlation` couples the variables,
+    /// `None` leaves them independent.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive, or a correlation matrix
+    /// that is not symmetric and positive semidefinite with ones on its diagonal.
+    pub fn new(
+        half_widths: [f64; P],
+        sigma_level: f64,
+        correlation: Option<[[f64; P]; P]>,
+    ) -> Result<Self, Error> {
+        if let Some(&value) = half_widths
+            .iter()
+            .find(|&&value| !(0.0..=f64::MAX).contains(&value))
+        {
+            return Err(refuse(
+                "tolerance",
+                format!("half-width {value} must be zero or positive"),
+            ));
+        }
+        if !(sigma_level > 0.0 && sigma_level.is_finite()) {
+            return Err(refuse(
+                "sigma level",
+                format!("{sigma_level} must be positive"),
+            ));
+        }
+        let mut factor = [[0.0; P]; P];
+        match &correlation {
+            Some(matrix) => factor = semidefinite_factor(matrix)?,
+            None => (0..P).for_each(|j| factor[j][j] = 1.0),
+        }
+        for (row, half_width) in factor.iter_mut().zip(half_widths) {
+            *row = row.map(|value| value * half_width / sigma_level);
+        }
+        Ok(Self {
+            half_widths,
+            sigma_level,
+            correlation,
+            factor,
+        })
+    }
+
+    /// Half-widths, SI.
+    pub fn half_widths(&self) -> &[f64; P] {
+        &self.half_widths
+    }
+
+    /// How many standard deviations a half-width holds.
+    pub fn sigma_level(&self) -> f64 {
+        self.sigma_level
+    }
+
+    /// The correlation matrix, when variables are not independent.
+    pub fn correlation(&self) -> Option<&[[f64; P]; P]> {
+        self.correlation.as_ref()
+    }
+
+    /// Standard deviations, SI.
+    pub fn standard_deviations(&self) -> [f64; P] {
+        self.half_widths.map(|value| value / self.sigma_level)
+    }
+
+    /// Lower triangular `L` with covariance `Sigma = L L^T`.
+    pub(crate) fn factor(&self) -> &[[f64; P]; P] {
+        &self.factor
+    }
+
+    /// `Sigma s`.
+    pub(crate) fn covariance_times(&self, s: &[f64; P]) -> [f64; P] {
+        let sigma = self.standard_deviations();
+        match &self.correlation {
+            None => core::array::from_fn(|j| sigma[j] * sigma[j] * s[j]),
+            Some(matrix) => core::array::from_fn(|i| {
+                (0..P).fold(0.0, |sum, j| {
+                    sum + sigma[i] * matrix[i][j] * sigma[j] * s[j]
+                })
+            }),
+        }
+    }
+}
+
+fn refuse(setting: &'static str, reason: String) -> Error {
+    Error::Setting { setting, reason }
+}
+
+/// Cholesky factor of a correlation matrix; a pivot that is zero to rounding gives a zero column.
+fn semidefinite_factor<const P: usize>(matrix: &[[f64; P]; P]) -> Result<[[f64; P]; P], Error> {
+    const ROUNDING: f64 = 1e-10;
+    let wrong = |reason: String| refuse("correlation matrix", reason);
+    let mut lower = [[0.0; P]; P];
+    for i in 0..P {
+        if (matrix[i][i] - 1.0).abs() > ROUNDING || matrix[i][i].is_nan() {
+            return Err(wrong(format!(
+                "element ({i}, {i}) is {} and must be 1",
+                matrix[i][i]
+            )));
+        }
+        for j in 0..=i {
+            let (here, mirrored) = (matrix[i][j], matrix[j][i]);
+            if here.is_nan() || (here - mirrored).abs() > ROUNDING || mirrored.is_nan() {
+                return Err(wrong(format!("elements ({i}, {j}) and ({j}, {i}) differ")));
+            }
+            let rest = (0..j).fold(here, |sum, k| sum - lower[i][k] * lower[j][k]);
+            if i == j {
+                if rest < -ROUNDING {
+                    return Err(wrong("it is not positive semidefinite".to_owned()));
+                }
+                lower[i][i] = if rest > ROUNDING { rest.sqrt() } else { 0.0 };
+            } else if lower[j][j] > 0.0 {
+                lower[i][j] = rest / lower[j][j];
+            } else if rest.abs() > ROUNDING.sqrt() {
+                return Err(wrong("it is not positive semidefinite".to_owned()));
+            }
+        }
+    }
+    Ok(lower)
+}

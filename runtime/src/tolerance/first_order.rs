@@ -1,0 +1,139 @@
+//! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
+
+use super::Tolerances;
+use crate::array::dot;
+use crate::sensitivity::OutputSensitivities;
+use crate::{Description, Modes, Sensitivities};
+
+/// Closer to the critical state than this many standard deviations, first order is not to be trusted: its error exceeds
+/// a few percent and grows without bound.
+pub const TRUSTED_DISTANCE: f64 = 4.5;
+
+/// First-order spread of one mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeTolerance<const P: usize> {
+    /// Nominal eigenvalue, 1/s^2, which at first order is the mean.
+    pub lambda: f64,
+    /// Standard deviation of `lambda`, 1/s^2.
+    pub lambda_sigma: f64,
+    /// Nominal frequency, rad/s, which at first order is the mean; `None` for a mode that does not oscillate.
+    pub mean: Option<f64>,
+    /// Standard deviation of the frequency, rad/s.
+    pub sigma: Option<f64>,
+    /// Half-width of the band that holds as many standard deviations as the tolerances do, rad/s.
+    pub band: Option<f64>,
+    /// Share of each design variable in the variance of `lambda` (the same for the frequency); they sum to 1, or are
+    /// all zero when nothing varies. Correlated variables can have negative shares.
+    pub variance_shares: [f64; P],
+    /// `lambda / lambda_sigma`: standard deviations between this mode and the state where its stiffness vanishes;
+    /// infinite when nothing moves the mode.
+    pub distance_to_critical: f64,
+    /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it.
+    pub clustered: bool,
+}
+
+/// First-order spread of all modes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstOrder<const N: usize, const P: usize> {
+    /// One entry for each mode.
+    pub modes: [ModeTolerance<P>; N],
+    /// How many standard deviations a tolerance and a band hold.
+    pub sigma_level: f64,
+    /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
+    /// branch, which bends every mode, so the nearest mode limits the trust in all.
+    pub distance_to_critical: f64,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const N: usize, const P: usize> FirstOrder<N, P> {
+    /// Whether the critical state is far enough away ([`TRUSTED_DISTANCE`]) and no mode shares a cluster.
+    pub fn trusted(&self) -> bool {
+        self.distance_to_critical >= TRUSTED_DISTANCE
+            && self.modes.iter().all(|mode| !mode.clustered)
+    }
+}
+
+/// First-order spread of one output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputTolerance<const P: usize> {
+    /// Nominal value, SI.
+    pub mean: f64,
+    /// Standard deviation, SI.
+    pub sigma: f64,
+    /// Half-width that holds as many standard deviations as the tolerances do, SI.
+    pub band: f64,
+    /// Share of each design variable in the variance.
+    pub variance_shares: [f64; P],
+}
+
+/// First-order spread of every mode.
+pub fn first_order<const N: usize, const U: usize, const P: usize>(
+    modes: &Modes<N>,
+    sensitivities: &Sensitivities<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> FirstOrder<N, P> {
+    let level = tolerances.sigma_level();
+    let spread: [ModeTolerance<P>; N] = core::array::from_fn(|r| {
+        let (mode, own) = (&modes.modes[r], &sensitivities.modes[r]);
+        let (lambda_sigma, variance_shares) = spread(&own.lambda_by_design, tolerances);
+        let mean = mode.frequency();
+        let sigma = mean.map(|omega| lambda_sigma / (2.0 * omega));
+        ModeTolerance {
+            lambda: mode.lambda,
+            lambda_sigma,
+            mean,
+            sigma,
+            band: sigma.map(|sigma| level * sigma),
+            variance_shares,
+            distance_to_critical: if lambda_sigma > 0.0 {
+                mode.lambda / lambda_sigma
+            } else if mode.lambda > 0.0 {
+                f64::INFINITY
+            } else {
+                0.0
+            },
+            clustered: own.clustered,
+        }
+    });
+    let distance_to_critical = spread.iter().fold(f64::INFINITY, |least, mode| {
+        least.min(mode.distance_to_critical)
+    });
+    FirstOrder {
+        modes: spread,
+        sigma_level: level,
+        distance_to_critical,
+        description: modes.description,
+    }
+}
+
+/// First-order spread of every output.
+pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
+    outputs: &OutputSensitivities<U, P, O>,
+    tolerances: &Tolerances<P>,
+) -> [OutputTolerance<P>; O] {
+    core::array::from_fn(|o| {
+        let (sigma, variance_shares) = spread(&outputs.by_design[o], tolerances);
+        let band = tolerances.sigma_level() * sigma;
+        OutputTolerance {
+            mean: outputs.values[o],
+            sigma,
+            band,
+            variance_shares,
+        }
+    })
+}
+
+/// Standard deviation `sqrt(S Sigma S^T)` and the share of each variable in the variance.
+fn spread<const P: usize>(slope: &[f64; P], tolerances: &Tolerances<P>) -> (f64, [f64; P]) {
+    let weighted = tolerances.covariance_times(slope);
+    let variance = dot(slope, &weighted).max(0.0);
+    let shares = core::array::from_fn(|j| {
+        if variance > 0.0 {
+            slope[j] * weighted[j] / variance
+        } else {
+            0.0
+        }
+    });
+    (variance.sqrt(), shares)
+}

@@ -1,0 +1,14 @@
+//! How tolerances of design variables spread frequencies and outputs (THEORY section 6, eqs. 26-27).
+
+mod declared;
+mod first_order;
+mod monte_carlo;
+mod sampling;
+mod statistics;
+
+pub use declared::Tolerances;
+pub use first_order::{
+    FirstOrder, ModeTolerance, OutputTolerance, TRUSTED_DISTANCE, first_order, output_tolerances,
+};
+pub use monte_carlo::{Counts, MonteCarlo, Outcome, Sample, Sampling, monte_carlo};
+pub use statistics::Statistics;

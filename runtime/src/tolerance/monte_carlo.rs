@@ -1,0 +1,287 @@
+//! Monte Carlo: every sample re-solves its own equilibrium and its own eigenproblem, and none is dropped in silence.
+
+use rayon::prelude::*;
+
+use super::sampling::Draw;
+use super::statistics::Moments;
+use super::{Statistics, Tolerances};
+use crate::equilibrium::{Failure, Problem, settle};
+use crate::modes::{match_modes, solve_modes};
+use crate::{Behaviour, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
+
+/// Samples worked on by one thread at a time; fixed, so that sums are formed in the same order on any machine.
+const CHUNK: usize = 256;
+
+/// How to sample.
+#[derive(Clone, Copy)]
+pub struct Sampling<'a> {
+    /// Number of samples.
+    pub samples: usize,
+    /// The same seed gives the same samples and bit-identical results for any number of threads.
+    pub seed: u64,
+    /// Number of threads; 0 takes what the machine has.
+    pub threads: usize,
+    /// Return every sample, not only the statistics.
+    pub keep_samples: bool,
+    /// Called with a number of samples whenever that many more are done, from any thread.
+    pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
+}
+
+impl Default for Sampling<'_> {
+    fn default() -> Self {
+        Self {
+            samples: 3000,
+            seed: 0,
+            threads: 0,
+            keep_samples: false,
+            progress: None,
+        }
+    }
+}
+
+/// What became of one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It has a stable equilibrium (or one with free directions).
+    Stable,
+    /// Its equilibrium is unstable without oscillation.
+    Divergent,
+    /// Its equilibrium has a stability that undamped modes do not decide.
+    Undecided,
+    /// No equilibrium was found.
+    NoEquilibrium,
+    /// Its design describes bodies that cannot exist, or lies outside the domain of an expression.
+    Unphysical,
+    /// Its eigenproblem could not be solved.
+    NoModes,
+}
+
+/// How many samples had each outcome; the numbers sum to the number of samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// [`Outcome::Stable`].
+    pub stable: usize,
+    /// [`Outcome::Divergent`].
+    pub divergent: usize,
+    /// [`Outcome::Undecided`].
+    pub undecided: usize,
+    /// [`Outcome::NoEquilibrium`].
+    pub no_equilibrium: usize,
+    /// [`Outcome::Unphysical`].
+    pub unphysical: usize,
+    /// [`Outcome::NoModes`].
+    pub no_modes: usize,
+}
+
+impl Counts {
+    /// Sum over all outcomes.
+    pub fn total(&self) -> usize {
+        self.stable
+            + self.divergent
+            + self.undecided
+            + self.no_equilibrium
+            + self.unphysical
+            + self.no_modes
+    }
+
+    fn add(&mut self, outcome: Outcome, number: usize) {
+        *match outcome {
+            Outcome::Stable => &mut self.stable,
+            Outcome::Divergent => &mut self.divergent,
+            Outcome::Undecided => &mut self.undecided,
+            Outcome::NoEquilibrium => &mut self.no_equilibrium,
+            Outcome::Unphysical => &mut self.unphysical,
+            Outcome::NoModes => &mut self.no_modes,
+        } += number;
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.stable += other.stable;
+        self.divergent += other.divergent;
+        self.undecided += other.undecided;
+        self.no_equilibrium += other.no_equilibrium;
+        self.unphysical += other.unphysical;
+        self.no_modes += other.no_modes;
+    }
+}
+
+/// One sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample<const N: usize, const P: usize> {
+    /// Its design variables, SI.
+    pub design: [f64; P],
+    /// What became of it.
+    pub outcome: Outcome,
+    /// Its equilibrium, when it has one.
+    pub coordinates: Option<[f64; N]>,
+    /// Eigenvalues in the order of the nominal modes, 1/s^2, when they were found.
+    pub lambda: Option<[f64; N]>,
+    /// Frequencies in the order of the nominal modes, rad/s; `None` for a mode that does not oscillate.
+    pub frequencies: [Option<f64>; N],
+}
+
+/// Result of a Monte Carlo run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MonteCarlo<const N: usize, const P: usize> {
+    /// Number of samples.
+    pub samples: usize,
+    /// What became of them.
+    pub counts: Counts,
+    /// Stable samples for which the nominal position itself is unstable: they settled on another branch.
+    pub left_nominal_branch: usize,
+    /// Statistics over the stable samples, by nominal mode; `None` without any value.
+    pub modes: [Option<Statistics>; N],
+    /// Every sample in order, when asked for.
+    pub all: Option<Vec<Sample<N, P>>>,
+    /// The mechanism they belong to.
+    pub description: &'static Description,
+}
+
+/// Samples the design variables about those of `nominal` (normal, by `tolerances`), re-solves each sample from the
+/// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape.
+///
+/// # Errors
+/// [`Error::Threads`] when worker threads cannot be started. Samples that fail are counted, not errors.
+pub fn monte_carlo<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    nominal: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    tolerances: &Tolerances<P>,
+    sampling: &Sampling<'_>,
+) -> Result<MonteCarlo<N, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let chunk = |index: usize| run_chunk(mechanism, nominal, modes, tolerances, sampling, index);
+    let chunks = 0..sampling.samples.div_ceil(CHUNK);
+    let pieces: Vec<Piece<N, P>> = match sampling.threads {
+        1 => chunks.map(chunk).collect(),
+        0 => chunks.into_par_iter().map(chunk).collect(),
+        threads => rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|error| Error::Threads(error.to_string()))?
+            .install(|| chunks.into_par_iter().map(chunk).collect()),
+    };
+    let mut counts = Counts::default();
+    let mut moments = [Moments::EMPTY; N];
+    let mut left_nominal_branch = 0;
+    let mut all = sampling
+        .keep_samples
+        .then(|| Vec::with_capacity(sampling.samples));
+    for piece in pieces {
+        counts.merge(&piece.counts);
+        left_nominal_branch += piece.left_nominal_branch;
+        for (sum, part) in moments.iter_mut().zip(&piece.moments) {
+            sum.merge(part);
+        }
+        if let Some(all) = &mut all {
+            all.extend(piece.samples);
+        }
+    }
+    Ok(MonteCarlo {
+        samples: sampling.samples,
+        counts,
+        left_nominal_branch,
+        modes: moments.each_ref().map(Moments::statistics),
+        all,
+        description: nominal.description,
+    })
+}
+
+struct Piece<const N: usize, const P: usize> {
+    counts: Counts,
+    left_nominal_branch: usize,
+    moments: [Moments; N],
+    samples: Vec<Sample<N, P>>,
+}
+
+fn run_chunk<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    nominal: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    tolerances: &Tolerances<P>,
+    sampling: &Sampling<'_>,
+    index: usize,
+) -> Piece<N, P>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let first = index * CHUNK;
+    let number = CHUNK.min(sampling.samples - first);
+    let mut draw = Draw::from(sampling.seed, first as u64, &nominal.design, tolerances);
+    let mut piece = Piece {
+        counts: Counts::default(),
+        left_nominal_branch: 0,
+        moments: [Moments::EMPTY; N],
+        samples: Vec::with_capacity(if sampling.keep_samples { number } else { 0 }),
+    };
+    for _ in 0..number {
+        let (sample, left) = run_sample(mechanism, nominal, modes, draw.next());
+        piece.counts.add(sample.outcome, 1);
+        if sample.outcome == Outcome::Stable {
+            piece.left_nominal_branch += usize::from(left);
+            for (moments, omega) in piece.moments.iter_mut().zip(sample.frequencies) {
+                if let Some(omega) = omega {
+                    moments.add(omega);
+                }
+            }
+        }
+        if sampling.keep_samples {
+            piece.samples.push(sample);
+        }
+    }
+    if let Some(progress) = sampling.progress {
+        progress(number);
+    }
+    piece
+}
+
+/// Solves one sample; also tells whether it met an unstable region on the way from the nominal position.
+fn run_sample<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    nominal: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    design: [f64; P],
+) -> (Sample<N, P>, bool)
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let sample = |outcome, coordinates| Sample {
+        design,
+        outcome,
+        coordinates,
+        lambda: None,
+        frequencies: [None; N],
+    };
+    if mechanism.violation(&nominal.inputs, &design).is_some() {
+        return (sample(Outcome::Unphysical, None), false);
+    }
+    let problem = Problem::unchecked(mechanism, &nominal.inputs, &design);
+    let state = match settle(&problem, &nominal.coordinates, Policy::Stable) {
+        Ok(state) => state,
+        Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),
+        Err(Failure::OutsideDomain { .. } | Failure::SingularMass(_)) => {
+            return (sample(Outcome::Unphysical, None), false);
+        }
+        Err(Failure::Mode { .. }) => return (sample(Outcome::NoModes, None), false),
+    };
+    let outcome = match state.stability {
+        Stability::Stable | Stability::Neutral { .. } => Outcome::Stable,
+        Stability::Divergent { .. } => Outcome::Divergent,
+        Stability::Unverified(_) => Outcome::Undecided,
+    };
+    let Ok(found) = solve_modes(&state.linear, state.description) else {
+        return (sample(Outcome::NoModes, Some(state.coordinates)), false);
+    };
+    let found = found.reordered(&match_modes(modes, &found, &state.linear.mass));
+    let solved = Sample {
+        lambda: Some(found.modes.each_ref().map(|mode| mode.lambda)),
+        frequencies: found.modes.each_ref().map(|mode| match mode.behaviour {
+            Behaviour::Oscillating(omega) => Some(omega),
+            Behaviour::Neutral | Behaviour::Divergent(_) => None,
+        }),
+        ..sample(outcome, Some(state.coordinates))
+    };
+    (solved, state.left_unstable_region)
+}

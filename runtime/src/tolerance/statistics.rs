@@ -1,0 +1,100 @@
+//! Moments of a sample, gathered in pieces that merge in a fixed order.
+
+/// Statistics of one mode's frequency over the samples where it oscillates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Number of values.
+    pub count: usize,
+    /// Mean, rad/s.
+    pub mean: f64,
+    /// Standard deviation with divisor `count - 1`, rad/s.
+    pub standard_deviation: f64,
+    /// Standard error of the mean, rad/s.
+    pub standard_error: f64,
+    /// Least value, rad/s.
+    pub min: f64,
+    /// Greatest value, rad/s.
+    pub max: f64,
+}
+
+/// Running mean and sum of squared deviations (Welford 1962; merged after Chan, Golub and LeVeque 1979).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moments {
+    count: usize,
+    mean: f64,
+    squares: f64,
+    min: f64,
+    max: f64,
+}
+
+impl Moments {
+    pub(super) const EMPTY: Self = Self {
+        count: 0,
+        mean: 0.0,
+        squares: 0.0,
+        min: f64::INFINITY,
+        max: f64::NEG_INFINITY,
+    };
+
+    pub(super) fn add(&mut self, value: f64) {
+        self.count += 1;
+        let deviation = value - self.mean;
+        self.mean += deviation / self.count as f64;
+        self.squares += deviation * (value - self.mean);
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+    }
+
+    pub(super) fn merge(&mut self, other: &Self) {
+        if other.count == 0 {
+            return;
+        }
+        let count = self.count + other.count;
+        let deviation = other.mean - self.mean;
+        let share = other.count as f64 / count as f64;
+        self.mean += deviation * share;
+        self.squares += other.squares + deviation * deviation * self.count as f64 * share;
+        self.count = count;
+        self.min = self.min.min(other.min);
+        self.max = self.max.max(other.max);
+    }
+
+    /// `None` without values; one value has no spread.
+    pub(super) fn statistics(&self) -> Option<Statistics> {
+        if self.count == 0 {
+            return None;
+        }
+        let freedom = (self.count - 1).max(1) as f64;
+        let standard_deviation = (self.squares / freedom).max(0.0).sqrt();
+        Some(Statistics {
+            count: self.count,
+            mean: self.mean,
+            standard_deviation,
+            standard_error: standard_deviation / (self.count as f64).sqrt(),
+            min: self.min,
+            max: self.max,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn merging_equals_adding() {
+        let values = [1.0, 4.0, -2.0, 8.5, 3.0];
+        let mut whole = Moments::EMPTY;
+        values.iter().for_each(|&value| whole.add(value));
+        let (mut left, mut right) = (Moments::EMPTY, Moments::EMPTY);
+        values[..2].iter().for_each(|&value| left.add(value));
+        values[2..].iter().for_each(|&value| right.add(value));
+        left.merge(&right);
+        let (Some(a), Some(b)) = (whole.statistics(), left.statistics()) else {
+            panic!("values")
+        };
+        assert!((a.mean - 2.9).abs() < 1e-15 && (a.mean - b.mean).abs() < 1e-15);
+        assert!((a.standard_deviation - b.standard_deviation).abs() < 1e-14);
+        assert!(Moments::EMPTY.statistics().is_none());
+    }
+}
