@@ -1,1 +1,20 @@
-//! Shared pieces of the tests.
+//! What the tests share: an evaluation of mechanisms that owes nothing to the compiler, to judge it by.
+//!
+//! A [`model::Model`] is plain data. [`oracle`] evaluates it by the paper's matrices, [`energy`] by Lagrange's
+//! equations; the two share no kinematics. [`declaration`] prints it in the language, [`random`] makes models nobody
+//! thought of, [`examples`] holds the ones with known answers ([`truth`]). [`agreement`] compares anything that offers
+//! the [`kernels`] of generated code with the oracle.
+//!
+//! Invariant: apart from the adapter `compiled`, nothing here uses the compiler or the runtime.
+
+pub mod agreement;
+#[cfg(any())] // until the compiler offers `program`
+pub mod compiled;
+pub mod declaration;
+pub mod energy;
+pub mod examples;
+pub mod kernels;
+pub mod model;
+pub mod oracle;
+pub mod random;
+pub mod truth;

@@ -1,0 +1,145 @@
+//! The compiler's own interpreter as [`Kernels`]: the program it would emit, run without rustc.
+
+use eigentol_compiler::{Diagnostics, Program, program};
+use proc_macro2::TokenStream;
+
+use crate::declaration::declaration;
+use crate::kernels::{At, Gradient, Kernels};
+use crate::model::Model;
+use crate::oracle::{Linear, LinearPartials};
+
+/// A compiled model.
+pub struct Compiled {
+    program: Program,
+    inputs: usize,
+    design: usize,
+}
+
+impl Compiled {
+    /// Compiles the declaration of a model.
+    ///
+    /// # Errors
+    /// What the compiler has to say against it.
+    pub fn new(model: &Model) -> Result<Self, Diagnostics> {
+        let tokens: TokenStream = declaration(model)
+            .parse()
+            .expect("the declaration has tokens");
+        let (inputs, design) = (model.inputs.len(), model.design.len());
+        Ok(Self {
+            program: program(tokens)?,
+            inputs,
+            design,
+        })
+    }
+
+    /// One vector per returned array.
+    fn evaluate<const ARRAYS: usize>(
+        &self,
+        kernel: &str,
+        arguments: &[&[f64]],
+    ) -> [Vec<f64>; ARRAYS] {
+        let arrays = self.program.evaluate(kernel, arguments);
+        let count = arrays.len();
+        arrays
+            .try_into()
+            .unwrap_or_else(|_| panic!("{kernel} returns {ARRAYS} arrays, not {count}"))
+    }
+}
+
+fn linear([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
+    Linear {
+        mass,
+        damping,
+        stiffness,
+    }
+}
+
+/// Splits the three matrices of `count` derivatives, the index of differentiation outermost.
+fn derivatives(count: usize, n: usize, arrays: [Vec<f64>; 3]) -> Vec<Linear<f64>> {
+    for array in &arrays {
+        assert_eq!(
+            array.len(),
+            count * n * n,
+            "one n x n matrix per derivative"
+        );
+    }
+    let slice = |array: &Vec<f64>, k: usize| array[k * n * n..(k + 1) * n * n].to_vec();
+    (0..count)
+        .map(|k| linear(arrays.each_ref().map(|array| slice(array, k))))
+        .collect()
+}
+
+impl Kernels for Compiled {
+    fn residual(&self, [q, u, b]: At) -> Vec<f64> {
+        let [residual] = self.evaluate("residual", &[q, u, b]);
+        residual
+    }
+
+    fn residual_parts(&self, [q, u, b]: At) -> [Vec<f64>; 2] {
+        self.evaluate("residual_parts", &[q, u, b])
+    }
+
+    fn motion_residual(&self, acceleration: &[f64], velocity: &[f64], [q, u, b]: At) -> Vec<f64> {
+        let [residual] = self.evaluate("motion_residual", &[acceleration, velocity, q, u, b]);
+        residual
+    }
+
+    fn motion(&self, velocity: &[f64], [q, u, b]: At) -> [Vec<f64>; 2] {
+        self.evaluate("motion", &[velocity, q, u, b])
+    }
+
+    fn residual_and_stiffness(&self, [q, u, b]: At) -> [Vec<f64>; 2] {
+        self.evaluate("residual_and_stiffness", &[q, u, b])
+    }
+
+    fn linear(&self, [q, u, b]: At) -> Linear<f64> {
+        linear(self.evaluate("linear", &[q, u, b]))
+    }
+
+    fn residual_partials(&self, [q, u, b]: At) -> [Vec<f64>; 2] {
+        self.evaluate("residual_partials", &[q, u, b])
+    }
+
+    fn linear_partials(&self, [q, u, b]: At) -> LinearPartials {
+        let [m, c, k, mu, cu, ku, mb, cb, kb] = self.evaluate("linear_partials", &[q, u, b]);
+        LinearPartials {
+            by_coordinate: derivatives(q.len(), q.len(), [m, c, k]),
+            by_input: derivatives(self.inputs, q.len(), [mu, cu, ku]),
+            by_design: derivatives(self.design, q.len(), [mb, cb, kb]),
+        }
+    }
+
+    fn linear_along(&self, [q, u, b]: At, [dq, du, db]: At) -> Linear<f64> {
+        linear(self.evaluate("linear_along", &[q, u, b, dq, du, db]))
+    }
+
+    fn mode_gradient(&self, [q, u, b]: At, phi: &[f64], lambda: f64) -> Gradient {
+        self.evaluate("mode_gradient", &[q, u, b, phi, &[lambda]])
+    }
+
+    fn residual_gradient(&self, [q, u, b]: At, w: &[f64]) -> Gradient {
+        self.evaluate("residual_gradient", &[q, u, b, w])
+    }
+
+    fn mode_gradient_along(
+        &self,
+        [q, u, b]: At,
+        (phi, lambda): (&[f64], f64),
+        [dq, du, db]: At,
+        (dphi, dlambda): (&[f64], f64),
+    ) -> Gradient {
+        let (lambda, dlambda) = ([lambda], [dlambda]);
+        let arguments = [q, u, b, phi, &lambda, dq, du, db, dphi, &dlambda];
+        self.evaluate("mode_gradient_along", &arguments)
+    }
+
+    fn residual_gradient_along(
+        &self,
+        [q, u, b]: At,
+        w: &[f64],
+        [dq, du, db]: At,
+        dw: &[f64],
+    ) -> Gradient {
+        self.evaluate("residual_gradient_along", &[q, u, b, w, dq, du, db, dw])
+    }
+}

@@ -1,0 +1,96 @@
+//! Scalars built on the residual, their gradients, and the directional derivatives of those gradients.
+
+use num_dual::Dual;
+
+use super::scalar::{along, rates, seeded, still};
+use super::{Oracle, Scalar, State};
+
+/// A scalar function of `(q, u, b)` and of further arguments that a gradient holds fixed.
+pub trait Functional {
+    /// Its value.
+    fn value<D: Scalar>(&self, oracle: &Oracle, at: [&[D]; 3], fixed: &[D]) -> D;
+}
+
+/// `phi^T (Khat - lambda Mhat) phi`; fixed: `phi`, then `lambda`.
+#[derive(Clone, Copy, Debug)]
+pub struct ModeFunctional;
+
+impl Functional for ModeFunctional {
+    fn value<D: Scalar>(&self, oracle: &Oracle, [q, u, b]: [&[D]; 3], fixed: &[D]) -> D {
+        let (&lambda, phi) = fixed.split_last().expect("phi and lambda");
+        let rest = State::at_rest(q, u, b).lifted();
+        // Khat phi and Mhat phi: g differentiated along phi in q and in qddot
+        let stiff = State {
+            position: along(q, phi),
+            ..rest.clone()
+        };
+        let heavy = State {
+            acceleration: along(&vec![D::zero(); q.len()], phi),
+            ..rest
+        };
+        let stiff = rates(&oracle.motion_residual(&stiff));
+        let heavy = rates(&oracle.motion_residual(&heavy));
+        let term = |i: usize| phi[i] * (stiff[i] - lambda * heavy[i]);
+        (0..phi.len()).map(term).sum()
+    }
+}
+
+/// `w^T g(0, 0, q; u, b)`; fixed: `w`.
+#[derive(Clone, Copy, Debug)]
+pub struct ResidualFunctional;
+
+impl Functional for ResidualFunctional {
+    fn value<D: Scalar>(&self, oracle: &Oracle, [q, u, b]: [&[D]; 3], fixed: &[D]) -> D {
+        oracle
+            .residual(q, u, b)
+            .iter()
+            .zip(fixed)
+            .map(|(&g, &w)| g * w)
+            .sum()
+    }
+}
+
+/// A direction in `(q, u, b)` and in the arguments a gradient holds fixed.
+#[derive(Clone, Copy, Debug)]
+pub struct Along<'a> {
+    /// `dq`, `du`, `db`.
+    pub at: [&'a [f64]; 3],
+    /// Of the fixed arguments.
+    pub fixed: &'a [f64],
+}
+
+impl Oracle<'_> {
+    /// Gradient of a functional by coordinates, inputs and design variables.
+    pub fn gradient<D: Scalar>(
+        &self,
+        functional: &impl Functional,
+        at: [&[D]; 3],
+        fixed: &[D],
+    ) -> [Vec<D>; 3] {
+        let fixed = still(fixed);
+        std::array::from_fn(|group| {
+            let partial = |k: usize| {
+                let mut lifted = at.map(still);
+                lifted[group] = seeded(at[group], k);
+                let [q, u, b] = &lifted;
+                functional.value(self, [q, u, b], &fixed).eps
+            };
+            (0..at[group].len()).map(partial).collect()
+        })
+    }
+
+    /// Directional derivative of [`Oracle::gradient`]; the arguments that the gradient held fixed move as well.
+    pub fn gradient_along(
+        &self,
+        functional: &impl Functional,
+        at: [&[f64]; 3],
+        fixed: &[f64],
+        direction: Along,
+    ) -> [Vec<f64>; 3] {
+        let moved: [Vec<Dual<f64>>; 3] =
+            std::array::from_fn(|group| along(at[group], direction.at[group]));
+        let [q, u, b] = &moved;
+        let gradient = self.gradient(functional, [q, u, b], &along(fixed, direction.fixed));
+        gradient.map(|part| rates(&part))
+    }
+}

@@ -1,0 +1,198 @@
+//! The equations of motion (eqs. 4-12).
+
+use num_dual::Dual;
+
+use super::bodies::inertia;
+use super::forces::{Moving, of_body};
+use super::kinematics::{VelocityTransformation, times, transposed_times};
+use super::scalar::{along, rates, still};
+use super::space::{Matrix, Vector};
+use super::{Oracle, Scalar};
+
+/// A state of motion: free accelerations, speeds and positions, inputs, design variables.
+#[derive(Clone, Debug)]
+pub struct State<D> {
+    /// `qddot_R`.
+    pub acceleration: Vec<D>,
+    /// `qdot_R`.
+    pub velocity: Vec<D>,
+    /// `q_R`.
+    pub position: Vec<D>,
+    /// Inputs.
+    pub inputs: Vec<D>,
+    /// Design variables.
+    pub design: Vec<D>,
+}
+
+impl<D: Scalar> State<D> {
+    /// At rest relative to the drives: `(0, 0, q; u, b)`.
+    pub fn at_rest(q: &[D], u: &[D], b: &[D]) -> Self {
+        let zero = vec![D::zero(); q.len()];
+        Self {
+            acceleration: zero.clone(),
+            velocity: zero,
+            position: q.to_vec(),
+            inputs: u.to_vec(),
+            design: b.to_vec(),
+        }
+    }
+
+    /// The same state with numbers that can carry one more derivative.
+    pub fn lifted(&self) -> State<Dual<D>> {
+        State {
+            acceleration: still(&self.acceleration),
+            velocity: still(&self.velocity),
+            position: still(&self.position),
+            inputs: still(&self.inputs),
+            design: still(&self.design),
+        }
+    }
+}
+
+/// The parts of the equations of motion, projected on the free coordinates.
+#[derive(Clone, Debug)]
+pub struct Motion<D> {
+    /// `M* = B_R^T M B_R` (eq. 8), by rows.
+    pub mass: Vec<Vec<D>>,
+    /// `B_R^T (M (Bdot_D u + Bdot_R qdot_R) + omega x J omega)`.
+    pub inertia: Vec<D>,
+    /// `B_R^T Q`.
+    pub applied: Vec<D>,
+}
+
+impl<D: Scalar> Motion<D> {
+    /// `Q*` (eq. 9).
+    pub fn right_hand_side(&self) -> Vec<D> {
+        self.applied
+            .iter()
+            .zip(&self.inertia)
+            .map(|(&applied, &inertia)| applied - inertia)
+            .collect()
+    }
+}
+
+impl Oracle<'_> {
+    /// Speeds of the driven coordinates.
+    pub(crate) fn drives<D: Scalar>(&self, inputs: &[D]) -> Vec<D> {
+        let speed = |&joint: &usize| {
+            let drive = self.model.joints[joint].drive.expect("a driven joint");
+            inputs[drive.input] * drive.factor
+        };
+        self.driven.iter().map(speed).collect()
+    }
+
+    /// Eqs. 8 and 9.
+    pub fn motion<D: Scalar>(&self, state: &State<D>) -> Motion<D> {
+        let rows = 6 * self.model.bodies.len();
+        let design = &state.design;
+        let driven: Vec<D> = self.driven_position.iter().map(|&x| D::from(x)).collect();
+        let drives = self.drives(&state.inputs);
+
+        let at = self.configuration(&state.position, &driven, design);
+        let b = self.velocity_transformation(&at);
+        // xdot = B_D u + B_R qdot_R (4)
+        let velocities = sum(
+            &times(&b.driven, &drives, rows),
+            &times(&b.free, &state.velocity, rows),
+        );
+        // Bdot: the rate of B when every coordinate moves at its speed
+        let b_dot = self.velocity_transformation_rate(state, &driven, &drives);
+        let bias = sum(
+            &times(&b_dot.driven, &drives, rows),
+            &times(&b_dot.free, &state.velocity, rows),
+        );
+
+        let inertias: Vec<_> = self
+            .model
+            .bodies
+            .iter()
+            .map(|body| inertia(&body.shape, design))
+            .collect();
+        let masses: Vec<D> = inertias.iter().map(|inertia| inertia.mass).collect();
+        // J in the ground frame: R J R^T
+        let tensors: Vec<Matrix<D>> = inertias
+            .iter()
+            .zip(&at.bodies)
+            .map(|(inertia, pose)| pose.rotation * inertia.tensor * pose.rotation.transpose())
+            .collect();
+
+        // M = blockdiag(m I, R J R^T)
+        let times_mass = |x: &[D]| -> Vec<D> {
+            let block = |body: usize| {
+                let (linear, angular) = of_body(x, body);
+                rows_of(linear.scaled(masses[body]), tensors[body] * angular)
+            };
+            (0..masses.len()).flat_map(block).collect()
+        };
+        // omega x J omega
+        let gyroscopic = (0..masses.len()).flat_map(|body| {
+            let (_, spin) = of_body(&velocities, body);
+            rows_of(Vector::zero(), spin.cross(tensors[body] * spin))
+        });
+        let gyroscopic: Vec<D> = gyroscopic.collect();
+
+        let joints: Vec<(D, D)> = (0..self.model.joints.len())
+            .map(|joint| {
+                let position = self.coordinate(joint, &state.position, &driven);
+                (position, self.coordinate(joint, &state.velocity, &drives))
+            })
+            .collect();
+        let moving = Moving {
+            at: &at,
+            velocities: &velocities,
+            joints: &joints,
+            design,
+        };
+        let applied = self.applied_forces(&moving, &masses);
+
+        // M* = B_R^T (M B_R), one column at a time; it is symmetric
+        let columns: Vec<Vec<D>> = b.free.iter().map(|column| times_mass(column)).collect();
+        Motion {
+            mass: columns
+                .iter()
+                .map(|column| transposed_times(&b.free, column))
+                .collect(),
+            inertia: transposed_times(&b.free, &sum(&times_mass(&bias), &gyroscopic)),
+            applied: transposed_times(&b.free, &applied),
+        }
+    }
+
+    /// `g = M* qddot - Q*` (eq. 12); at rest it is eq. 10.
+    pub fn motion_residual<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
+        let motion = self.motion(state);
+        let inertial = transposed_times(&motion.mass, &state.acceleration);
+        let right = motion.right_hand_side();
+        inertial
+            .iter()
+            .zip(right)
+            .map(|(&inertial, right)| inertial - right)
+            .collect()
+    }
+
+    /// `Bdot_D` and `Bdot_R`: `B` differentiated along the speeds of all coordinates.
+    fn velocity_transformation_rate<D: Scalar>(
+        &self,
+        state: &State<D>,
+        driven: &[D],
+        drives: &[D],
+    ) -> VelocityTransformation<D> {
+        let position = along(&state.position, &state.velocity);
+        let driven = along(driven, drives);
+        let at = self.configuration(&position, &driven, &still(&state.design));
+        let b = self.velocity_transformation(&at);
+        let rate = |columns: Vec<Vec<Dual<D>>>| columns.iter().map(|c| rates(c)).collect();
+        VelocityTransformation {
+            driven: rate(b.driven),
+            free: rate(b.free),
+        }
+    }
+}
+
+fn sum<D: Scalar>(a: &[D], b: &[D]) -> Vec<D> {
+    a.iter().zip(b).map(|(&a, &b)| a + b).collect()
+}
+
+fn rows_of<D: Scalar>(linear: Vector<D>, angular: Vector<D>) -> [D; 6] {
+    let ([a, b, c], [d, e, f]) = (linear.0, angular.0);
+    [a, b, c, d, e, f]
+}

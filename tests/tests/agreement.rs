@@ -1,0 +1,231 @@
+//! Whatever offers the kernels of generated code agrees with the oracle on random trees.
+
+use std::cell::Cell;
+
+use eigentol_tests::agreement::{assert_agrees, compare};
+use eigentol_tests::kernels::{At, Gradient, Kernels};
+use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
+use eigentol_tests::random::{Plan, Setting, plans};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+#[cfg(any())] // until the compiler offers `program`
+#[test]
+fn the_compiler_agrees_with_the_oracle() {
+    use eigentol_tests::compiled::Compiled;
+    use eigentol_tests::declaration::declaration;
+
+    let config = Config {
+        cases: 40,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
+        let model = plan.model();
+        let compiled = Compiled::new(&model)
+            .unwrap_or_else(|errors| panic!("{errors:?}\n{}", declaration(&model)));
+        assert_agrees(&model, &compiled, plan.seed);
+        Ok(())
+    });
+    if let Err(error) = run {
+        panic!("{error}");
+    }
+}
+
+/// The oracle in another ground frame: right, but rounded differently.
+#[test]
+fn rounding_is_no_disagreement() {
+    let config = Config {
+        cases: 20,
+        failure_persistence: None,
+        ..Config::default()
+    };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
+        let model = plan.model();
+        let other = Oracle::new(&model).turned([1.0, 2.0, -0.4], 2.1);
+        assert_agrees(&model, &other, plan.seed);
+        Ok(())
+    });
+    if let Err(error) = run {
+        panic!("{error}");
+    }
+}
+
+/// The oracle with one entry of one returned array changed by a little.
+struct Faulty<'a> {
+    oracle: Oracle<'a>,
+    /// Which array, counted over all calls.
+    target: usize,
+    call: Cell<usize>,
+    touched: Cell<bool>,
+}
+
+impl Faulty<'_> {
+    fn spoil(&self, mut array: Vec<f64>) -> Vec<f64> {
+        let call = self.call.get();
+        self.call.set(call + 1);
+        if call == self.target {
+            // The largest entry of the array: small ones may be noise.
+            let size = |i: &usize| array[*i].abs();
+            let entry = (0..array.len()).max_by(|i, j| size(i).total_cmp(&size(j)));
+            if let Some(entry) = entry.filter(|&entry| array[entry].abs() > 1e-4) {
+                array[entry] *= 1.0 + 1e-5;
+                self.touched.set(true);
+            }
+        }
+        array
+    }
+
+    fn spoil_linear(&self, linear: Linear<f64>) -> Linear<f64> {
+        Linear {
+            mass: self.spoil(linear.mass),
+            damping: self.spoil(linear.damping),
+            stiffness: self.spoil(linear.stiffness),
+        }
+    }
+
+    fn spoil_all(&self, list: Vec<Linear<f64>>) -> Vec<Linear<f64>> {
+        list.into_iter()
+            .map(|linear| self.spoil_linear(linear))
+            .collect()
+    }
+}
+
+impl Kernels for Faulty<'_> {
+    fn residual(&self, at: At) -> Vec<f64> {
+        self.spoil(Kernels::residual(&self.oracle, at))
+    }
+
+    fn residual_parts(&self, at: At) -> [Vec<f64>; 2] {
+        self.oracle.residual_parts(at).map(|part| self.spoil(part))
+    }
+
+    fn motion_residual(&self, acceleration: &[f64], velocity: &[f64], at: At) -> Vec<f64> {
+        self.spoil(Kernels::motion_residual(
+            &self.oracle,
+            acceleration,
+            velocity,
+            at,
+        ))
+    }
+
+    fn motion(&self, velocity: &[f64], at: At) -> [Vec<f64>; 2] {
+        Kernels::motion(&self.oracle, velocity, at).map(|part| self.spoil(part))
+    }
+
+    fn residual_and_stiffness(&self, at: At) -> [Vec<f64>; 2] {
+        self.oracle
+            .residual_and_stiffness(at)
+            .map(|part| self.spoil(part))
+    }
+
+    fn linear(&self, at: At) -> Linear<f64> {
+        self.spoil_linear(Kernels::linear(&self.oracle, at))
+    }
+
+    fn residual_partials(&self, at: At) -> [Vec<f64>; 2] {
+        Kernels::residual_partials(&self.oracle, at).map(|part| self.spoil(part))
+    }
+
+    fn linear_partials(&self, at: At) -> LinearPartials {
+        let partials = Kernels::linear_partials(&self.oracle, at);
+        LinearPartials {
+            by_coordinate: self.spoil_all(partials.by_coordinate),
+            by_input: self.spoil_all(partials.by_input),
+            by_design: self.spoil_all(partials.by_design),
+        }
+    }
+
+    fn linear_along(&self, at: At, along: At) -> Linear<f64> {
+        self.spoil_linear(Kernels::linear_along(&self.oracle, at, along))
+    }
+
+    fn mode_gradient(&self, at: At, phi: &[f64], lambda: f64) -> Gradient {
+        self.oracle
+            .mode_gradient(at, phi, lambda)
+            .map(|part| self.spoil(part))
+    }
+
+    fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient {
+        self.oracle
+            .residual_gradient(at, w)
+            .map(|part| self.spoil(part))
+    }
+
+    fn mode_gradient_along(
+        &self,
+        at: At,
+        mode: (&[f64], f64),
+        along: At,
+        mode_along: (&[f64], f64),
+    ) -> Gradient {
+        let gradient = self.oracle.mode_gradient_along(at, mode, along, mode_along);
+        gradient.map(|part| self.spoil(part))
+    }
+
+    fn residual_gradient_along(&self, at: At, w: &[f64], along: At, dw: &[f64]) -> Gradient {
+        let gradient = self.oracle.residual_gradient_along(at, w, along, dw);
+        gradient.map(|part| self.spoil(part))
+    }
+}
+
+/// A comparison that cannot fail proves nothing: every array of every kernel is spoilt once, by one part in 10^5.
+#[test]
+fn every_fault_is_found() {
+    let plan = Plan {
+        setting: Setting::Spinning,
+        bodies: 2,
+        rotor: false,
+        seed: 11,
+    };
+    let model = plan.model();
+    let mut found = 0;
+    for target in 0.. {
+        let oracle = Oracle::new(&model);
+        let faulty = Faulty {
+            oracle,
+            target,
+            call: Cell::new(0),
+            touched: Cell::new(false),
+        };
+        let report = compare(&model, &faulty, 5);
+        assert_eq!(
+            report.is_err(),
+            faulty.touched.get(),
+            "array {target}: {report:?}"
+        );
+        found += usize::from(report.is_err());
+        if target >= faulty.call.get() {
+            break;
+        }
+    }
+    assert!(found > 40, "{found} faults");
+}
+
+#[test]
+fn a_report_names_the_kernel_the_entry_and_the_declaration() {
+    let plan = Plan {
+        setting: Setting::Spinning,
+        bodies: 2,
+        rotor: false,
+        seed: 11,
+    };
+    let model = plan.model();
+    let oracle = Oracle::new(&model);
+    let faulty = Faulty {
+        oracle,
+        target: 0,
+        call: Cell::new(0),
+        touched: Cell::new(false),
+    };
+    let report = compare(&model, &faulty, 5).expect_err("a fault");
+    for part in [
+        "residual: residual[",
+        "the oracle says",
+        "pub mechanism Tree {",
+        "seed 5",
+    ] {
+        assert!(report.contains(part), "{part}: {report}");
+    }
+}
