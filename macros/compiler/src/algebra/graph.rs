@@ -146,10 +146,11 @@ impl Graph {
             Node::Unary(Unary::Negate, operand) => {
                 if self.name(operand).is_none() {
                     let name = name();
-                    self.set_name(operand, || match name.strip_prefix("minus_") {
+                    let positive = match name.strip_prefix("minus_") {
                         Some(positive) => positive.to_owned(),
                         None => format!("minus_{name}"),
-                    });
+                    };
+                    self.names.insert(operand, positive);
                 }
             }
             _ => {
