@@ -4,81 +4,81 @@ use super::count::reachable;
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
 
-/// A value and the size of the terms that it is made of: a value far below its magnitude is a rounded zero.
+/// Largest relative rounding error of one operation.
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+
+/// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
+/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, they stand for rounded numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The value.
     pub value: f64,
-    /// What the value would be if nothing cancelled.
-    pub magnitude: f64,
+    /// How far rounding may have moved it.
+    pub error: f64,
 }
 
 impl Evaluation {
-    /// Whether the value is zero up to rounding.
+    /// Whether nothing but rounding keeps the value from zero.
     pub fn is_negligible(self) -> bool {
-        self.value.abs() <= 1e-10 * self.magnitude || self.value == 0.0
+        self.value.abs() <= 16.0 * self.error
+    }
+
+    fn rounded(value: f64, inherited: f64) -> Self {
+        Self { value, error: inherited + UNIT_ROUNDOFF * value.abs() }
     }
 }
 
 /// Values of `roots` for the given symbol values.
 pub fn evaluate(graph: &Graph, roots: &[ExprId], symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-    evaluate_with_magnitude(graph, roots, symbol)
-        .iter()
-        .map(|e| e.value)
-        .collect()
+    evaluate_with_error(graph, roots, symbol).iter().map(|e| e.value).collect()
 }
 
-/// Values of `roots` together with the magnitude of their terms.
-pub fn evaluate_with_magnitude(
+/// Values of `roots` together with bounds on their rounding errors.
+pub fn evaluate_with_error(
     graph: &Graph,
     roots: &[ExprId],
     symbol: impl Fn(SymbolId) -> f64,
 ) -> Vec<Evaluation> {
-    let mut done = vec![
-        Evaluation {
-            value: 0.0,
-            magnitude: 0.0
-        };
-        graph.len()
-    ];
+    let mut done = vec![Evaluation { value: 0.0, error: 0.0 }; graph.len()];
     for id in reachable(graph, roots) {
         done[id.index()] = match graph.node(id) {
-            Node::Constant(bits) => leaf(f64::from_bits(bits)),
-            Node::Symbol(s) => leaf(symbol(s)),
-            Node::Unary(operator, a) => {
-                let a = done[a.index()];
-                let value = apply_unary(operator, a.value);
-                let magnitude = match operator {
-                    Unary::Negate => a.magnitude,
-                    // A root or a function of a cancelled argument inherits the loss of the argument's digits.
-                    _ => value.abs() * (a.magnitude / a.value.abs()).clamp(1.0, 1e12),
-                };
-                Evaluation {
-                    value,
-                    magnitude: magnitude.max(value.abs()),
-                }
-            }
-            Node::Binary(operator, a, b) => {
-                let (a, b) = (done[a.index()], done[b.index()]);
-                let value = apply_binary(operator, a.value, b.value);
-                let magnitude = match operator {
-                    Operator::Add | Operator::Subtract => a.magnitude + b.magnitude,
-                    Operator::Multiply => a.magnitude * b.magnitude,
-                    Operator::Divide => a.magnitude / b.value.abs(),
-                    Operator::Power | Operator::Atan2 => value.abs(),
-                };
-                Evaluation { value, magnitude }
-            }
+            Node::Constant(bits) => Evaluation::rounded(f64::from_bits(bits), 0.0),
+            Node::Symbol(s) => Evaluation { value: symbol(s), error: 0.0 },
+            Node::Unary(operator, a) => unary(operator, done[a.index()]),
+            Node::Binary(operator, a, b) => binary(operator, done[a.index()], done[b.index()]),
         };
     }
     roots.iter().map(|root| done[root.index()]).collect()
 }
 
-fn leaf(value: f64) -> Evaluation {
-    Evaluation {
-        value,
-        magnitude: value.abs(),
-    }
+fn unary(operator: Unary, a: Evaluation) -> Evaluation {
+    let value = apply_unary(operator, a.value);
+    let slope = match operator {
+        Unary::Negate => return Evaluation { value, error: a.error },
+        Unary::Sqrt => 0.5 / value,
+        Unary::Sin => a.value.cos(),
+        Unary::Cos => a.value.sin(),
+        Unary::Tan => 1.0 + value * value,
+        Unary::Asin | Unary::Acos => 1.0 / (1.0 - a.value * a.value).sqrt(),
+        Unary::Exp => value,
+        Unary::Ln => 1.0 / a.value,
+        Unary::PowerInteger(n) => f64::from(n) * a.value.powi(n - 1),
+    };
+    let inherited = if a.error == 0.0 { 0.0 } else { slope.abs() * a.error };
+    Evaluation::rounded(value, inherited)
+}
+
+fn binary(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
+    let value = apply_binary(operator, a.value, b.value);
+    let (x, y) = (a.value.abs(), b.value.abs());
+    let inherited = match operator {
+        Operator::Add | Operator::Subtract => a.error + b.error,
+        Operator::Multiply => x * b.error + y * a.error,
+        Operator::Divide => (a.error + value.abs() * b.error) / y,
+        Operator::Power => value.abs() * (y / x * a.error + x.ln().abs() * b.error),
+        Operator::Atan2 => (y * a.error + x * b.error) / (x * x + y * y),
+    };
+    Evaluation::rounded(value, inherited)
 }
 
 /// `operator a`.

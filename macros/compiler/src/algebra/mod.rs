@@ -13,7 +13,7 @@ mod substitute;
 mod vector;
 
 pub use count::{Cost, cost, reachable};
-pub use evaluate::{Evaluation, evaluate, evaluate_with_magnitude};
+pub use evaluate::{Evaluation, evaluate, evaluate_with_error};
 pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};

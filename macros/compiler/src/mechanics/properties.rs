@@ -1,7 +1,7 @@
 //! What holds for a mechanism at every state: established structurally where the graph shows it, and otherwise by
 //! evaluation at random states, where a value must vanish up to rounding each time.
 
-use crate::algebra::{Direction, Evaluation, Graph, derivatives_along, evaluate_with_magnitude};
+use crate::algebra::{Direction, Evaluation, Graph, derivatives_along, evaluate_with_error};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
@@ -17,11 +17,11 @@ const ATTEMPTS: u64 = 16;
 /// Values of `roots` at random states. Fewer than [`STATES`] come back only where the equations are rarely finite.
 pub(super) fn probe(g: &Graph, problem: &Problem, roots: &[ExprId]) -> Vec<Vec<Evaluation>> {
     (1..=ATTEMPTS)
-        .map(|seed| evaluate_with_magnitude(g, roots, |symbol| state(problem, seed, symbol)))
+        .map(|seed| evaluate_with_error(g, roots, |symbol| state(problem, seed, symbol)))
         .filter(|values| {
             values
                 .iter()
-                .all(|v| v.value.is_finite() && v.magnitude.is_finite())
+                .all(|v| v.value.is_finite() && v.error.is_finite())
         })
         .take(STATES)
         .collect()
