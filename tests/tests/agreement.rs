@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use eigentol_tests::agreement::{assert_agrees, compare};
+use eigentol_tests::agreement::{Reference, assert_agrees};
 use eigentol_tests::kernels::{At, Gradient, Kernels};
 use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::random::{Plan, Setting, plans};
@@ -180,6 +180,7 @@ fn every_fault_is_found() {
         seed: 11,
     };
     let model = plan.model();
+    let reference = Reference::new(&model, 5);
     let mut found = 0;
     for target in 0.. {
         let oracle = Oracle::new(&model);
@@ -189,7 +190,7 @@ fn every_fault_is_found() {
             call: Cell::new(0),
             touched: Cell::new(false),
         };
-        let report = compare(&model, &faulty, 5);
+        let report = reference.compare(&faulty);
         assert_eq!(
             report.is_err(),
             faulty.touched.get(),
@@ -219,7 +220,9 @@ fn a_report_names_the_kernel_the_entry_and_the_declaration() {
         call: Cell::new(0),
         touched: Cell::new(false),
     };
-    let report = compare(&model, &faulty, 5).expect_err("a fault");
+    let report = Reference::new(&model, 5)
+        .compare(&faulty)
+        .expect_err("a fault");
     for part in [
         "residual: residual[",
         "the oracle says",

@@ -2,10 +2,11 @@
 
 use eigentol_tests::agreement::Case;
 use eigentol_tests::energy;
+use eigentol_tests::examples::chain;
 use eigentol_tests::kernels::{At, Kernels};
 use eigentol_tests::model::{Model, Value};
 use eigentol_tests::oracle::{Oracle, State};
-use eigentol_tests::random::{Plan, Setting, plans};
+use eigentol_tests::random::plans;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
 
 /// Runs a check on as many random models, always the same ones.
@@ -75,13 +76,7 @@ fn driven_coordinates_do_not_matter_in_a_steady_state() {
 
 #[test]
 fn tilted_gravity_destroys_the_steady_state_and_shows() {
-    let plan = Plan {
-        setting: Setting::Spinning,
-        bodies: 2,
-        rotor: false,
-        seed: 4,
-    };
-    let mut model = plan.model();
+    let mut model = chain(&[0.8, 1.1], &[2.5, 3.7]);
     model.gravity[0] = Value::Number(1.0);
     let case = Case::random(&model, 1);
     let here = Kernels::residual(&Oracle::new(&model), at(&case));
