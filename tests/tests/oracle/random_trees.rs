@@ -6,26 +6,10 @@ use eigentol_tests::examples::chain;
 use eigentol_tests::kernels::{At, Kernels};
 use eigentol_tests::model::{Model, Value};
 use eigentol_tests::oracle::{Oracle, State};
-use eigentol_tests::random::plans;
-use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
+use eigentol_tests::random::on_plans;
 
-/// Runs a check on as many random models, always the same ones.
 fn on_models(cases: u32, check: impl Fn(&Model, u64)) {
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
-        check(&plan.model(), plan.seed);
-        Ok(())
-    });
-    match run {
-        Ok(()) => {}
-        Err(TestError::Fail(reason, plan)) => panic!("{plan:?}: {reason}"),
-        Err(TestError::Abort(reason)) => panic!("{reason}"),
-    }
+    on_plans(cases, |plan| check(&plan.model(), plan.seed));
 }
 
 fn at(case: &Case) -> At<'_> {
