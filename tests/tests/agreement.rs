@@ -24,7 +24,7 @@ fn the_compiler_agrees_with_the_oracle() {
 /// The oracle in another ground frame: right, but rounded differently.
 #[test]
 fn rounding_is_no_disagreement() {
-    on_plans(10, |plan| {
+    on_plans(8, |plan| {
         let model = plan.model();
         let other = Oracle::new(&model).turned([1.0, 2.0, -0.4], 2.1);
         assert_agrees(&model, &other, plan.seed);

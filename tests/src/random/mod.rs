@@ -96,6 +96,7 @@ pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
     let config = Config {
         cases,
         failure_persistence: None,
+        max_shrink_iters: 20,
         ..Config::default()
     };
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
