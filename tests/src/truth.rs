@@ -26,9 +26,13 @@ impl Truth {
             .unwrap_or_else(|| panic!("no field {field}"))
     }
 
-    /// A field that may be missing.
+    /// A field that may be missing or null.
     pub fn find(&self, field: &str) -> Option<Self> {
-        self.0.get(field).cloned().map(Self)
+        self.0
+            .get(field)
+            .filter(|value| !value.is_null())
+            .cloned()
+            .map(Self)
     }
 
     /// The names of the fields.

@@ -2,11 +2,10 @@
 
 use std::cell::Cell;
 
-use eigentol_tests::agreement::{assert_agrees, compare};
+use eigentol_tests::agreement::{Reference, assert_agrees};
 use eigentol_tests::kernels::{At, Gradient, Kernels};
 use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
-use eigentol_tests::random::{Plan, Setting, plans};
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use eigentol_tests::random::{Plan, Setting, on_plans};
 
 #[cfg(any())] // until the compiler offers `program`
 #[test]
@@ -14,42 +13,22 @@ fn the_compiler_agrees_with_the_oracle() {
     use eigentol_tests::compiled::Compiled;
     use eigentol_tests::declaration::declaration;
 
-    let config = Config {
-        cases: 40,
-        failure_persistence: None,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
+    on_plans(40, |plan| {
         let model = plan.model();
         let compiled = Compiled::new(&model)
             .unwrap_or_else(|errors| panic!("{errors:?}\n{}", declaration(&model)));
         assert_agrees(&model, &compiled, plan.seed);
-        Ok(())
     });
-    if let Err(error) = run {
-        panic!("{error}");
-    }
 }
 
 /// The oracle in another ground frame: right, but rounded differently.
 #[test]
 fn rounding_is_no_disagreement() {
-    let config = Config {
-        cases: 20,
-        failure_persistence: None,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
+    on_plans(8, |plan| {
         let model = plan.model();
         let other = Oracle::new(&model).turned([1.0, 2.0, -0.4], 2.1);
         assert_agrees(&model, &other, plan.seed);
-        Ok(())
     });
-    if let Err(error) = run {
-        panic!("{error}");
-    }
 }
 
 /// The oracle with one entry of one returned array changed by a little.
@@ -180,6 +159,7 @@ fn every_fault_is_found() {
         seed: 11,
     };
     let model = plan.model();
+    let reference = Reference::new(&model, 5);
     let mut found = 0;
     for target in 0.. {
         let oracle = Oracle::new(&model);
@@ -189,7 +169,7 @@ fn every_fault_is_found() {
             call: Cell::new(0),
             touched: Cell::new(false),
         };
-        let report = compare(&model, &faulty, 5);
+        let report = reference.compare(&faulty);
         assert_eq!(
             report.is_err(),
             faulty.touched.get(),
@@ -219,7 +199,9 @@ fn a_report_names_the_kernel_the_entry_and_the_declaration() {
         call: Cell::new(0),
         touched: Cell::new(false),
     };
-    let report = compare(&model, &faulty, 5).expect_err("a fault");
+    let report = Reference::new(&model, 5)
+        .compare(&faulty)
+        .expect_err("a fault");
     for part in [
         "residual: residual[",
         "the oracle says",

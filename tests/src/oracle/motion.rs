@@ -4,7 +4,7 @@ use num_dual::Dual;
 
 use super::bodies::inertia;
 use super::forces::{Moving, of_body};
-use super::kinematics::{VelocityTransformation, times, transposed_times};
+use super::kinematics::{Columns, VelocityTransformation, times, transposed_times};
 use super::scalar::{along, rates, still};
 use super::space::{Matrix, Vector};
 use super::{Oracle, Scalar};
@@ -71,6 +71,35 @@ impl<D: Scalar> Motion<D> {
     }
 }
 
+/// Everything in eqs. 4-9 before the projection, as rows of `B`.
+struct Bodies<D> {
+    /// `B_R`.
+    b_free: Columns<D>,
+    masses: Vec<D>,
+    /// `R J R^T`, about the centres of mass, in the ground frame.
+    tensors: Vec<Matrix<D>>,
+    /// `Bdot_D u + Bdot_R qdot_R`.
+    bias: Vec<D>,
+    /// `omega x J omega`.
+    gyroscopic: Vec<D>,
+    /// `Q`.
+    applied: Vec<D>,
+}
+
+impl<D: Scalar> Bodies<D> {
+    /// `M x`, `M = blockdiag(m I, R J R^T)`.
+    fn times_mass(&self, x: &[D]) -> Vec<D> {
+        let block = |body: usize| {
+            let (linear, angular) = of_body(x, body);
+            rows_of(
+                linear.scaled(self.masses[body]),
+                self.tensors[body] * angular,
+            )
+        };
+        (0..self.masses.len()).flat_map(block).collect()
+    }
+}
+
 impl Oracle<'_> {
     /// Speeds of the driven coordinates.
     pub(crate) fn drives<D: Scalar>(&self, inputs: &[D]) -> Vec<D> {
@@ -83,6 +112,38 @@ impl Oracle<'_> {
 
     /// Eqs. 8 and 9.
     pub fn motion<D: Scalar>(&self, state: &State<D>) -> Motion<D> {
+        let bodies = self.bodies(state);
+        // M* = B_R^T (M B_R), one column at a time; it is symmetric
+        let columns = bodies.b_free.iter().map(|column| bodies.times_mass(column));
+        let mass = columns
+            .map(|column| transposed_times(&bodies.b_free, &column))
+            .collect();
+        let inertial = sum(&bodies.times_mass(&bodies.bias), &bodies.gyroscopic);
+        Motion {
+            mass,
+            inertia: transposed_times(&bodies.b_free, &inertial),
+            applied: transposed_times(&bodies.b_free, &bodies.applied),
+        }
+    }
+
+    /// `g = M* qddot - Q*` (eq. 12) as `B_R^T (M (B_R qddot + Bdot_D u + Bdot_R qdot_R) + omega x J omega - Q)`; at rest
+    /// it is eq. 10.
+    pub fn motion_residual<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
+        let bodies = self.bodies(state);
+        let free = times(&bodies.b_free, &state.acceleration, bodies.bias.len());
+        let inertial = sum(
+            &bodies.times_mass(&sum(&free, &bodies.bias)),
+            &bodies.gyroscopic,
+        );
+        let unbalanced: Vec<D> = inertial
+            .iter()
+            .zip(&bodies.applied)
+            .map(|(&inertial, &applied)| inertial - applied)
+            .collect();
+        transposed_times(&bodies.b_free, &unbalanced)
+    }
+
+    fn bodies<D: Scalar>(&self, state: &State<D>) -> Bodies<D> {
         let rows = 6 * self.model.bodies.len();
         let design = &state.design;
         let driven: Vec<D> = self.driven_position.iter().map(|&x| D::from(x)).collect();
@@ -95,7 +156,6 @@ impl Oracle<'_> {
             &times(&b.driven, &drives, rows),
             &times(&b.free, &state.velocity, rows),
         );
-        // Bdot: the rate of B when every coordinate moves at its speed
         let b_dot = self.velocity_transformation_rate(state, &driven, &drives);
         let bias = sum(
             &times(&b_dot.driven, &drives, rows),
@@ -109,27 +169,16 @@ impl Oracle<'_> {
             .map(|body| inertia(&body.shape, design))
             .collect();
         let masses: Vec<D> = inertias.iter().map(|inertia| inertia.mass).collect();
-        // J in the ground frame: R J R^T
         let tensors: Vec<Matrix<D>> = inertias
             .iter()
             .zip(&at.bodies)
             .map(|(inertia, pose)| pose.rotation * inertia.tensor * pose.rotation.transpose())
             .collect();
-
-        // M = blockdiag(m I, R J R^T)
-        let times_mass = |x: &[D]| -> Vec<D> {
-            let block = |body: usize| {
-                let (linear, angular) = of_body(x, body);
-                rows_of(linear.scaled(masses[body]), tensors[body] * angular)
-            };
-            (0..masses.len()).flat_map(block).collect()
-        };
-        // omega x J omega
         let gyroscopic = (0..masses.len()).flat_map(|body| {
             let (_, spin) = of_body(&velocities, body);
             rows_of(Vector::zero(), spin.cross(tensors[body] * spin))
         });
-        let gyroscopic: Vec<D> = gyroscopic.collect();
+        let gyroscopic = gyroscopic.collect();
 
         let joints: Vec<(D, D)> = (0..self.model.joints.len())
             .map(|joint| {
@@ -144,29 +193,14 @@ impl Oracle<'_> {
             design,
         };
         let applied = self.applied_forces(&moving, &masses);
-
-        // M* = B_R^T (M B_R), one column at a time; it is symmetric
-        let columns: Vec<Vec<D>> = b.free.iter().map(|column| times_mass(column)).collect();
-        Motion {
-            mass: columns
-                .iter()
-                .map(|column| transposed_times(&b.free, column))
-                .collect(),
-            inertia: transposed_times(&b.free, &sum(&times_mass(&bias), &gyroscopic)),
-            applied: transposed_times(&b.free, &applied),
+        Bodies {
+            b_free: b.free,
+            masses,
+            tensors,
+            bias,
+            gyroscopic,
+            applied,
         }
-    }
-
-    /// `g = M* qddot - Q*` (eq. 12); at rest it is eq. 10.
-    pub fn motion_residual<D: Scalar>(&self, state: &State<D>) -> Vec<D> {
-        let motion = self.motion(state);
-        let inertial = transposed_times(&motion.mass, &state.acceleration);
-        let right = motion.right_hand_side();
-        inertial
-            .iter()
-            .zip(right)
-            .map(|(&inertial, right)| inertial - right)
-            .collect()
     }
 
     /// `Bdot_D` and `Bdot_R`: `B` differentiated along the speeds of all coordinates.

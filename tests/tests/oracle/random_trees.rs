@@ -2,29 +2,14 @@
 
 use eigentol_tests::agreement::Case;
 use eigentol_tests::energy;
+use eigentol_tests::examples::chain;
 use eigentol_tests::kernels::{At, Kernels};
 use eigentol_tests::model::{Model, Value};
 use eigentol_tests::oracle::{Oracle, State};
-use eigentol_tests::random::{Plan, Setting, plans};
-use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
+use eigentol_tests::random::on_plans;
 
-/// Runs a check on as many random models, always the same ones.
 fn on_models(cases: u32, check: impl Fn(&Model, u64)) {
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        ..Config::default()
-    };
-    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
-    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
-        check(&plan.model(), plan.seed);
-        Ok(())
-    });
-    match run {
-        Ok(()) => {}
-        Err(TestError::Fail(reason, plan)) => panic!("{plan:?}: {reason}"),
-        Err(TestError::Abort(reason)) => panic!("{reason}"),
-    }
+    on_plans(cases, |plan| check(&plan.model(), plan.seed));
 }
 
 fn at(case: &Case) -> At<'_> {
@@ -75,13 +60,7 @@ fn driven_coordinates_do_not_matter_in_a_steady_state() {
 
 #[test]
 fn tilted_gravity_destroys_the_steady_state_and_shows() {
-    let plan = Plan {
-        setting: Setting::Spinning,
-        bodies: 2,
-        rotor: false,
-        seed: 4,
-    };
-    let mut model = plan.model();
+    let mut model = chain(&[0.8, 1.1], &[2.5, 3.7]);
     model.gravity[0] = Value::Number(1.0);
     let case = Case::random(&model, 1);
     let here = Kernels::residual(&Oracle::new(&model), at(&case));

@@ -270,18 +270,12 @@ fn chains_at_equilibrium() {
             let q = relative(&point.get("theta_star").numbers());
             let at: At = [&q, &u, &b];
             let linear = Kernels::linear(&oracle, at);
-            assert_close(
-                &absolute(&linear.mass),
-                &point.get("M").matrix(),
-                1e-13,
-                &what,
-            );
-            assert_close(
-                &absolute(&linear.stiffness),
-                &point.get("K").matrix(),
-                1e-13,
-                &what,
-            );
+            // The longest chains store no matrices.
+            for (field, matrix) in [("M", &linear.mass), ("K", &linear.stiffness)] {
+                if let Some(expected) = point.find(field) {
+                    assert_close(&absolute(matrix), &expected.matrix(), 1e-13, &what);
+                }
+            }
             assert_close(&linear.damping, &vec![0.0; linear.mass.len()], 1e-12, &what);
             let residual = Kernels::residual(&oracle, at);
             assert_close(&residual, &vec![0.0; q.len()], 1e-11, &what);
@@ -291,8 +285,12 @@ fn chains_at_equilibrium() {
                 point.get("omega_n").numbers(),
                 point.get("domega_db").list(),
             );
-            for ((mode, omega), rates) in modes(&linear).iter().zip(omegas).zip(rates) {
-                assert_close(&[mode.0.sqrt()], &[omega], 1e-11, &what);
+            let modes = modes(&linear);
+            let found: Vec<f64> = modes.iter().map(|(lambda, _)| lambda.sqrt()).collect();
+            assert_close(&found, &omegas, 1e-11, &what);
+            // Of the longest chains one mode is enough.
+            let checked = if q.len() > 4 { 1 } else { q.len() };
+            for (mode, rates) in modes.iter().zip(rates).take(checked) {
                 let [_, by_design] = total.frequency(mode);
                 assert_close(&by_design, &rates.numbers(), 1e-9, &what);
             }

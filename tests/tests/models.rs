@@ -1,0 +1,128 @@
+//! The random models and their declarations.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::mem::discriminant;
+
+use eigentol_tests::declaration::declaration;
+use eigentol_tests::examples::{chain, two_sliders};
+use eigentol_tests::model::{ForceLaw, Frame, JointKind, Shape};
+use eigentol_tests::random::on_plans;
+
+#[test]
+fn a_chain_reads_as_a_person_would_write_it() {
+    let expected = "\
+pub mechanism Chain {
+    input omega: rad/s;
+    design l1 = 0.8 m;
+    design l2 = 1.1 m;
+    design m1 = 2.5 kg;
+    design m2 = 3.7 kg;
+    gravity [0.0, 0.0, -9.81] m/s^2;
+    body shaft: massless;
+    body bar1: rod(mass: m1, length: l1, along: -z);
+    body bar2: rod(mass: m2, length: l2, along: -z);
+    joint spin: revolute(z) from ground to shaft, driven at omega;
+    joint theta1: revolute(y) from shaft to bar1;
+    joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -1.0 * l1];
+}
+";
+    assert_eq!(declaration(&chain(&[0.8, 1.1], &[2.5, 3.7])), expected);
+}
+
+#[test]
+fn forces_of_sliders_have_the_units_of_displacements() {
+    let text = declaration(&two_sliders([0.5, 40.0, 60.0, 0.1, 0.02, 0.3, 0.2]));
+    for line in [
+        "design kx = 40.0 N/m;",
+        "design cx = 0.3 N*s/m;",
+        "force spring_x: spring(on: along_x, stiffness: kx, rest: x0);",
+        "force damper_y: damper(on: along_y, damping: cy);",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+/// The generator makes everything it promises, and what it prints is made of tokens.
+#[test]
+fn random_models_leave_nothing_out() {
+    let seen: RefCell<BTreeMap<String, usize>> = RefCell::default();
+    let count = |what: String| *seen.borrow_mut().entry(what).or_default() += 1;
+    on_plans(300, |plan| {
+        let model = plan.model();
+        let text = declaration(&model);
+        let tokens: Result<proc_macro2::TokenStream, _> = text.parse();
+        assert!(tokens.is_ok(), "{text}");
+
+        count(format!("{} bodies", model.bodies.len()));
+        count(format!("{} design variables", model.design.len()));
+        count(format!("{} drives", model.driven().len()));
+        for body in &model.bodies {
+            count(format!("shape {:?}", discriminant(&body.shape)));
+            if matches!(
+                body.shape,
+                Shape::Rod {
+                    center: Some(_),
+                    ..
+                }
+            ) {
+                count("rod with a centre".to_owned());
+            }
+        }
+        for joint in &model.joints {
+            count(format!("joint {:?}", discriminant(&joint.kind)));
+            if joint.drive.is_some() && matches!(joint.kind, JointKind::Prismatic(_)) {
+                count("driven slider".to_owned());
+            }
+        }
+        for branch in model.tree() {
+            if branch.reversed {
+                count("reversed joint".to_owned());
+            }
+            let children = model
+                .tree()
+                .iter()
+                .filter(|b| b.parent == branch.parent)
+                .count();
+            if branch.parent != Frame::Ground && children > 1 {
+                count("fork".to_owned());
+            }
+        }
+        for force in &model.forces {
+            count(format!("force {:?}", discriminant(&force.law)));
+            if let ForceLaw::SpringDamper { from, to, .. } = force.law {
+                let ends = [model.points[from].frame, model.points[to].frame];
+                let ground = ends.contains(&Frame::Ground);
+                count(format!("spring between points, to the ground: {ground}"));
+            }
+        }
+    });
+    let seen = seen.into_inner();
+    for (what, least) in [("reversed joint", 50), ("fork", 50), ("driven slider", 20)] {
+        assert!(
+            seen.get(what).is_some_and(|&count| count >= least),
+            "{what}: {seen:#?}"
+        );
+    }
+    for (what, kinds) in [
+        ("shape", 8),
+        ("joint", 3),
+        ("force", 3),
+        ("spring between", 2),
+    ] {
+        let found = seen.keys().filter(|key| key.starts_with(what)).count();
+        assert_eq!(found, kinds, "{what}: {seen:#?}");
+    }
+    for (what, range) in [
+        ("bodies", 1..=7),
+        ("design variables", 1..=8),
+        ("drives", 0..=3),
+    ] {
+        for number in range {
+            assert!(
+                seen.contains_key(&format!("{number} {what}")),
+                "{number} {what}: {seen:#?}"
+            );
+        }
+    }
+}
