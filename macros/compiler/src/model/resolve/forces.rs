@@ -60,8 +60,10 @@ impl Resolver<'_> {
         let target = self.free_coordinate(word, arguments);
         let quantity = target.map(|(_, quantity)| quantity);
         let is_angle = quantity == Some(CoordinateQuantity::Angle);
-        let pick =
-            |angle, displacement| quantity.map(|_| if is_angle { angle } else { displacement });
+        let pick = |angle: Expected, displacement: Dimension| {
+            let displacement = displacement.into();
+            quantity.map(|_| if is_angle { angle } else { displacement })
+        };
         let stiffness = self.coefficient(
             arguments,
             "stiffness",
