@@ -16,11 +16,10 @@ use eigentol_compiler::syntax::parse::parse;
 use eigentol_compiler::topology::build::build;
 use proc_macro2::TokenStream;
 
-const BEFORE: &str = "mechanism Test {\n";
-const AFTER: &str = "
+const BEFORE: &str = "mechanism Test {
     body bar: rod(mass: 3 kg, length: 1 m, along: -z);
     joint theta: revolute(y) from ground to bar;
-}";
+";
 
 /// What the front half of the compiler says about a declaration.
 fn diagnose(source: &str) -> Vec<Diagnostic> {
@@ -50,7 +49,7 @@ fn drawn(source: &str) -> String {
     let (diagnostics, first) = if whole {
         (diagnose(source), 1)
     } else {
-        (diagnose(&format!("{BEFORE}{source}{AFTER}")), 2)
+        (diagnose(&format!("{BEFORE}{source}\n}}")), 4)
     };
     let line_of = |diagnostic: &Diagnostic| diagnostic.span.first.start().line;
     let mut text = String::new();

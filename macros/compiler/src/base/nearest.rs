@@ -3,8 +3,8 @@
 /// The candidate nearest to `name`, when one is near enough to be meant. The first of equals wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
-        0..=2 => 1,
-        3..=5 => 2,
+        0..=3 => 1,
+        4..=5 => 2,
         length => length / 3 + 1,
     };
     let mut best: Option<(usize, &str)> = None;

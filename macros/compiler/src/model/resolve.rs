@@ -5,6 +5,7 @@ mod arguments;
 mod bodies;
 mod constants;
 mod directions;
+mod expected;
 mod forces;
 mod functions;
 mod gravity;
@@ -29,7 +30,7 @@ use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;
-use crate::syntax::ast::Ast;
+use crate::syntax::ast::{Ast, ItemKind};
 
 /// Resolves and checks a declaration.
 pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
@@ -38,9 +39,9 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
     let mut resolver = Resolver::new(ast, scope, diagnostics);
     let inputs = resolver.inputs();
     let design = resolver.design_variables();
+    resolver.coordinates();
     resolver.named_constants();
     let gravity = resolver.gravity();
-    resolver.coordinates();
     let bodies = resolver.bodies();
     let joints = resolver.joints();
     let points = resolver.points();
@@ -69,7 +70,28 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
         forces,
         outputs,
     };
+    if resolver.diagnostics.is_empty() && !is_complete(ast, &mechanism) {
+        // A value was given up without a message.
+        let message = "this declaration cannot be compiled, and eigentol does not know why";
+        let help = "this is a bug of eigentol: please report it with the declaration";
+        resolver
+            .diagnostics
+            .error_with_help(&ast.name, message, help);
+    }
     resolver.diagnostics.into_result(mechanism)
+}
+
+/// Every declared item has become an entry.
+fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
+    let count = |is: fn(&ItemKind) -> bool| ast.items.iter().filter(|item| is(&item.kind)).count();
+    mechanism.inputs.len() == count(|kind| matches!(kind, ItemKind::Input(_)))
+        && mechanism.design.len() == count(|kind| matches!(kind, ItemKind::Design(_)))
+        && mechanism.constants.len() >= count(|kind| matches!(kind, ItemKind::Let(_)))
+        && mechanism.bodies.len() == count(|kind| matches!(kind, ItemKind::Body(_)))
+        && mechanism.joints.len() == count(|kind| matches!(kind, ItemKind::Joint(_)))
+        && mechanism.points.len() == count(|kind| matches!(kind, ItemKind::Point(_)))
+        && mechanism.forces.len() == count(|kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism.outputs.len() == count(|kind| matches!(kind, ItemKind::Output(_)))
 }
 
 /// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.

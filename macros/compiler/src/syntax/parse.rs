@@ -8,7 +8,7 @@ use proc_macro2::{Delimiter, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
-use super::ast::{Ast, Item, Value};
+use super::ast::{Ast, Item, ItemKind, Value};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::span::Extent;
@@ -100,7 +100,12 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Item> {
             // The item itself is whole: go on with the next.
             diagnostics.error(tokens.last, "expected `;` after this");
         } else {
-            return tokens.expected("`;`");
+            return tokens.expected("`;`").map_err(|error| match kind {
+                ItemKind::Design(_) if tokens.peek_sign('%') => {
+                    Box::new(error.with_help("a tolerance is written `+/- 3%`"))
+                }
+                _ => error,
+            });
         }
     }
     Ok(Item { docs, kind })

@@ -2,6 +2,7 @@
 //! after it, which syn's own stream does not allow.
 
 use proc_macro2::{Delimiter, Ident, Literal, Span};
+use quote::ToTokens as _;
 use syn::buffer::Cursor;
 
 use crate::base::diagnostics::Diagnostic;
@@ -163,7 +164,8 @@ impl<'a> Tokens<'a> {
             return self.expected(what);
         };
         let text = ident.to_string();
-        if syn::parse_str::<Ident>(&text).is_err() || text.starts_with("r#") {
+        let is_free = syn::parse2::<Ident>(ident.to_token_stream()).is_ok();
+        if !is_free || text.starts_with("r#") {
             let message = format!("`{text}` cannot be a name: Rust reserves it");
             return Err(Box::new(Diagnostic::new(&ident, message)));
         }

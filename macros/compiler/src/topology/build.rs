@@ -57,11 +57,13 @@ impl Graph {
         for (index, joint) in mechanism.joints.iter().enumerate() {
             let (from, to) = (node(joint.from), node(joint.to));
             if let Some(path) = graph.path(from, to) {
-                let mut names: Vec<String> = path
+                let mut closing = path;
+                closing.push(JointId::new(index));
+                closing.sort();
+                let names: Vec<String> = closing
                     .into_iter()
                     .map(|id| format!("`{}`", mechanism.joints[id.index()].name))
                     .collect();
-                names.push(format!("`{}`", joint.name));
                 diagnostics.error_with_help(
                     &joint.name,
                     format!("the joints {} close a loop", names.join(", ")),

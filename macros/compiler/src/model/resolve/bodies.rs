@@ -220,8 +220,8 @@ impl Part<'_, '_, '_> {
             let resolved = scalar.and_then(|(expr, quantity)| match scale {
                 // The unit behind the bracket belongs to every entry.
                 Some((dimension, scale)) => {
-                    let product = quantity.dimension().times(dimension)?;
-                    let quantity = super::typed::Quantity::Of(product);
+                    let product = quantity.dimension().times(dimension);
+                    let quantity = self.resolver.in_range(product, value.extent)?;
                     self.resolver
                         .expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
                     Some(simplify::multiply(Expr::Number(scale), expr))

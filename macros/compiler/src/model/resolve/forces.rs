@@ -2,6 +2,7 @@
 
 use super::Resolver;
 use super::arguments::{Arguments, Signature};
+use super::expected::Expected;
 use super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::base::ids::{CoordinateId, PointId};
@@ -59,21 +60,23 @@ impl Resolver<'_> {
         let target = self.free_coordinate(word, arguments);
         let quantity = target.map(|(_, quantity)| quantity);
         let is_angle = quantity == Some(CoordinateQuantity::Angle);
-        let pick =
-            |angle, displacement| quantity.map(|_| if is_angle { angle } else { displacement });
+        let pick = |angle: Expected, displacement: Dimension| {
+            let displacement = displacement.into();
+            quantity.map(|_| if is_angle { angle } else { displacement })
+        };
         let stiffness = self.coefficient(
             arguments,
             "stiffness",
-            pick(Dimension::MOMENT, Dimension::STIFFNESS),
+            pick(Expected::rotary_stiffness(), Dimension::STIFFNESS),
         );
         let damping = self.coefficient(
             arguments,
             "damping",
-            pick(Dimension::ROTARY_DAMPING, Dimension::DAMPING),
+            pick(Expected::rotary_damping(), Dimension::DAMPING),
         );
         let rest = match arguments.get("rest") {
             Some(_) => {
-                let dimension = pick(Dimension::NONE, Dimension::LENGTH);
+                let dimension = pick(Expected::angle(), Dimension::LENGTH);
                 self.coefficient(arguments, "rest", dimension)
             }
             None => Some(Expr::Number(0.0)),
@@ -97,15 +100,15 @@ impl Resolver<'_> {
         &mut self,
         arguments: &Arguments,
         name: &str,
-        dimension: Option<Dimension>,
+        expected: Option<Expected>,
     ) -> Option<Expr> {
         let value = arguments.get(name)?;
-        let Some(dimension) = dimension else {
+        let Some(expected) = expected else {
             self.scalar(value, Place::Parameter);
             return None;
         };
         let what = format!("`{name}`");
-        let expr = self.scalar_of(value, dimension, &what)?;
+        let expr = self.scalar_of(value, expected, &what)?;
         self.require_finite(&expr, &what, value.extent);
         Some(expr)
     }
@@ -144,9 +147,9 @@ impl Resolver<'_> {
     fn spring_damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let (from, to) = (self.end(arguments, "from"), self.end(arguments, "to"));
         let apart = self.ends_apart(arguments, from, to);
-        let stiffness = self.coefficient(arguments, "stiffness", Some(Dimension::STIFFNESS));
+        let stiffness = self.coefficient(arguments, "stiffness", Some(Dimension::STIFFNESS.into()));
         let mut optional = |name, dimension| match arguments.get(name) {
-            Some(_) => self.coefficient(arguments, name, Some(dimension)),
+            Some(_) => self.coefficient(arguments, name, Some(Expected::from(dimension))),
             None => Some(Expr::Number(0.0)),
         };
         let damping = optional("damping", Dimension::DAMPING);

@@ -73,7 +73,7 @@ impl Resolver<'_> {
                 let (a, b) = (self.vector(a, place), self.vector(b, place));
                 let ((a, of_a), (b, of_b)) = (a?, b?);
                 let product = of_a.dimension().times(of_b.dimension());
-                let quantity = Quantity::Of(product?);
+                let quantity = self.in_range(product, function.into())?;
                 if name == "dot" {
                     Typed::Scalar(simplify::dot(&a, &b), quantity)
                 } else {
@@ -89,7 +89,7 @@ impl Resolver<'_> {
                         of_y.dimension().describe(),
                         of_x.dimension().describe()
                     );
-                    let help = self.swallowed(&[y, x]);
+                    let help = self.swallowed(x, of_x.dimension(), of_y.dimension());
                     self.report(x.extent, message, help);
                     return None;
                 };
@@ -118,7 +118,7 @@ impl Resolver<'_> {
     fn elementary(&mut self, name: &str, argument: &Value, place: Place) -> Option<Typed> {
         let (expr, quantity) = self.scalar(argument, place)?;
         if name == "sqrt" {
-            let half = Quantity::Of(quantity.dimension().power(1, 2)?);
+            let half = self.in_range(quantity.dimension().power(1, 2), argument.extent)?;
             return Some(Typed::Scalar(simplify::call(Function::Sqrt, expr), half));
         }
         let what = format!("the argument of `{name}`");

@@ -2,6 +2,7 @@
 
 use proc_macro2::Ident;
 
+use super::expected::Expected;
 use super::typed::Place;
 use super::{JointCoordinate, Resolver};
 use crate::base::dimension::Dimension;
@@ -200,7 +201,7 @@ impl Resolver<'_> {
             .iter()
             .map(|(axis, angle)| {
                 let direction = self.direction(axis, Place::Parameter);
-                let turn = self.scalar_of(angle, Dimension::NONE, "an angle");
+                let turn = self.scalar_of(angle, Expected::angle(), "this");
                 if let Some(turn) = &turn {
                     self.require_finite(turn, "this angle", angle.extent);
                 }

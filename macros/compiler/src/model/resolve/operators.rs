@@ -62,7 +62,8 @@ impl Resolver<'_> {
                     .map(|text| format!("give the number a unit: `{text} {}`", unit.si_symbol()))
             };
             let help = self
-                .swallowed(&[&binary.left, &binary.right])
+                .swallowed(&binary.left, a, b)
+                .or_else(|| self.swallowed(&binary.right, b, a))
                 .or_else(|| unitless(&binary.right, a))
                 .or_else(|| unitless(&binary.left, b));
             self.report(binary.sign, message, help);
@@ -127,7 +128,12 @@ impl Resolver<'_> {
         self.in_range(dimension, binary.sign)
     }
 
-    fn in_range(&mut self, dimension: Option<Dimension>, at: Extent) -> Option<Quantity> {
+    /// Exponents are small numbers; only a runaway power leaves their range.
+    pub(super) fn in_range(
+        &mut self,
+        dimension: Option<Dimension>,
+        at: Extent,
+    ) -> Option<Quantity> {
         if dimension.is_none() {
             let message = "the exponents of this value's unit are out of range";
             self.diagnostics.error(at, message);
@@ -162,8 +168,15 @@ impl Resolver<'_> {
         let quantity = match (dimension.is_none(), &exponent) {
             (true, _) => Quantity::Of(Dimension::NONE),
             (false, &Expr::Number(exponent)) => {
-                let power = fraction(exponent).and_then(|(n, d)| dimension.power(n, d));
-                self.in_range(power, binary.sign)?
+                let Some((numerator, denominator)) = fraction(exponent) else {
+                    let message = format!(
+                        "{} can only be raised to a whole number or a simple fraction",
+                        dimension.describe()
+                    );
+                    self.diagnostics.error(binary.sign, message);
+                    return None;
+                };
+                self.in_range(dimension.power(numerator, denominator), binary.sign)?
             }
             (false, _) => {
                 let message = format!(

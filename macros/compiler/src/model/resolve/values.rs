@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 
 use super::Resolver;
+use super::expected::Expected;
 use super::scope::Meaning;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
@@ -184,7 +185,7 @@ impl Resolver<'_> {
                         quantity.dimension().describe(),
                         common.dimension().describe()
                     );
-                    let help = self.swallowed(&[component]);
+                    let help = self.swallowed(component, quantity.dimension(), common.dimension());
                     self.report(component.extent, message, help);
                     return None;
                 }
@@ -192,7 +193,7 @@ impl Resolver<'_> {
         }
         let quantity = match unit_dimension {
             None => common,
-            Some(dimension) => Quantity::Of(common.dimension().times(dimension)?),
+            Some(dimension) => self.in_range(common.dimension().times(dimension), extent)?,
         };
         let mut exprs = resolved.into_iter().map(|(expr, _)| {
             if scale == 1.0 {
@@ -255,11 +256,11 @@ impl Resolver<'_> {
     pub(super) fn scalar_of(
         &mut self,
         value: &Value,
-        dimension: Dimension,
+        expected: impl Into<Expected>,
         what: &str,
     ) -> Option<Expr> {
         let (expr, quantity) = self.scalar(value, Place::Parameter)?;
-        self.expect(quantity, dimension, what, value)?;
+        self.expect(quantity, expected, what, value)?;
         Some(expr)
     }
 
@@ -277,16 +278,16 @@ impl Resolver<'_> {
     pub(super) fn expect(
         &mut self,
         found: Quantity,
-        expected: Dimension,
+        expected: impl Into<Expected>,
         what: &str,
         value: &Value,
     ) -> Option<()> {
-        if found.fits(expected) {
+        let expected = expected.into();
+        if found.fits(expected.dimension) {
             return Some(());
         }
         if let Some(written) = bare_number(value) {
-            let name = expected.name();
-            let unit = expected.si_symbol();
+            let Expected { name, unit, .. } = expected;
             self.diagnostics.error(
                 value.extent,
                 format!(
@@ -300,7 +301,7 @@ impl Resolver<'_> {
             expected.describe(),
             found.dimension().describe()
         );
-        let help = self.swallowed(&[value]);
+        let help = self.swallowed(value, found.dimension(), expected.dimension);
         self.report(value.extent, message, help);
         None
     }

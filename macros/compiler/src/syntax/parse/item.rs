@@ -48,6 +48,12 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
 }
 
 fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
+    if let Some(keyword) = tokens.peek_ident()
+        && KEYWORDS.iter().any(|word| keyword == word)
+    {
+        let message = format!("`{keyword}` cannot be a name: it starts an item");
+        return Err(Box::new(Diagnostic::new(&keyword, message)));
+    }
     tokens.name("a name")
 }
 
@@ -141,7 +147,10 @@ fn force(tokens: &mut Tokens) -> Parsed<ItemKind> {
 }
 
 fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
-    let word = tokens.name(what)?;
+    // No name is declared here, so Rust's keyword `box` will do.
+    let Some(word) = tokens.ident() else {
+        return tokens.expected(what);
+    };
     let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
         return Ok(NamedCall {
             word,
