@@ -1,12 +1,20 @@
 //! The compiler's own interpreter as [`Kernels`]: the program it would emit, run without rustc.
 
-use eigentol_compiler::{Diagnostics, Program, program};
+use eigentol_compiler::base::diagnostics::Diagnostics;
+use eigentol_compiler::compile;
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::Program;
 use proc_macro2::TokenStream;
 
 use crate::declaration::declaration;
 use crate::kernels::{At, Gradient, Kernels};
 use crate::model::Model;
 use crate::oracle::{Linear, LinearPartials};
+
+/// Explicit partial derivatives whatever their number.
+const EVERYTHING: Limits = Limits {
+    explicit_partials: usize::MAX,
+};
 
 /// A compiled model.
 pub struct Compiled {
@@ -26,7 +34,7 @@ impl Compiled {
             .expect("the declaration has tokens");
         let (inputs, design) = (model.inputs.len(), model.design.len());
         Ok(Self {
-            program: program(tokens)?,
+            program: compile(tokens, EVERYTHING)?.program,
             inputs,
             design,
         })
@@ -38,7 +46,10 @@ impl Compiled {
         kernel: &str,
         arguments: &[&[f64]],
     ) -> [Vec<f64>; ARRAYS] {
-        let arrays = self.program.evaluate(kernel, arguments);
+        let arrays = self
+            .program
+            .evaluate(kernel, arguments)
+            .unwrap_or_else(|| panic!("there is a kernel {kernel}"));
         let count = arrays.len();
         arrays
             .try_into()

@@ -8,7 +8,6 @@
 //! Invariant: apart from the adapter `compiled`, nothing here uses the compiler or the runtime.
 
 pub mod agreement;
-#[cfg(any())] // until the compiler offers `program`
 pub mod compiled;
 pub mod declaration;
 pub mod energy;

@@ -2,23 +2,61 @@
 
 use std::cell::Cell;
 
-use eigentol_tests::agreement::{Reference, assert_agrees};
+use eigentol_tests::agreement::{Case, Reference, assert_agrees};
+use eigentol_tests::compiled::Compiled;
+use eigentol_tests::declaration::declaration;
 use eigentol_tests::kernels::{At, Gradient, Kernels};
+use eigentol_tests::model::{JointKind, Model};
 use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::random::{Plan, Setting, on_plans};
 
-#[cfg(any())] // until the compiler offers `program`
+/// The only trees refused are those in which the oracle, too, finds a coordinate that nothing resists.
 #[test]
 fn the_compiler_agrees_with_the_oracle() {
-    use eigentol_tests::compiled::Compiled;
-    use eigentol_tests::declaration::declaration;
-
-    on_plans(40, |plan| {
+    let compared = Cell::new(0);
+    on_plans(60, |plan| {
         let model = plan.model();
-        let compiled = Compiled::new(&model)
-            .unwrap_or_else(|errors| panic!("{errors:?}\n{}", declaration(&model)));
-        assert_agrees(&model, &compiled, plan.seed);
+        match Compiled::new(&model) {
+            Ok(compiled) => {
+                compared.set(compared.get() + 1);
+                assert_agrees(&model, &compiled, plan.seed);
+            }
+            Err(mistakes) => {
+                for mistake in mistakes.iter() {
+                    assert!(
+                        is_unresisted(&model, &mistake.message),
+                        "{}\n{}",
+                        mistake.message,
+                        declaration(&model)
+                    );
+                }
+            }
+        }
     });
+    assert!(compared.get() >= 45, "{} trees compared", compared.get());
+}
+
+/// Whether `message` says that nothing resists a coordinate, and the oracle's column of `Khat` agrees.
+fn is_unresisted(model: &Model, message: &str) -> bool {
+    let Some(name) = message
+        .strip_prefix("nothing resists `")
+        .and_then(|rest| rest.split('`').next())
+    else {
+        return false;
+    };
+    let free = model
+        .joints
+        .iter()
+        .filter(|joint| joint.drive.is_none() && joint.kind != JointKind::Fixed);
+    let Some(column) = free
+        .map(|joint| joint.name.as_str())
+        .position(|joint| joint == name)
+    else {
+        return false;
+    };
+    let Case { at: [q, u, b], .. } = Case::random(model, 1);
+    let stiffness = Kernels::linear(&Oracle::new(model), [&q, &u, &b]).stiffness;
+    (0..q.len()).all(|row| stiffness[row * q.len() + column].abs() < 1e-9)
 }
 
 /// The oracle in another ground frame: right, but rounded differently.

@@ -36,13 +36,29 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
     let topology = build(&mechanism)?;
     let functions = derive(&mechanism, &topology, limits)?;
     let program = lower(&functions.graph, &functions.functions);
-    Ok(Compilation { ast, mechanism, topology, functions, program })
+    Ok(Compilation {
+        ast,
+        mechanism,
+        topology,
+        functions,
+        program,
+    })
 }
 
 impl Compilation {
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
-        let Functions { requirements, properties, .. } = &self.functions;
-        emit(&self.mechanism, &self.topology, *properties, requirements, &self.program)
+        let Functions {
+            requirements,
+            properties,
+            ..
+        } = &self.functions;
+        emit(
+            &self.mechanism,
+            &self.topology,
+            *properties,
+            requirements,
+            &self.program,
+        )
     }
 }

@@ -36,8 +36,12 @@ impl Builder {
                 Unit::Metre,
             ],
         };
-        // A spring on a driven coordinate would wind up; friction in its bearing is no harm.
-        if self.joints[joint].drive.is_none() && self.source.random.chance(0.5) {
+        if self.joints[joint].drive.is_some() {
+            return;
+        }
+        // Nothing but a spring holds a slider against its weight.
+        let slider = matches!(self.joints[joint].kind, JointKind::Prismatic(_));
+        if slider || self.source.random.chance(0.6) {
             let stiffness = self.source.between(5.0, 80.0, stiffness);
             let rest = self.source.between(-0.3, 0.3, rest);
             laws.push(ForceLaw::Spring {

@@ -24,13 +24,19 @@ impl Evaluation {
     }
 
     fn rounded(value: f64, inherited: f64) -> Self {
-        Self { value, error: inherited + UNIT_ROUNDOFF * value.abs() }
+        Self {
+            value,
+            error: inherited + UNIT_ROUNDOFF * value.abs(),
+        }
     }
 }
 
 /// Values of `roots` for the given symbol values.
 pub fn evaluate(graph: &Graph, roots: &[ExprId], symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-    evaluate_with_error(graph, roots, symbol).iter().map(|e| e.value).collect()
+    evaluate_with_error(graph, roots, symbol)
+        .iter()
+        .map(|e| e.value)
+        .collect()
 }
 
 /// Values of `roots` together with bounds on their rounding errors.
@@ -39,11 +45,20 @@ pub fn evaluate_with_error(
     roots: &[ExprId],
     symbol: impl Fn(SymbolId) -> f64,
 ) -> Vec<Evaluation> {
-    let mut done = vec![Evaluation { value: 0.0, error: 0.0 }; graph.len()];
+    let mut done = vec![
+        Evaluation {
+            value: 0.0,
+            error: 0.0
+        };
+        graph.len()
+    ];
     for id in reachable(graph, roots) {
         done[id.index()] = match graph.node(id) {
             Node::Constant(bits) => Evaluation::rounded(f64::from_bits(bits), 0.0),
-            Node::Symbol(s) => Evaluation { value: symbol(s), error: 0.0 },
+            Node::Symbol(s) => Evaluation {
+                value: symbol(s),
+                error: 0.0,
+            },
             Node::Unary(operator, a) => unary(operator, done[a.index()]),
             Node::Binary(operator, a, b) => binary(operator, done[a.index()], done[b.index()]),
         };
@@ -54,7 +69,12 @@ pub fn evaluate_with_error(
 fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     let value = apply_unary(operator, a.value);
     let slope = match operator {
-        Unary::Negate => return Evaluation { value, error: a.error },
+        Unary::Negate => {
+            return Evaluation {
+                value,
+                error: a.error,
+            };
+        }
         Unary::Sqrt => 0.5 / value,
         Unary::Sin => a.value.cos(),
         Unary::Cos => a.value.sin(),
@@ -64,7 +84,11 @@ fn unary(operator: Unary, a: Evaluation) -> Evaluation {
         Unary::Ln => 1.0 / a.value,
         Unary::PowerInteger(n) => f64::from(n) * a.value.powi(n - 1),
     };
-    let inherited = if a.error == 0.0 { 0.0 } else { slope.abs() * a.error };
+    let inherited = if a.error == 0.0 {
+        0.0
+    } else {
+        slope.abs() * a.error
+    };
     Evaluation::rounded(value, inherited)
 }
 
