@@ -1,0 +1,153 @@
+//! Small mechanisms that stress one thing each.
+
+use eigentol::{DampingKind, Description, Real, Violation};
+
+use super::derived::Model;
+use super::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, positive};
+
+/// A point mass on two perpendicular sliders on a spinning plate: gyroscopic `Chat`, shifted equilibrium
+/// `x* = kx x0 / (kx - m Omega^2)`. Springs rest at `x0 = 0.1 m`, `y0 = 0.02 m`. Design: `m`, `kx`, `ky`, `c`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plate;
+
+impl Model<2, 1, 4, 0> for Plate {
+    const DESCRIPTION: Description = Description {
+        name: "Plate",
+        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
+        inputs: &[input("omega", SPEED)],
+        design: &[
+            design("m", KILOGRAM, 0.5, 0.01),
+            design("kx", STIFFNESS, 40.0, 1.2),
+            design("ky", STIFFNESS, 60.0, 1.8),
+            design("c", NUMBER, 0.0, 0.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::General,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        v: &[T; 2],
+        q: &[T; 2],
+        u: &[T; 1],
+        b: &[T; 4],
+    ) -> [T; 2] {
+        let two = T::constant(2.0);
+        let square = u[0] * u[0];
+        [
+            b[0] * (a[0] - two * u[0] * v[1] - square * q[0]),
+            b[0] * (a[1] + two * u[0] * v[0] - square * q[1]),
+        ]
+    }
+
+    fn applied<T: Real>(&self, v: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 4]) -> [T; 2] {
+        [
+            b[1] * (T::constant(0.1) - q[0]) - b[3] * v[0],
+            b[2] * (T::constant(0.02) - q[1]) - b[3] * v[1],
+        ]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; 4]) -> Option<Violation<T>> {
+        positive(&[
+            (b[0], "mass"),
+            (b[1], "stiffness kx"),
+            (b[2], "stiffness ky"),
+        ])
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 4]) -> [T; 0] {
+        []
+    }
+}
+
+/// One coordinate with a given stiffness, a cubic spring and a constant force:
+/// `mass qddot + k q + cubic q^3 - force`. Nothing is required of the values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring;
+
+impl Model<1, 1, 3, 0> for Spring {
+    const DESCRIPTION: Description = Description {
+        name: "Spring",
+        coordinates: &[coordinate("x", METRE)],
+        inputs: &[input("k", STIFFNESS)],
+        design: &[
+            design("mass", KILOGRAM, 1.0, 0.0),
+            design("cubic", NUMBER, 0.0, 0.0),
+            design("force", NUMBER, 1.0, 0.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Zero,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 1],
+        _: &[T; 1],
+        _: &[T; 1],
+        _: &[T; 1],
+        b: &[T; 3],
+    ) -> [T; 1] {
+        [b[0] * a[0]]
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 3]) -> [T; 1] {
+        [b[2] - u[0] * q[0] - b[1] * q[0] * q[0] * q[0]]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 3]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 1], _: &[T; 1], _: &[T; 3]) -> [T; 0] {
+        []
+    }
+}
+
+/// Two bars under a compressive load that follows the second one (Ziegler): `Khat` is not symmetric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Follower;
+
+impl Model<2, 1, 1, 0> for Follower {
+    const DESCRIPTION: Description = Description {
+        name: "Follower",
+        coordinates: &[coordinate("a", RAD), coordinate("b", RAD)],
+        inputs: &[input("load", NUMBER)],
+        design: &[design("stiffness", NUMBER, 1.0, 0.01)],
+        outputs: &[],
+        symmetric_stiffness: false,
+        damping: DampingKind::Zero,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 1],
+        _: &[T; 1],
+    ) -> [T; 2] {
+        [T::constant(3.0) * a[0] + a[1], a[0] + a[1]]
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], u: &[T; 1], b: &[T; 1]) -> [T; 2] {
+        let k = b[0];
+        [
+            u[0] * (q[0] - q[1]).sin() - k * (q[0] + q[0] - q[1]),
+            -(k * (q[1] - q[0])),
+        ]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; 1]) -> Option<Violation<T>> {
+        positive(&[(b[0], "stiffness")])
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 0] {
+        []
+    }
+}

@@ -1,0 +1,357 @@
+//! Equilibria: closed forms, unstable starts, far starts, wrong input, events along an input.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::chain::DOUBLE;
+use common::close;
+use common::derived::Derived;
+use common::models::{Follower, Plate, Spring};
+use common::pendulum::{Pendulum, W};
+use eigentol::equilibrium::{
+    Doubt, Range, Search, critical_state, crossings, equilibrium, find_equilibria, sweep,
+};
+use eigentol::{Error, Input, Policy, Stability};
+
+const BAR: [f64; 2] = [3.0, 1.0];
+const BARS: [f64; 4] = [1.0, 1.0, 3.0, 3.0];
+
+fn angle(omega: f64) -> f64 {
+    (W / (omega * omega)).acos()
+}
+
+#[test]
+fn pendulum_follows_its_closed_form() {
+    for omega in [0.0, 0.1, 1.0, 3.0, 3.8, 3.83, 3.84, 3.9, 4.0, 6.5, 20.0] {
+        let state = equilibrium(&Pendulum, &[omega], &BAR, &[1.047], Policy::Stable).unwrap();
+        assert_eq!(state.stability, Stability::Stable);
+        let expected = if omega * omega > W { angle(omega) } else { 0.0 };
+        assert!(
+            (state.coordinates[0] - expected).abs() < 1e-12,
+            "{omega}: {state}"
+        );
+        assert!(state.relative_residual < 1e-12);
+        assert!(state.iterations < 20, "{omega}: {state}");
+    }
+}
+
+#[test]
+fn unstable_start_is_left_by_default_and_kept_on_request() {
+    let stable = equilibrium(&Pendulum, &[5.0], &BAR, &[0.0], Policy::Stable).unwrap();
+    assert!((stable.coordinates[0] - angle(5.0)).abs() < 1e-13);
+    assert!(stable.left_unstable_region);
+    let negative = equilibrium(&Pendulum, &[5.0], &BAR, &[-1e-7], Policy::Stable).unwrap();
+    assert!((negative.coordinates[0] + angle(5.0)).abs() < 1e-13);
+    let kept = equilibrium(&Pendulum, &[5.0], &BAR, &[0.0], Policy::Nearest).unwrap();
+    assert_eq!(kept.coordinates, [0.0]);
+    assert_eq!(kept.stability, Stability::Divergent { negative: 1 });
+    // Upside down, standing still.
+    let up = [std::f64::consts::PI];
+    let upright = equilibrium(&Pendulum, &[0.0], &BAR, &up, Policy::Nearest).unwrap();
+    assert_eq!(upright.stability, Stability::Divergent { negative: 1 });
+    let fallen = equilibrium(&Pendulum, &[0.0], &BAR, &up, Policy::Stable).unwrap();
+    assert_eq!(fallen.stability, Stability::Stable);
+}
+
+#[test]
+fn stable_states_everywhere_near_the_critical_speed() {
+    for k in -12..=12_i32 {
+        let offset = f64::from(k.signum()) * 10f64.powi(-k.abs());
+        let omega = W.sqrt() * (1.0 + offset);
+        let state = equilibrium(&Pendulum, &[omega], &BAR, &[0.3], Policy::Stable).unwrap();
+        assert!(state.stability.holds(), "{offset}: {state}");
+        let expected = if omega * omega > W { angle(omega) } else { 0.0 };
+        assert!(
+            (state.coordinates[0] - expected).abs() < 2e-5,
+            "{offset}: {state} {expected}"
+        );
+    }
+}
+
+#[test]
+fn far_starts_end_in_stable_states() {
+    for start in [1e6, -1e6, 12345.678, 3.2, 1e9] {
+        for omega in [1.0, 5.0] {
+            let state = equilibrium(&Pendulum, &[omega], &BAR, &[start], Policy::Stable).unwrap();
+            assert_eq!(state.stability, Stability::Stable, "{start} {omega}");
+        }
+    }
+    for start in [
+        [1e6, -1e6],
+        [3.0, 3.0],
+        [3.141_592_653_589_793, 0.0],
+        [-2.0, 2.0],
+    ] {
+        let state = equilibrium(&DOUBLE, &[3.0], &BARS, &start, Policy::Stable).unwrap();
+        assert_eq!(state.stability, Stability::Stable, "{start:?}");
+    }
+    // A cubic spring from far away: Newton contracts by 2/3 only.
+    let far = equilibrium(
+        &Derived(Spring),
+        &[1.0],
+        &[1.0, 1.0, 2.0],
+        &[1e8],
+        Policy::Stable,
+    )
+    .unwrap();
+    close(far.coordinates[0], 1.0, 1e-14);
+}
+
+#[test]
+fn double_pendulum_matches_reference() {
+    // 50-digit arithmetic (mpmath), absolute angles, stable branch with positive angles.
+    for (omega, expected) in [
+        (0.1, [0.0, 0.0]),
+        (2.5, [0.0, 0.0]),
+        (3.0, [0.577_232_063_771_418_8, 0.739_976_266_906_358_4]),
+        (4.0, [1.055_011_451_297_718_3, 1.179_519_008_782_915_3]),
+        (5.0, [1.246_207_417_187_873_3, 1.329_589_816_547_526_7]),
+    ] {
+        for start in [[1.047, 1.047], [0.0, 0.0]] {
+            let state = equilibrium(&DOUBLE, &[omega], &BARS, &start, Policy::Stable).unwrap();
+            assert_eq!(state.stability, Stability::Stable);
+            for (actual, expected) in state.coordinates.iter().zip(expected) {
+                assert!(
+                    (actual - expected).abs() < 1e-12,
+                    "{omega} {start:?}: {state}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_branch_is_found() {
+    let search = Search {
+        lower: [-3.2],
+        upper: [3.2],
+        starts: 40,
+        seed: 1,
+    };
+    let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search).unwrap();
+    let mut angles: Vec<_> = found.iter().map(|state| state.coordinates[0]).collect();
+    angles.sort_by(f64::total_cmp);
+    assert_eq!(
+        found
+            .iter()
+            .filter(|state| state.stability == Stability::Stable)
+            .count(),
+        2
+    );
+    assert_eq!(found.len(), 4, "{angles:?}");
+    let again = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search).unwrap();
+    assert_eq!(found, again);
+}
+
+#[test]
+fn linear_divergence_is_a_result() {
+    // Far above both critical speeds the plate's stiffness is negative in both directions; gyroscopic forces may hold.
+    let design = [0.5, 40.0, 60.0, 0.0];
+    let state = equilibrium(
+        &Derived(Plate),
+        &[20.0],
+        &design,
+        &[0.1, 0.0],
+        Policy::Stable,
+    )
+    .unwrap();
+    close(state.coordinates[0], 4.0 / (40.0 - 200.0), 1e-14);
+    let doubt = Doubt::GyroscopicStabilisation { negative: 2 };
+    assert_eq!(state.stability, Stability::Unverified(doubt));
+    let one = equilibrium(
+        &Derived(Plate),
+        &[10.0],
+        &design,
+        &[0.1, 0.0],
+        Policy::Stable,
+    )
+    .unwrap();
+    assert_eq!(one.stability, Stability::Divergent { negative: 1 });
+    let damped = [0.5, 40.0, 60.0, 0.3];
+    let low = equilibrium(
+        &Derived(Plate),
+        &[4.0],
+        &damped,
+        &[0.0, 0.0],
+        Policy::Stable,
+    )
+    .unwrap();
+    close(low.coordinates[0], 0.125, 1e-14);
+    assert_eq!(low.stability, Stability::Stable);
+    let fed = equilibrium(
+        &Derived(Plate),
+        &[4.0],
+        &[0.5, 40.0, 60.0, -0.3],
+        &[0.0; 2],
+        Policy::Stable,
+    );
+    assert_eq!(
+        fed.unwrap().stability,
+        Stability::Unverified(Doubt::NegativeDamping)
+    );
+}
+
+#[test]
+fn no_stiffness_and_no_equilibrium() {
+    let spring = Derived(Spring);
+    let pushed = equilibrium(&spring, &[0.0], &[1.0, 0.0, 1.0], &[0.0], Policy::Stable);
+    assert!(
+        matches!(pushed, Err(Error::NoEquilibrium { .. })),
+        "{pushed:?}"
+    );
+    let free = equilibrium(&spring, &[0.0], &[1.0, 0.0, 0.0], &[7.0], Policy::Stable).unwrap();
+    assert_eq!(free.stability, Stability::Neutral { zero: 1 });
+    assert_eq!(free.coordinates, [7.0]);
+    let divergent =
+        equilibrium(&spring, &[-2.0], &[1.0, 0.0, 1.0], &[0.0], Policy::Stable).unwrap();
+    close(divergent.coordinates[0], -0.5, 1e-14);
+    assert_eq!(divergent.stability, Stability::Divergent { negative: 1 });
+}
+
+#[test]
+fn nonsymmetric_stiffness_is_not_judged() {
+    let state = equilibrium(
+        &Derived(Follower),
+        &[1.0],
+        &[1.0],
+        &[0.2, 0.3],
+        Policy::Stable,
+    )
+    .unwrap();
+    assert_eq!(
+        state.stability,
+        Stability::Unverified(Doubt::NonsymmetricStiffness)
+    );
+    assert!(state.coordinates.iter().all(|q| q.abs() < 1e-12));
+    assert!(matches!(
+        eigentol::modes::modes(&state),
+        Err(Error::NonsymmetricStiffness { .. })
+    ));
+}
+
+#[test]
+fn wrong_values_are_named() {
+    let solve =
+        |u: f64, b: [f64; 2], q: f64| equilibrium(&Pendulum, &[u], &b, &[q], Policy::Stable);
+    for bad in [f64::NAN, f64::INFINITY] {
+        for (result, place) in [
+            (solve(bad, BAR, 0.0), "omega"),
+            (solve(1.0, [bad, 1.0], 0.0), "m"),
+            (solve(1.0, [3.0, bad], 0.0), "l"),
+            (solve(1.0, BAR, bad), "theta"),
+        ] {
+            let Err(Error::NotFinite { name, .. }) = result else {
+                panic!("{result:?}")
+            };
+            assert_eq!(name, place);
+        }
+    }
+    for (design, what) in [([-3.0, 1.0], "mass of bar"), ([3.0, 0.0], "length of bar")] {
+        let result = solve(1.0, design, 0.0);
+        let Err(Error::Unphysical { quantity, .. }) = result else {
+            panic!("{result:?}")
+        };
+        assert_eq!(quantity, what);
+    }
+    let massless = equilibrium(
+        &Derived(Spring),
+        &[1.0],
+        &[0.0, 0.0, 1.0],
+        &[0.0],
+        Policy::Stable,
+    );
+    assert_eq!(massless, Err(Error::SingularMass { coordinate: "x" }));
+    let overflow = equilibrium(&Pendulum, &[1e200], &BAR, &[1.0], Policy::Stable);
+    assert!(
+        matches!(overflow, Err(Error::OutsideDomain { .. })),
+        "{overflow:?}"
+    );
+}
+
+#[test]
+fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
+    let values = [2.0, 3.0, f64::NAN, 3.8, 3.9, 5.0];
+    let points = sweep(
+        &Pendulum,
+        &[0.0],
+        &BAR,
+        &[1.047],
+        Policy::Stable,
+        Input(0),
+        &values,
+    )
+    .unwrap();
+    assert_eq!(points.len(), values.len());
+    assert!(matches!(
+        points[2].equilibrium,
+        Err(Error::NotFinite { .. })
+    ));
+    let last = points[5].modes.as_ref().unwrap().modes[0]
+        .frequency()
+        .unwrap();
+    close(last, 4.042_122_091_179_335, 1e-13);
+    let foreign = sweep(
+        &Pendulum,
+        &[0.0],
+        &BAR,
+        &[0.0],
+        Policy::Stable,
+        Input(3),
+        &values,
+    );
+    assert!(matches!(
+        foreign,
+        Err(Error::UnknownHandle { index: 3, .. })
+    ));
+}
+
+#[test]
+fn critical_speeds_and_crossings_match_closed_forms() {
+    let range = Range {
+        input: Input(0),
+        low: 0.1,
+        high: 5.0,
+        steps: 60,
+    };
+    let single = critical_state(&Pendulum, &[0.0], &BAR, &[1.047], range).unwrap();
+    close(single.value, 3.836_013_555_763_326_5, 1e-12);
+    let double = critical_state(&DOUBLE, &[0.0], &BARS, &[1.047, 1.047], range).unwrap();
+    close(double.value, 2.680_114_012_253_375_3, 1e-12);
+    let below = Range { high: 3.0, ..range };
+    let none = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], below);
+    assert!(matches!(
+        none,
+        Err(Error::NotInRange { input: "omega", .. })
+    ));
+
+    let met = crossings(&Pendulum, &[0.0], &BAR, &[1.0], Policy::Stable, range, 1.0).unwrap();
+    assert_eq!(met.len(), 1);
+    close(met[0].value, 2.712_471_198_003_769, 1e-13);
+    let met = crossings(
+        &DOUBLE,
+        &[0.0],
+        &BARS,
+        &[1.0, 1.0],
+        Policy::Stable,
+        range,
+        1.0,
+    )
+    .unwrap();
+    assert_eq!(met[0].mode, 0);
+    assert!((met[0].value - 1.8951).abs() < 5e-5);
+}
+
+#[test]
+fn a_limit_point_is_found_where_the_branch_ends() {
+    // k q - q^3 = 1 loses its lower solution where k = 3 q^2 and 2 q^3 = 1.
+    let range = Range {
+        input: Input(0),
+        low: 4.0,
+        high: 1.0,
+        steps: 20,
+    };
+    let design = [1.0, -1.0, 1.0];
+    let fold = critical_state(&Derived(Spring), &[0.0], &design, &[0.25], range).unwrap();
+    close(fold.value, 3.0 * 0.5f64.powf(2.0 / 3.0), 1e-8);
+}

@@ -1,0 +1,232 @@
+//! Modes: residuals and normalisation of random pencils, repeated eigenvalues, identity by shape.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::chain::DOUBLE;
+use common::close;
+use common::derived::{Derived, Model};
+use common::models::{Plate, Spring};
+use common::pendulum::Pendulum;
+use eigentol::equilibrium::equilibrium;
+use eigentol::modes::{clusters, match_modes, modes, modes_of};
+use eigentol::{Behaviour, DampingKind, Description, Error, Linear, Policy};
+use proptest::prelude::*;
+
+static ANY: Description = Description {
+    name: "Any",
+    coordinates: &[],
+    inputs: &[],
+    design: &[],
+    outputs: &[],
+    symmetric_stiffness: true,
+    damping: DampingKind::Zero,
+    kernels: &[],
+};
+
+fn pencil<const N: usize>(stiffness: [[f64; N]; N], mass: [[f64; N]; N]) -> Linear<f64, N> {
+    Linear {
+        mass,
+        damping: [[0.0; N]; N],
+        stiffness,
+    }
+}
+
+fn form<const N: usize>(x: &[f64; N], matrix: &[[f64; N]; N], y: &[f64; N]) -> f64 {
+    (0..N)
+        .map(|i| (0..N).map(|j| x[i] * matrix[i][j] * y[j]).sum::<f64>())
+        .sum()
+}
+
+/// A symmetric matrix from the first numbers of `seeds`; shifted to be positive definite when `shift` is positive.
+fn symmetric<const N: usize>(seeds: &[f64], shift: f64) -> [[f64; N]; N] {
+    let mut matrix = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..=i {
+            let value = seeds[(i * N + j) % seeds.len()];
+            matrix[i][j] = value;
+            matrix[j][i] = value;
+        }
+        matrix[i][i] += shift;
+    }
+    matrix
+}
+
+fn check<const N: usize>(stiffness: &[f64], mass: &[f64], duplicate: bool) {
+    let k = if duplicate {
+        // Two blocks of equal uncoupled oscillators: every eigenvalue repeated.
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| if i == j { (1 + i / 2) as f64 } else { 0.0 })
+        })
+    } else {
+        symmetric::<N>(stiffness, 0.0)
+    };
+    let m = symmetric::<N>(mass, if duplicate { 0.0 } else { 1.5 * N as f64 });
+    let m = if duplicate {
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 2.0 } else { 0.0 }))
+    } else {
+        m
+    };
+    let found = modes_of(&pencil(k, m), &ANY).unwrap();
+    for (r, mode) in found.modes.iter().enumerate() {
+        assert!(mode.residual < 1e-11, "residual {:e}", mode.residual);
+        let lead = mode
+            .shape
+            .iter()
+            .copied()
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+            .unwrap();
+        assert!(
+            lead > 0.0 || mode.shape.iter().any(|x| (x + lead).abs() < 1e-8),
+            "{:?}",
+            mode.shape
+        );
+        for (s, other) in found.modes.iter().enumerate() {
+            let expected = if r == s { 1.0 } else { 0.0 };
+            let product = form(&mode.shape, &m, &other.shape);
+            assert!((product - expected).abs() < 1e-11, "{r} {s}: {product}");
+        }
+        if r > 0 {
+            assert!(mode.lambda >= found.modes[r - 1].lambda);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn random_pencils(
+        stiffness in prop::collection::vec(-1.0..1.0_f64, 144),
+        mass in prop::collection::vec(-1.0..1.0_f64, 144),
+        duplicate in any::<bool>(),
+    ) {
+        check::<1>(&stiffness, &mass, duplicate);
+        check::<2>(&stiffness, &mass, duplicate);
+        check::<3>(&stiffness, &mass, duplicate);
+        check::<4>(&stiffness, &mass, duplicate);
+        check::<5>(&stiffness, &mass, duplicate);
+        check::<6>(&stiffness, &mass, duplicate);
+        check::<7>(&stiffness, &mass, duplicate);
+        check::<8>(&stiffness, &mass, duplicate);
+        check::<9>(&stiffness, &mass, duplicate);
+        check::<12>(&stiffness, &mass, duplicate);
+    }
+}
+
+#[test]
+fn frequencies_match_references() {
+    for (omega, expected) in [
+        (1.0, 3.703_376_837_428_241),
+        (3.8, 0.524_404_424_085_075_8),
+        (4.0, 1.570_604_481_561_159_9),
+        (8.0, 7.785_672_713_990_423),
+    ] {
+        let state = equilibrium(&Pendulum, &[omega], &[3.0, 1.0], &[1.0], Policy::Stable).unwrap();
+        close(
+            modes(&state).unwrap().modes[0].frequency().unwrap(),
+            expected,
+            1e-13,
+        );
+    }
+    // 50-digit arithmetic (mpmath), two uniform bars in series.
+    for (omega, design, expected) in [
+        (
+            2.5,
+            [1.0, 1.0, 3.0, 3.0],
+            [0.965_925_006_756_158_8, 6.739_954_664_634_111],
+        ),
+        (
+            3.5,
+            [1.0, 1.0, 3.0, 3.0],
+            [2.817_961_821_063_948, 9.284_467_432_029_244],
+        ),
+        (
+            5.0,
+            [0.8, 1.1, 2.5, 3.7],
+            [4.761_994_922_557_966, 14.298_968_212_106_408],
+        ),
+    ] {
+        let state = equilibrium(&DOUBLE, &[omega], &design, &[1.0, 1.0], Policy::Stable).unwrap();
+        let found = modes(&state).unwrap();
+        assert!(!found.damping_ignored);
+        for (actual, expected) in found.frequencies().into_iter().zip(expected) {
+            close(actual.unwrap(), expected, 1e-12);
+        }
+    }
+}
+
+#[test]
+fn gyroscopic_terms_are_named_as_ignored() {
+    let state = equilibrium(
+        &Derived(Plate),
+        &[4.0],
+        &[0.5, 40.0, 60.0, 0.0],
+        &[0.1, 0.0],
+        Policy::Stable,
+    )
+    .unwrap();
+    let found = modes(&state).unwrap();
+    assert!(found.damping_ignored);
+    close(found.modes[0].lambda, 64.0, 1e-14);
+    close(found.modes[1].lambda, 104.0, 1e-14);
+    assert!(found.to_string().contains("ignored"));
+    let still = equilibrium(
+        &Derived(Plate),
+        &[0.0],
+        &[0.5, 40.0, 60.0, 0.0],
+        &[0.1, 0.0],
+        Policy::Stable,
+    );
+    assert!(!modes(&still.unwrap()).unwrap().damping_ignored);
+}
+
+#[test]
+fn divergence_and_freedom_are_classes() {
+    let at = |k: f64, force: f64| {
+        let state = equilibrium(
+            &Derived(Spring),
+            &[k],
+            &[4.0, 0.0, force],
+            &[0.0],
+            Policy::Nearest,
+        );
+        modes(&state.unwrap()).unwrap().modes[0]
+    };
+    assert_eq!(at(-16.0, 1.0).behaviour, Behaviour::Divergent(2.0));
+    assert_eq!(at(-16.0, 1.0).frequency(), None);
+    assert_eq!(at(0.0, 0.0).behaviour, Behaviour::Neutral);
+    assert_eq!(at(16.0, 1.0).behaviour, Behaviour::Oscillating(2.0));
+}
+
+#[test]
+fn matching_follows_shapes_and_is_a_permutation() {
+    let mass = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let diagonal = |a: f64, b: f64, c: f64| {
+        modes_of(
+            &pencil([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]], mass),
+            &ANY,
+        )
+        .unwrap()
+    };
+    let order = match_modes(&diagonal(1.0, 2.0, 3.0), &diagonal(5.0, 4.0, 3.0), &mass);
+    assert_eq!(order, [2, 1, 0]);
+    let near = diagonal(1.0, 1.0 + 1e-9, 3.0);
+    assert_eq!(clusters(&near, 1e-6), [true, true, false]);
+}
+
+#[test]
+fn singular_mass_names_its_coordinate() {
+    let singular = pencil([[1.0, 0.0], [0.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]);
+    let result = modes_of(
+        &singular,
+        &<common::models::Plate as Model<2, 1, 4, 0>>::DESCRIPTION,
+    );
+    assert_eq!(result, Err(Error::SingularMass { coordinate: "y" }));
+    let nan = pencil([[f64::NAN, 0.0], [0.0, 1.0]], [[1.0, 0.0], [0.0, 1.0]]);
+    assert!(matches!(
+        modes_of(&nan, &ANY),
+        Err(Error::ModesNotFound { .. })
+    ));
+}

@@ -1,0 +1,317 @@
+//! Tolerances: first order against closed forms, Monte Carlo against quadrature, reproducibility, honest counts.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::chain::{Bars, DOUBLE};
+use common::close;
+use common::derived::Derived;
+use common::models::{Plate, Spring};
+use common::pendulum::Pendulum;
+use eigentol::tolerance::{Tolerances, output_tolerances};
+use eigentol::{Coordinate, DesignVariable, Error, Input, MonteCarlo, Study};
+
+type Double = Study<Derived<Bars>, 2, 1, 4, 1>;
+
+const OMEGA: Input = Input(0);
+const THETA: Coordinate = Coordinate(0);
+const LENGTH: DesignVariable = DesignVariable(1);
+
+fn pendulum(omega: f64, tolerance: f64) -> Study<Pendulum, 1, 1, 2, 1> {
+    Study::new(Pendulum)
+        .input(OMEGA, omega)
+        .start(THETA, 1.0)
+        .tolerance(LENGTH, tolerance)
+}
+
+fn sampled(omega: f64, tolerance: f64, samples: usize) -> MonteCarlo<1, 2> {
+    pendulum(omega, tolerance)
+        .samples(samples)
+        .seed(20)
+        .monte_carlo()
+        .unwrap()
+}
+
+#[test]
+fn first_order_matches_closed_form_and_warns_near_the_critical_speed() {
+    let far = pendulum(3.0, 0.03).first_order().unwrap();
+    close(
+        far.modes[0].sigma.unwrap(),
+        0.030_776_707_242_026_677,
+        1e-11,
+    );
+    close(
+        far.modes[0].band.unwrap(),
+        3.0 * 0.030_776_707_242_026_677,
+        1e-11,
+    );
+    close(far.modes[0].variance_shares[1], 1.0, 1e-12);
+    assert!(far.trusted());
+    let near = pendulum(3.836, 0.03).first_order().unwrap();
+    assert!(near.modes[0].sigma.unwrap() > 7.0);
+    assert!(!near.trusted());
+    assert!(near.to_string().contains("Not to be trusted"));
+    close(
+        pendulum(3.0, 0.03)
+            .sigma_level(2.0)
+            .first_order()
+            .unwrap()
+            .modes[0]
+            .sigma
+            .unwrap(),
+        0.046_165_060_863_040_02,
+        1e-11,
+    );
+}
+
+#[test]
+fn plate_sigma_matches_reference() {
+    // Independent m, kx, ky and an exact speed: 0.06046 has Omega's share (-0.5 * 0.04/3) as well, taken off here.
+    let study = Study::new(Derived(Plate)).input(OMEGA, 4.0);
+    let spread = study.first_order().unwrap();
+    let expected = (0.060_461_190_490_723_515_f64.powi(2) - (0.5 * 0.04_f64 / 3.0).powi(2)).sqrt();
+    close(spread.modes[0].sigma.unwrap(), expected, 1e-12);
+    close(spread.modes[0].variance_shares.iter().sum(), 1.0, 1e-12);
+}
+
+#[test]
+fn correlation_changes_the_spread() {
+    let base = Double::new(DOUBLE).input(OMEGA, 3.0).start(THETA, 1.0);
+    let independent: eigentol::FirstOrder<2, 4> = base.clone().first_order().unwrap();
+    let mut matrix = [[0.0; 4]; 4];
+    (0..4).for_each(|j| matrix[j][j] = 1.0);
+    matrix[0][1] = 1.0;
+    matrix[1][0] = 1.0;
+    let together = base.clone().correlation(matrix).first_order().unwrap();
+    let slopes = base.sensitivities().unwrap().modes[0]
+        .omega_by_design
+        .unwrap();
+    close(
+        together.modes[0].sigma.unwrap(),
+        (slopes[0] + slopes[1]).abs() * 0.01,
+        1e-12,
+    );
+    close(
+        independent.modes[0].sigma.unwrap(),
+        slopes[0].hypot(slopes[1]) * 0.01,
+        1e-12,
+    );
+    // Monte Carlo sees the same coupling.
+    let run = base
+        .clone()
+        .correlation(matrix)
+        .samples(4000)
+        .keep_samples(true)
+        .monte_carlo()
+        .unwrap();
+    assert!(
+        run.all
+            .unwrap()
+            .iter()
+            .all(|s| (s.design[0] - s.design[1]).abs() < 1e-12)
+    );
+    matrix[0][1] = 1.5;
+    matrix[1][0] = 1.5;
+    assert!(matches!(
+        base.correlation(matrix).first_order(),
+        Err(Error::Setting { .. })
+    ));
+}
+
+/// Mean and standard deviation within four standard errors.
+fn agrees(run: &MonteCarlo<1, 2>, mean: f64, sigma: f64) {
+    let found = run.modes[0].unwrap();
+    assert_eq!(run.counts.stable, run.samples);
+    let error = (found.mean - mean).abs() / found.standard_error;
+    assert!(
+        error < 4.0,
+        "mean {} is {error} standard errors from {mean}",
+        found.mean
+    );
+    // Standard error of a standard deviation, for moderate kurtosis.
+    let error =
+        (found.standard_deviation - sigma).abs() * (2.0 * run.samples as f64).sqrt() / sigma;
+    assert!(
+        error < 4.0,
+        "sigma {} is {error} standard errors from {sigma}",
+        found.standard_deviation
+    );
+}
+
+#[test]
+fn monte_carlo_matches_quadrature() {
+    // L normal about 1 m, three standard deviations in the tolerance; quadrature in 30-digit arithmetic.
+    for (omega, tolerance, mean, sigma) in [
+        (2.0, 0.03, 3.273_525_091_654, 0.022_481_458_667_38),
+        (3.5, 0.06, 1.569_093_284_412, 0.094_017_775_863_93),
+        (4.2, 0.03, 2.314_838_379_148, 0.053_161_799_738_36),
+        (4.2, 0.06, 2.310_563_045_236, 0.107_359_679_428),
+        (6.0, 0.12, 5.473_038_312_985, 0.044_620_098_805_95),
+        (8.0, 0.03, 7.785_606_283_08, 0.004_349_283_737_742),
+    ] {
+        agrees(&sampled(omega, tolerance, 200_000), mean, sigma);
+    }
+}
+
+#[test]
+fn monte_carlo_stays_finite_at_the_critical_speed() {
+    // Exact standard deviations over both branches at Omega_c and at 1.005 Omega_c.
+    let critical = 3.836_013_555_763_326_5;
+    for (omega, tolerance, sigma) in [
+        (critical, 0.03, 0.1745),
+        (critical, 0.06, 0.2440),
+        (critical * 1.005, 0.03, 0.2242),
+        (critical * 1.005, 0.06, 0.2858),
+    ] {
+        let run = sampled(omega, tolerance, 200_000);
+        assert_eq!(run.counts.stable, run.samples);
+        let found = run.modes[0].unwrap().standard_deviation;
+        assert!(
+            (found - sigma).abs() < 0.006 * sigma,
+            "{omega} {tolerance}: {found} {sigma}"
+        );
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let study = Double::new(DOUBLE)
+        .input(OMEGA, 3.0)
+        .start(THETA, 1.0)
+        .samples(2000)
+        .seed(5)
+        .keep_samples(true);
+    let run = |threads: usize| -> MonteCarlo<2, 4> {
+        study.clone().threads(threads).monte_carlo().unwrap()
+    };
+    let one = run(1);
+    for threads in [0, 2, 3, 7] {
+        assert_eq!(one, run(threads));
+    }
+    let other = study.clone().seed(6).monte_carlo().unwrap();
+    assert_ne!(one.modes, other.modes);
+    // A shorter run is the beginning of a longer one.
+    let short = study.clone().samples(300).monte_carlo().unwrap();
+    assert_eq!(short.all.unwrap()[..], one.all.unwrap()[..300]);
+}
+
+#[test]
+fn no_sample_is_dropped() {
+    // A length that is often negative, on purpose.
+    let run = pendulum(3.0, 3.0).samples(3000).monte_carlo().unwrap();
+    assert_eq!(run.counts.total(), 3000);
+    assert!(run.counts.unphysical > 300, "{}", run.counts);
+    assert!(run.modes[0].unwrap().count == run.counts.stable);
+    // A stiffness about zero: half of the samples diverge. The force keeps an equilibrium in place.
+    let study = Study::new(Derived(Plate))
+        .input(OMEGA, 8.5)
+        .tolerance(DesignVariable(1), 12.0);
+    let plate = study.samples(2000).monte_carlo().unwrap();
+    assert_eq!(plate.counts.total(), 2000);
+    assert!(plate.counts.divergent > 100, "{}", plate.counts);
+    assert!(plate.counts.stable > 100, "{}", plate.counts);
+    // A potential that falls without end: no equilibrium at all beyond some force.
+    let study = Study::new(Derived(Spring))
+        .input(OMEGA, 1.9)
+        .design(DesignVariable(1), -1.0);
+    let fold = study
+        .start(THETA, 0.3)
+        .tolerance(DesignVariable(2), 0.3)
+        .samples(2000)
+        .monte_carlo()
+        .unwrap();
+    assert_eq!(fold.counts.total(), 2000);
+    assert!(fold.counts.stable > 100, "{}", fold.counts);
+}
+
+#[test]
+fn samples_on_the_other_branch_are_counted() {
+    let run = sampled(3.82, 0.06, 2000);
+    assert!(run.left_nominal_branch > 100);
+    assert_eq!(sampled(2.0, 0.03, 2000).left_nominal_branch, 0);
+}
+
+#[test]
+fn progress_adds_up() {
+    let done = AtomicUsize::new(0);
+    let count = |number: usize| {
+        done.fetch_add(number, Ordering::Relaxed);
+    };
+    pendulum(3.0, 0.03)
+        .samples(1000)
+        .monte_carlo_with_progress(&count)
+        .unwrap();
+    assert_eq!(done.load(Ordering::Relaxed), 1000);
+}
+
+#[test]
+fn settings_are_checked() {
+    assert!(matches!(
+        Tolerances::new([-1.0], 3.0, None),
+        Err(Error::Setting { .. })
+    ));
+    assert!(matches!(
+        Tolerances::new([f64::NAN], 3.0, None),
+        Err(Error::Setting { .. })
+    ));
+    assert!(matches!(
+        Tolerances::new([1.0], 0.0, None),
+        Err(Error::Setting { .. })
+    ));
+    let foreign = pendulum(3.0, 0.03)
+        .design(DesignVariable(9), 1.0)
+        .equilibrium();
+    assert!(matches!(
+        foreign,
+        Err(Error::UnknownHandle {
+            index: 9,
+            count: 2,
+            ..
+        })
+    ));
+    let empty = pendulum(3.0, 0.03).samples(0).monte_carlo().unwrap();
+    assert_eq!((empty.counts.total(), empty.modes[0]), (0, None));
+}
+
+#[test]
+fn outputs_have_tolerances() {
+    let study = pendulum(5.0, 0.03);
+    let spread = study.output_tolerances().unwrap();
+    let slope = study.outputs().unwrap().by_design[0][1];
+    close(spread[0].sigma, 0.01 * slope.abs(), 1e-12);
+    let direct = output_tolerances(&study.outputs().unwrap(), &study.tolerances().unwrap());
+    assert_eq!(spread, direct);
+}
+
+#[test]
+fn every_result_prints() {
+    let study = pendulum(5.0, 0.03).samples(300).steps(30);
+    let text = [
+        study.equilibrium().unwrap().to_string(),
+        study.modes().unwrap().to_string(),
+        study.equilibrium_shift().unwrap().to_string(),
+        study.sensitivities().unwrap().to_string(),
+        study.outputs().unwrap().to_string(),
+        study.first_order().unwrap().to_string(),
+        study.monte_carlo().unwrap().to_string(),
+        study.critical_state(OMEGA, 1.0, 5.0).unwrap().to_string(),
+        study.crossings(OMEGA, 1.0, 5.0, 1.0).unwrap()[0].to_string(),
+        study.sweep(OMEGA, &[1.0, 2.0]).unwrap()[0].to_string(),
+    ]
+    .join("\n");
+    println!("{text}");
+    for word in [
+        "theta [rad]",
+        "stable",
+        "omega [rad/s]",
+        "tip_radius",
+        "share of l",
+        "samples",
+    ] {
+        assert!(text.contains(word), "{word} is missing from\n{text}");
+    }
+    assert!(!text.contains("NaN"));
+}
