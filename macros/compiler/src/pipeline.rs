@@ -10,6 +10,7 @@ use crate::model::resolve::resolve;
 use crate::program::{Program, lower};
 use crate::syntax::ast::Ast;
 use crate::syntax::parse::parse;
+use crate::syntax::print::print;
 use crate::topology::Topology;
 use crate::topology::build::build;
 
@@ -46,6 +47,17 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
 }
 
 impl Compilation {
+    /// Every stage as text, by name, in order: for snapshots, and for looking into a surprising result.
+    pub fn dumps(&self) -> [(&'static str, String); 5] {
+        [
+            ("ast", print(&self.ast)),
+            ("mechanism", self.mechanism.to_string()),
+            ("topology", self.topology.describe(&self.mechanism)),
+            ("functions", self.functions.to_string()),
+            ("program", self.program.to_string()),
+        ]
+    }
+
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
         let Functions {

@@ -11,6 +11,7 @@ mod kinematics;
 mod linearise;
 mod newton_euler;
 mod orientation;
+mod print;
 mod properties;
 mod requirements;
 mod sources;
@@ -20,6 +21,3 @@ mod values;
 
 pub use derive::derive;
 pub use functions::{Damping, Functions, Limits, Properties, Requirement};
-
-#[cfg(test)]
-mod tests;

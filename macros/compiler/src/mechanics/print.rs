@@ -1,0 +1,35 @@
+//! What was derived, as text for snapshots: cost and results of each function, requirements and properties.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::functions::Functions;
+
+impl Display for Functions {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let properties = self.properties;
+        writeln!(f, "symmetric stiffness: {}", properties.symmetric_stiffness)?;
+        writeln!(f, "damping: {:?}", properties.damping)?;
+        for requirement in &self.requirements {
+            writeln!(f, "{}: {}", requirement.quantity, requirement.requirement)?;
+        }
+        for function in &self.functions {
+            let cost = function.cost(&self.graph);
+            let parameters: Vec<&str> = function.parameters.iter().map(|p| p.name).collect();
+            let results: Vec<String> = function
+                .results
+                .iter()
+                .map(|r| format!("{} {:?}", r.name, r.shape))
+                .collect();
+            writeln!(
+                f,
+                "{}({}) -> {}: {} + {}",
+                function.name,
+                parameters.join(", "),
+                results.join(", "),
+                cost.operations,
+                cost.functions
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,36 @@
+//! The forest as text, for snapshots: each body indented below the one it hangs on.
+
+use std::fmt::Write;
+
+use super::Topology;
+use crate::base::ids::CoordinateId;
+use crate::model::mechanism::{Frame, Mechanism};
+
+impl Topology {
+    /// The forest with the names of the mechanism it belongs to.
+    pub fn describe(&self, mechanism: &Mechanism) -> String {
+        let mut text = String::from("ground\n");
+        self.describe_below(mechanism, Frame::Ground, 1, &mut text);
+        for (kind, list) in [("free", &self.free), ("driven", &self.driven)] {
+            let name = |id: &CoordinateId| mechanism.coordinates[id.index()].name.to_string();
+            let names: Vec<String> = list.iter().map(name).collect();
+            let _ = writeln!(text, "{kind}: {}", names.join(", "));
+        }
+        text
+    }
+
+    fn describe_below(&self, mechanism: &Mechanism, on: Frame, depth: usize, text: &mut String) {
+        for branch in self.branches.iter().filter(|branch| branch.parent == on) {
+            let _ = writeln!(
+                text,
+                "{:indent$}{} by {}{}",
+                "",
+                mechanism.bodies[branch.body.index()].name,
+                mechanism.joints[branch.joint.index()].name,
+                if branch.reversed { ", reversed" } else { "" },
+                indent = 2 * depth
+            );
+            self.describe_below(mechanism, Frame::Body(branch.body), depth + 1, text);
+        }
+    }
+}
