@@ -2,6 +2,7 @@
 
 pub mod base;
 pub mod model;
+pub mod syntax;
 pub mod topology;
 
 use proc_macro2::TokenStream;

@@ -1,3 +1,8 @@
 //! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
 
+pub mod diagnostics;
+pub mod dimension;
 pub mod ids;
+pub mod nearest;
+pub mod span;
+pub mod units;

@@ -1,4 +1,8 @@
 //! The mechanism in the user's terms: names resolved to ids, values in SI, every rule checked.
 
+pub mod evaluate;
 pub mod expression;
 pub mod mechanism;
+pub mod resolve;
+mod rules;
+mod simplify;

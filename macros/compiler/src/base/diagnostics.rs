@@ -1,0 +1,193 @@
+//! User errors are collected, so that one run reports every independent mistake.
+
+use std::cell::Cell;
+use std::fmt;
+
+use proc_macro2::{Ident, TokenStream};
+
+use super::span::Extent;
+
+/// One mistake: what is wrong, where, and what to do about it.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// The offending tokens.
+    pub span: Extent,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A mistake at `span`.
+    pub fn new(span: impl Into<Extent>, message: impl Into<String>) -> Self {
+        Self {
+            span: span.into(),
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    /// Adds what to do.
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The message and, on a line of its own, the help.
+    pub fn text(&self) -> String {
+        match &self.help {
+            Some(help) => format!("{}\nhelp: {help}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}
+
+/// A collector of mistakes. Dropping one that holds mistakes nobody has looked at is a bug of the compiler: it would
+/// accept a wrong declaration. Debug builds panic on it.
+#[derive(Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    looked_at: Cell<bool>,
+}
+
+impl Diagnostics {
+    /// An empty collector.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Records a mistake.
+    pub fn error(&mut self, span: impl Into<Extent>, message: impl Into<String>) {
+        self.push(Diagnostic::new(span, message));
+    }
+
+    /// Records a mistake and what to do about it.
+    pub fn error_with_help(
+        &mut self,
+        span: impl Into<Extent>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.push(Diagnostic::new(span, message).with_help(help));
+    }
+
+    /// Records a mistake with help where there is any.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.looked_at.set(false);
+        self.list.push(diagnostic);
+    }
+
+    /// Moves all mistakes of another collector into this one.
+    pub fn append(&mut self, mut other: Diagnostics) {
+        self.extend(other.list.drain(..));
+    }
+
+    /// No mistake was recorded.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Number of mistakes.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// The value when there is no mistake, the mistakes otherwise.
+    pub fn into_result<T>(self, value: T) -> Result<T, Diagnostics> {
+        if self.is_empty() {
+            Ok(value)
+        } else {
+            Err(self)
+        }
+    }
+
+    /// The mistakes in the order found.
+    pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
+        self.looked_at.set(true);
+        self.list.iter()
+    }
+
+    /// One `compile_error!` per mistake, at the offending tokens.
+    pub fn into_compile_errors(self) -> TokenStream {
+        self.iter()
+            .map(|diagnostic| {
+                // syn marks the range from the first to the last of the tokens it is given.
+                let ends = [diagnostic.span.first, diagnostic.span.last]
+                    .map(|span| Ident::new("end", span));
+                let [first, last] = ends;
+                syn::Error::new_spanned(quote::quote!(#first #last), diagnostic.text())
+                    .to_compile_error()
+            })
+            .collect()
+    }
+}
+
+impl Extend<Diagnostic> for Diagnostics {
+    fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, mistakes: T) {
+        for diagnostic in mistakes {
+            self.push(diagnostic);
+        }
+    }
+}
+
+impl Drop for Diagnostics {
+    fn drop(&mut self) {
+        if cfg!(debug_assertions) && !std::thread::panicking() {
+            assert!(
+                self.list.is_empty() || self.looked_at.get(),
+                "mistakes were dropped unreported: {:?}",
+                self.list.iter().map(Diagnostic::text).collect::<Vec<_>>()
+            );
+        }
+    }
+}
+
+/// One paragraph per mistake, for build scripts and logs.
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, diagnostic) in self.iter().enumerate() {
+            if index > 0 {
+                writeln!(f)?;
+            }
+            #[cfg(feature = "locations")]
+            {
+                let start = diagnostic.span.first.start();
+                write!(f, "{}:{}: ", start.line, start.column + 1)?;
+            }
+            write!(f, "error: {}", diagnostic.text())?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+#[cfg(test)]
+mod tests {
+    use proc_macro2::Span;
+
+    use super::*;
+
+    #[test]
+    fn result_is_the_value_without_mistakes() {
+        assert_eq!(Diagnostics::new().into_result(3).ok(), Some(3));
+    }
+
+    #[test]
+    fn every_mistake_becomes_a_compile_error_with_its_help() {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.error(Span::call_site(), "first");
+        diagnostics.error_with_help(Span::call_site(), "second", "do this");
+        let tokens = diagnostics.into_compile_errors().to_string();
+        assert_eq!(tokens.matches("compile_error").count(), 2);
+        assert!(tokens.contains("second\\nhelp: do this"), "{tokens}");
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "dropped unreported")]
+    fn forgetting_a_mistake_panics() {
+        Diagnostics::new().error(Span::call_site(), "forgotten");
+    }
+}

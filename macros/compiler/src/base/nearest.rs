@@ -1,0 +1,73 @@
+//! A misspelt name is answered with the nearest known one.
+
+/// The candidate nearest to `name`, when one is near enough to be meant. The first of equals wins.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let allowed = match name.chars().count() {
+        0..=3 => 1,
+        4..=5 => 2,
+        length => length / 3 + 1,
+    };
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        let distance = if candidate.eq_ignore_ascii_case(name) {
+            0
+        } else {
+            distance(name, candidate)
+        };
+        // A name of which every letter would change is not a misspelling.
+        let longest = name.chars().count().max(candidate.chars().count());
+        let near = distance <= allowed && distance < longest;
+        if near && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b` (Damerau 1964, restricted).
+fn distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.chars().collect();
+    let b: Vec<char> = b.chars().collect();
+    let mut before_last = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let substitution = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = substitution.min(last[j] + 1).min(row[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                let swap: usize = before_last[j - 2];
+                least = least.min(swap + 1);
+            }
+            row.push(least);
+        }
+        before_last = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances() {
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("theta", "theta"), 0);
+        assert_eq!(distance("thtea", "theta"), 1);
+        assert_eq!(distance("bar1", "bar2"), 1);
+        assert_eq!(distance("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn suggests_only_what_could_be_meant() {
+        assert_eq!(nearest("thetal", ["theta2", "theta1"]), Some("theta2"));
+        assert_eq!(nearest("OMEGA", ["gamma", "omega"]), Some("omega"));
+        assert_eq!(nearest("m", ["k"]), None);
+        assert_eq!(
+            nearest("stiffnes", ["rest", "stiffness"]),
+            Some("stiffness")
+        );
+        assert_eq!(nearest("abc", ["pendulum"]), None);
+    }
+}

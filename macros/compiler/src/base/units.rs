@@ -1,0 +1,138 @@
+//! Unit names and their SI values: the user writes the units of the drawing, the compiler computes in SI.
+
+use std::f64::consts::PI;
+
+use super::dimension::Dimension;
+
+/// A unit name with its meaning: a value in SI is the value in this unit times `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedUnit {
+    /// Dimension.
+    pub dimension: Dimension,
+    /// SI value of one unit.
+    pub scale: f64,
+}
+
+/// Units that take the decimal prefixes, each as a factor times a power of ten.
+const PREFIXED: [(&str, Dimension, f64, i32); 9] = [
+    ("m", Dimension::LENGTH, 1.0, 0),
+    ("g", Dimension::MASS, 1.0, -3),
+    ("s", Dimension::TIME, 1.0, 0),
+    ("N", Dimension::FORCE, 1.0, 0),
+    ("Pa", Dimension::PRESSURE, 1.0, 0),
+    ("J", Dimension::MOMENT, 1.0, 0),
+    ("W", Dimension::POWER, 1.0, 0),
+    // A cycle per second of a rotation or a vibration, so that `50 Hz` can be given where rad/s are computed with.
+    ("Hz", Dimension::RATE, 2.0 * PI, 0),
+    ("rad", Dimension::NONE, 1.0, 0),
+];
+
+/// Units without prefixes.
+const PLAIN: [(&str, Dimension, f64); 10] = [
+    ("deg", Dimension::NONE, PI / 180.0),
+    ("rev", Dimension::NONE, 2.0 * PI),
+    ("rpm", Dimension::RATE, 2.0 * PI / 60.0),
+    ("min", Dimension::TIME, 60.0),
+    ("h", Dimension::TIME, 3600.0),
+    ("t", Dimension::MASS, 1000.0),
+    ("inch", Dimension::LENGTH, 0.0254),
+    ("ft", Dimension::LENGTH, 0.3048),
+    ("lb", Dimension::MASS, 0.453_592_37),
+    ("lbf", Dimension::FORCE, 4.448_221_615_260_5),
+];
+
+const PREFIXES: [(&str, i32); 11] = [
+    ("", 0),
+    ("p", -12),
+    ("n", -9),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("d", -1),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+];
+
+/// The unit called `name`.
+pub fn find(name: &str) -> Option<NamedUnit> {
+    let plain = PLAIN.iter().find(|entry| entry.0 == name);
+    if let Some(&(_, dimension, scale)) = plain {
+        return Some(NamedUnit { dimension, scale });
+    }
+    PREFIXES.iter().find_map(|(prefix, power)| {
+        let base = name.strip_prefix(prefix)?;
+        let &(_, dimension, factor, own) = PREFIXED.iter().find(|entry| entry.0 == base)?;
+        Some(NamedUnit {
+            dimension,
+            scale: factor * power_of_ten(power + own),
+        })
+    })
+}
+
+/// The double nearest to the power, which repeated multiplication misses.
+fn power_of_ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+/// Names to suggest for a misspelt unit, the usual ones first.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    const PREFIXED_IN_USE: [&str; 22] = [
+        "kg", "mm", "cm", "um", "km", "mg", "ms", "us", "kN", "mN", "MN", "kPa", "MPa", "GPa",
+        "mJ", "kJ", "mW", "kW", "kHz", "mrad", "dm", "ns",
+    ];
+    let prefixed = PREFIXED.iter().map(|entry| entry.0);
+    let plain = PLAIN.iter().map(|entry| entry.0);
+    prefixed.chain(plain).chain(PREFIXED_IN_USE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scale(name: &str) -> f64 {
+        find(name).unwrap().scale
+    }
+
+    #[test]
+    fn prefixes() {
+        assert_eq!(scale("kg"), 1.0);
+        assert_eq!(scale("g"), 1e-3);
+        assert_eq!(scale("mg"), 1e-6);
+        assert_eq!(scale("ug"), 1e-9);
+        assert_eq!(scale("mm"), 1e-3);
+        assert_eq!(scale("GPa"), 1e9);
+        assert_eq!(scale("mrad"), 1e-3);
+    }
+
+    #[test]
+    fn names_win_over_prefixes() {
+        assert_eq!(scale("min"), 60.0);
+        assert_eq!(find("min").unwrap().dimension, Dimension::TIME);
+        assert_eq!(scale("t"), 1000.0);
+        assert_eq!(scale("ft"), 0.3048);
+    }
+
+    #[test]
+    fn rotation() {
+        assert_eq!(scale("rpm") * 60.0, 2.0 * PI);
+        assert_eq!(scale("Hz"), 2.0 * PI);
+        assert_eq!(scale("deg") * 180.0, PI);
+    }
+
+    #[test]
+    fn pound_force_is_a_pound_in_standard_gravity() {
+        assert!((scale("lbf") - scale("lb") * 9.80665).abs() < 1e-15);
+    }
+
+    #[test]
+    fn every_suggested_name_is_known() {
+        for name in names() {
+            assert!(find(name).is_some(), "{name}");
+        }
+        for name in ["kgg", "", "k", "kmin", "mkg", "Kg", "M"] {
+            assert!(find(name).is_none(), "{name}");
+        }
+    }
+}

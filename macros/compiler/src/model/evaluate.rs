@@ -1,0 +1,89 @@
+//! Numbers for expressions: what a declaration comes to at given inputs and design variables.
+
+use super::expression::Expr;
+use super::mechanism::{Constant, Mechanism};
+use super::simplify::apply;
+
+/// Values of inputs, design variables and named constants.
+#[derive(Clone, Debug)]
+pub struct Values<'a> {
+    inputs: &'a [f64],
+    design: &'a [f64],
+    constants: Vec<f64>,
+}
+
+impl<'a> Values<'a> {
+    /// Computes the named constants from inputs and design variables, all SI.
+    pub fn new(constants: &[Constant], inputs: &'a [f64], design: &'a [f64]) -> Self {
+        let mut values = Self {
+            inputs,
+            design,
+            constants: Vec::with_capacity(constants.len()),
+        };
+        for constant in constants {
+            let value = values.of(&constant.value);
+            values.constants.push(value);
+        }
+        values
+    }
+
+    /// The value of an expression; NaN where it depends on the motion or leaves the domain of a function.
+    pub fn of(&self, expr: &Expr) -> f64 {
+        let known = |table: &[f64], index: usize| table.get(index).copied().unwrap_or(f64::NAN);
+        match expr {
+            Expr::Number(value) => *value,
+            Expr::Design(id) => known(self.design, id.index()),
+            Expr::Input(id) => known(self.inputs, id.index()),
+            Expr::Constant(id) => known(&self.constants, id.index()),
+            Expr::Coordinate(_) | Expr::Position(..) => f64::NAN,
+            Expr::Negate(a) => -self.of(a),
+            Expr::Add(a, b) => self.of(a) + self.of(b),
+            Expr::Subtract(a, b) => self.of(a) - self.of(b),
+            Expr::Multiply(a, b) => self.of(a) * self.of(b),
+            Expr::Divide(a, b) => self.of(a) / self.of(b),
+            Expr::PowerInteger(a, n) => self.of(a).powi(*n),
+            Expr::Power(a, b) => self.of(a).powf(self.of(b)),
+            Expr::Call(function, a) => apply(*function, self.of(a)),
+            Expr::Atan2(y, x) => self.of(y).atan2(self.of(x)),
+        }
+    }
+}
+
+/// The value of one expression of a mechanism at inputs `u` and design variables `b`, SI.
+pub fn evaluate(mechanism: &Mechanism, expr: &Expr, u: &[f64], b: &[f64]) -> f64 {
+    Values::new(&mechanism.constants, u, b).of(expr)
+}
+
+/// Which inputs an expression depends on cannot be told from its value: this marks constants that depend on any.
+#[derive(Clone, Debug, Default)]
+pub struct InputDependence {
+    constants: Vec<bool>,
+}
+
+impl InputDependence {
+    /// Marks the constants.
+    pub fn new(constants: &[Constant]) -> Self {
+        let mut dependence = Self::default();
+        for constant in constants {
+            let depends = dependence.of(&constant.value);
+            dependence.constants.push(depends);
+        }
+        dependence
+    }
+
+    /// The expression depends on an input, directly or through a constant.
+    pub fn of(&self, expr: &Expr) -> bool {
+        match expr {
+            Expr::Input(_) => true,
+            Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
+            Expr::Number(_) | Expr::Design(_) | Expr::Coordinate(_) | Expr::Position(..) => false,
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.of(a),
+            Expr::Add(a, b)
+            | Expr::Subtract(a, b)
+            | Expr::Multiply(a, b)
+            | Expr::Divide(a, b)
+            | Expr::Power(a, b)
+            | Expr::Atan2(a, b) => self.of(a) || self.of(b),
+        }
+    }
+}

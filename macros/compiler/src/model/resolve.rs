@@ -1,0 +1,161 @@
+//! Tree to mechanism: every name becomes an id, every value SI. A wrong item still declares its name, and a wrong value
+//! is silent where it is used, so that each mistake is reported once.
+
+mod arguments;
+mod bodies;
+mod constants;
+mod directions;
+mod expected;
+mod forces;
+mod functions;
+mod gravity;
+mod joints;
+mod operators;
+mod outputs;
+mod parameters;
+mod references;
+mod scope;
+mod typed;
+mod units;
+mod values;
+
+use self::parameters::Nominal;
+use self::scope::Scope;
+use self::typed::Typed;
+use super::expression::Expr;
+use super::mechanism::{Constant, Coordinate, CoordinateQuantity, Mechanism};
+use super::rules::physical::{self, Demand, Requirement};
+use super::rules::presence;
+use crate::base::diagnostics::{Diagnostic, Diagnostics};
+use crate::base::dimension::Dimension;
+use crate::base::ids::CoordinateId;
+use crate::base::span::Extent;
+use crate::syntax::ast::{Ast, ItemKind};
+
+/// Resolves and checks a declaration.
+pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let scope = Scope::new(ast, &mut diagnostics);
+    let mut resolver = Resolver::new(ast, scope, diagnostics);
+    let inputs = resolver.inputs();
+    let design = resolver.design_variables();
+    resolver.coordinates();
+    resolver.named_constants();
+    let gravity = resolver.gravity();
+    let bodies = resolver.bodies();
+    let joints = resolver.joints();
+    let points = resolver.points();
+    let forces = resolver.forces();
+    let outputs = resolver.outputs();
+    presence::check(ast, &mut resolver.diagnostics);
+    physical::check(
+        &resolver.requirements,
+        &resolver.constants,
+        &resolver.design_points(),
+        inputs.len(),
+        &mut resolver.diagnostics,
+    );
+    let mechanism = Mechanism {
+        name: ast.name.clone(),
+        visibility: ast.visibility.clone(),
+        attributes: ast.attributes.clone(),
+        inputs,
+        design,
+        constants: resolver.constants,
+        gravity,
+        bodies,
+        joints,
+        coordinates: resolver.declared_coordinates,
+        points,
+        forces,
+        outputs,
+    };
+    if resolver.diagnostics.is_empty() && !is_complete(ast, &mechanism) {
+        // A value was given up without a message.
+        let message = "this declaration cannot be compiled, and eigentol does not know why";
+        let help = "this is a bug of eigentol: please report it with the declaration";
+        resolver
+            .diagnostics
+            .error_with_help(&ast.name, message, help);
+    }
+    resolver.diagnostics.into_result(mechanism)
+}
+
+/// Every declared item has become an entry.
+fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
+    let count = |is: fn(&ItemKind) -> bool| ast.items.iter().filter(|item| is(&item.kind)).count();
+    mechanism.inputs.len() == count(|kind| matches!(kind, ItemKind::Input(_)))
+        && mechanism.design.len() == count(|kind| matches!(kind, ItemKind::Design(_)))
+        && mechanism.constants.len() >= count(|kind| matches!(kind, ItemKind::Let(_)))
+        && mechanism.bodies.len() == count(|kind| matches!(kind, ItemKind::Body(_)))
+        && mechanism.joints.len() == count(|kind| matches!(kind, ItemKind::Joint(_)))
+        && mechanism.points.len() == count(|kind| matches!(kind, ItemKind::Point(_)))
+        && mechanism.forces.len() == count(|kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism.outputs.len() == count(|kind| matches!(kind, ItemKind::Output(_)))
+}
+
+/// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
+struct Resolver<'a> {
+    ast: &'a Ast,
+    diagnostics: Diagnostics,
+    scope: Scope,
+    inputs: Vec<Option<Dimension>>,
+    design: Vec<Option<Nominal>>,
+    lets: Vec<Option<Typed>>,
+    constants: Vec<Constant>,
+    joint_coordinates: Vec<JointCoordinate>,
+    declared_coordinates: Vec<Coordinate>,
+    requirements: Vec<Requirement>,
+}
+
+/// The coordinate of a joint.
+#[derive(Clone, Copy, Debug)]
+enum JointCoordinate {
+    /// The joint is fixed.
+    None,
+    /// The kind of joint is wrong.
+    Unknown,
+    /// The joint turns or slides.
+    One(CoordinateId, CoordinateQuantity),
+}
+
+impl<'a> Resolver<'a> {
+    fn new(ast: &'a Ast, scope: Scope, diagnostics: Diagnostics) -> Self {
+        Self {
+            ast,
+            diagnostics,
+            scope,
+            inputs: Vec::new(),
+            design: Vec::new(),
+            lets: Vec::new(),
+            constants: Vec::new(),
+            joint_coordinates: Vec::new(),
+            declared_coordinates: Vec::new(),
+            requirements: Vec::new(),
+        }
+    }
+
+    /// Records a mistake with help where there is any.
+    fn report(
+        &mut self,
+        span: impl Into<Extent>,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) {
+        let mut diagnostic = Diagnostic::new(span, message);
+        diagnostic.help = help;
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// A value must be finite at the nominal values.
+    fn require_finite(&mut self, expr: &Expr, what: &str, extent: Extent) {
+        if !matches!(expr, Expr::Number(_)) {
+            self.requirements.push(Requirement {
+                what: what.to_string(),
+                values: vec![expr.clone()],
+                demand: Demand::Finite,
+                extent,
+            });
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Named constants, in an order in which each uses only earlier ones.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::Ident;
+
+use super::Resolver;
+use super::scope::Meaning;
+use super::typed::{Place, Quantity, Typed};
+use crate::base::ids::ConstantId;
+use crate::model::expression::Expr;
+use crate::model::mechanism::Constant;
+use crate::syntax::ast::{ItemKind, Named, ValueKind};
+
+/// How far a `let` has come.
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    Waiting,
+    /// Its own dependencies are being resolved.
+    Open,
+    Done,
+}
+
+impl Resolver<'_> {
+    pub(super) fn named_constants(&mut self) {
+        let named: Vec<&Named> = self
+            .ast
+            .items
+            .iter()
+            .filter_map(|item| match &item.kind {
+                ItemKind::Let(named) => Some(named),
+                _ => None,
+            })
+            .collect();
+        self.lets = vec![None; named.len()];
+        let uses: Vec<Vec<usize>> = named.iter().map(|named| self.used_lets(named)).collect();
+        let mut state = vec![State::Waiting; named.len()];
+        let mut in_cycle = vec![false; named.len()];
+        for start in 0..named.len() {
+            // Depth first with a stack of its own: a chain of lets may be longer than the program's.
+            let mut path: Vec<(usize, usize)> = Vec::new();
+            if state[start] == State::Waiting {
+                state[start] = State::Open;
+                path.push((start, 0));
+            }
+            while let Some((current, next)) = path.last_mut() {
+                let current = *current;
+                let Some(&used) = uses[current].get(*next) else {
+                    path.pop();
+                    state[current] = State::Done;
+                    if !in_cycle[current] {
+                        self.lets[current] = self.constant(named[current]);
+                    }
+                    continue;
+                };
+                *next += 1;
+                match state[used] {
+                    State::Waiting => {
+                        state[used] = State::Open;
+                        path.push((used, 0));
+                    }
+                    State::Done => {}
+                    State::Open => {
+                        let start = path.iter().position(|&(index, _)| index == used);
+                        let cycle: Vec<usize> = path[start.unwrap_or(0)..]
+                            .iter()
+                            .map(|&(index, _)| index)
+                            .collect();
+                        self.report_cycle(&cycle, &named, &in_cycle);
+                        for index in cycle {
+                            in_cycle[index] = true;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// A constant that needs itself has no value.
+    fn report_cycle(&mut self, cycle: &[usize], named: &[&Named], known: &[bool]) {
+        if cycle.iter().any(|&index| known[index]) {
+            return;
+        }
+        let Some(&first) = cycle.first() else {
+            return;
+        };
+        let names: Vec<String> = cycle
+            .iter()
+            .chain([&first])
+            .map(|&index| format!("`{}`", named[index].name))
+            .collect();
+        let name = &named[first].name;
+        let message = format!("`{name}` is defined by itself: {}", names.join(" uses "));
+        self.diagnostics.error(name, message);
+    }
+
+    /// The lets that a value names, each once.
+    fn used_lets(&self, named: &Named) -> Vec<usize> {
+        let mut uses = BTreeSet::new();
+        let mut rest = vec![&named.value];
+        while let Some(value) = rest.pop() {
+            match &value.kind {
+                ValueKind::Number(..) => {}
+                ValueKind::Name(name) => {
+                    if let Some(Meaning::Let(index)) = self.scope.find(&name.to_string()) {
+                        uses.insert(index);
+                    }
+                }
+                ValueKind::Vector(values, _) | ValueKind::Call(_, values) => rest.extend(values),
+                ValueKind::Negate(of) | ValueKind::Component(of, _) => rest.push(of),
+                ValueKind::Parenthesised(of) => rest.push(of),
+                ValueKind::Binary(binary) => rest.extend([&binary.left, &binary.right]),
+            }
+        }
+        uses.into_iter().collect()
+    }
+
+    fn constant(&mut self, named: &Named) -> Option<Typed> {
+        let Named { name, value } = named;
+        let what = format!("`{name}`");
+        match self.value(value, Place::Parameter)? {
+            Typed::Scalar(expr, quantity) => {
+                self.require_finite(&expr, &what, value.extent);
+                Some(Typed::Scalar(
+                    self.shared(name.clone(), expr),
+                    promoted(quantity),
+                ))
+            }
+            // A vector becomes three constants, so that it is computed once however often it is used.
+            Typed::Vector(vector, quantity) => {
+                let mut axes = ["x", "y", "z"].into_iter();
+                let vector = vector.map(|expr| {
+                    self.require_finite(&expr, &what, value.extent);
+                    let axis = axes.next().unwrap_or_default();
+                    self.shared(self.component_name(name, axis), expr)
+                });
+                Some(Typed::Vector(vector, promoted(quantity)))
+            }
+        }
+    }
+
+    /// Enters a constant; a plain number is used as such.
+    fn shared(&mut self, name: Ident, value: Expr) -> Expr {
+        let id = ConstantId::new(self.constants.len());
+        let reference = match &value {
+            Expr::Number(number) => Expr::Number(*number),
+            _ => Expr::Constant(id),
+        };
+        self.constants.push(Constant { name, value });
+        reference
+    }
+
+    /// A name that nothing else has.
+    fn component_name(&self, name: &Ident, axis: &str) -> Ident {
+        let mut text = format!("{name}_{axis}");
+        while self.scope.find(&text).is_some() {
+            text.push('_');
+        }
+        Ident::new(&text, name.span())
+    }
+}
+
+/// A constant zero is a plain number: only the literal fits every dimension.
+fn promoted(quantity: Quantity) -> Quantity {
+    Quantity::Of(quantity.dimension())
+}

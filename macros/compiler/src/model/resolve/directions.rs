@@ -1,0 +1,69 @@
+//! Directions: axis names, or any vector, made unit vectors.
+
+use super::Resolver;
+use super::typed::Place;
+use crate::model::expression::{Expr, Vector};
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify;
+use crate::syntax::ast::{Value, ValueKind};
+
+impl Resolver<'_> {
+    /// A unit vector. `x`, `y` and `z` are the axes here, whatever else is declared.
+    pub(super) fn direction(&mut self, value: &Value, place: Place) -> Option<Vector> {
+        if let Some(axis) = axis(value) {
+            return Some(axis);
+        }
+        if let ValueKind::Name(name) = &value.bare().kind
+            && self.scope.find(&name.to_string()).is_none()
+        {
+            self.diagnostics.error_with_help(
+                name,
+                format!("unknown direction `{name}`"),
+                "a direction is x, y, z, -x, -y, -z or a vector such as `[1, 0, 1]`",
+            );
+            return None;
+        }
+        let (vector, _) = self.vector(value, place)?;
+        if let [Expr::Number(x), Expr::Number(y), Expr::Number(z)] = vector {
+            return self.constant_direction([x, y, z], value);
+        }
+        self.requirements.push(Requirement {
+            what: "this direction".to_string(),
+            values: vector.to_vec(),
+            demand: Demand::Direction,
+            extent: value.extent,
+        });
+        let length = simplify::norm(&vector);
+        Some(vector.map(|component| simplify::divide(component, length.clone())))
+    }
+
+    /// A vector of length zero has no direction.
+    fn constant_direction(&mut self, vector: [f64; 3], value: &Value) -> Option<Vector> {
+        // Scaled first, so that tiny and huge vectors have a length too.
+        let largest = vector.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        if largest == 0.0 {
+            self.diagnostics
+                .error(value.extent, "a zero vector has no direction");
+            return None;
+        }
+        let scaled = vector.map(|component| component / largest);
+        let length = scaled.iter().map(|a| a * a).sum::<f64>().sqrt();
+        // Adding zero turns -0 into 0.
+        Some(scaled.map(|component| Expr::Number(component / length + 0.0)))
+    }
+}
+
+fn axis(value: &Value) -> Option<Vector> {
+    let (sign, name) = match &value.bare().kind {
+        ValueKind::Name(name) => (1.0, name),
+        ValueKind::Negate(operand) => match &operand.bare().kind {
+            ValueKind::Name(name) => (-1.0, name),
+            _ => return None,
+        },
+        _ => return None,
+    };
+    let index = ["x", "y", "z"].iter().position(|axis| name == axis)?;
+    let mut components = [0.0; 3];
+    components[index] = sign;
+    Some(components.map(Expr::Number))
+}

@@ -1,0 +1,49 @@
+//! What a place in a declaration expects, in the words of that place: a stiffness about an axis is a moment by
+//! dimension, but nobody calls it one.
+
+use crate::base::dimension::Dimension;
+
+/// A dimension with the words for it.
+#[derive(Clone, Debug)]
+pub(super) struct Expected {
+    pub(super) dimension: Dimension,
+    /// With an article.
+    pub(super) name: String,
+    pub(super) unit: String,
+}
+
+impl Expected {
+    pub(super) fn angle() -> Self {
+        Self::named(Dimension::NONE, "an angle", "rad")
+    }
+
+    pub(super) fn rotary_stiffness() -> Self {
+        Self::named(Dimension::MOMENT, "a rotary stiffness", "N*m/rad")
+    }
+
+    pub(super) fn rotary_damping() -> Self {
+        Self::named(Dimension::ROTARY_DAMPING, "a rotary damping", "N*m*s/rad")
+    }
+
+    fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
+        Self {
+            dimension,
+            name: name.to_string(),
+            unit: unit.to_string(),
+        }
+    }
+
+    /// The name and the unit: `a length (m)`.
+    pub(super) fn describe(&self) -> String {
+        match self.unit.as_str() {
+            "1" => self.name.clone(),
+            unit => format!("{} ({unit})", self.name),
+        }
+    }
+}
+
+impl From<Dimension> for Expected {
+    fn from(dimension: Dimension) -> Self {
+        Self::named(dimension, &dimension.name(), &dimension.si_symbol())
+    }
+}

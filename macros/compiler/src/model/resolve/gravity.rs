@@ -1,0 +1,68 @@
+//! Gravity: one acceleration, the same everywhere.
+
+use super::Resolver;
+use super::typed::{Place, Typed};
+use crate::base::dimension::Dimension;
+use crate::model::expression::{Expr, Vector};
+use crate::model::simplify;
+use crate::syntax::ast::{Gravity, ItemKind};
+
+impl Resolver<'_> {
+    /// The acceleration in the ground frame; zero when none is declared.
+    pub(super) fn gravity(&mut self) -> Vector {
+        let mut declared: Option<Vector> = None;
+        let mut seen = false;
+        for item in &self.ast.items {
+            let ItemKind::Gravity(gravity) = &item.kind else {
+                continue;
+            };
+            if seen {
+                let message = "gravity is declared twice";
+                self.diagnostics.error(gravity.keyword, message);
+                continue;
+            }
+            seen = true;
+            declared = self.acceleration(gravity);
+        }
+        declared.unwrap_or([0.0; 3].map(Expr::Number))
+    }
+
+    fn acceleration(&mut self, gravity: &Gravity) -> Option<Vector> {
+        let value = &gravity.value;
+        let what = "gravity";
+        let direction = gravity
+            .along
+            .as_ref()
+            .map(|along| self.direction(along, Place::Parameter));
+        let vector = match (self.value(value, Place::Parameter)?, direction) {
+            (Typed::Scalar(magnitude, quantity), Some(direction)) => {
+                self.expect(quantity, Dimension::ACCELERATION, what, value)?;
+                direction?.map(|component| simplify::multiply(magnitude.clone(), component))
+            }
+            (Typed::Vector(vector, quantity), None) => {
+                self.expect(quantity, Dimension::ACCELERATION, what, value)?;
+                vector
+            }
+            (Typed::Scalar(..), None) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "gravity needs a direction",
+                    "write `along -z` after its magnitude",
+                );
+                return None;
+            }
+            (Typed::Vector(..), Some(_)) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "this vector has a direction already",
+                    "remove `along`, or give a magnitude instead of the vector",
+                );
+                return None;
+            }
+        };
+        for component in &vector {
+            self.require_finite(component, what, value.extent);
+        }
+        Some(vector)
+    }
+}

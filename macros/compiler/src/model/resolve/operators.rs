@@ -1,0 +1,218 @@
+//! Operators: what each does to dimensions, and which operands it refuses.
+
+use super::Resolver;
+use super::typed::{Place, Quantity, Typed};
+use super::values::bare_number;
+use crate::base::dimension::Dimension;
+use crate::base::span::Extent;
+use crate::model::expression::Expr;
+use crate::model::simplify;
+use crate::syntax::ast::{Binary, Operator, Value};
+
+impl Resolver<'_> {
+    pub(super) fn binary(&mut self, binary: &Binary, place: Place) -> Option<Typed> {
+        let left = self.value(&binary.left, place);
+        let right = self.value(&binary.right, place);
+        let (left, right) = (left?, right?);
+        let result = match binary.operator {
+            Operator::Add | Operator::Subtract => self.sum(binary, left, right),
+            Operator::Multiply => self.product(binary, left, right),
+            Operator::Divide => self.quotient(binary, left, right),
+            Operator::Power => self.power(binary, left, right),
+        }?;
+        self.finite(result, binary.sign)
+    }
+
+    fn sum(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
+        let combine = match binary.operator {
+            Operator::Add => simplify::add,
+            _ => simplify::subtract,
+        };
+        match (left, right) {
+            (Typed::Scalar(a, of_a), Typed::Scalar(b, of_b)) => {
+                let quantity = self.same_dimension(binary, of_a, of_b)?;
+                Some(Typed::Scalar(combine(a, b), quantity))
+            }
+            (Typed::Vector(a, of_a), Typed::Vector(b, of_b)) => {
+                let quantity = self.same_dimension(binary, of_a, of_b)?;
+                Some(Typed::Vector(
+                    simplify::componentwise(a, b, combine),
+                    quantity,
+                ))
+            }
+            _ => {
+                let message = "cannot add or subtract a vector and a number";
+                self.diagnostics.error(binary.sign, message);
+                None
+            }
+        }
+    }
+
+    /// Terms of a sum have one dimension.
+    fn same_dimension(&mut self, binary: &Binary, a: Quantity, b: Quantity) -> Option<Quantity> {
+        let unified = a.unify(b);
+        if unified.is_none() {
+            let (a, b) = (a.dimension(), b.dimension());
+            let message = match binary.operator {
+                Operator::Add => format!("cannot add {} and {}", a.describe(), b.describe()),
+                _ => format!("cannot subtract {} from {}", b.describe(), a.describe()),
+            };
+            let unitless = |value: &Value, unit: Dimension| {
+                bare_number(value)
+                    .map(|text| format!("give the number a unit: `{text} {}`", unit.si_symbol()))
+            };
+            let help = self
+                .swallowed(&binary.left, a, b)
+                .or_else(|| self.swallowed(&binary.right, b, a))
+                .or_else(|| unitless(&binary.right, a))
+                .or_else(|| unitless(&binary.left, b));
+            self.report(binary.sign, message, help);
+        }
+        unified
+    }
+
+    fn product(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
+        match (left, right) {
+            (Typed::Scalar(a, of_a), Typed::Scalar(b, of_b)) => {
+                let quantity = self.combined(binary, of_a, of_b)?;
+                Some(Typed::Scalar(simplify::multiply(a, b), quantity))
+            }
+            (Typed::Scalar(a, of_a), Typed::Vector(b, of_b))
+            | (Typed::Vector(b, of_b), Typed::Scalar(a, of_a)) => {
+                let quantity = self.combined(binary, of_a, of_b)?;
+                let scaled = b.map(|component| simplify::multiply(a.clone(), component));
+                Some(Typed::Vector(scaled, quantity))
+            }
+            (Typed::Vector(..), Typed::Vector(..)) => {
+                self.diagnostics.error_with_help(
+                    binary.sign,
+                    "cannot multiply two vectors with `*`",
+                    "use `dot(a, b)` or `cross(a, b)`",
+                );
+                None
+            }
+        }
+    }
+
+    fn quotient(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
+        let Typed::Scalar(divisor, of_divisor) = right else {
+            let message = "cannot divide by a vector";
+            self.diagnostics.error(binary.sign, message);
+            return None;
+        };
+        if divisor == Expr::Number(0.0) {
+            self.diagnostics
+                .error(binary.right.extent, "division by zero");
+            return None;
+        }
+        match left {
+            Typed::Scalar(a, of_a) => {
+                let quantity = self.combined(binary, of_a, of_divisor)?;
+                Some(Typed::Scalar(simplify::divide(a, divisor), quantity))
+            }
+            Typed::Vector(a, of_a) => {
+                let quantity = self.combined(binary, of_a, of_divisor)?;
+                let scaled = a.map(|component| simplify::divide(component, divisor.clone()));
+                Some(Typed::Vector(scaled, quantity))
+            }
+        }
+    }
+
+    /// Dimension of a product or quotient.
+    fn combined(&mut self, binary: &Binary, a: Quantity, b: Quantity) -> Option<Quantity> {
+        let (a, b) = (a.dimension(), b.dimension());
+        let dimension = match binary.operator {
+            Operator::Divide => a.over(b),
+            _ => a.times(b),
+        };
+        self.in_range(dimension, binary.sign)
+    }
+
+    /// Exponents are small numbers; only a runaway power leaves their range.
+    pub(super) fn in_range(
+        &mut self,
+        dimension: Option<Dimension>,
+        at: Extent,
+    ) -> Option<Quantity> {
+        if dimension.is_none() {
+            let message = "the exponents of this value's unit are out of range";
+            self.diagnostics.error(at, message);
+        }
+        dimension.map(Quantity::Of)
+    }
+
+    fn power(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
+        let (Typed::Scalar(base, of_base), Typed::Scalar(exponent, of_exponent)) = (left, right)
+        else {
+            let message = "a vector cannot stand in a power";
+            self.diagnostics.error(binary.sign, message);
+            return None;
+        };
+        let what = "an exponent";
+        self.expect(of_exponent, Dimension::NONE, what, &binary.right)?;
+        let dimension = of_base.dimension();
+        if let Expr::Number(exponent) = exponent
+            && exponent.fract() == 0.0
+            && exponent.abs() <= 1000.0
+        {
+            // The bound makes the conversion exact.
+            let n = exponent as i32;
+            let quantity = self.in_range(dimension.power(n, 1), binary.sign)?;
+            if n < 0 && base == Expr::Number(0.0) {
+                self.diagnostics
+                    .error(binary.left.extent, "division by zero");
+                return None;
+            }
+            return Some(Typed::Scalar(simplify::power_integer(base, n), quantity));
+        }
+        let quantity = match (dimension.is_none(), &exponent) {
+            (true, _) => Quantity::Of(Dimension::NONE),
+            (false, &Expr::Number(exponent)) => {
+                let Some((numerator, denominator)) = fraction(exponent) else {
+                    let message = format!(
+                        "{} can only be raised to a whole number or a simple fraction",
+                        dimension.describe()
+                    );
+                    self.diagnostics.error(binary.sign, message);
+                    return None;
+                };
+                self.in_range(dimension.power(numerator, denominator), binary.sign)?
+            }
+            (false, _) => {
+                let message = format!(
+                    "{} can only be raised to a constant power",
+                    dimension.describe()
+                );
+                let help = "divide it by a reference value first";
+                self.diagnostics.error_with_help(binary.sign, message, help);
+                return None;
+            }
+        };
+        Some(Typed::Scalar(simplify::power(base, exponent), quantity))
+    }
+
+    /// A constant that is no finite number, such as `sqrt(-1)`, can only be a mistake.
+    pub(super) fn finite(&mut self, typed: Typed, at: Extent) -> Option<Typed> {
+        let wrong = |expr: &Expr| matches!(expr, Expr::Number(value) if !value.is_finite());
+        let is_wrong = match &typed {
+            Typed::Scalar(expr, _) => wrong(expr),
+            Typed::Vector(vector, _) => vector.iter().any(wrong),
+        };
+        if is_wrong {
+            self.diagnostics
+                .error(at, "the result of this is not a finite real number");
+            return None;
+        }
+        Some(typed)
+    }
+}
+
+/// The fraction with a denominator up to 12 that equals an exponent such as `1/3`, as far as a double can.
+fn fraction(value: f64) -> Option<(i32, i32)> {
+    (1..=12).find_map(|denominator| {
+        let numerator = value * f64::from(denominator);
+        let near = (numerator - numerator.round()).abs() < 1e-12 && numerator.abs() < 1e4;
+        // The bound makes the conversion exact.
+        near.then(|| (numerator.round() as i32, denominator))
+    })
+}

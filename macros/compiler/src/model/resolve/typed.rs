@@ -1,0 +1,66 @@
+//! A resolved value together with what the checks need to know about it.
+
+use crate::base::dimension::Dimension;
+use crate::model::expression::{Expr, Vector};
+
+/// The dimension of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Quantity {
+    /// The number `0` without a unit, which fits every dimension.
+    Zero,
+    /// A value of one dimension.
+    Of(Dimension),
+}
+
+impl Quantity {
+    /// The dimension, a plain number for zero.
+    pub(super) fn dimension(self) -> Dimension {
+        match self {
+            Quantity::Zero => Dimension::NONE,
+            Quantity::Of(dimension) => dimension,
+        }
+    }
+
+    /// A value of this quantity may stand where `dimension` is expected.
+    pub(super) fn fits(self, dimension: Dimension) -> bool {
+        match self {
+            Quantity::Zero => true,
+            Quantity::Of(own) => own == dimension,
+        }
+    }
+
+    /// The common quantity of two terms of a sum.
+    pub(super) fn unify(self, other: Quantity) -> Option<Quantity> {
+        match (self, other) {
+            (Quantity::Zero, other) => Some(other),
+            (own, Quantity::Zero) => Some(own),
+            (own, other) => (own == other).then_some(own),
+        }
+    }
+}
+
+/// A resolved value.
+#[derive(Clone, Debug)]
+pub(super) enum Typed {
+    /// One number.
+    Scalar(Expr, Quantity),
+    /// Three components of one dimension.
+    Vector(Vector, Quantity),
+}
+
+impl Typed {
+    pub(super) fn number(value: f64, dimension: Dimension) -> Self {
+        Typed::Scalar(Expr::Number(value), Quantity::Of(dimension))
+    }
+}
+
+/// Where a value stands decides which names it may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// A nominal value or a tolerance: numbers only.
+    Nominal,
+    /// Anything about the mechanism itself: numbers, design variables, inputs and constants.
+    Parameter,
+    /// An output: everything.
+    Output,
+}

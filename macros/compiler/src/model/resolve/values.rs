@@ -1,0 +1,321 @@
+//! Values: names to ids, units to SI, dimensions checked at every operator.
+
+use proc_macro2::Ident;
+
+use super::Resolver;
+use super::expected::Expected;
+use super::scope::Meaning;
+use super::typed::{Place, Quantity, Typed};
+use crate::base::dimension::Dimension;
+use crate::base::span::Extent;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::CoordinateQuantity;
+use crate::model::simplify;
+use crate::syntax::ast::{Unit, Value, ValueKind};
+
+/// In all functions below, nothing means: wrong, and reported.
+impl Resolver<'_> {
+    /// A value of any kind and dimension.
+    pub(super) fn value(&mut self, value: &Value, place: Place) -> Option<Typed> {
+        match &value.kind {
+            ValueKind::Number(number, unit) => self.number(*number, unit.as_ref()),
+            ValueKind::Name(name) => self.named_value(name, place),
+            ValueKind::Vector(components, unit) => {
+                self.vector_literal(components, unit.as_ref(), value.extent, place)
+            }
+            ValueKind::Negate(operand) => Some(match self.value(operand, place)? {
+                Typed::Scalar(a, quantity) => Typed::Scalar(simplify::negate(a), quantity),
+                Typed::Vector(a, quantity) => Typed::Vector(a.map(simplify::negate), quantity),
+            }),
+            ValueKind::Binary(binary) => self.binary(binary, place),
+            ValueKind::Call(function, arguments) => self.call(function, arguments, place),
+            ValueKind::Component(of, axis) => self.component(of, axis, place),
+            ValueKind::Parenthesised(inner) => self.value(inner, place),
+        }
+    }
+
+    fn number(&mut self, number: f64, unit: Option<&Unit>) -> Option<Typed> {
+        let Some(unit) = unit else {
+            let quantity = if number == 0.0 {
+                Quantity::Zero
+            } else {
+                Quantity::Of(Dimension::NONE)
+            };
+            return Some(Typed::Scalar(Expr::Number(number), quantity));
+        };
+        let (dimension, scale) = self.unit(unit)?;
+        let value = number * scale;
+        if !value.is_finite() {
+            self.diagnostics.error(
+                unit.extent,
+                "this value is outside the range of a 64-bit number",
+            );
+            return None;
+        }
+        Some(Typed::number(value, dimension))
+    }
+
+    fn named_value(&mut self, name: &Ident, place: Place) -> Option<Typed> {
+        let text = name.to_string();
+        if text == "pi" {
+            return Some(Typed::number(std::f64::consts::PI, Dimension::NONE));
+        }
+        let Some(meaning) = self.scope.find(&text) else {
+            self.unknown_value(name, place);
+            return None;
+        };
+        if place == Place::Nominal {
+            self.diagnostics.error_with_help(
+                name,
+                format!(
+                    "`{text}` is {}; a nominal value is made of numbers only",
+                    meaning.describe()
+                ),
+                "use `let` for a value computed from others",
+            );
+            return None;
+        }
+        match meaning {
+            Meaning::Input(id) => {
+                let dimension = (*self.inputs.get(id.index())?)?;
+                Some(Typed::Scalar(Expr::Input(id), Quantity::Of(dimension)))
+            }
+            Meaning::Design(id) => {
+                let dimension = self.design.get(id.index())?.as_ref()?.dimension;
+                Some(Typed::Scalar(Expr::Design(id), Quantity::Of(dimension)))
+            }
+            Meaning::Let(index) => self.lets.get(index)?.clone(),
+            Meaning::Joint(_) => {
+                let (coordinate, quantity) = self.coordinate(name)?;
+                if place != Place::Output {
+                    self.diagnostics.error(
+                        name,
+                        format!("`{text}` is a coordinate; only an output may use coordinates"),
+                    );
+                    return None;
+                }
+                let dimension = match quantity {
+                    CoordinateQuantity::Angle => Dimension::NONE,
+                    CoordinateQuantity::Displacement => Dimension::LENGTH,
+                };
+                Some(Typed::Scalar(
+                    Expr::Coordinate(coordinate),
+                    Quantity::Of(dimension),
+                ))
+            }
+            Meaning::Point(_) if place == Place::Output => {
+                self.diagnostics.error_with_help(
+                    name,
+                    format!("`{text}` is a point, not a value"),
+                    format!("its position in the ground frame is `position({text})`"),
+                );
+                None
+            }
+            Meaning::Output => {
+                self.diagnostics.error_with_help(
+                    name,
+                    format!("`{text}` is an output; a value cannot use outputs"),
+                    "repeat its expression, or name the shared part with `let`",
+                );
+                None
+            }
+            Meaning::Body(_) | Meaning::Point(_) | Meaning::Force => {
+                let kind = meaning.describe();
+                self.diagnostics
+                    .error(name, format!("`{text}` is {kind}, not a value"));
+                None
+            }
+        }
+    }
+
+    fn unknown_value(&mut self, name: &Ident, place: Place) {
+        let text = name.to_string();
+        let usable = |meaning| match meaning {
+            Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => place != Place::Nominal,
+            Meaning::Joint(_) => place == Place::Output,
+            _ => false,
+        };
+        let near = self.scope.nearest(&text, usable);
+        let help = match near {
+            Some(near) => Some(format!("did you mean `{near}`?")),
+            None if ["x", "y", "z"].contains(&text.as_str()) => Some(format!(
+                "an axis can only stand where a direction is expected; as a vector write `{}`",
+                match text.as_str() {
+                    "x" => "[1, 0, 0]",
+                    "y" => "[0, 1, 0]",
+                    _ => "[0, 0, 1]",
+                }
+            )),
+            None => None,
+        };
+        self.report(name, format!("unknown name `{text}`"), help);
+    }
+
+    fn vector_literal(
+        &mut self,
+        components: &[Value],
+        unit: Option<&Unit>,
+        extent: Extent,
+        place: Place,
+    ) -> Option<Typed> {
+        let (unit_dimension, scale) = match unit {
+            Some(unit) => self.unit(unit).map(|(d, scale)| (Some(d), scale)),
+            None => Some((None, 1.0)),
+        }
+        .unzip();
+        let resolved: Vec<_> = components
+            .iter()
+            .map(|component| self.scalar(component, place))
+            .collect();
+        if components.len() != 3 {
+            let count = components.len();
+            let message = format!("a vector has 3 components, this one has {count}");
+            self.diagnostics.error(extent, message);
+            return None;
+        }
+        let resolved: Vec<(Expr, Quantity)> = resolved.into_iter().collect::<Option<_>>()?;
+        let (unit_dimension, scale) = (unit_dimension?, scale?);
+        let mut common = Quantity::Zero;
+        for ((_, quantity), component) in resolved.iter().zip(components) {
+            match common.unify(*quantity) {
+                Some(unified) => common = unified,
+                None => {
+                    let message = format!(
+                        "the components of a vector have one dimension: this is {}, the one before is {}",
+                        quantity.dimension().describe(),
+                        common.dimension().describe()
+                    );
+                    let help = self.swallowed(component, quantity.dimension(), common.dimension());
+                    self.report(component.extent, message, help);
+                    return None;
+                }
+            }
+        }
+        let quantity = match unit_dimension {
+            None => common,
+            Some(dimension) => self.in_range(common.dimension().times(dimension), extent)?,
+        };
+        let mut exprs = resolved.into_iter().map(|(expr, _)| {
+            if scale == 1.0 {
+                expr
+            } else {
+                simplify::multiply(Expr::Number(scale), expr)
+            }
+        });
+        let vector: Vector = [exprs.next()?, exprs.next()?, exprs.next()?];
+        Some(Typed::Vector(vector, quantity))
+    }
+
+    fn component(&mut self, of: &Value, axis: &Ident, place: Place) -> Option<Typed> {
+        let (vector, quantity) = self.vector(of, place)?;
+        let [x, y, z] = vector;
+        let component = match axis.to_string().as_str() {
+            "x" => x,
+            "y" => y,
+            "z" => z,
+            other => {
+                let message = format!("a vector has no `{other}`; its components are x, y and z");
+                self.diagnostics.error(axis, message);
+                return None;
+            }
+        };
+        Some(Typed::Scalar(component, quantity))
+    }
+
+    /// A value that must be one number.
+    pub(super) fn scalar(&mut self, value: &Value, place: Place) -> Option<(Expr, Quantity)> {
+        match self.value(value, place)? {
+            Typed::Scalar(expr, quantity) => Some((expr, quantity)),
+            Typed::Vector(..) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "a number is expected here, this is a vector",
+                    "take a component (`.x`) or the length (`norm`)",
+                );
+                None
+            }
+        }
+    }
+
+    /// A value that must be a vector.
+    pub(super) fn vector(&mut self, value: &Value, place: Place) -> Option<(Vector, Quantity)> {
+        match self.value(value, place)? {
+            Typed::Vector(vector, quantity) => Some((vector, quantity)),
+            Typed::Scalar(..) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "a vector is expected here, this is a number",
+                    "a vector is written `[1 m, 0, 0]`",
+                );
+                None
+            }
+        }
+    }
+
+    /// A number that must have the given dimension; `what` names its role.
+    pub(super) fn scalar_of(
+        &mut self,
+        value: &Value,
+        expected: impl Into<Expected>,
+        what: &str,
+    ) -> Option<Expr> {
+        let (expr, quantity) = self.scalar(value, Place::Parameter)?;
+        self.expect(quantity, expected, what, value)?;
+        Some(expr)
+    }
+
+    /// A position in a frame.
+    pub(super) fn position(&mut self, value: &Value, what: &str) -> Option<Vector> {
+        let (vector, quantity) = self.vector(value, Place::Parameter)?;
+        self.expect(quantity, Dimension::LENGTH, what, value)?;
+        for component in &vector {
+            self.require_finite(component, what, value.extent);
+        }
+        Some(vector)
+    }
+
+    /// A quantity of the wrong dimension is never converted: it is a mistake in the model.
+    pub(super) fn expect(
+        &mut self,
+        found: Quantity,
+        expected: impl Into<Expected>,
+        what: &str,
+        value: &Value,
+    ) -> Option<()> {
+        let expected = expected.into();
+        if found.fits(expected.dimension) {
+            return Some(());
+        }
+        if let Some(written) = bare_number(value) {
+            let Expected { name, unit, .. } = expected;
+            self.diagnostics.error(
+                value.extent,
+                format!(
+                    "`{written}` has no unit; {name} is expected, for example `{written} {unit}`"
+                ),
+            );
+            return None;
+        }
+        let message = format!(
+            "{what} must be {}, this is {}",
+            expected.describe(),
+            found.dimension().describe()
+        );
+        let help = self.swallowed(value, found.dimension(), expected.dimension);
+        self.report(value.extent, message, help);
+        None
+    }
+}
+
+/// The text of a number without a unit, or of a vector of such.
+pub(super) fn bare_number(value: &Value) -> Option<String> {
+    match &value.bare().kind {
+        ValueKind::Number(number, None) => Some(format!("{number}")),
+        ValueKind::Negate(operand) => bare_number(operand).map(|text| format!("-{text}")),
+        ValueKind::Vector(components, None) => {
+            let texts: Option<Vec<String>> = components.iter().map(bare_number).collect();
+            Some(format!("[{}]", texts?.join(", ")))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,136 @@
+//! Building expressions: numbers are combined at once, so that a constant value is recognised as one.
+
+use std::rc::Rc;
+
+use super::expression::{Expr, Function, Vector};
+
+use Expr::Number;
+
+/// `-a`.
+pub(super) fn negate(a: Expr) -> Expr {
+    match a {
+        Number(0.0) => Number(0.0),
+        Number(a) => Number(-a),
+        Expr::Negate(inner) => (*inner).clone(),
+        a => Expr::Negate(Rc::new(a)),
+    }
+}
+
+/// `a + b`.
+pub(super) fn add(a: Expr, b: Expr) -> Expr {
+    match (a, b) {
+        (Number(a), Number(b)) => Number(a + b),
+        (Number(0.0), other) | (other, Number(0.0)) => other,
+        (a, b) => Expr::Add(Rc::new(a), Rc::new(b)),
+    }
+}
+
+/// `a - b`.
+pub(super) fn subtract(a: Expr, b: Expr) -> Expr {
+    match (a, b) {
+        (Number(a), Number(b)) => Number(a - b),
+        (a, Number(0.0)) => a,
+        (Number(0.0), b) => negate(b),
+        (a, b) => Expr::Subtract(Rc::new(a), Rc::new(b)),
+    }
+}
+
+/// `a * b`.
+pub(super) fn multiply(a: Expr, b: Expr) -> Expr {
+    match (a, b) {
+        (Number(a), Number(b)) => Number(a * b),
+        (Number(0.0), _) | (_, Number(0.0)) => Number(0.0),
+        (Number(1.0), other) | (other, Number(1.0)) => other,
+        (Number(-1.0), other) | (other, Number(-1.0)) => negate(other),
+        (a, b) => Expr::Multiply(Rc::new(a), Rc::new(b)),
+    }
+}
+
+/// `a / b`.
+pub(super) fn divide(a: Expr, b: Expr) -> Expr {
+    match (a, b) {
+        (Number(a), Number(b)) => Number(a / b),
+        (Number(0.0), _) => Number(0.0),
+        (a, Number(1.0)) => a,
+        (a, b) => Expr::Divide(Rc::new(a), Rc::new(b)),
+    }
+}
+
+/// `a ^ n`.
+pub(super) fn power_integer(a: Expr, n: i32) -> Expr {
+    match (a, n) {
+        (_, 0) => Number(1.0),
+        (a, 1) => a,
+        (Number(a), n) => Number(a.powi(n)),
+        (a, n) => Expr::PowerInteger(Rc::new(a), n),
+    }
+}
+
+/// `a ^ b`.
+pub(super) fn power(a: Expr, b: Expr) -> Expr {
+    match (a, b) {
+        (Number(a), Number(b)) => Number(a.powf(b)),
+        (a, Number(0.5)) => call(Function::Sqrt, a),
+        (a, b) => Expr::Power(Rc::new(a), Rc::new(b)),
+    }
+}
+
+/// `f(a)`.
+pub(super) fn call(function: Function, a: Expr) -> Expr {
+    match a {
+        Number(a) => Number(apply(function, a)),
+        a => Expr::Call(function, Rc::new(a)),
+    }
+}
+
+/// The function's value.
+pub(super) fn apply(function: Function, a: f64) -> f64 {
+    match function {
+        Function::Sqrt => a.sqrt(),
+        Function::Sin => a.sin(),
+        Function::Cos => a.cos(),
+        Function::Tan => a.tan(),
+        Function::Asin => a.asin(),
+        Function::Acos => a.acos(),
+        Function::Exp => a.exp(),
+        Function::Ln => a.ln(),
+    }
+}
+
+/// `atan2(y, x)`.
+pub(super) fn atan2(y: Expr, x: Expr) -> Expr {
+    match (y, x) {
+        (Number(y), Number(x)) => Number(y.atan2(x)),
+        (y, x) => Expr::Atan2(Rc::new(y), Rc::new(x)),
+    }
+}
+
+/// Applies `f` to the components of two vectors.
+pub(super) fn componentwise(a: Vector, b: Vector, f: impl Fn(Expr, Expr) -> Expr) -> Vector {
+    let [ax, ay, az] = a;
+    let [bx, by, bz] = b;
+    [f(ax, bx), f(ay, by), f(az, bz)]
+}
+
+/// Scalar product.
+pub(super) fn dot(a: &Vector, b: &Vector) -> Expr {
+    let [x, y, z] = componentwise(a.clone(), b.clone(), multiply);
+    add(add(x, y), z)
+}
+
+/// Euclidean length. The square of a component is written as a power, so that it is seen to be no negative number.
+pub(super) fn norm(a: &Vector) -> Expr {
+    let [x, y, z] = a.clone().map(|component| power_integer(component, 2));
+    call(Function::Sqrt, add(add(x, y), z))
+}
+
+/// Vector product.
+pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
+    let entry = |i: usize, j: usize| {
+        subtract(
+            multiply(a[i].clone(), b[j].clone()),
+            multiply(a[j].clone(), b[i].clone()),
+        )
+    };
+    [entry(1, 2), entry(2, 0), entry(0, 1)]
+}

@@ -1,0 +1,335 @@
+//! The tree of a declaration, item by item in the user's order, every leaf with its position.
+
+use proc_macro2::Ident;
+
+use crate::base::span::Extent;
+
+/// A declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ast {
+    /// Doc comments and other attributes.
+    pub attributes: Vec<syn::Attribute>,
+    /// Visibility of the generated type.
+    pub visibility: syn::Visibility,
+    /// Name of the mechanism.
+    pub name: Ident,
+    /// Items in order.
+    pub items: Vec<Item>,
+}
+
+/// An item with its documentation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// Lines of doc comments.
+    pub docs: Vec<String>,
+    /// What it declares.
+    pub kind: ItemKind,
+}
+
+/// What an item declares.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ItemKind {
+    /// `input NAME: UNIT;`
+    Input(Input),
+    /// `design NAME = VALUE [+/- TOLERANCE];`
+    Design(Design),
+    /// `let NAME = VALUE;`
+    Let(Named),
+    /// `gravity ...;`
+    Gravity(Gravity),
+    /// `body NAME: SHAPE;`
+    Body(Body),
+    /// `joint NAME: KIND from FRAME to FRAME ...;`
+    Joint(Joint),
+    /// `point NAME: FRAME [at VECTOR];`
+    Point(Point),
+    /// `force NAME: LAW;`
+    Force(Force),
+    /// `output NAME = VALUE;`
+    Output(Named),
+}
+
+impl ItemKind {
+    /// The declared name; gravity has none.
+    pub fn name(&self) -> Option<&Ident> {
+        match self {
+            ItemKind::Input(input) => Some(&input.name),
+            ItemKind::Design(design) => Some(&design.name),
+            ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
+            ItemKind::Gravity(_) => None,
+            ItemKind::Body(body) => Some(&body.name),
+            ItemKind::Joint(joint) => Some(&joint.name),
+            ItemKind::Point(point) => Some(&point.name),
+            ItemKind::Force(force) => Some(&force.name),
+        }
+    }
+}
+
+/// An operating parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// Name.
+    pub name: Ident,
+    /// Unit in which a user gives it.
+    pub unit: Unit,
+}
+
+/// A design variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// Name.
+    pub name: Ident,
+    /// Nominal value.
+    pub nominal: Value,
+    /// Half-width of its tolerance.
+    pub tolerance: Option<Tolerance>,
+}
+
+/// A tolerance after `+/-`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerance {
+    /// A percentage of the nominal value or a value of its own.
+    pub kind: ToleranceKind,
+    /// The value and the percent sign.
+    pub extent: Extent,
+}
+
+/// Kinds of tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToleranceKind {
+    /// Percent of the nominal value.
+    Relative(f64),
+    /// In a unit.
+    Absolute(Value),
+}
+
+/// A name for a value: a `let` or an output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: Ident,
+    /// Value.
+    pub value: Value,
+}
+
+/// The acceleration of gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gravity {
+    /// The item's keyword.
+    pub keyword: Extent,
+    /// Magnitude, or the whole vector when no direction is given.
+    pub value: Value,
+    /// Direction.
+    pub along: Option<Value>,
+}
+
+/// A body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Name.
+    pub name: Ident,
+    /// `massless`, or a shape with its arguments.
+    pub shape: NamedCall,
+}
+
+/// A word with named arguments: `rod(mass: m1, length: l1, along: -z)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedCall {
+    /// The word.
+    pub word: Ident,
+    /// The arguments; nothing when there are no parentheses.
+    pub arguments: Option<Vec<Argument>>,
+}
+
+/// A named argument.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Argument {
+    /// Name of the argument.
+    pub name: Ident,
+    /// Its value.
+    pub value: Value,
+}
+
+/// A joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Name.
+    pub name: Ident,
+    /// `fixed`, `revolute`, `prismatic`.
+    pub kind: Ident,
+    /// What stands in parentheses after the kind.
+    pub arguments: Option<Vec<Value>>,
+    /// Frame before `to`.
+    pub from: Ident,
+    /// Frame after `to`.
+    pub to: Ident,
+    /// Placements and drives in order.
+    pub clauses: Vec<JointClause>,
+}
+
+/// What may follow the two frames of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointClause {
+    /// `at VECTOR rotated(DIRECTION, ANGLE) on BODY`.
+    Placement(Placement),
+    /// `driven at SPEED`.
+    Drive {
+        /// The word `driven`.
+        keyword: Extent,
+        /// The speed.
+        speed: Value,
+    },
+}
+
+/// Where a joint's frame is on one of its sides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placement {
+    /// `at VECTOR`.
+    pub offset: Option<Value>,
+    /// `rotated(DIRECTION, ANGLE)`, in order.
+    pub rotations: Vec<(Value, Value)>,
+    /// `on BODY`; the `from` side when absent.
+    pub on: Option<Ident>,
+    /// Its first word.
+    pub keyword: Extent,
+}
+
+/// A point fixed in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name.
+    pub name: Ident,
+    /// The frame it is fixed in.
+    pub frame: Ident,
+    /// `at VECTOR`; the frame's origin when absent.
+    pub at: Option<Value>,
+}
+
+/// A force element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Force {
+    /// Name.
+    pub name: Ident,
+    /// The law with its arguments.
+    pub law: NamedCall,
+}
+
+/// A value with its position.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    /// What it is.
+    pub kind: ValueKind,
+    /// From its first to its last token.
+    pub extent: Extent,
+    /// Levels of values below it: bounded by the parser for the sake of every recursion over the tree.
+    pub height: u16,
+}
+
+/// Kinds of value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueKind {
+    /// A number with an optional unit.
+    Number(f64, Option<Unit>),
+    /// A name.
+    Name(Ident),
+    /// `[a, b, c] UNIT`.
+    Vector(Vec<Value>, Option<Unit>),
+    /// `-a`.
+    Negate(Box<Value>),
+    /// `a OPERATOR b`.
+    Binary(Box<Binary>),
+    /// `f(a, b)`.
+    Call(Ident, Vec<Value>),
+    /// `a.x`.
+    Component(Box<Value>, Ident),
+    /// `(a)`: kept, because `(3 kg) * m` is not `3 kg * m`.
+    Parenthesised(Box<Value>),
+}
+
+/// An operation on two values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binary {
+    /// The operation.
+    pub operator: Operator,
+    /// Its sign.
+    pub sign: Extent,
+    /// The value before the sign.
+    pub left: Value,
+    /// The value after the sign.
+    pub right: Value,
+}
+
+/// Operations on two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// `+`.
+    Add,
+    /// `-`.
+    Subtract,
+    /// `*`.
+    Multiply,
+    /// `/`.
+    Divide,
+    /// `^`.
+    Power,
+}
+
+impl Operator {
+    /// The sign.
+    pub fn sign(self) -> char {
+        match self {
+            Operator::Add => '+',
+            Operator::Subtract => '-',
+            Operator::Multiply => '*',
+            Operator::Divide => '/',
+            Operator::Power => '^',
+        }
+    }
+}
+
+/// A unit: a product of powers of named units. No factors means a plain number, written `1`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// Factors in order.
+    pub factors: Vec<UnitFactor>,
+    /// From its first to its last token.
+    pub extent: Extent,
+}
+
+/// A power of a named unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitFactor {
+    /// Name of the unit.
+    pub name: String,
+    /// Its token: a literal with a suffix, or a name.
+    pub extent: Extent,
+    /// The exponent; negative after a division.
+    pub exponent: i32,
+}
+
+impl Value {
+    /// A value from its first to its last token.
+    pub fn new(kind: ValueKind, extent: impl Into<Extent>) -> Self {
+        let tallest = |values: &[Value]| values.iter().map(|value| value.height).max();
+        let below = match &kind {
+            ValueKind::Number(..) | ValueKind::Name(_) => None,
+            ValueKind::Vector(values, _) | ValueKind::Call(_, values) => tallest(values),
+            ValueKind::Negate(of) | ValueKind::Component(of, _) => Some(of.height),
+            ValueKind::Parenthesised(of) => Some(of.height),
+            ValueKind::Binary(binary) => Some(binary.left.height.max(binary.right.height)),
+        };
+        Self {
+            kind,
+            extent: extent.into(),
+            height: below.map_or(0, |height| height.saturating_add(1)),
+        }
+    }
+
+    /// The value inside any number of parentheses.
+    pub fn bare(&self) -> &Value {
+        match &self.kind {
+            ValueKind::Parenthesised(inner) => inner.bare(),
+            _ => self,
+        }
+    }
+}

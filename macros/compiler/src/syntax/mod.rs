@@ -1,0 +1,6 @@
+//! The declaration as written: its tree, its parser and its printer. Nothing here knows what a name means.
+
+pub mod ast;
+pub mod parse;
+pub mod print;
+mod tokens;

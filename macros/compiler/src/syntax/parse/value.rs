@@ -1,0 +1,203 @@
+//! Values: sums, products, powers, calls and vectors, with the usual precedence.
+
+use proc_macro2::{Delimiter, Literal};
+use syn::ext::IdentExt as _;
+
+use super::super::ast::{Binary, Operator, Value, ValueKind};
+use super::super::tokens::{Parsed, Tokens};
+use super::unit;
+use crate::base::diagnostics::Diagnostic;
+use crate::base::span::Extent;
+
+/// Levels of nesting accepted: far more than anyone writes, few enough for the stack of every later stage.
+const DEEPEST: u32 = 64;
+/// Levels of the resulting tree accepted, to which a long sum adds one per term.
+const HIGHEST: u16 = 256;
+
+/// Reads a value.
+pub(super) fn value(tokens: &mut Tokens) -> Parsed<Value> {
+    sum(tokens, 0)
+}
+
+/// Reads values separated by commas to the end of a group.
+pub(super) fn list(tokens: &mut Tokens, depth: u32) -> Parsed<Vec<Value>> {
+    let mut values = Vec::new();
+    while !tokens.is_empty() {
+        values.push(sum(tokens, depth)?);
+        if !tokens.is_empty() {
+            tokens.expect_sign(',', "`,` or an operator")?;
+        }
+    }
+    Ok(values)
+}
+
+fn sum(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    chain(tokens, depth, &[Operator::Add, Operator::Subtract], product)
+}
+
+fn product(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    chain(
+        tokens,
+        depth,
+        &[Operator::Multiply, Operator::Divide],
+        signed,
+    )
+}
+
+/// Reads operands joined by operators of one precedence, grouped from the left.
+fn chain(
+    tokens: &mut Tokens,
+    depth: u32,
+    operators: &[Operator],
+    operand: fn(&mut Tokens, u32) -> Parsed<Value>,
+) -> Parsed<Value> {
+    let mut left = operand(tokens, depth)?;
+    // A sum ends before a tolerance.
+    while !tokens.peek_plus_minus() {
+        let read = operators
+            .iter()
+            .find_map(|&operator| Some((operator, tokens.sign(operator.sign())?)));
+        let Some((operator, sign)) = read else {
+            break;
+        };
+        let right = operand(tokens, depth)?;
+        left = binary(operator, sign, left, right)?;
+    }
+    Ok(left)
+}
+
+/// `-a^b` is `-(a^b)`.
+fn signed(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    let Some(sign) = tokens.sign('-') else {
+        return power(tokens, depth);
+    };
+    let operand = nested(tokens, depth, sign, signed)?;
+    let extent = sign.to(operand.extent);
+    built(ValueKind::Negate(Box::new(operand)), extent)
+}
+
+/// `a^b^c` is `a^(b^c)`.
+fn power(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    let base = component(tokens, depth)?;
+    let Some(sign) = tokens.sign('^') else {
+        return Ok(base);
+    };
+    let exponent = nested(tokens, depth, sign, signed)?;
+    binary(Operator::Power, sign, base, exponent)
+}
+
+fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    let mut value = primary(tokens, depth)?;
+    while tokens.sign('.').is_some() {
+        let Some(axis) = tokens.ident() else {
+            return tokens.expected("a component: `x`, `y` or `z`");
+        };
+        let extent = value.extent.to(&axis);
+        value = built(ValueKind::Component(Box::new(value), axis), extent)?;
+    }
+    Ok(value)
+}
+
+fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
+    let start = tokens.span();
+    if let Some(literal) = tokens.literal() {
+        return number(&literal, tokens);
+    }
+    if let Some((open, mut content, close)) = tokens.group(Delimiter::Parenthesis) {
+        let inner = nested(&mut content, depth, open.into(), sum)?;
+        if !content.is_empty() {
+            return content.expected("`)` or an operator");
+        }
+        let extent = Extent::from(open).to(close);
+        return built(ValueKind::Parenthesised(Box::new(inner)), extent);
+    }
+    if let Some((open, mut content, _)) = tokens.group(Delimiter::Bracket) {
+        let components = nested(&mut content, depth, open.into(), list)?;
+        let unit = unit::after_number(tokens, "")?;
+        let extent = Extent::from(start).to(tokens.last);
+        return built(ValueKind::Vector(components, unit), extent);
+    }
+    let follows_value = tokens.peek_ident().is_some_and(|ident| {
+        let word = ident.unraw().to_string();
+        !super::item::KEYWORDS.contains(&word.as_str())
+    });
+    if !follows_value {
+        return tokens.expected("a value");
+    }
+    let name = tokens.name("a value")?;
+    if let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) {
+        let arguments = nested(&mut content, depth, start.into(), list)?;
+        let extent = Extent::from(start).to(tokens.last);
+        return built(ValueKind::Call(name, arguments), extent);
+    }
+    built(ValueKind::Name(name), start.into())
+}
+
+fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
+    let span = literal.span();
+    let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
+        let message = format!("expected a number, found `{literal}`");
+        Box::new(Diagnostic::new(span, message))
+    })?;
+    // Digits only can overflow to infinity, never fail or become NaN.
+    let value = digits.parse::<f64>().unwrap_or(f64::INFINITY);
+    let has_digit = digits
+        .split(['e', 'E'])
+        .next()
+        .is_some_and(|mantissa| mantissa.contains(|digit| ('1'..='9').contains(&digit)));
+    if value.is_infinite() || (value == 0.0 && has_digit) {
+        let message = format!("`{literal}` is outside the range of a 64-bit number");
+        return Err(Box::new(Diagnostic::new(span, message)));
+    }
+    let unit = unit::after_number(tokens, &suffix)?;
+    let extent = Extent::from(span).to(tokens.last);
+    built(ValueKind::Number(value, unit), extent)
+}
+
+/// Splits `3.5kg`; nothing when the literal is no number.
+pub(super) fn digits_and_suffix(literal: &Literal) -> Option<(String, String)> {
+    match syn::Lit::new(literal.clone()) {
+        syn::Lit::Int(int) => Some((int.base10_digits().into(), int.suffix().into())),
+        syn::Lit::Float(float) => Some((float.base10_digits().into(), float.suffix().into())),
+        _ => None,
+    }
+}
+
+fn binary(operator: Operator, sign: Extent, left: Value, right: Value) -> Parsed<Value> {
+    let extent = left.extent.to(right.extent);
+    let binary = Binary {
+        operator,
+        sign,
+        left,
+        right,
+    };
+    built(ValueKind::Binary(Box::new(binary)), extent)
+}
+
+/// A value, unless it makes the tree too high.
+fn built(kind: ValueKind, extent: Extent) -> Parsed<Value> {
+    let value = Value::new(kind, extent);
+    if value.height > HIGHEST {
+        return too_large(extent);
+    }
+    Ok(value)
+}
+
+/// Reads one level deeper.
+fn nested<'a, T>(
+    tokens: &mut Tokens<'a>,
+    depth: u32,
+    at: Extent,
+    read: impl FnOnce(&mut Tokens<'a>, u32) -> Parsed<T>,
+) -> Parsed<T> {
+    if depth >= DEEPEST {
+        return too_large(at);
+    }
+    read(tokens, depth + 1)
+}
+
+fn too_large<T>(at: Extent) -> Parsed<T> {
+    let diagnostic = Diagnostic::new(at, "this expression is too large")
+        .with_help("name parts of it with `let`");
+    Err(Box::new(diagnostic))
+}

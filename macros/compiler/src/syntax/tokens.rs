@@ -1,0 +1,183 @@
+//! Reading tokens one by one with a memory of the last: an error can point behind what was read, and parsing can go on
+//! after it, which syn's own stream does not allow.
+
+use proc_macro2::{Delimiter, Ident, Literal, Span};
+use quote::ToTokens as _;
+use syn::buffer::Cursor;
+
+use crate::base::diagnostics::Diagnostic;
+use crate::base::span::Extent;
+
+/// What parsing yields; the error is boxed to keep the good case small.
+pub(super) type Parsed<T> = Result<T, Box<Diagnostic>>;
+
+/// A position in a list of tokens.
+#[derive(Clone, Copy)]
+pub(super) struct Tokens<'a> {
+    pub(super) cursor: Cursor<'a>,
+    /// The token read last; the opening delimiter at the start of a group.
+    pub(super) last: Span,
+    /// The closing delimiter, where an error about a missing token points.
+    end: Option<Span>,
+}
+
+impl<'a> Tokens<'a> {
+    /// Everything the macro was given.
+    pub(super) fn top(cursor: Cursor<'a>) -> Self {
+        Self {
+            cursor,
+            last: cursor.span(),
+            end: None,
+        }
+    }
+
+    /// Nothing is left.
+    pub(super) fn is_empty(&self) -> bool {
+        // An empty group without delimiters, left by a macro, is nothing too.
+        self.peek_ident().is_none()
+            && self.cursor.punct().is_none()
+            && self.cursor.literal().is_none()
+            && self.cursor.token_tree().is_none()
+    }
+
+    /// The next token, or the closing delimiter.
+    pub(super) fn span(&self) -> Span {
+        if self.cursor.eof() {
+            self.end.unwrap_or(self.last)
+        } else {
+            self.cursor.span()
+        }
+    }
+
+    /// An error: something else was expected at the next token.
+    pub(super) fn expected<T>(&self, what: &str) -> Parsed<T> {
+        let message = match self.describe_next() {
+            Some(found) => format!("expected {what}, found `{found}`"),
+            None => format!("expected {what}"),
+        };
+        Err(Box::new(Diagnostic::new(self.span(), message)))
+    }
+
+    fn describe_next(&self) -> Option<String> {
+        let opening = [
+            (Delimiter::Parenthesis, "("),
+            (Delimiter::Bracket, "["),
+            (Delimiter::Brace, "{"),
+        ];
+        for (delimiter, sign) in opening {
+            if self.cursor.group(delimiter).is_some() {
+                return Some(sign.to_string());
+            }
+        }
+        if let Some((lifetime, _)) = self.cursor.lifetime() {
+            return Some(lifetime.to_string());
+        }
+        let (token, _) = self.cursor.token_tree()?;
+        Some(token.to_string())
+    }
+
+    pub(super) fn peek_ident(&self) -> Option<Ident> {
+        self.cursor.ident().map(|(ident, _)| ident)
+    }
+
+    pub(super) fn peek_word(&self, word: &str) -> bool {
+        self.peek_ident().is_some_and(|ident| ident == word)
+    }
+
+    pub(super) fn peek_sign(&self, sign: char) -> bool {
+        self.cursor
+            .punct()
+            .is_some_and(|(punct, _)| punct.as_char() == sign)
+    }
+
+    /// The next three signs are `+/-`.
+    pub(super) fn peek_plus_minus(&self) -> bool {
+        let mut copy = *self;
+        ['+', '/', '-']
+            .into_iter()
+            .all(|sign| copy.sign(sign).is_some())
+    }
+
+    pub(super) fn ident(&mut self) -> Option<Ident> {
+        let (ident, rest) = self.cursor.ident()?;
+        self.cursor = rest;
+        self.last = ident.span();
+        Some(ident)
+    }
+
+    pub(super) fn literal(&mut self) -> Option<Literal> {
+        let (literal, rest) = self.cursor.literal()?;
+        self.cursor = rest;
+        self.last = literal.span();
+        Some(literal)
+    }
+
+    /// Reads `sign` if it is next.
+    pub(super) fn sign(&mut self, sign: char) -> Option<Extent> {
+        let (punct, rest) = self.cursor.punct()?;
+        if punct.as_char() != sign {
+            return None;
+        }
+        self.cursor = rest;
+        self.last = punct.span();
+        Some(punct.span().into())
+    }
+
+    /// Reads `word` if it is next.
+    pub(super) fn word(&mut self, word: &str) -> Option<Extent> {
+        if !self.peek_word(word) {
+            return None;
+        }
+        self.ident().map(|ident| ident.span().into())
+    }
+
+    /// Enters a group if it is next: its opening delimiter, its content, its closing delimiter.
+    pub(super) fn group(&mut self, delimiter: Delimiter) -> Option<(Span, Tokens<'a>, Span)> {
+        let (content, span, rest) = self.cursor.group(delimiter)?;
+        self.cursor = rest;
+        self.last = span.close();
+        let content = Tokens {
+            cursor: content,
+            last: span.open(),
+            end: Some(span.close()),
+        };
+        Some((span.open(), content, span.close()))
+    }
+
+    pub(super) fn expect_sign(&mut self, sign: char, what: &str) -> Parsed<Extent> {
+        match self.sign(sign) {
+            Some(extent) => Ok(extent),
+            None => self.expected(what),
+        }
+    }
+
+    pub(super) fn expect_word(&mut self, word: &str) -> Parsed<Extent> {
+        match self.word(word) {
+            Some(extent) => Ok(extent),
+            None => self.expected(&format!("`{word}`")),
+        }
+    }
+
+    /// A name that can be declared or referred to.
+    pub(super) fn name(&mut self, what: &str) -> Parsed<Ident> {
+        let Some(ident) = self.peek_ident() else {
+            return self.expected(what);
+        };
+        let text = ident.to_string();
+        let is_free = syn::parse2::<Ident>(ident.to_token_stream()).is_ok();
+        if !is_free || text.starts_with("r#") {
+            let message = format!("`{text}` cannot be a name: Rust reserves it");
+            return Err(Box::new(Diagnostic::new(&ident, message)));
+        }
+        self.ident();
+        Ok(ident)
+    }
+
+    /// Skips one token or group.
+    pub(super) fn skip(&mut self) {
+        if let Some((token, rest)) = self.cursor.token_tree() {
+            self.cursor = rest;
+            self.last = token.span();
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Every user error is drawn in the source that causes it: the text of a case, with its diagnostics drawn in, must be
+//! exactly what the compiler says, no more, no less, each at its columns.
+//!
+//! A case in `tests/diagnostics/*.txt` starts with `=== title`. Under a line, `//^^^ message` marks the columns of the
+//! carets, and `// help: text` belongs to the mark above it. A case without the word `mechanism` stands inside a
+//! mechanism that is otherwise right: a bar on a hinge `theta`.
+//!
+//! `UPDATE_DIAGNOSTICS=1 cargo test -p eigentol-tests --test diagnostics` redraws all cases; read the difference.
+
+use std::fs;
+use std::path::PathBuf;
+
+use eigentol_compiler::base::diagnostics::{Diagnostic, Diagnostics};
+use eigentol_compiler::model::resolve::resolve;
+use eigentol_compiler::syntax::parse::parse;
+use eigentol_compiler::topology::build::build;
+use proc_macro2::TokenStream;
+
+const BEFORE: &str = "mechanism Test {
+    body bar: rod(mass: 3 kg, length: 1 m, along: -z);
+    joint theta: revolute(y) from ground to bar;
+";
+
+/// What the front half of the compiler says about a declaration.
+fn diagnose(source: &str) -> Vec<Diagnostic> {
+    let tokens: TokenStream = source.parse().expect("the case consists of Rust tokens");
+    let compiled: Result<_, Diagnostics> = parse(tokens)
+        .and_then(|ast| resolve(&ast))
+        .and_then(|mechanism| build(&mechanism));
+    match compiled {
+        Ok(_) => Vec::new(),
+        Err(diagnostics) => diagnostics.iter().cloned().collect(),
+    }
+}
+
+/// The case without its drawings.
+fn undrawn(case: &str) -> String {
+    let is_drawing = |line: &&str| {
+        let line = line.trim_start();
+        line.starts_with("//^") || line.starts_with("// help: ")
+    };
+    let lines: Vec<&str> = case.lines().filter(|line| !is_drawing(line)).collect();
+    lines.join("\n")
+}
+
+/// The case with what the compiler says drawn in.
+fn drawn(source: &str) -> String {
+    let whole = source.contains("mechanism") || source.contains("struct");
+    let (diagnostics, first) = if whole {
+        (diagnose(source), 1)
+    } else {
+        (diagnose(&format!("{BEFORE}{source}\n}}")), 4)
+    };
+    let line_of = |diagnostic: &Diagnostic| diagnostic.span.first.start().line;
+    let mut text = String::new();
+    for (index, line) in source.lines().enumerate() {
+        text.push_str(line);
+        text.push('\n');
+        let mut marks: Vec<(usize, String)> = diagnostics
+            .iter()
+            .filter(|diagnostic| line_of(diagnostic) == index + first)
+            .map(|diagnostic| draw(diagnostic, line))
+            .collect();
+        marks.sort();
+        text.extend(marks.into_iter().map(|(_, mark)| mark));
+    }
+    let lines = first..first + source.lines().count();
+    for diagnostic in &diagnostics {
+        if !lines.contains(&line_of(diagnostic)) {
+            text.push_str(&format!("outside the case: {}\n", diagnostic.text()));
+        }
+    }
+    text
+}
+
+fn draw(diagnostic: &Diagnostic, line: &str) -> (usize, String) {
+    let (start, end) = (diagnostic.span.first.start(), diagnostic.span.last.end());
+    let end = if end.line == start.line {
+        end.column
+    } else {
+        line.chars().count()
+    };
+    assert!(start.column >= 2, "indent the line: {line}");
+    let before = " ".repeat(start.column - 2);
+    let carets = "^".repeat(end.saturating_sub(start.column).max(1));
+    let mut text = format!("{before}//{carets} {}\n", diagnostic.message);
+    if let Some(help) = &diagnostic.help {
+        text.push_str(&format!("{before}// help: {help}\n"));
+    }
+    (start.column, text)
+}
+
+/// The cases of a file: title and text.
+fn cases(file: &str) -> Vec<(&str, &str)> {
+    let mut cases = Vec::new();
+    for part in file.split("=== ").skip(1) {
+        let (title, text) = part.split_once('\n').expect("a title ends its line");
+        cases.push((title, text.trim_end()));
+    }
+    cases
+}
+
+fn files() -> Vec<PathBuf> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("diagnostics");
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("the folder of cases exists")
+        .map(|entry| entry.expect("the folder can be read").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "txt"))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn every_case_is_drawn_as_the_compiler_says() {
+    let update = std::env::var_os("UPDATE_DIAGNOSTICS").is_some();
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for path in files() {
+        let file = fs::read_to_string(&path).expect("a case file is text");
+        let mut redrawn = Vec::new();
+        for (title, case) in cases(&file) {
+            count += 1;
+            let source = undrawn(case);
+            let actual = drawn(&source);
+            let actual = actual.trim_end();
+            if actual == source {
+                wrong.push(format!("{title}: the compiler finds nothing wrong"));
+            } else if actual != case && !update {
+                let message = format!("{title}: drawn\n{case}\nbut the compiler says\n{actual}");
+                wrong.push(message);
+            }
+            redrawn.push(format!("=== {title}\n{actual}\n"));
+        }
+        if update {
+            fs::write(&path, redrawn.join("\n")).expect("a case file can be written");
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(count >= 45, "only {count} cases");
+}
+
+/// The harness itself can fail, in each of the ways a drawing can be wrong.
+#[test]
+fn a_wrong_drawing_is_noticed() {
+    let right = "    let a = 1 kgg;
+            //^^^ unknown unit `kgg`
+            // help: did you mean `kg`?
+";
+    let source = undrawn(right);
+    assert_eq!(drawn(&source), right);
+    let wrong_column = right.replace("  //^^^", " //^^^");
+    let wrong_length = right.replace("^^^", "^^");
+    let wrong_message = right.replace("unknown unit", "unknown name");
+    let wrong_help = right.replace("did you mean", "perhaps");
+    let missing = source.clone();
+    let extra = format!("{right}  //^ another mistake\n");
+    let wrong_drawings = [
+        wrong_column,
+        wrong_length,
+        wrong_message,
+        wrong_help,
+        missing,
+        extra,
+    ];
+    for wrong in wrong_drawings {
+        assert_eq!(undrawn(&wrong), source);
+        assert_ne!(drawn(&undrawn(&wrong)), wrong);
+    }
+}
