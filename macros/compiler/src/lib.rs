@@ -17,8 +17,6 @@ pub mod base;
 pub mod emit;
 pub mod mechanics;
 pub mod model;
-mod pipeline;
-pub mod program;
 pub mod syntax;
 pub mod topology;
 

@@ -170,3 +170,68 @@ fn starts_item(tokens: &Tokens) -> bool {
         && ahead.ident().is_some()
         && (ahead.peek_sign(':') || ahead.peek_sign('='))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::syntax::ast::ValueKind;
+    use crate::syntax::print::print;
+
+    /// The canonical text of a value.
+    fn value(text: &str) -> String {
+        let source = format!("mechanism M {{ let a = {text}; }}");
+        let ast = parse(source.parse().unwrap()).unwrap_or_else(|errors| panic!("{errors}"));
+        let printed = print(&ast);
+        let (_, after) = printed.split_once(" = ").unwrap();
+        after.split(';').next().unwrap().to_string()
+    }
+
+    #[test]
+    fn after_a_number_the_unit_wins() {
+        assert_eq!(value("3kg*m/s^2"), "3.0 kg*m/s^2");
+        assert_eq!(value("3 kg * m / 2"), "3.0 kg*m / 2.0");
+        assert_eq!(value("3 kg * l"), "3.0 kg * l");
+        assert_eq!(value("3 * kg"), "3.0 * kg");
+        assert_eq!(value("5 1/s"), "5.0 1/s");
+        assert_eq!(value("2 N/(m*s)"), "2.0 N/(m*s)");
+        assert_eq!(value("2 N/(m*l)"), "2.0 N / (m * l)");
+        assert_eq!(value("[1, 2, 3] mm + b"), "[1.0, 2.0, 3.0] mm + b");
+        assert_eq!(value("1 m^-2"), "1.0 1/m^2");
+        assert_eq!(value("1 m/s*kg/N"), "1.0 m/s*kg/N");
+        assert_eq!(value("1 1/m/s"), "1.0 1/(m*s)");
+    }
+
+    #[test]
+    fn operators_group_as_in_mathematics() {
+        fn grouped(value: &Value) -> String {
+            match &value.kind {
+                ValueKind::Name(name) => name.to_string(),
+                ValueKind::Negate(of) => format!("(-{})", grouped(of)),
+                ValueKind::Component(of, axis) => format!("({}.{axis})", grouped(of)),
+                ValueKind::Binary(binary) => {
+                    let sign = binary.operator.sign();
+                    format!(
+                        "({}{sign}{})",
+                        grouped(&binary.left),
+                        grouped(&binary.right)
+                    )
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        let tree = |text: &str| {
+            let source = format!("mechanism M {{ let a = {text}; }}");
+            let ast = parse(source.parse().unwrap()).unwrap_or_else(|errors| panic!("{errors}"));
+            match &ast.items[0].kind {
+                ItemKind::Let(named) => grouped(&named.value),
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(tree("a - b - c"), "((a-b)-c)");
+        assert_eq!(tree("a - b * c / d"), "(a-((b*c)/d))");
+        assert_eq!(tree("-a^b"), "(-(a^b))");
+        assert_eq!(tree("a^-b^c"), "(a^(-(b^c)))");
+        assert_eq!(tree("a * -b"), "(a*(-b))");
+        assert_eq!(tree("-v.x^n"), "(-((v.x)^n))");
+    }
+}

@@ -6,7 +6,7 @@ use quote::ToTokens as _;
 
 use super::ast::{
     Ast, Item, ItemKind, Joint, JointClause, NamedCall, Operator, Placement, ToleranceKind, Unit,
-    Value, ValueKind,
+    UnitFactor, Value, ValueKind,
 };
 
 /// The canonical text of a declaration.
@@ -167,23 +167,44 @@ fn value(tree: &Value) -> String {
     }
 }
 
-/// A unit: `1` without factors, `1/s` when every exponent is negative.
+/// A unit: `m/s^2`, `kg/(m*s)`, `1/s`, and `1` without factors.
 pub fn unit(unit: &Unit) -> String {
-    let mut text = String::new();
-    for factor in &unit.factors {
-        match (text.is_empty(), factor.exponent < 0) {
-            (true, true) => text.push_str("1/"),
-            (true, false) => {}
-            (false, true) => text.push('/'),
-            (false, false) => text.push('*'),
+    let factors = &unit.factors;
+    let above = factors
+        .iter()
+        .take_while(|factor| factor.exponent > 0)
+        .count();
+    let (numerator, rest) = factors.split_at(above);
+    let mut text = if numerator.is_empty() {
+        "1".to_string()
+    } else {
+        product(numerator)
+    };
+    match rest {
+        [] => {}
+        [one] => text.push_str(&format!("/{}", product(std::slice::from_ref(one)))),
+        several if several.iter().all(|factor| factor.exponent < 0) => {
+            text.push_str(&format!("/({})", product(several)));
         }
-        text.push_str(&factor.name);
-        if factor.exponent.abs() != 1 {
-            let _ = write!(text, "^{}", factor.exponent.abs());
+        // Factors above and below the line alternate: the order is part of the tree.
+        mixed => {
+            for factor in mixed {
+                text.push(if factor.exponent < 0 { '/' } else { '*' });
+                text.push_str(&product(std::slice::from_ref(factor)));
+            }
         }
-    }
-    if text.is_empty() {
-        text.push('1');
     }
     text
+}
+
+/// Factors without the signs of their exponents.
+fn product(factors: &[UnitFactor]) -> String {
+    let powers: Vec<String> = factors
+        .iter()
+        .map(|factor| match factor.exponent.unsigned_abs() {
+            1 => factor.name.clone(),
+            power => format!("{}^{power}", factor.name),
+        })
+        .collect();
+    powers.join("*")
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::{Branch, Topology};
+use super::{Branch, Topology, massless};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::model::mechanism::{Frame, Mechanism, Motion};
@@ -14,11 +14,15 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let branches = graph.branches_from(0);
     report_unreached(mechanism, &graph, &branches, &mut diagnostics);
     let (free, driven) = coordinates(mechanism);
-    diagnostics.into_result(Topology {
+    let topology = Topology {
         branches,
         free,
         driven,
-    })
+    };
+    if diagnostics.is_empty() {
+        massless::check(mechanism, &topology, &mut diagnostics);
+    }
+    diagnostics.into_result(topology)
 }
 
 fn coordinates(mechanism: &Mechanism) -> (Vec<CoordinateId>, Vec<CoordinateId>) {

@@ -1,7 +1,7 @@
 //! The computed spanning forest: which body hangs on which, in an order that visits parents first.
 
 pub mod build;
-mod print;
+mod massless;
 
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::model::mechanism::Frame;

@@ -1,7 +1,7 @@
 //! Gravity: one acceleration, the same everywhere.
 
 use super::Resolver;
-use super::typed::Place;
+use super::typed::{Place, Typed};
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
@@ -30,27 +30,35 @@ impl Resolver<'_> {
     fn acceleration(&mut self, gravity: &Gravity) -> Option<Vector> {
         let value = &gravity.value;
         let what = "gravity";
-        let vector = match &gravity.along {
-            Some(along) => {
-                let magnitude = self.scalar_of(value, Dimension::ACCELERATION, what);
-                let direction = self.direction(along, Place::Parameter);
-                let (magnitude, direction) = (magnitude?, direction?);
-                direction.map(|component| simplify::multiply(magnitude.clone(), component))
+        let direction = gravity
+            .along
+            .as_ref()
+            .map(|along| self.direction(along, Place::Parameter));
+        let vector = match (self.value(value, Place::Parameter)?, direction) {
+            (Typed::Scalar(magnitude, quantity), Some(direction)) => {
+                self.expect(quantity, Dimension::ACCELERATION, what, value)?;
+                direction?.map(|component| simplify::multiply(magnitude.clone(), component))
             }
-            None => match self.value(value, Place::Parameter)? {
-                super::Typed::Vector(vector, quantity) => {
-                    self.expect(quantity, Dimension::ACCELERATION, what, value)?;
-                    vector
-                }
-                super::Typed::Scalar(..) => {
-                    self.diagnostics.error_with_help(
-                        value.extent,
-                        "gravity needs a direction",
-                        "write `along -z` after its magnitude",
-                    );
-                    return None;
-                }
-            },
+            (Typed::Vector(vector, quantity), None) => {
+                self.expect(quantity, Dimension::ACCELERATION, what, value)?;
+                vector
+            }
+            (Typed::Scalar(..), None) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "gravity needs a direction",
+                    "write `along -z` after its magnitude",
+                );
+                return None;
+            }
+            (Typed::Vector(..), Some(_)) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "this vector has a direction already",
+                    "remove `along`, or give a magnitude instead of the vector",
+                );
+                return None;
+            }
         };
         for component in &vector {
             self.require_finite(component, what, value.extent);
