@@ -80,7 +80,7 @@ fn far_starts_end_in_stable_states() {
     for start in [
         [1e6, -1e6],
         [3.0, 3.0],
-        [3.141_592_653_589_793, 0.0],
+        [std::f64::consts::PI, 0.0],
         [-2.0, 2.0],
     ] {
         let state = equilibrium(&DOUBLE, &[3.0], &BARS, &start, Policy::Stable).unwrap();

@@ -11,6 +11,20 @@ const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// Displacement (rad or m) whose restoring force a residual is compared with where all forces vanish.
 const SMALL_MOTION: f64 = 1e-3;
 
+/// From here on one more Newton step reaches rounding.
+const LAST_STEP: f64 = 1e-8;
+
+/// How far a solve has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Progress {
+    /// Go on.
+    Underway,
+    /// One more Newton step reaches rounding.
+    LastStep,
+    /// Solved to rounding.
+    Finished,
+}
+
 /// Watches a residual fall and tells when it has reached rounding.
 pub(super) struct Watch {
     previous: f64,
@@ -23,26 +37,33 @@ impl Watch {
         }
     }
 
-    /// Whether the state is solved and another step would not improve it.
-    pub(super) fn finished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    /// Judges a state. Forces are looked at only where the stiffness alone does not decide.
+    pub(super) fn judge<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         &mut self,
         problem: &Problem<'_, M, N, U, P, O>,
         q: &[f64; N],
         residual: &[f64; N],
         stiffness: &Square<N>,
-    ) -> bool
+    ) -> Progress
     where
         M: Mechanism<N, U, P, O>,
     {
-        if by_stiffness(q, residual, stiffness) > 1e4 * TOLERANCE {
-            self.previous = f64::INFINITY;
-            return false;
+        let relative = by_stiffness(q, residual, stiffness);
+        let stalled = relative >= 0.25 * self.previous;
+        self.previous = if relative <= 1e4 * TOLERANCE {
+            relative
+        } else {
+            f64::INFINITY
+        };
+        if relative <= FLOOR || (relative <= TOLERANCE && stalled) {
+            Progress::Finished
+        } else if relative <= LAST_STEP && !stalled {
+            Progress::LastStep
+        } else if stalled && relative_residual(problem, q, residual, stiffness) <= TOLERANCE {
+            Progress::Finished
+        } else {
+            Progress::Underway
         }
-        let relative = relative_residual(problem, q, residual, stiffness);
-        let finished =
-            relative <= FLOOR || (relative <= TOLERANCE && relative >= 0.25 * self.previous);
-        self.previous = relative;
-        finished
     }
 }
 

@@ -2,9 +2,9 @@
 //! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
 //! its curvature made positive where it is not, and a step along the unstable mode away from a saddle.
 
-use super::Found;
-use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
 use crate::modes::neutral_threshold;
@@ -33,7 +33,8 @@ where
     let mut watch = Watch::new();
     for iterations in 0..MAX_ITERATIONS {
         let convex = Cholesky::new(&stiffness).ok();
-        let solved = watch.finished(problem, &q, &residual, &stiffness);
+        let progress = watch.judge(problem, &q, &residual, &stiffness);
+        let solved = progress == Progress::Finished;
         let mut step = match &convex {
             Some(_) if solved => {
                 return Ok(found(
@@ -74,6 +75,18 @@ where
                 curved_step(&pairs, &residual)
             }
         };
+        if progress == Progress::LastStep
+            && convex.is_some()
+            && let Some((end, rest)) = last_step(problem, &q, &residual, &step)
+        {
+            return Ok(found(
+                &end,
+                &rest,
+                &stiffness,
+                iterations + 1,
+                left_unstable_region,
+            ));
+        }
         let size = largest(&step);
         let limited = size > radius;
         if limited {

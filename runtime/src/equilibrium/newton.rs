@@ -1,8 +1,8 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
-use super::Found;
-use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Lu, Square, add_scaled, largest, times, transpose};
 
@@ -31,10 +31,21 @@ where
             iterations,
             left_unstable_region: false,
         };
-        if watch.finished(problem, &q, &residual, &stiffness) {
+        let progress = watch.judge(problem, &q, &residual, &stiffness);
+        if progress == Progress::Finished {
             return Ok(found);
         }
         let mut step = newton_step(&residual, &stiffness, &weight);
+        if progress == Progress::LastStep
+            && let Some((coordinates, residual)) = last_step(problem, &q, &residual, &step)
+        {
+            return Ok(Found {
+                coordinates,
+                residual,
+                iterations: iterations + 1,
+                ..found
+            });
+        }
         let size = largest(&step);
         let limited = size > radius;
         if limited {
