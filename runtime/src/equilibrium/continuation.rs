@@ -1,19 +1,23 @@
 //! Sweeps of one input: each point starts from the equilibrium before it, and modes keep their identity.
 
-use super::{Policy, equilibrium};
+use super::{Policy, Problem, equilibrium};
 use crate::modes::{match_modes, modes};
-use crate::{Equilibrium, Error, Input, Mechanism, Modes};
+use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPoint<const N: usize, const U: usize, const P: usize> {
-    /// Value of the swept input, SI.
+    /// The swept input.
+    pub input: Input,
+    /// Its value, SI.
     pub value: f64,
     /// The equilibrium, or why there is none.
     pub equilibrium: Result<Equilibrium<N, U, P>, Error>,
     /// The modes there, in the order of the modes at the first point that has any: position `j` is one motion along
     /// the whole sweep, not the `j`-th frequency.
     pub modes: Result<Modes<N>, Error>,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
 }
 
 /// Solves equilibrium and modes at each of `values` of one input; the others keep their value in `u`.
@@ -37,6 +41,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     check_input::<U>(input, M::DESCRIPTION.name)?;
+    let description = Problem::unchecked(mechanism, u, b).description();
     let mut points = Vec::with_capacity(values.len());
     let mut from = *start;
     let mut reference: Option<Modes<N>> = None;
@@ -52,9 +57,11 @@ where
             from = state.coordinates;
         }
         points.push(SweepPoint {
+            input,
             value,
             equilibrium: solved,
             modes: found,
+            description,
         });
     }
     Ok(points)

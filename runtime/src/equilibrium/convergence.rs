@@ -1,15 +1,32 @@
-//! When a residual is small: measured against the forces in it, and against what moving the coordinates would change.
+//! When a solve is finished: its Newton step is small against the coordinates, or rounding lets the residual fall no
+//! further. The residual alone cannot tell near a critical state, where a small one hides a large displacement.
 
 use super::problem::Problem;
 use crate::Mechanism;
 use crate::array::{Square, largest};
 
-/// A residual this small in relative terms is a solution; iteration goes on while it still falls.
+/// Residual relative to its parts, or step relative to the coordinates, that counts as solved once neither falls.
 pub(super) const TOLERANCE: f64 = 1e-10;
-/// A residual this small cannot be improved.
+/// A step this small changes nothing.
 const FLOOR: f64 = 2.0 * f64::EPSILON;
-/// Displacement (rad or m) whose restoring force a residual is compared with where all forces vanish.
+/// A Newton step this small leaves a remainder at rounding.
+const LAST_STEP: f64 = 1e-8;
+/// A residual that keeps this share in a step has stopped falling: even where `Khat` is singular at the solution, Newton
+/// steps leave less than 1/e of it.
+const STALLED: f64 = 0.5;
+/// Displacement (rad or m) that coordinates near zero are compared with.
 const SMALL_MOTION: f64 = 1e-3;
+
+/// How far a solve has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Progress {
+    /// Go on.
+    Underway,
+    /// One more Newton step reaches rounding.
+    LastStep,
+    /// Solved to rounding.
+    Finished,
+}
 
 /// Watches a residual fall and tells when it has reached rounding.
 pub(super) struct Watch {
@@ -23,26 +40,36 @@ impl Watch {
         }
     }
 
-    /// Whether the state is solved and another step would not improve it.
-    pub(super) fn finished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    /// Judges a state by its residual and by the full step that would come next; without a step only the residual
+    /// counts.
+    pub(super) fn judge<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         &mut self,
         problem: &Problem<'_, M, N, U, P, O>,
         q: &[f64; N],
-        residual: &[f64; N],
-        stiffness: &Square<N>,
-    ) -> bool
+        (residual, stiffness): (&[f64; N], &Square<N>),
+        step: Option<&[f64; N]>,
+    ) -> Progress
     where
         M: Mechanism<N, U, P, O>,
     {
-        if by_stiffness(q, residual, stiffness) > 1e4 * TOLERANCE {
-            self.previous = f64::INFINITY;
-            return false;
+        let size = largest(residual);
+        let stalled = size >= STALLED * self.previous;
+        self.previous = size;
+        let motion = step.map_or(f64::INFINITY, |step| {
+            (0..N).fold(0.0, |most: f64, j| {
+                most.max(ratio(step[j], q[j].abs() + SMALL_MOTION))
+            })
+        });
+        let settled = |tolerance: f64| {
+            motion <= tolerance || relative_residual(problem, q, residual, stiffness) <= tolerance
+        };
+        if motion <= FLOOR || (stalled && settled(TOLERANCE)) {
+            Progress::Finished
+        } else if motion <= LAST_STEP {
+            Progress::LastStep
+        } else {
+            Progress::Underway
         }
-        let relative = relative_residual(problem, q, residual, stiffness);
-        let finished =
-            relative <= FLOOR || (relative <= TOLERANCE && relative >= 0.25 * self.previous);
-        self.previous = relative;
-        finished
     }
 }
 
@@ -66,12 +93,6 @@ where
         most = most.max(ratio(residual[i], force + restoring(q, &stiffness[i])));
     }
     most
-}
-
-fn by_stiffness<const N: usize>(q: &[f64; N], residual: &[f64; N], stiffness: &Square<N>) -> f64 {
-    (0..N).fold(0.0, |most: f64, i| {
-        most.max(ratio(residual[i], restoring(q, &stiffness[i])))
-    })
 }
 
 fn restoring<const N: usize>(q: &[f64; N], row: &[f64; N]) -> f64 {

@@ -2,9 +2,9 @@
 //! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
 //! its curvature made positive where it is not, and a step along the unstable mode away from a saddle.
 
-use super::Found;
-use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
 use crate::modes::neutral_threshold;
@@ -33,74 +33,57 @@ where
     let mut watch = Watch::new();
     for iterations in 0..MAX_ITERATIONS {
         let convex = Cholesky::new(&stiffness).ok();
-        let solved = watch.finished(problem, &q, &residual, &stiffness);
-        let mut step = match &convex {
-            Some(_) if solved => {
-                return Ok(found(
-                    &q,
-                    &residual,
-                    &stiffness,
-                    iterations,
-                    left_unstable_region,
-                ));
-            }
-            Some(cholesky) => cholesky.solve(&residual).map(|value| -value),
+        let curved = match &convex {
+            Some(_) => None,
             None => {
                 let mass = problem.linear(&q)?.mass;
                 let pairs = symmetric::solve(&stiffness, &mass)?;
-                let threshold = neutral_threshold(&pairs.lambda);
-                let unstable = pairs.lambda[0] < -threshold;
+                let unstable = pairs.lambda[0] < -neutral_threshold(&pairs.lambda);
                 left_unstable_region |= unstable;
-                if solved && !unstable {
-                    return Ok(found(
-                        &q,
-                        &residual,
-                        &stiffness,
-                        iterations,
-                        left_unstable_region,
-                    ));
-                }
-                if solved {
-                    departures += 1;
-                    if departures > MAX_DEPARTURES {
-                        return Err(failure(problem, "only unstable equilibria", &q, iterations));
-                    }
-                    let step = departure(&pairs.shapes[0], &mass, &q, start);
-                    q = add_scaled(&q, 1.0, &step);
-                    (residual, stiffness) = problem.evaluate_start(&q)?;
-                    watch = Watch::new();
-                    continue;
-                }
-                curved_step(&pairs, &residual)
+                Some((pairs, mass, unstable))
             }
         };
+        let found = |q, residual, iterations| Found {
+            coordinates: q,
+            residual,
+            stiffness,
+            iterations,
+            left_unstable_region,
+        };
+        let mut step = match (&convex, &curved) {
+            (Some(cholesky), _) => cholesky.solve(&residual).map(|value| -value),
+            (None, Some((pairs, ..))) => curved_step(pairs, &residual),
+            (None, None) => residual.map(|value| -value),
+        };
+        let progress = watch.judge(problem, &q, (&residual, &stiffness), Some(&step));
+        if progress == Progress::Finished {
+            let Some((pairs, mass, true)) = curved else {
+                return Ok(found(q, residual, iterations));
+            };
+            departures += 1;
+            if departures > MAX_DEPARTURES {
+                return Err(failure(problem, "only unstable equilibria", &q, iterations));
+            }
+            q = add_scaled(&q, 1.0, &departure(&pairs.shapes[0], &mass, &q, start));
+            (residual, stiffness) = problem.evaluate_start(&q)?;
+            watch = Watch::new();
+            continue;
+        }
+        if progress == Progress::LastStep
+            && convex.is_some()
+            && let Some((end, rest)) = last_step(problem, &q, &residual, &step)
+        {
+            return Ok(found(end, rest, iterations + 1));
+        }
         let size = largest(&step);
         let limited = size > radius;
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        if solved_by_rounding(&q, &step) {
-            let relative = relative_residual(problem, &q, &residual, &stiffness);
-            if relative <= TOLERANCE && convex.is_some() {
-                return Ok(found(
-                    &q,
-                    &residual,
-                    &stiffness,
-                    iterations,
-                    left_unstable_region,
-                ));
-            }
-        }
         let Some(next) = search(problem, &q, &residual, &stiffness, &step) else {
             let relative = relative_residual(problem, &q, &residual, &stiffness);
             if relative <= TOLERANCE && convex.is_some() {
-                return Ok(found(
-                    &q,
-                    &residual,
-                    &stiffness,
-                    iterations,
-                    left_unstable_region,
-                ));
+                return Ok(found(q, residual, iterations));
             }
             return Err(failure(
                 problem,
@@ -125,26 +108,6 @@ where
         }
     }
     Err(failure(problem, "too many iterations", &q, MAX_ITERATIONS))
-}
-
-fn found<const N: usize>(
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
-    iterations: usize,
-    left_unstable_region: bool,
-) -> Found<N> {
-    Found {
-        coordinates: *q,
-        residual: *residual,
-        stiffness: *stiffness,
-        iterations,
-        left_unstable_region,
-    }
-}
-
-fn solved_by_rounding<const N: usize>(q: &[f64; N], step: &[f64; N]) -> bool {
-    (0..N).all(|i| step[i].abs() <= f64::EPSILON * q[i].abs())
 }
 
 /// Descent along every mode with the size of its curvature, so that the unstable ones are left, not approached.

@@ -17,6 +17,7 @@ pub use stability::{Doubt, Stability};
 
 pub(crate) use problem::{Failure, Problem};
 
+use crate::array::{add_scaled, all_finite, largest};
 use crate::{Description, Error, Linear, Mechanism};
 use convergence::relative_residual;
 
@@ -106,6 +107,24 @@ pub(crate) struct Found<const N: usize> {
     pub(crate) stiffness: [[f64; N]; N],
     pub(crate) iterations: usize,
     pub(crate) left_unstable_region: bool,
+}
+
+/// The last Newton step; the stiffness is not needed again, only that the residual did not grow.
+fn last_step<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    q: &[f64; N],
+    residual: &[f64; N],
+    step: &[f64; N],
+) -> Option<([f64; N], [f64; N])>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let end = add_scaled(q, 1.0, step);
+    let rest = problem
+        .mechanism
+        .residual(&end, problem.inputs, problem.design);
+    let smaller = all_finite(&rest) && largest(&rest) <= 1e-3 * largest(residual);
+    smaller.then_some((end, rest))
 }
 
 fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(

@@ -1,8 +1,8 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
-use super::Found;
-use super::convergence::{TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Lu, Square, add_scaled, largest, times, transpose};
 
@@ -31,10 +31,22 @@ where
             iterations,
             left_unstable_region: false,
         };
-        if watch.finished(problem, &q, &residual, &stiffness) {
+        let newton = Lu::new(&stiffness).map(|lu| lu.solve(&residual).map(|value| -value));
+        let progress = watch.judge(problem, &q, (&residual, &stiffness), newton.as_ref());
+        if progress == Progress::Finished {
             return Ok(found);
         }
-        let mut step = newton_step(&residual, &stiffness, &weight);
+        let mut step = newton.unwrap_or_else(|| damped_step(&residual, &stiffness, &weight));
+        if progress == Progress::LastStep
+            && let Some((coordinates, residual)) = last_step(problem, &q, &residual, &step)
+        {
+            return Ok(Found {
+                coordinates,
+                residual,
+                iterations: iterations + 1,
+                ..found
+            });
+        }
         let size = largest(&step);
         let limited = size > radius;
         if limited {
@@ -93,15 +105,12 @@ fn merit<const N: usize>(residual: &[f64; N], weight: &[f64; N]) -> f64 {
     (0..N).fold(0.0, |sum, i| sum + weight[i] * residual[i] * residual[i])
 }
 
-/// The Newton step; where `Khat` is singular, a damped least-squares step.
-fn newton_step<const N: usize>(
+/// A damped least-squares step, for where `Khat` is singular.
+fn damped_step<const N: usize>(
     residual: &[f64; N],
     stiffness: &Square<N>,
     weight: &[f64; N],
 ) -> [f64; N] {
-    if let Some(lu) = Lu::new(stiffness) {
-        return lu.solve(residual).map(|value| -value);
-    }
     let weighted: Square<N> = core::array::from_fn(|i| stiffness[i].map(|value| value * weight[i]));
     let right = times(&transpose(&weighted), residual).map(|value| -value);
     let columns = transpose(stiffness);

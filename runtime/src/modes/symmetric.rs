@@ -82,8 +82,8 @@ fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
         (1.0, 0.0)
     } else {
         let ratio = (a11 - a00) / (2.0 * a10);
-        let t = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
-        let c = 1.0 / t.hypot(1.0);
+        let t = ratio.signum() / (ratio.abs() + (1.0 + ratio * ratio).sqrt());
+        let c = 1.0 / (1.0 + t * t).sqrt();
         (c, t * c)
     };
     let tangent = if c == 0.0 { 0.0 } else { s / c };

@@ -1,9 +1,9 @@
-//! Equilibria, sweeps and events as text.
+//! Equilibria and events as text.
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, optional};
-use crate::equilibrium::{CriticalState, Crossing, Doubt, SweepPoint};
+use super::table::{Table, cells, heading, in_unit, number};
+use crate::equilibrium::{CriticalState, Crossing, Doubt};
 use crate::{Equilibrium, Stability};
 
 impl fmt::Display for Stability {
@@ -68,30 +68,6 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             "  relative residual {:.1e} after {} iterations",
             self.relative_residual, self.iterations
         )
-    }
-}
-
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepPoint<N, U, P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", number(self.value))?;
-        match &self.equilibrium {
-            Ok(state) => {
-                for value in state.coordinates {
-                    write!(f, "  {}", number(value))?;
-                }
-                write!(f, "  {}", state.stability)?;
-            }
-            Err(error) => return write!(f, "  {error}"),
-        }
-        match &self.modes {
-            Ok(modes) => {
-                for omega in modes.frequencies() {
-                    write!(f, "  {}", optional(omega))?;
-                }
-                Ok(())
-            }
-            Err(error) => write!(f, "  {error}"),
-        }
     }
 }
 

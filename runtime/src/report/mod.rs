@@ -3,5 +3,8 @@
 mod equilibrium;
 mod modes;
 mod sensitivity;
+mod sweep;
 mod table;
 mod tolerance;
+
+pub use sweep::SweepTable;

@@ -43,10 +43,18 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
                 number(self.distance_to_critical)
             )?;
         }
-        if self.modes.iter().any(|mode| mode.clustered) {
+        for (r, mode) in self
+            .modes
+            .iter()
+            .enumerate()
+            .filter(|(_, mode)| !mode.alone())
+        {
             writeln!(
                 f,
-                "  Not to be trusted for modes with nearly equal frequencies."
+                "  Not to be trusted for mode {}: samples mix it with another mode, {} standard \
+                 deviations away.",
+                r + 1,
+                number(mode.distance_to_neighbour)
             )?;
         }
         Ok(())

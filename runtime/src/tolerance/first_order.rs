@@ -1,11 +1,11 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
 
 use super::Tolerances;
-use crate::array::dot;
+use crate::array::{add_scaled, dot};
 use crate::sensitivity::OutputSensitivities;
 use crate::{Description, Modes, Sensitivities};
 
-/// Closer to the critical state than this many standard deviations, first order is not to be trusted: its error exceeds
+/// Closer to the critical state, or to another mode, than this many standard deviations, first order is not to be trusted: its error exceeds
 /// a few percent and grows without bound.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
@@ -28,8 +28,18 @@ pub struct ModeTolerance<const P: usize> {
     /// `lambda / lambda_sigma`: standard deviations between this mode and the state where its stiffness vanishes;
     /// infinite when nothing moves the mode.
     pub distance_to_critical: f64,
+    /// Standard deviations of the difference between this mode's `lambda` and the nearest one: where it is small, samples
+    /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
+    pub distance_to_neighbour: f64,
     /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it.
     pub clustered: bool,
+}
+
+impl<const P: usize> ModeTolerance<P> {
+    /// Whether no other mode is so near that tolerances bring the two together.
+    pub fn alone(&self) -> bool {
+        !self.clustered && self.distance_to_neighbour >= TRUSTED_DISTANCE
+    }
 }
 
 /// First-order spread of all modes.
@@ -47,10 +57,9 @@ pub struct FirstOrder<const N: usize, const P: usize> {
 }
 
 impl<const N: usize, const P: usize> FirstOrder<N, P> {
-    /// Whether the critical state is far enough away ([`TRUSTED_DISTANCE`]) and no mode shares a cluster.
+    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]).
     pub fn trusted(&self) -> bool {
-        self.distance_to_critical >= TRUSTED_DISTANCE
-            && self.modes.iter().all(|mode| !mode.clustered)
+        self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }
 }
 
@@ -93,6 +102,7 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
             } else {
                 0.0
             },
+            distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
             clustered: own.clustered,
         }
     });
@@ -122,6 +132,28 @@ pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
             variance_shares,
         }
     })
+}
+
+/// Least distance of mode `r` to another one, in standard deviations of their difference.
+fn distance_to_neighbour<const N: usize, const U: usize, const P: usize>(
+    r: usize,
+    modes: &Modes<N>,
+    sensitivities: &Sensitivities<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> f64 {
+    let own = &sensitivities.modes[r].lambda_by_design;
+    (0..N)
+        .filter(|&other| other != r)
+        .fold(f64::INFINITY, |least, other| {
+            let slope = add_scaled(own, -1.0, &sensitivities.modes[other].lambda_by_design);
+            let (sigma, _) = spread(&slope, tolerances);
+            let gap = (modes.modes[r].lambda - modes.modes[other].lambda).abs();
+            if sigma > 0.0 {
+                least.min(gap / sigma)
+            } else {
+                least
+            }
+        })
 }
 
 /// Standard deviation `sqrt(S Sigma S^T)` and the share of each variable in the variance.

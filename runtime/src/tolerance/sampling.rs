@@ -11,6 +11,8 @@ pub(super) struct Draw<'a, const P: usize> {
     random: ChaCha8Rng,
     nominal: &'a [f64; P],
     tolerances: &'a Tolerances<P>,
+    /// Whether anything depends on this random number.
+    used: [bool; P],
 }
 
 impl<'a, const P: usize> Draw<'a, P> {
@@ -23,15 +25,25 @@ impl<'a, const P: usize> Draw<'a, P> {
     ) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_word_pos(u128::from(first) * 2 * P as u128);
+        let factor = tolerances.factor();
+        let used = core::array::from_fn(|j| factor.iter().any(|row| row[j] != 0.0));
         Self {
             random,
             nominal,
             tolerances,
+            used,
         }
     }
 
     pub(super) fn next(&mut self) -> [f64; P] {
-        let standard: [f64; P] = core::array::from_fn(|_| standard_normal(self.random.next_u64()));
+        let standard: [f64; P] = core::array::from_fn(|j| {
+            let bits = self.random.next_u64();
+            if self.used[j] {
+                standard_normal(bits)
+            } else {
+                0.0
+            }
+        });
         let factor = self.tolerances.factor();
         core::array::from_fn(|i| {
             let row = &factor[i];

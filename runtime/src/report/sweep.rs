@@ -1,0 +1,62 @@
+//! Sweeps as text: one row for each point.
+
+use core::fmt;
+
+use super::table::{Table, heading, in_unit, optional};
+use crate::equilibrium::SweepPoint;
+
+/// Points of a sweep, printed as one table.
+#[derive(Clone, Copy, Debug)]
+pub struct SweepTable<'a, const N: usize, const U: usize, const P: usize>(
+    /// The points, as [`sweep`](crate::equilibrium::sweep) returns them.
+    pub &'a [SweepPoint<N, U, P>],
+);
+
+impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable<'_, N, U, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(first) = self.0.first() else {
+            return Ok(());
+        };
+        let d = first.description;
+        writeln!(f, "{}: sweep", d.name)?;
+        let input = d.inputs.get(first.input.0);
+        let mut head = vec![input.map_or_else(String::new, |info| heading(info.name, info.unit))];
+        head.extend(
+            d.coordinates
+                .iter()
+                .map(|info| heading(info.name, info.unit)),
+        );
+        head.extend((1..=N).map(|r| format!("omega{r} [rad/s]")));
+        head.push("state".to_owned());
+        let mut table = Table::new(head);
+        for point in self.0 {
+            let value = input.map_or_else(String::new, |info| in_unit(point.value, info.unit));
+            let mut row = vec![value];
+            row.extend((0..N).map(|i| {
+                let state = point.equilibrium.as_ref().ok();
+                let unit = d.coordinates.get(i).map(|info| info.unit);
+                let pair = state.zip(unit);
+                pair.map_or_else(
+                    || "-".to_owned(),
+                    |(s, unit)| in_unit(s.coordinates[i], unit),
+                )
+            }));
+            row.extend((0..N).map(|r| {
+                let modes = point.modes.as_ref().ok();
+                optional(modes.and_then(|modes| modes.modes[r].frequency()))
+            }));
+            row.push(match (&point.equilibrium, &point.modes) {
+                (Err(error), _) | (_, Err(error)) => error.to_string(),
+                (Ok(state), Ok(_)) => state.stability.to_string(),
+            });
+            table.row(row);
+        }
+        write!(f, "{table}")
+    }
+}
+
+impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepPoint<N, U, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        SweepTable(core::slice::from_ref(self)).fmt(f)
+    }
+}

@@ -1,0 +1,179 @@
+//! The front door: a mechanism, the values to study it at, and what to ask of it.
+
+mod questions;
+
+use crate::equilibrium::Policy;
+use crate::tolerance::Tolerances;
+use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};
+
+/// A mechanism at one operating point, with tolerances and settings.
+///
+/// Starts from the declared nominal values and tolerances, inputs and start values zero, a stable equilibrium wanted.
+/// Values are SI. Every question solves what it needs; use the functions of the modules to reuse results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usize> {
+    mechanism: M,
+    inputs: [f64; U],
+    design: [f64; P],
+    start: [f64; N],
+    policy: Policy,
+    half_widths: [f64; P],
+    sigma_level: f64,
+    correlation: Option<[[f64; P]; P]>,
+    samples: usize,
+    seed: u64,
+    threads: usize,
+    keep_samples: bool,
+    steps: usize,
+    fault: Option<Error>,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// A study of `mechanism` at its nominal design.
+    pub fn new(mechanism: M) -> Self {
+        let design = M::DESCRIPTION.design;
+        Self {
+            mechanism,
+            inputs: [0.0; U],
+            design: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.nominal)),
+            start: [0.0; N],
+            policy: Policy::Stable,
+            half_widths: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.tolerance)),
+            sigma_level: 3.0,
+            correlation: None,
+            samples: 3000,
+            seed: 0,
+            threads: 0,
+            keep_samples: false,
+            steps: 200,
+            fault: None,
+        }
+    }
+
+    /// Sets an input, SI.
+    #[must_use]
+    pub fn input(mut self, input: Input, value: f64) -> Self {
+        match self.inputs.get_mut(input.0) {
+            Some(place) => *place = value,
+            None => self.refuse("input", input.0, U),
+        }
+        self
+    }
+
+    /// Sets a design variable, SI.
+    #[must_use]
+    pub fn design(mut self, variable: DesignVariable, value: f64) -> Self {
+        match self.design.get_mut(variable.0) {
+            Some(place) => *place = value,
+            None => self.refuse("design variable", variable.0, P),
+        }
+        self
+    }
+
+    /// Sets where the search for an equilibrium starts, rad or m.
+    #[must_use]
+    pub fn start(mut self, coordinate: Coordinate, value: f64) -> Self {
+        match self.start.get_mut(coordinate.0) {
+            Some(place) => *place = value,
+            None => self.refuse("coordinate", coordinate.0, N),
+        }
+        self
+    }
+
+    /// Sets the half-width of a tolerance, SI.
+    #[must_use]
+    pub fn tolerance(mut self, variable: DesignVariable, half_width: f64) -> Self {
+        match self.half_widths.get_mut(variable.0) {
+            Some(place) => *place = half_width,
+            None => self.refuse("design variable", variable.0, P),
+        }
+        self
+    }
+
+    /// Sets how many standard deviations a tolerance holds (3 unless set).
+    #[must_use]
+    pub fn sigma_level(mut self, level: f64) -> Self {
+        self.sigma_level = level;
+        self
+    }
+
+    /// Couples the design variables by a correlation matrix (independent unless set).
+    #[must_use]
+    pub fn correlation(mut self, matrix: [[f64; P]; P]) -> Self {
+        self.correlation = Some(matrix);
+        self
+    }
+
+    /// Chooses which equilibrium is wanted.
+    #[must_use]
+    pub fn policy(mut self, policy: Policy) -> Self {
+        self.policy = policy;
+        self
+    }
+
+    /// Sets the number of Monte Carlo samples (3000 unless set).
+    #[must_use]
+    pub fn samples(mut self, samples: usize) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// Sets the seed of the samples (0 unless set).
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Sets the number of threads of a Monte Carlo run; 0 takes what the machine has.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// Asks a Monte Carlo run to return every sample.
+    #[must_use]
+    pub fn keep_samples(mut self, keep: bool) -> Self {
+        self.keep_samples = keep;
+        self
+    }
+
+    /// Sets into how many steps a range is cut when something is looked for in it (200 unless set).
+    #[must_use]
+    pub fn steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    fn refuse(&mut self, kind: &'static str, index: usize, count: usize) {
+        let mechanism = M::DESCRIPTION.name;
+        self.fault.get_or_insert(Error::UnknownHandle {
+            kind,
+            index,
+            mechanism,
+            count,
+        });
+    }
+
+    fn ready(&self) -> Result<(), Error> {
+        self.fault.clone().map_or(Ok(()), Err)
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &M {
+        &self.mechanism
+    }
+
+    /// The tolerances as set.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] when they make no sense; [`Error::UnknownHandle`].
+    pub fn tolerances(&self) -> Result<Tolerances<P>, Error> {
+        self.ready()?;
+        Tolerances::new(self.half_widths, self.sigma_level, self.correlation)
+    }
+}
