@@ -1,8 +1,9 @@
-//! The `mechanism!` macro: tokens in, tokens or errors out. The work is done by `eigentol-compiler`.
+//! The [`mechanism!`] macro: tokens in, tokens or errors out. The work is done by `eigentol-compiler`, an ordinary library
+//! that build scripts and tests can call too.
 
 use proc_macro::TokenStream;
 
-/// Declares a mechanism.
+#[doc = include_str!("../REFERENCE.md")]
 #[proc_macro]
 pub fn mechanism(declaration: TokenStream) -> TokenStream {
     eigentol_compiler::expand(declaration.into()).into()

@@ -192,9 +192,9 @@ impl Kernels for Faulty<'_> {
 fn every_fault_is_found() {
     let plan = Plan {
         setting: Setting::Spinning,
-        bodies: 2,
+        bodies: 3,
         rotor: false,
-        seed: 11,
+        seed: 5,
     };
     let model = plan.model();
     let reference = Reference::new(&model, 5);

@@ -17,6 +17,8 @@ pub mod base;
 pub mod emit;
 pub mod mechanics;
 pub mod model;
+mod pipeline;
+pub mod program;
 pub mod syntax;
 pub mod topology;
 

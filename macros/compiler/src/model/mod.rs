@@ -3,6 +3,7 @@
 pub mod evaluate;
 pub mod expression;
 pub mod mechanism;
+mod print;
 pub mod resolve;
 mod rules;
 mod simplify;

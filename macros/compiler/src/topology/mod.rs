@@ -2,6 +2,7 @@
 
 pub mod build;
 mod massless;
+mod print;
 
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::model::mechanism::Frame;
