@@ -192,9 +192,9 @@ impl Kernels for Faulty<'_> {
 fn every_fault_is_found() {
     let plan = Plan {
         setting: Setting::Spinning,
-        bodies: 3,
+        bodies: 4,
         rotor: false,
-        seed: 5,
+        seed: 11,
     };
     let model = plan.model();
     let reference = Reference::new(&model, 5);
