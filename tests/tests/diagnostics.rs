@@ -10,10 +10,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use eigentol_compiler::base::diagnostics::{Diagnostic, Diagnostics};
-use eigentol_compiler::model::resolve::resolve;
-use eigentol_compiler::syntax::parse::parse;
-use eigentol_compiler::topology::build::build;
+use eigentol_compiler::base::diagnostics::Diagnostic;
+use eigentol_compiler::compile;
+use eigentol_compiler::mechanics::Limits;
 use proc_macro2::TokenStream;
 
 const BEFORE: &str = "mechanism Test {
@@ -21,13 +20,10 @@ const BEFORE: &str = "mechanism Test {
     joint theta: revolute(y) from ground to bar;
 ";
 
-/// What the front half of the compiler says about a declaration.
+/// What the compiler says about a declaration.
 fn diagnose(source: &str) -> Vec<Diagnostic> {
     let tokens: TokenStream = source.parse().expect("the case consists of Rust tokens");
-    let compiled: Result<_, Diagnostics> = parse(tokens)
-        .and_then(|ast| resolve(&ast))
-        .and_then(|mechanism| build(&mechanism));
-    match compiled {
+    match compile(tokens, Limits::default()) {
         Ok(_) => Vec::new(),
         Err(diagnostics) => diagnostics.iter().cloned().collect(),
     }
