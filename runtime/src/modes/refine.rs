@@ -8,6 +8,7 @@ const STEPS: usize = 4;
 const NEAR: f64 = 1e-3;
 
 /// Improves pair `r`; keeps it mass-orthogonal to the earlier pairs near it. Leaves it alone when that does not help.
+#[cold]
 pub(super) fn refine<const N: usize>(
     stiffness: &Square<N>,
     mass: &Square<N>,
