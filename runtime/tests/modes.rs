@@ -115,6 +115,35 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// A soft pendulum on stiff bearings: stiffnesses, masses and lengths of very different sizes.
+    #[test]
+    fn eigenvalues_of_very_different_size(
+        stiffness in prop::collection::vec(-0.2..0.2_f64, 25),
+        mass in prop::collection::vec(-0.2..0.2_f64, 25),
+        scale in prop::collection::vec(-2.5..2.5_f64, 5),
+    ) {
+        let graded = |seeds: &[f64], shift: f64, power: f64| -> [[f64; 5]; 5] {
+            let plain = symmetric::<5>(seeds, shift);
+            std::array::from_fn(|i| std::array::from_fn(|j| {
+                plain[i][j] * 10f64.powf(power * (scale[i] + scale[j]))
+            }))
+        };
+        let linear = pencil(graded(&stiffness, 2.0, 1.0), graded(&mass, 2.0, -0.25));
+        let found = modes_of(&linear, &ANY).unwrap();
+        for (r, mode) in found.modes.iter().enumerate() {
+            prop_assert!(mode.residual < 1e-12, "residual {:e}", mode.residual);
+            prop_assert!(mode.lambda > 0.0, "lambda {:e}", mode.lambda);
+            for other in &found.modes[..r] {
+                let product = form(&mode.shape, &linear.mass, &other.shape);
+                prop_assert!(product.abs() < 1e-6, "{product:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn frequencies_match_references() {
     for (omega, expected) in [

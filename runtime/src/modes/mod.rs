@@ -1,6 +1,7 @@
 //! Natural modes of small vibrations about an equilibrium (THEORY section 4).
 
 mod assurance;
+mod refine;
 pub(crate) mod symmetric;
 
 pub use assurance::{assurance, clusters, match_modes};

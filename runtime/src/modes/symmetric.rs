@@ -3,6 +3,8 @@
 
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
+use super::refine::refine;
+
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Trouble {
@@ -21,6 +23,8 @@ pub(crate) struct Pairs<const N: usize> {
 
 /// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
 const ACCEPTED: f64 = 1e-9;
+/// Residual beyond which a pair is improved by inverse iteration.
+const INACCURATE: f64 = 1e-13;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
 pub(crate) fn solve<const N: usize>(
@@ -182,38 +186,66 @@ fn large(
     Ok(())
 }
 
-/// Sorts, fixes signs, refines each eigenvalue by its Rayleigh quotient and checks each residual.
+/// Sorts, refines where needed, fixes signs and checks each residual.
 fn finish<const N: usize>(
     stiffness: &[[f64; N]; N],
     mass: &[[f64; N]; N],
     pairs: &mut Pairs<N>,
 ) -> Result<(), Trouble> {
+    sort(pairs);
+    let residual = |lambda: f64, phi: &[f64; N]| relative_residual(stiffness, mass, lambda, phi);
+    let mut refined = false;
+    for r in 0..N {
+        pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
+        if pairs.residuals[r] > INACCURATE {
+            refine(
+                stiffness,
+                mass,
+                &mut pairs.lambda,
+                &mut pairs.shapes,
+                r,
+                residual,
+            );
+            pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
+            refined = true;
+        }
+        if pairs.residuals[r].is_nan() || pairs.residuals[r] > ACCEPTED {
+            return Err(Trouble::Inaccurate {
+                mode: r,
+                residual: pairs.residuals[r],
+            });
+        }
+    }
+    if refined {
+        sort(pairs);
+    }
+    pairs.shapes.iter_mut().for_each(fix_sign);
+    Ok(())
+}
+
+fn sort<const N: usize>(pairs: &mut Pairs<N>) {
     for i in 1..N {
         let mut j = i;
         while j > 0 && pairs.lambda[j] < pairs.lambda[j - 1] {
             pairs.lambda.swap(j, j - 1);
             pairs.shapes.swap(j, j - 1);
+            pairs.residuals.swap(j, j - 1);
             j -= 1;
         }
     }
-    for r in 0..N {
-        let mut lead = 0;
-        for i in 1..N {
-            // The margin keeps the choice stable when two components are equal but for rounding.
-            if pairs.shapes[r][i].abs() > pairs.shapes[r][lead].abs() * (1.0 + 1e-9) {
-                lead = i;
-            }
+}
+
+/// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
+fn fix_sign<const N: usize>(shape: &mut [f64; N]) {
+    let mut lead = 0;
+    for i in 1..N {
+        if shape[i].abs() > shape[lead].abs() * (1.0 + 1e-9) {
+            lead = i;
         }
-        if pairs.shapes[r][lead] < 0.0 {
-            pairs.shapes[r] = pairs.shapes[r].map(|value| -value);
-        }
-        let residual = relative_residual(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]);
-        if residual.is_nan() || residual > ACCEPTED {
-            return Err(Trouble::Inaccurate { mode: r, residual });
-        }
-        pairs.residuals[r] = residual;
     }
-    Ok(())
+    if shape[lead] < 0.0 {
+        *shape = shape.map(|value| -value);
+    }
 }
 
 /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
