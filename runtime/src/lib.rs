@@ -2,6 +2,39 @@
 //!
 //! Declare a mechanism with [`mechanism!`]; ask questions through `Study`, or call the functions of the modules
 //! directly: each takes the mechanism, plain arrays and the results of the step before.
+//!
+//! ```
+//! # #[cfg(feature = "std")]
+//! # fn main() -> Result<(), eigentol::Error> {
+//! use eigentol::{Study, mechanism};
+//!
+//! mechanism! {
+//!     /// A uniform bar hinged on a shaft that spins at a constant rate.
+//!     pub mechanism RotatingPendulum {
+//!         input  omega: rad/s;
+//!         design m = 3.0 kg;
+//!         design l = 1.0 m +/- 3%;
+//!         gravity 9.81 m/s^2 along -z;
+//!         body shaft: massless;
+//!         body bar: rod(mass: m, length: l, along: -z);
+//!         joint spin:  revolute(z) from ground to shaft, driven at omega;
+//!         joint theta: revolute(y) from shaft to bar;
+//!     }
+//! }
+//!
+//! let study = Study::new(RotatingPendulum)
+//!     .input(RotatingPendulum::omega, 5.0)
+//!     .start(RotatingPendulum::theta, 1.0);
+//! let (speed, natural) = (5.0_f64, 3.0 * 9.81 / 2.0);
+//! let frequency = study.modes()?.frequencies()[0];
+//! let closed_form = (speed.powi(2) - (natural / speed).powi(2)).sqrt();
+//! assert!((frequency.expect("the bar swings") - closed_form).abs() < 1e-12);
+//! println!("{}", study.first_order()?);
+//! # Ok(())
+//! # }
+//! # #[cfg(not(feature = "std"))]
+//! # fn main() {}
+//! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod mechanism;
@@ -46,3 +79,8 @@ pub use sensitivity::Sensitivities;
 pub use study::Study;
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
+
+/// The example of the README, compiled and run.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../../README.md")]
+struct Readme;
