@@ -1,0 +1,51 @@
+//! A mechanism compiled without the standard library, as in the firmware of a controller.
+//!
+//! `cargo check -p eigentol-embedded` builds it alone, with the solvers left out; within the workspace other packages switch
+//! them on.
+#![no_std]
+
+use eigentol::{Mechanism, mechanism};
+
+mechanism! {
+    /// A bar hinged on a spinning shaft, held by a spring.
+    pub mechanism SprungPendulum {
+        input  omega: rad/s;
+        design m = 3.0 kg;
+        design l = 1.0 m;
+        design k = 20 N*m/rad;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin:  revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+        force hold: spring(on: theta, stiffness: k);
+        point tip: bar at [0, 0, -l];
+        output radius = distance_from_axis(tip, z);
+    }
+}
+
+/// The moment that the hinge lacks to stay at `theta`, N m.
+pub fn imbalance(theta: f64, omega: f64, design: &[f64; 3]) -> f64 {
+    SprungPendulum.residual(&[theta], &[omega], design)[0]
+}
+
+/// The same in single precision.
+pub fn imbalance_f32(theta: f32, omega: f32, design: &[f32; 3]) -> f32 {
+    SprungPendulum.residual(&[theta], &[omega], design)[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `g = k theta + m g l / 2 sin(theta) - m l^2 / 3 omega^2 sin(theta) cos(theta)`.
+    #[test]
+    fn it_is_the_closed_form() {
+        let (theta, omega) = (0.4_f64, 3.0);
+        let (sin, cos) = eigentol::Real::sin_cos(theta);
+        let expected = 20.0 * theta + 3.0 * 9.81 / 2.0 * sin - omega * omega * sin * cos;
+        assert!((imbalance(theta, omega, &[3.0, 1.0, 20.0]) - expected).abs() < 1e-13);
+        let single = imbalance_f32(theta as f32, omega as f32, &[3.0, 1.0, 20.0]);
+        assert!((f64::from(single) - expected).abs() < 1e-5);
+    }
+}
