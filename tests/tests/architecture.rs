@@ -129,7 +129,9 @@ fn compiler_and_runtime_never_import_each_other() {
     let dependencies = |manifest: &str| {
         let text = read(&root().join(manifest));
         text.lines()
-            .skip_while(|line| !line.starts_with("[dependencies]"))
+            .skip_while(|line| *line != "[dependencies]")
+            .skip(1)
+            .take_while(|line| !line.starts_with('['))
             .filter(|line| line.starts_with("eigentol"))
             .map(|line| {
                 line.split(['.', ' ', '='])

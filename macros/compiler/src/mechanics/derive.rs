@@ -2,13 +2,14 @@
 
 use crate::algebra::{Array, Function, Graph, substitute};
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::ExprId;
+use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
 
 use super::functions::{Functions, Limits, Requirement};
+use super::kernels::{kernels, parameter};
 use super::kinematics::{CoordinateMotion, Kinematics};
-use super::linearise::{kernels, parameter};
+use super::linearise::{Jacobians, Linear, at_rest};
 use super::newton_euler::residual;
 use super::properties;
 use super::requirements::requirements;
@@ -37,9 +38,11 @@ pub fn derive(
 
     steady_state::check(g, &problem)?;
     let equations = Equations::new(g, &problem);
-    properties::check(g, &problem, &equations)?;
-    let properties = properties::establish(g, &problem, &equations);
-    let mut functions = kernels(g, &symbols, &equations, properties, limits);
+    let jacobians = Jacobians::new(g, &symbols, &equations);
+    properties::check(g, &problem, &jacobians)?;
+    let properties = properties::establish(g, &problem, &jacobians);
+    let linear = Linear::new(g, &jacobians, properties, &problem.outward_order());
+    let mut functions = kernels(g, &symbols, &equations, &linear, limits);
     let requirements = requirements(g, mechanism, &values);
     functions.push(check_of(&requirements, &symbols));
     Ok(Functions {
@@ -104,6 +107,19 @@ impl Problem<'_> {
         Kinematics::new(g, self.mechanism, self.topology, self.values, coordinates)
     }
 
+    /// For each free coordinate, the position of its joint on the way from the ground to the leaves.
+    fn outward_order(&self) -> Vec<usize> {
+        let place = |id: &CoordinateId| {
+            let joint = self.mechanism.coordinates[id.index()].joint;
+            self.topology
+                .branches
+                .iter()
+                .position(|branch| branch.joint == joint)
+                .unwrap_or(0)
+        };
+        self.topology.free.iter().map(place).collect()
+    }
+
     /// The residual along the free coordinates.
     pub(super) fn residual(
         &self,
@@ -158,29 +174,20 @@ impl Equations {
         let symbols = problem.symbols;
         let kinematics = problem.kinematics(g, &vec![zero; problem.topology.driven.len()]);
         let zeros = vec![zero; symbols.q.ids.len()];
-        let at_rest = |g: &mut Graph, roots: &[ExprId]| {
-            let still: Vec<_> = symbols
-                .velocity
-                .with(&zeros)
-                .chain(symbols.acceleration.with(&zeros))
-                .collect();
-            substitute(g, roots, &still)
-        };
-
         let motion = problem.residual(g, &kinematics, Sources::ALL);
         let inertia = problem.residual(g, &kinematics, Sources::INERTIA);
         let applied = problem.residual(g, &kinematics, Sources::APPLIED);
         let outputs = problem.outputs(g, &kinematics);
         let without: Vec<_> = symbols.velocity.with(&zeros).collect();
         let without_velocity = substitute(g, &motion, &without);
-        let rest = at_rest(g, &motion);
-        let rest_inertia = at_rest(g, &inertia);
-        let minus_applied = at_rest(g, &applied);
+        let rest = at_rest(g, symbols, &motion);
+        let rest_inertia = at_rest(g, symbols, &inertia);
+        let minus_applied = at_rest(g, symbols, &applied);
         let rest_applied = minus_applied
             .into_iter()
             .map(|force| g.neg(force))
             .collect();
-        let outputs = at_rest(g, &outputs);
+        let outputs = at_rest(g, symbols, &outputs);
         Self {
             motion,
             without_velocity,

@@ -3,10 +3,12 @@
 //!
 //! The only bridge between the wing that knows mechanisms and the wing that knows expressions.
 
+mod adjoint;
 mod derive;
 mod forces;
 mod functions;
 mod inertia;
+mod kernels;
 mod kinematics;
 mod linearise;
 mod newton_euler;

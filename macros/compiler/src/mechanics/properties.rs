@@ -1,14 +1,14 @@
 //! What holds for a mechanism at every state: established structurally where the graph shows it, and otherwise by
 //! evaluation at random states, where a value must vanish up to rounding each time.
 
-use crate::algebra::{Direction, Evaluation, Graph, derivatives_along, evaluate_with_error};
+use crate::algebra::{Evaluation, Graph, evaluate_with_error};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
 
-use super::derive::{Equations, Problem};
+use super::derive::Problem;
 use super::functions::{Damping, Properties};
-use super::linearise::{columns, damping_columns, mass_columns};
+use super::linearise::Jacobians;
 
 /// Finite random states wanted for a numerical proof, and attempts allowed to find them.
 const STATES: usize = 4;
@@ -40,13 +40,13 @@ pub(super) fn vanish(g: &Graph, problem: &Problem, roots: &[ExprId]) -> Vec<bool
 
 /// Rejects a mechanism whose mass matrix is singular, or in which nothing resists a coordinate.
 pub(super) fn check(
-    g: &mut Graph,
+    g: &Graph,
     problem: &Problem,
-    equations: &Equations,
+    jacobians: &Jacobians,
 ) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let name = |k: usize| &problem.mechanism.coordinates[problem.topology.free[k].index()].name;
-    if let Some(k) = coordinate_without_inertia(g, problem, equations) {
+    if let Some(k) = coordinate_without_inertia(g, problem, jacobians) {
         diagnostics.error_with_help(
             name(k).span(),
             format!(
@@ -56,8 +56,7 @@ pub(super) fn check(
             "give a mass to a body that this joint carries, or drive or fix the joint",
         );
     }
-    let stiffness = columns(g, &equations.rest, &problem.symbols.q);
-    for (k, column) in stiffness.iter().enumerate() {
+    for (k, column) in jacobians.stiffness.iter().enumerate() {
         if vanish(g, problem, column).into_iter().all(|zero| zero) {
             diagnostics.error_with_help(
                 name(k).span(),
@@ -73,10 +72,11 @@ pub(super) fn check(
 }
 
 /// What can be said of `Khat` and `Chat`.
-pub(super) fn establish(g: &mut Graph, problem: &Problem, equations: &Equations) -> Properties {
-    let n = equations.rest.len();
-    let stiffness = columns(g, &equations.rest, &problem.symbols.q);
-    let damping = damping_columns(g, problem.symbols, equations);
+pub(super) fn establish(g: &mut Graph, problem: &Problem, jacobians: &Jacobians) -> Properties {
+    let Jacobians {
+        stiffness, damping, ..
+    } = jacobians;
+    let n = stiffness.len();
     let mut asymmetry = Vec::new();
     let mut symmetric_damping = Vec::new();
     for j in 0..n {
@@ -101,12 +101,12 @@ pub(super) fn establish(g: &mut Graph, problem: &Problem, equations: &Equations)
 
 /// The first coordinate that leaves the mass matrix singular at every probed state.
 fn coordinate_without_inertia(
-    g: &mut Graph,
+    g: &Graph,
     problem: &Problem,
-    equations: &Equations,
+    jacobians: &Jacobians,
 ) -> Option<usize> {
-    let n = equations.rest.len();
-    let mass = mass_columns(g, problem.symbols, equations).concat();
+    let n = jacobians.mass.len();
+    let mass = jacobians.mass.concat();
     let singular: Vec<Option<usize>> = probe(g, problem, &mass)
         .iter()
         .map(|values| first_zero_pivot(n, &values.iter().map(|v| v.value).collect::<Vec<_>>()))
@@ -169,10 +169,4 @@ fn random(seed: u64, symbol: SymbolId) -> f64 {
     }
     x ^= x >> 31;
     (x >> 11) as f64 / (1u64 << 53) as f64
-}
-
-/// Derivative of `roots` along one symbol.
-pub(super) fn by_symbol(g: &mut Graph, roots: &[ExprId], symbol: SymbolId) -> Vec<ExprId> {
-    let direction = Direction::unit(g, symbol);
-    derivatives_along(g, roots, &direction)
 }

@@ -6,7 +6,8 @@ use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
 
 use super::derive::Problem;
 use super::kinematics::Kinematics;
-use super::properties::{by_symbol, vanish};
+use super::linearise::by_symbol;
+use super::properties::vanish;
 use super::sources::{Selection, Sources};
 
 /// Rejects a mechanism whose equations or outputs depend on a driven coordinate, naming the cause.

@@ -1,0 +1,64 @@
+//! Scalars whose gradients give every design derivative of a mode at once (THEORY section 5).
+
+use crate::algebra::{Array, Direction, Graph, derivatives_along, gradient};
+use crate::base::ids::{ExprId, SymbolId};
+
+use super::derive::Equations;
+use super::linearise::at_rest;
+use super::symbols::Symbols;
+
+/// `phi^T (Khat - lambda Mhat) phi` without either matrix: the derivative of `phi^T g` along
+/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the `phi` in front held fixed (THEORY section 5).
+pub(super) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
+    let power = weighted_sum(g, &s.phi.values, &e.without_velocity);
+    let minus_lambda = g.neg(s.lambda.values[0]);
+    let acceleration: Vec<ExprId> = s
+        .phi
+        .values
+        .iter()
+        .map(|&phi| g.mul(minus_lambda, phi))
+        .collect();
+    let rates = s
+        .acceleration
+        .with(&acceleration)
+        .chain(s.q.with(&s.phi.values))
+        .collect();
+    let functional = derivatives_along(g, &[power], &Direction::new("_mode", rates));
+    at_rest(g, s, &functional)[0]
+}
+
+pub(super) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
+    let terms: Vec<ExprId> = weights
+        .iter()
+        .zip(values)
+        .map(|(&weight, &value)| g.mul(weight, value))
+        .collect();
+    g.sum(terms)
+}
+
+/// Gradient of a scalar by coordinates, inputs and design variables.
+pub(super) fn state_gradient(g: &mut Graph, s: &Symbols, root: ExprId) -> Vec<Array> {
+    let symbols: Vec<SymbolId> = [&s.q, &s.u, &s.b]
+        .iter()
+        .flat_map(|list| list.ids.clone())
+        .collect();
+    let mut all = gradient(g, root, &symbols).into_iter();
+    [("coordinates", &s.q), ("inputs", &s.u), ("design", &s.b)]
+        .into_iter()
+        .map(|(name, list)| Array {
+            name,
+            shape: vec![list.ids.len()],
+            values: all.by_ref().take(list.ids.len()).collect(),
+        })
+        .collect()
+}
+
+pub(super) fn gradient_along(g: &mut Graph, gradient: &[Array], along: &Direction) -> Vec<Array> {
+    gradient
+        .iter()
+        .map(|array| Array {
+            values: derivatives_along(g, &array.values, along),
+            ..array.clone()
+        })
+        .collect()
+}

@@ -1,0 +1,230 @@
+//! The kernels of the runtime's contract: which expressions each returns, and in which order.
+
+use crate::algebra::{Array, Direction, Function, Graph, Parameter, derivatives_along, substitute};
+use crate::base::ids::ExprId;
+
+use super::adjoint::{gradient_along, mode_functional, state_gradient, weighted_sum};
+use super::derive::Equations;
+use super::functions::Limits;
+use super::linearise::{Linear, columns, linear_arrays};
+use super::symbols::{SymbolList, Symbols};
+
+/// All kernels, in the order of the runtime's contract.
+pub(super) fn kernels(
+    g: &mut Graph,
+    s: &Symbols,
+    e: &Equations,
+    linear: &Linear,
+    limits: Limits,
+) -> Vec<Function> {
+    let n = e.rest.len();
+    let vector = |name, values: &[ExprId]| Array {
+        name,
+        shape: vec![values.len()],
+        values: values.to_vec(),
+    };
+    let state = [
+        parameter("q", &s.q),
+        parameter("u", &s.u),
+        parameter("b", &s.b),
+    ];
+    let function = |name, before: Vec<Parameter>, after: Vec<Parameter>, results| Function {
+        name,
+        parameters: before
+            .into_iter()
+            .chain(state.clone())
+            .chain(after)
+            .collect(),
+        results,
+    };
+
+    let zeros = vec![g.zero(); n];
+    let still: Vec<_> = s.acceleration.with(&zeros).collect();
+    let bias = substitute(g, &e.motion, &still);
+    let force: Vec<ExprId> = bias.iter().map(|&h| g.neg(h)).collect();
+
+    let by_input = columns(g, &e.rest, &s.u);
+    let by_design = columns(g, &e.rest, &s.b);
+    let arguments = [&s.q, &s.u, &s.b];
+    let entries = 3 * n * n * arguments.iter().map(|list| list.ids.len()).sum::<usize>();
+    let partials: Option<Vec<Array>> = (entries <= limits.explicit_partials).then(|| {
+        arguments
+            .iter()
+            .flat_map(|list| linear.partials(g, n, list))
+            .collect()
+    });
+    let along = direction("_along", [(&s.q, &s.dq), (&s.u, &s.du), (&s.b, &s.db)]);
+    let linear_along = derivatives_along(g, &linear.roots(), &along);
+
+    let mode_functional = mode_functional(g, s, e);
+    let mode_gradient = state_gradient(g, s, mode_functional);
+    let mode_along = direction(
+        "_along",
+        [
+            (&s.q, &s.dq),
+            (&s.u, &s.du),
+            (&s.b, &s.db),
+            (&s.phi, &s.dphi),
+            (&s.lambda, &s.dlambda),
+        ],
+    );
+    let mode_gradient_along = gradient_along(g, &mode_gradient, &mode_along);
+
+    let weighted = weighted_sum(g, &s.w.values, &e.rest);
+    let residual_gradient = state_gradient(g, s, weighted);
+    let residual_along = direction(
+        "_along",
+        [(&s.q, &s.dq), (&s.u, &s.du), (&s.b, &s.db), (&s.w, &s.dw)],
+    );
+    let residual_gradient_along = gradient_along(g, &residual_gradient, &residual_along);
+
+    let outputs_by: Vec<Vec<Vec<ExprId>>> = [&s.q, &s.u, &s.b]
+        .map(|list| columns(g, &e.outputs, list))
+        .into();
+    let directions = || {
+        vec![
+            parameter("dq", &s.dq),
+            parameter("du", &s.du),
+            parameter("db", &s.db),
+        ]
+    };
+    let mode = || vec![parameter("phi", &s.phi), scalar("lambda", &s.lambda)];
+
+    let mut functions = vec![
+        function(
+            "residual",
+            vec![],
+            vec![],
+            vec![vector("residual", &e.rest)],
+        ),
+        function(
+            "residual_parts",
+            vec![],
+            vec![],
+            vec![
+                vector("inertia", &e.rest_inertia),
+                vector("applied", &e.rest_applied),
+            ],
+        ),
+        function(
+            "motion_residual",
+            vec![
+                parameter("acceleration", &s.acceleration),
+                parameter("velocity", &s.velocity),
+            ],
+            vec![],
+            vec![vector("residual", &e.motion)],
+        ),
+        function(
+            "motion",
+            vec![parameter("velocity", &s.velocity)],
+            vec![],
+            vec![linear.arrays(n).swap_remove(0), vector("force", &force)],
+        ),
+        function(
+            "residual_and_stiffness",
+            vec![],
+            vec![],
+            vec![vector("residual", &e.rest), linear.arrays(n).swap_remove(2)],
+        ),
+        function("linear", vec![], vec![], linear.arrays(n)),
+        function(
+            "residual_partials",
+            vec![],
+            vec![],
+            vec![
+                rows("by_input", n, &by_input),
+                rows("by_design", n, &by_design),
+            ],
+        ),
+        function(
+            "linear_along",
+            vec![],
+            directions(),
+            linear_arrays(&linear_along, n),
+        ),
+        function("mode_gradient", vec![], mode(), mode_gradient.clone()),
+        function(
+            "residual_gradient",
+            vec![],
+            vec![parameter("w", &s.w)],
+            residual_gradient,
+        ),
+        function(
+            "mode_gradient_along",
+            vec![],
+            [
+                mode(),
+                directions(),
+                vec![parameter("dphi", &s.dphi), scalar("dlambda", &s.dlambda)],
+            ]
+            .concat(),
+            mode_gradient_along,
+        ),
+        function(
+            "residual_gradient_along",
+            vec![],
+            [
+                vec![parameter("w", &s.w)],
+                directions(),
+                vec![parameter("dw", &s.dw)],
+            ]
+            .concat(),
+            residual_gradient_along,
+        ),
+        function(
+            "outputs",
+            vec![],
+            vec![],
+            vec![vector("outputs", &e.outputs)],
+        ),
+        function(
+            "output_partials",
+            vec![],
+            vec![],
+            ["by_coordinate", "by_input", "by_design"]
+                .into_iter()
+                .zip(&outputs_by)
+                .map(|(name, columns)| rows(name, e.outputs.len(), columns))
+                .collect(),
+        ),
+    ];
+    functions.extend(partials.map(|arrays| function("linear_partials", vec![], vec![], arrays)));
+    functions
+}
+
+fn direction<const K: usize>(suffix: &str, moves: [(&SymbolList, &SymbolList); K]) -> Direction {
+    let rates = moves
+        .iter()
+        .flat_map(|(list, rates)| list.with(&rates.values))
+        .collect();
+    Direction::new(suffix, rates)
+}
+
+pub(super) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
+    Parameter {
+        name,
+        symbols: list.ids.clone(),
+        scalar: false,
+    }
+}
+
+fn scalar(name: &'static str, list: &SymbolList) -> Parameter {
+    Parameter {
+        name,
+        symbols: list.ids.clone(),
+        scalar: true,
+    }
+}
+
+/// Columns as an array with one row per function.
+fn rows(name: &'static str, count: usize, columns: &[Vec<ExprId>]) -> Array {
+    let values = (0..count)
+        .flat_map(|i| columns.iter().map(move |column| column[i]))
+        .collect();
+    Array {
+        name,
+        shape: vec![count, columns.len()],
+        values,
+    }
+}
