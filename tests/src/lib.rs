@@ -5,13 +5,20 @@
 //! thought of, [`examples`] holds the ones with known answers ([`truth`]). [`agreement`] compares anything that offers
 //! the [`kernels`] of generated code with the oracle.
 //!
-//! Invariant: apart from the adapter `compiled`, nothing here uses the compiler or the runtime.
+//! [`corpus`] holds machines declared with the macro, [`generated`] calls their kernels by name, [`dual`] differentiates
+//! them.
+//!
+//! Invariant: the oracle and what it stands on use neither the compiler nor the runtime; `compiled`, [`corpus`],
+//! [`generated`] and [`dual`] do.
 
 pub mod agreement;
 pub mod compiled;
+pub mod corpus;
 pub mod declaration;
+pub mod dual;
 pub mod energy;
 pub mod examples;
+pub mod generated;
 pub mod kernels;
 pub mod model;
 pub mod oracle;

@@ -61,6 +61,14 @@ impl Truth {
         self.0.as_str().expect("a text").to_owned()
     }
 
+    /// Yes or no.
+    ///
+    /// # Panics
+    /// When it is neither.
+    pub fn truth(&self) -> bool {
+        self.0.as_bool().expect("true or false")
+    }
+
     /// A number.
     pub fn number(&self) -> f64 {
         match &self.0 {

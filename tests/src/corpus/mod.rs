@@ -1,0 +1,58 @@
+//! A corpus of machines in the language of `mechanism!`. Each declaration is written once and kept twice: compiled by the
+//! macro, and as text for the compiler's other doors. Together they use every construct of the language.
+
+use eigentol::Mechanism;
+
+/// Compiles a declaration and keeps its text beside it as `DECLARATION`.
+macro_rules! machine {
+    ($($declaration:tt)*) => {
+        eigentol::mechanism! { $($declaration)* }
+        /// The declaration, one token after the other.
+        pub const DECLARATION: &str = stringify!($($declaration)*);
+    };
+}
+
+/// Does something to every machine of the corpus, whatever its size.
+pub trait Visitor {
+    /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy;
+}
+
+macro_rules! corpus {
+    ($($module:ident: $machine:ident,)*) => {
+        $(pub mod $module;)*
+
+        /// Names and declarations, in a fixed order.
+        pub fn corpus() -> Vec<(&'static str, &'static str)> {
+            vec![$((stringify!($module), $module::DECLARATION)),*]
+        }
+
+        /// Shows every machine to a visitor, in the order of [`corpus`].
+        pub fn visit(visitor: &mut impl Visitor) {
+            $(visitor.visit(stringify!($module), $module::DECLARATION, $module::$machine);)*
+        }
+    };
+}
+
+corpus! {
+    rotating_pendulum: RotatingPendulum,
+    rotating_double_pendulum: RotatingDoublePendulum,
+    sliders_on_plate: SlidersOnPlate,
+    chain_of_four: ChainOfFour,
+    chain_of_eight: ChainOfEight,
+    governor: Governor,
+    turntable_slider: TurntableSlider,
+    rotor: Rotor,
+    gimbal: Gimbal,
+    carousel: Carousel,
+    rotor_blade: RotorBlade,
+    centrifuge: Centrifuge,
+    hoist: Hoist,
+    bucket_chain: BucketChain,
+}

@@ -1,0 +1,53 @@
+//! The macro's output as rustc compiles it, against the interpreter of the same declaration, and in other scalars.
+
+#[path = "generated_code/agreement.rs"]
+mod agreement;
+#[path = "generated_code/scalars.rs"]
+mod scalars;
+
+use eigentol::Mechanism;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// Reproducible numbers.
+struct Numbers(ChaCha8Rng);
+
+impl Numbers {
+    fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    /// Between -1 and 1.
+    fn next(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn list(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.next()).collect()
+    }
+
+    /// Arguments for a kernel by the names of its parameters: design variables near their nominal values, all else
+    /// between -1 and 1.
+    fn arguments<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        _: &M,
+        parameters: &[(&str, usize)],
+    ) -> Vec<Vec<f64>>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let near = |numbers: &mut Self| {
+            let nominal = M::DESCRIPTION.design.iter().map(|info| info.nominal);
+            nominal
+                .map(|value| value * (1.0 + 0.05 * numbers.next()))
+                .collect()
+        };
+        parameters
+            .iter()
+            .map(|&(name, length)| match name {
+                "b" => near(self),
+                _ => self.list(length),
+            })
+            .collect()
+    }
+}

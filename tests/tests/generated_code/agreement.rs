@@ -1,0 +1,268 @@
+//! Interpreter and generated code: every number the same to the last bit, for every kernel of every machine.
+
+use eigentol::Mechanism;
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::Program;
+use eigentol_compiler::{compile, program};
+use eigentol_tests::corpus::{Visitor, corpus, visit};
+use eigentol_tests::generated::evaluate;
+use proc_macro2::TokenStream;
+
+use super::Numbers;
+
+fn tokens(declaration: &str) -> TokenStream {
+    declaration.parse().expect("the text has tokens")
+}
+
+fn interpreted(name: &str, declaration: &str) -> Program {
+    program(tokens(declaration)).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"))
+}
+
+#[derive(Default)]
+struct Agreement {
+    machines: usize,
+    kernels: usize,
+    numbers: usize,
+}
+
+impl Visitor for Agreement {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let program = interpreted(name, declaration);
+        let mut numbers = Numbers::new(1);
+        for kernel in &program.kernels {
+            let parameters: Vec<(&str, usize)> = kernel
+                .parameters
+                .iter()
+                .map(|parameter| (parameter.name, parameter.entries.len()))
+                .collect();
+            for _ in 0..5 {
+                let arguments = numbers.arguments(&machine, &parameters);
+                let slices: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+                let expected = kernel.evaluate(&slices);
+                let Some(found) = evaluate(&machine, kernel.name, &arguments) else {
+                    assert_eq!(kernel.name, "violation", "{name}");
+                    continue;
+                };
+                for (array, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                    assert_eq!(found.len(), expected.len(), "{name} {}", kernel.name);
+                    for (entry, (one, other)) in found.iter().zip(expected).enumerate() {
+                        assert!(
+                            one.to_bits() == other.to_bits() && one.is_finite(),
+                            "{name} {} [{array}][{entry}]: generated {one:e}, interpreted {other:e}",
+                            kernel.name
+                        );
+                        self.numbers += 1;
+                    }
+                }
+                assert_eq!(found.len(), expected.len(), "{name} {}", kernel.name);
+            }
+            self.kernels += 1;
+        }
+        self.machines += 1;
+        assert_eq!(
+            M::DESCRIPTION.kernels.len(),
+            program.kernels.len(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn generated_code_computes_what_the_interpreter_computes() {
+    let mut agreement = Agreement::default();
+    visit(&mut agreement);
+    assert_eq!(agreement.machines, corpus().len());
+    assert!(agreement.kernels >= 15 * agreement.machines);
+    assert!(agreement.numbers > 50_000, "{}", agreement.numbers);
+}
+
+/// Requirements: broken one at a time, the generated check names what the interpreter finds not positive.
+struct Requirements {
+    broken: usize,
+}
+
+impl Visitor for Requirements {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let program = interpreted(name, declaration);
+        let kernel = program.kernel("violation").expect("a check");
+        let inputs = [1.0; U];
+        let nominal: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
+        assert_eq!(machine.violation(&inputs, &nominal), None, "{name}");
+        for j in 0..P {
+            for value in [0.0, -0.0, -1.0, -nominal[j], f64::NAN, f64::NEG_INFINITY] {
+                let mut design = nominal;
+                design[j] = value;
+                let values = &kernel.evaluate(&[&inputs, &design])[0];
+                let expected = values
+                    .iter()
+                    .copied()
+                    .find(|value| value.is_nan() || *value <= 0.0);
+                let found = machine
+                    .violation(&inputs, &design)
+                    .map(|violation| violation.value);
+                assert_eq!(
+                    found.map(f64::to_bits),
+                    expected.map(f64::to_bits),
+                    "{name}: {} = {value}",
+                    M::DESCRIPTION.design[j].name
+                );
+                self.broken += usize::from(found.is_some());
+            }
+        }
+    }
+}
+
+#[test]
+fn generated_requirements_are_the_interpreters() {
+    let mut requirements = Requirements { broken: 0 };
+    visit(&mut requirements);
+    assert!(requirements.broken > 100, "{}", requirements.broken);
+}
+
+/// Where the compiler leaves the explicit partial derivatives to the runtime, they are those it would have written.
+struct Columns {
+    machines: usize,
+}
+
+impl Visitor for Columns {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        if M::DESCRIPTION
+            .kernels
+            .iter()
+            .any(|kernel| kernel.name == "linear_partials")
+        {
+            return;
+        }
+        self.machines += 1;
+        let everything = Limits {
+            explicit_partials: usize::MAX,
+        };
+        let program = compile(tokens(declaration), everything)
+            .expect("it compiles")
+            .program;
+        let kernel = program.kernel("linear_partials").expect("no limit");
+        let parameters = [("q", N), ("u", U), ("b", P)];
+        let arguments = Numbers::new(2).arguments(&machine, &parameters);
+        let slices: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
+        let expected = kernel.evaluate(&slices);
+        let found = evaluate(&machine, "linear_partials", &arguments).expect("in the contract");
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found.len(), expected.len());
+            let scale = expected
+                .iter()
+                .fold(0.0, |most: f64, value| most.max(value.abs()));
+            for (one, other) in found.iter().zip(expected) {
+                assert!(
+                    (one - other).abs() <= 1e-12 * scale,
+                    "{name}: {one:e}, not {other:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn large_machines_get_their_partials_column_by_column() {
+    let mut columns = Columns { machines: 0 };
+    visit(&mut columns);
+    assert_eq!(columns.machines, 1);
+}
+
+/// A word of the language that no machine uses is a word that the tests above say nothing about.
+#[test]
+fn the_corpus_uses_the_whole_language() {
+    let text: String = corpus()
+        .iter()
+        .map(|(_, declaration)| *declaration)
+        .collect();
+    let words: Vec<String> = tokens(&text).into_iter().flat_map(words_of).collect();
+    for word in [
+        "input",
+        "design",
+        "let",
+        "gravity",
+        "body",
+        "joint",
+        "point",
+        "force",
+        "output",
+        "massless",
+        "rod",
+        "disk",
+        "cylinder",
+        "box",
+        "sphere",
+        "rigid",
+        "center",
+        "inertia",
+        "size",
+        "axis",
+        "along",
+        "fixed",
+        "revolute",
+        "prismatic",
+        "at",
+        "rotated",
+        "on",
+        "driven",
+        "spring",
+        "damper",
+        "spring_damper",
+        "rest",
+        "length",
+        "damping",
+        "sqrt",
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+        "atan2",
+        "exp",
+        "ln",
+        "norm",
+        "dot",
+        "cross",
+        "position",
+        "distance",
+        "distance_from_axis",
+        "pi",
+    ] {
+        assert!(
+            words.iter().any(|known| known == word),
+            "no machine uses `{word}`"
+        );
+    }
+}
+
+fn words_of(token: proc_macro2::TokenTree) -> Vec<String> {
+    match token {
+        proc_macro2::TokenTree::Group(group) => {
+            group.stream().into_iter().flat_map(words_of).collect()
+        }
+        other => vec![other.to_string()],
+    }
+}

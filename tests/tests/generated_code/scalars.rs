@@ -1,0 +1,292 @@
+//! Kernels in single precision, and in dual numbers, which differentiate what the compiler has differentiated already.
+
+use eigentol::Mechanism;
+use eigentol_tests::corpus::{Visitor, corpus, visit};
+use eigentol_tests::dual::Dual;
+use eigentol_tests::generated::evaluate;
+
+use super::Numbers;
+
+/// Kernels whose arguments are `q`, `u`, `b` alone.
+const AT: [&str; 6] = [
+    "residual",
+    "residual_parts",
+    "linear",
+    "residual_partials",
+    "outputs",
+    "output_partials",
+];
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let scale = expected
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    for (one, other) in found.iter().zip(expected) {
+        assert!(
+            (one - other).abs() <= tolerance * scale,
+            "{what}: {one:e}, not {other:e} (largest {scale:e})"
+        );
+    }
+}
+
+#[derive(Default)]
+struct SinglePrecision(usize);
+
+impl Visitor for SinglePrecision {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        _: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let arguments = Numbers::new(3).arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
+        let single: Vec<Vec<f32>> = arguments
+            .iter()
+            .map(|list| list.iter().map(|&value| value as f32).collect())
+            .collect();
+        for kernel in AT {
+            let expected = evaluate(&machine, kernel, &arguments).expect("in the contract");
+            let found = evaluate(&machine, kernel, &single).expect("in the contract");
+            assert_eq!(found.len(), expected.len(), "{name} {kernel}");
+            // Arrays may cancel to nothing, but not all that a kernel returns.
+            let tolerance = 1e-3 * largest(&expected);
+            for (found, expected) in found.iter().zip(&expected) {
+                let found: Vec<f64> = found.iter().copied().map(f64::from).collect();
+                assert_close_to(&found, expected, tolerance, &format!("{name} {kernel}"));
+            }
+        }
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn single_precision_agrees_roughly() {
+    let mut single = SinglePrecision::default();
+    visit(&mut single);
+    assert_eq!(single.0, corpus().len());
+}
+
+/// Derivatives by duals of kernels against the kernels that return these derivatives.
+struct Duals {
+    machines: usize,
+}
+
+/// `d kernel / d argument[which][entry]`, all returned arrays in a row.
+fn slope<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: &M,
+    kernel: &str,
+    arguments: &[Vec<f64>],
+    direction: &[Vec<f64>],
+) -> Vec<Vec<f64>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let duals: Vec<Vec<Dual>> = arguments
+        .iter()
+        .zip(direction)
+        .map(|(values, slopes)| {
+            values
+                .iter()
+                .zip(slopes)
+                .map(|(&x, &dx)| Dual::new(x, dx))
+                .collect()
+        })
+        .collect();
+    let arrays = evaluate(machine, kernel, &duals).expect("in the contract");
+    arrays
+        .iter()
+        .map(|array| array.iter().map(|value| value.slope()).collect())
+        .collect()
+}
+
+/// Nothing but a one at one place of one argument.
+fn unit(lengths: &[usize], which: usize, entry: usize) -> Vec<Vec<f64>> {
+    let zeros = |(argument, &length): (usize, &usize)| {
+        (0..length)
+            .map(|k| f64::from(argument == which && k == entry))
+            .collect()
+    };
+    lengths.iter().enumerate().map(zeros).collect()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `x^T A x`, `A` row by row.
+fn form(matrix: &[f64], x: &[f64]) -> f64 {
+    matrix
+        .chunks(x.len())
+        .zip(x)
+        .map(|(row, x_i)| x_i * dot(row, x))
+        .sum()
+}
+
+impl Visitor for Duals {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        _: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        const TIGHT: f64 = 1e-12;
+        let mut numbers = Numbers::new(4);
+        let sizes = [N, U, P];
+        let at = numbers.arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
+        let value = |kernel: &str, arguments: &[Vec<f64>]| {
+            evaluate(&machine, kernel, arguments).expect("in the contract")
+        };
+        let linear = value("linear", &at);
+
+        // Columns of a Jacobian, put together row by row.
+        let jacobian = |kernel: &str, arguments: &[Vec<f64>], which: usize| -> Vec<f64> {
+            let lengths: Vec<usize> = arguments.iter().map(Vec::len).collect();
+            let columns: Vec<Vec<f64>> = (0..lengths[which])
+                .map(|entry| {
+                    slope(&machine, kernel, arguments, &unit(&lengths, which, entry)).swap_remove(0)
+                })
+                .collect();
+            let rows = value(kernel, arguments)[0].len();
+            (0..rows)
+                .flat_map(|i| columns.iter().map(move |column| column[i]))
+                .collect()
+        };
+        let stiffness = jacobian("residual", &at, 0);
+        assert_close(&stiffness, &linear[2], TIGHT, &format!("{name} Khat"));
+        let partials = value("residual_partials", &at);
+        for (which, expected) in [(1, &partials[0]), (2, &partials[1])] {
+            assert_close(
+                &jacobian("residual", &at, which),
+                expected,
+                TIGHT,
+                &format!("{name} dg"),
+            );
+        }
+        let at_rest: Vec<Vec<f64>> = [vec![vec![0.0; N]; 2], at.clone()].concat();
+        for (which, expected) in [(0, &linear[0]), (1, &linear[1]), (2, &linear[2])] {
+            let found = jacobian("motion_residual", &at_rest, which);
+            assert_close(
+                &found,
+                expected,
+                TIGHT,
+                &format!("{name} of motion, {which}"),
+            );
+        }
+        let output_partials = value("output_partials", &at);
+        for (which, expected) in output_partials.iter().enumerate() {
+            assert_close(
+                &jacobian("outputs", &at, which),
+                expected,
+                TIGHT,
+                &format!("{name} outputs"),
+            );
+        }
+
+        // Second derivatives.
+        let explicit = value("linear_partials", &at);
+        for (which, matrices) in explicit.chunks(3).enumerate() {
+            for entry in 0..sizes[which] {
+                let found = slope(&machine, "linear", &at, &unit(&sizes, which, entry));
+                for (found, expected) in found.iter().zip(matrices) {
+                    let expected = &expected[entry * N * N..(entry + 1) * N * N];
+                    let what = format!("{name} linear_partials {which} {entry}");
+                    assert_close_to(found, expected, TIGHT * largest(matrices), &what);
+                }
+            }
+        }
+        let along: Vec<Vec<f64>> = sizes.iter().map(|&size| numbers.list(size)).collect();
+        let found = slope(&machine, "linear", &at, &along);
+        let expected = value("linear_along", &[at.clone(), along.clone()].concat());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_close(found, expected, TIGHT, &format!("{name} linear_along"));
+        }
+
+        // Gradients of a = phi^T (K - lambda M) phi and of w^T g, and their directional derivatives.
+        let (phi, lambda, w) = (numbers.list(N), numbers.next(), numbers.list(N));
+        let gradients = value(
+            "mode_gradient",
+            &[at.clone(), vec![phi.clone(), vec![lambda]]].concat(),
+        );
+        let pulls = value("residual_gradient", &[at.clone(), vec![w.clone()]].concat());
+        for which in 0..3 {
+            let mut found = Vec::new();
+            let mut pulled = Vec::new();
+            for entry in 0..sizes[which] {
+                let direction = unit(&sizes, which, entry);
+                let change = slope(&machine, "linear", &at, &direction);
+                found.push(form(&change[2], &phi) - lambda * form(&change[0], &phi));
+                pulled.push(dot(&slope(&machine, "residual", &at, &direction)[0], &w));
+            }
+            assert_close_to(
+                &found,
+                &gradients[which],
+                TIGHT * largest(&gradients),
+                &format!("{name} gradient"),
+            );
+            assert_close_to(
+                &pulled,
+                &pulls[which],
+                TIGHT * largest(&pulls),
+                &format!("{name} pull"),
+            );
+        }
+        let (dphi, dlambda, dw) = (numbers.list(N), numbers.next(), numbers.list(N));
+        let mode = [at.clone(), vec![phi, vec![lambda]]].concat();
+        let mode_along = [along.clone(), vec![dphi, vec![dlambda]]].concat();
+        let found = slope(&machine, "mode_gradient", &mode, &mode_along);
+        let expected = value("mode_gradient_along", &[mode, mode_along].concat());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_close(
+                found,
+                expected,
+                TIGHT,
+                &format!("{name} mode_gradient_along"),
+            );
+        }
+        let residual = [at, vec![w]].concat();
+        let residual_along = [along, vec![dw]].concat();
+        let found = slope(&machine, "residual_gradient", &residual, &residual_along);
+        let expected = value(
+            "residual_gradient_along",
+            &[residual, residual_along].concat(),
+        );
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_close(
+                found,
+                expected,
+                TIGHT,
+                &format!("{name} residual_gradient_along"),
+            );
+        }
+        self.machines += 1;
+    }
+}
+
+fn largest(arrays: &[Vec<f64>]) -> f64 {
+    arrays
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+fn assert_close_to(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (one, other) in found.iter().zip(expected) {
+        assert!(
+            (one - other).abs() <= tolerance,
+            "{what}: {one:e}, not {other:e}"
+        );
+    }
+}
+
+#[test]
+fn duals_agree_with_every_derivative_kernel() {
+    let mut duals = Duals { machines: 0 };
+    visit(&mut duals);
+    assert_eq!(duals.machines, corpus().len());
+}

@@ -1,0 +1,235 @@
+//! `W1`, `W2`, `W3`: bars in series. The file's angles are absolute, a machine's coordinates are relative; frequencies and
+//! their derivatives do not depend on that.
+
+use eigentol::sensitivity::{
+    equilibrium_shift, sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
+};
+use eigentol::{Coordinate, DesignVariable, Input, Linear, Mechanism, Stability, Study};
+use eigentol_tests::corpus::chain_of_eight::ChainOfEight;
+use eigentol_tests::corpus::chain_of_four::ChainOfFour;
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::truth::Truth;
+
+use super::common::{By, assert_close, assert_equilibrium, flat, moved};
+
+/// Absolute angles: cumulative sums.
+fn absolute(relative: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    relative
+        .iter()
+        .map(|angle| {
+            sum += angle;
+            sum
+        })
+        .collect()
+}
+
+/// `D^T a`: generalised forces of absolute angles from those of relative ones, `q = D theta`.
+fn absolute_forces(relative: &[f64]) -> Vec<f64> {
+    let after = |j: usize| relative.get(j + 1).copied().unwrap_or(0.0);
+    (0..relative.len())
+        .map(|j| relative[j] - after(j))
+        .collect()
+}
+
+/// `D^T A D`.
+fn absolute_matrix<const N: usize>(relative: &[[f64; N]; N]) -> [[f64; N]; N] {
+    let entry = |i: usize, j: usize| if i < N && j < N { relative[i][j] } else { 0.0 };
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            entry(i, j) - entry(i + 1, j) - entry(i, j + 1) + entry(i + 1, j + 1)
+        })
+    })
+}
+
+fn study<M, const N: usize, const P: usize, const O: usize>(
+    machine: M,
+    case: &Truth,
+) -> Study<M, N, 1, P, O>
+where
+    M: Mechanism<N, 1, P, O>,
+{
+    let values = [case.get("L").numbers(), case.get("m").numbers()].concat();
+    assert_eq!(values.len(), P);
+    let set = |study: Study<M, N, 1, P, O>, (j, value)| study.design(DesignVariable(j), value);
+    values
+        .into_iter()
+        .enumerate()
+        .fold(Study::new(machine), set)
+}
+
+/// Every point of one chain. Where the point lies above the critical speed, a frozen equilibrium must fail.
+fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &str)
+where
+    M: Mechanism<N, 1, P, O> + Copy,
+{
+    let case = Truth::load("w1_w2_w3").get(name);
+    let mut above = 0;
+    for point in case.get("points").list() {
+        let omega = point.get("Omega").number();
+        let what = format!("{name} at {omega} rad/s");
+        let mut study = study(machine, &case).input(Input(0), omega);
+        for i in 0..N {
+            // Leaning outwards, as the branch of the file does.
+            study = study.start(Coordinate(i), if i == 0 { 0.9 } else { 0.1 });
+        }
+        let at = study.equilibrium().expect("an equilibrium");
+        let theta = point.get("theta_star").numbers();
+        assert_equilibrium(&absolute(&at.coordinates), &theta, &what);
+        assert_eq!(at.stability, Stability::Stable, "{what}");
+        for (field, matrix) in [("M", &at.linear.mass), ("K", &at.linear.stiffness)] {
+            // Not stored for the longest chains.
+            if let Some(expected) = point.find(field) {
+                let found = flat(&absolute_matrix(matrix));
+                assert_close(&found, &expected.matrix(), 1.0, &format!("{what} {field}"));
+            }
+        }
+
+        let modes = study.modes().expect("modes");
+        assert!(!modes.damping_ignored, "{what}");
+        let frequencies = modes
+            .frequencies()
+            .map(|omega| omega.expect("it oscillates"));
+        assert_close(&frequencies, &point.get("omega_n").numbers(), 0.0, &what);
+
+        let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
+        let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
+        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes);
+        let mut misses = 0;
+        for (r, expected) in point.get("domega_db").list().iter().enumerate() {
+            let expected = expected.numbers();
+            // A mass that hardly matters: relative to the greatest derivative of the mode.
+            let scale = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            for found in [&adjoint, &explicit] {
+                let found = found.modes[r].omega_by_design.expect("it oscillates");
+                assert_close(&found, &expected, 1e-2 * scale, &format!("{what} mode {r}"));
+            }
+            let found = frozen.modes[r].omega_by_design.expect("it oscillates");
+            misses += found
+                .iter()
+                .zip(&expected)
+                .filter(|(one, other)| (*one - *other).abs() > 1e-3 * scale)
+                .count();
+        }
+        let bent = point
+            .find("above_critical")
+            .is_some_and(|flag| flag.truth());
+        assert_eq!(
+            misses > 0,
+            bent,
+            "{what}: a frozen equilibrium misses {misses}"
+        );
+        above += usize::from(bent);
+
+        let shift = equilibrium_shift(&machine, &at).expect("a shift");
+        for (j, expected) in point.get("dtheta_db").list().iter().enumerate() {
+            let found = absolute(&moved(&shift, By::Design(j)));
+            assert_close(
+                &found,
+                &expected.numbers(),
+                1e-2,
+                &format!("{what} shift {j}"),
+            );
+        }
+    }
+    assert!(above >= 2, "{name}");
+}
+
+#[test]
+fn one_bar() {
+    check(RotatingPendulum, "W1");
+}
+
+#[test]
+fn two_bars() {
+    check(RotatingDoublePendulum, "W2");
+    check(RotatingDoublePendulum, "W2_varied");
+}
+
+#[test]
+fn four_bars() {
+    check(ChainOfFour, "W3_n4");
+    check(ChainOfFour, "W3_n4_varied");
+}
+
+#[test]
+fn eight_bars() {
+    check(ChainOfEight, "W3_n8");
+    check(ChainOfEight, "W3_n8_varied");
+}
+
+/// `sum_ij sin(3 i + 7 j + 1) D_ij`.
+fn checksum<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+    let term = |i: usize, j: usize| ((3 * i + 7 * j + 1) as f64).sin() * matrix[i][j];
+    (0..N)
+        .flat_map(|i| (0..N).map(move |j| (i, j)))
+        .map(|(i, j)| term(i, j))
+        .sum()
+}
+
+fn away_from_equilibrium<M, const N: usize, const P: usize, const O: usize>(
+    machine: M,
+    case: &Truth,
+) where
+    M: Mechanism<N, 1, P, O>,
+{
+    let what = case.get("name").text();
+    let theta = case.get("q").numbers();
+    let q: [f64; N] = std::array::from_fn(|i| theta[i] - if i > 0 { theta[i - 1] } else { 0.0 });
+    let values = [case.get("L").numbers(), case.get("m").numbers()].concat();
+    let b: [f64; P] = std::array::from_fn(|j| values[j]);
+    let u = [case.get("Omega").number()];
+
+    let linear = machine.linear(&q, &u, &b);
+    for (field, matrix) in [("M", &linear.mass), ("K", &linear.stiffness)] {
+        let found = flat(&absolute_matrix(matrix));
+        assert_close(
+            &found,
+            &case.get(field).matrix(),
+            1e-2,
+            &format!("{what} {field}"),
+        );
+    }
+    let residual = absolute_forces(&machine.residual(&q, &u, &b));
+    assert_close(&residual, &case.get("R").numbers(), 1e-2, &what);
+
+    let partials = machine.linear_partials(&q, &u, &b);
+    let sums = |list: &[Linear<f64, N>], part: fn(&Linear<f64, N>) -> &[[f64; N]; N]| {
+        list.iter()
+            .map(|linear| checksum(&absolute_matrix(part(linear))))
+            .collect::<Vec<f64>>()
+    };
+    let (design, coordinates) = (&partials.by_design, &partials.by_coordinate);
+    for (field, found) in [
+        ("dM_db_checksum", sums(design, |linear| &linear.mass)),
+        ("dK_db_checksum", sums(design, |linear| &linear.stiffness)),
+        (
+            "dM_dq_checksum",
+            absolute_forces(&sums(coordinates, |linear| &linear.mass)),
+        ),
+        (
+            "dK_dq_checksum",
+            absolute_forces(&sums(coordinates, |linear| &linear.stiffness)),
+        ),
+    ] {
+        let expected = case.get(field).numbers();
+        assert_close(&found, &expected, 1e-2, &format!("{what} {field}"));
+    }
+}
+
+#[test]
+fn matrices_and_their_derivatives_away_from_equilibrium() {
+    let mut seen = Vec::new();
+    for case in Truth::load("w1_w2_w3").get("given_q").list() {
+        let bars = case.get("L").numbers().len();
+        match bars {
+            2 => away_from_equilibrium(RotatingDoublePendulum, &case),
+            4 => away_from_equilibrium(ChainOfFour, &case),
+            8 => away_from_equilibrium(ChainOfEight, &case),
+            _ => panic!("no machine of {bars} bars"),
+        }
+        seen.push(bars);
+    }
+    assert_eq!(seen, [2, 4, 8]);
+}

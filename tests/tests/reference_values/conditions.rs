@@ -1,0 +1,195 @@
+//! `P1`, `P2`, `P3`: every condition, every number of the undamped problem.
+
+use eigentol::sensitivity::{
+    Sensitivities, equilibrium_shift, sensitivities, sensitivities_explicit,
+    sensitivities_with_frozen_equilibrium,
+};
+use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Stability, Study};
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
+use eigentol_tests::truth::Truth;
+
+use super::common::{By, TIGHT, assert_close, assert_equilibrium, flat, moved, total_linear};
+
+/// A machine at a condition, with the tolerances of the condition.
+fn study<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: M,
+    condition: &Truth,
+    names: &[&str],
+) -> Study<M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let parameters = condition.get("parameters");
+    let omega = parameters.get("Omega").number();
+    let mut study = Study::new(machine).input(Input(0), omega).threads(1);
+    for (j, name) in names.iter().enumerate() {
+        let variable = DesignVariable(j);
+        study = study
+            .design(variable, parameters.get(name).number())
+            .tolerance(variable, 0.0);
+    }
+    for variable in condition.get("design").list() {
+        let name = variable.get("name").text();
+        if let Some(j) = names.iter().position(|other| *other == name) {
+            study = study.tolerance(DesignVariable(j), variable.get("T").number());
+        }
+    }
+    for (i, start) in condition.get("q_start").numbers().into_iter().enumerate() {
+        study = study.start(Coordinate(i), start);
+    }
+    study
+}
+
+fn omega_by<const N: usize, const U: usize, const P: usize>(
+    all: &Sensitivities<N, U, P>,
+    mode: usize,
+    by: By,
+) -> f64 {
+    let own = &all.modes[mode];
+    match by {
+        By::Input(k) => own.omega_by_input.expect("it oscillates")[k],
+        By::Design(k) => own.omega_by_design.expect("it oscillates")[k],
+    }
+}
+
+/// Checks every condition of a file; `names` are those of the design variables there, in the machine's order. Returns
+/// how many derivatives a frozen equilibrium gets wrong.
+fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: M,
+    file: &str,
+    names: [&str; P],
+) -> usize
+where
+    M: Mechanism<N, U, P, O> + Copy,
+{
+    let mut wrong_when_frozen = 0;
+    for condition in Truth::load(file).get("conditions").list() {
+        let what = format!("{file} {}", condition.get("label").text());
+        let study = study(machine, &condition, &names);
+        let at = study.equilibrium().expect("an equilibrium");
+        let q_star = condition.get("q_star");
+        let expected: Vec<f64> = q_star
+            .fields()
+            .iter()
+            .map(|name| q_star.get(name).number())
+            .collect();
+        assert_equilibrium(&at.coordinates, &expected, &what);
+        assert_eq!(at.stability, Stability::Stable, "{what}");
+        for (field, matrix) in [
+            ("M", &at.linear.mass),
+            ("C", &at.linear.damping),
+            ("K", &at.linear.stiffness),
+        ] {
+            let expected = condition.get(field).matrix();
+            assert_close(&flat(matrix), &expected, 1e-2, &format!("{what} {field}"));
+        }
+
+        let shift = equilibrium_shift(&machine, &at).expect("a shift");
+        let variables = condition.get("dq_star_db").fields();
+        assert!(variables.len() >= 2, "{what}");
+        let by = |name: &str| {
+            let design = names.iter().position(|other| *other == name);
+            design.map_or(By::Input(0), By::Design)
+        };
+        for name in &variables {
+            let expected = |field: &str| condition.get(field).get(name);
+            let what = format!("{what} by {name}");
+            let dq = moved(&shift, by(name));
+            assert_close(&dq, &expected("dq_star_db").numbers(), 1e-3, &what);
+            for total in total_linear(&machine, &at, &dq, by(name)) {
+                for (field, matrix) in [
+                    ("dM_db_total", &total.mass),
+                    ("dC_db_total", &total.damping),
+                    ("dK_db_total", &total.stiffness),
+                ] {
+                    let what = format!("{what} {field}");
+                    assert_close(&flat(matrix), &expected(field).matrix(), 1e-2, &what);
+                }
+            }
+        }
+
+        let modes = study.modes().expect("modes");
+        assert_eq!(modes.damping_ignored, file == "P3", "{what}");
+        let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
+        let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
+        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes);
+        let spread = study.first_order().expect("a spread");
+        let truths = condition.get("undamped_modes").list();
+        assert_eq!(truths.len(), N, "{what}");
+        for (r, truth) in truths.iter().enumerate() {
+            let what = format!("{what} mode {r}");
+            let number = |field: &str| truth.get(field).number();
+            let mode = &modes.modes[r];
+            assert_close(&[mode.lambda], &[number("lambda")], 0.0, &what);
+            let frequency = mode.frequency().expect("it oscillates");
+            assert_close(&[frequency], &[number("omega")], 0.0, &what);
+            let phi = truth.get("phi_M_normalised").numbers();
+            let side = phi
+                .iter()
+                .zip(&mode.shape)
+                .map(|(one, other)| one * other)
+                .sum::<f64>()
+                .signum();
+            assert_close(&mode.shape.map(|x| side * x), &phi, 1e-2, &what);
+
+            let mut variance = 0.0;
+            for name in &variables {
+                let what = format!("{what} by {name}");
+                let total = truth.get("domega_db").get(name).number();
+                for found in [&adjoint, &explicit] {
+                    assert_close(&[omega_by(found, r, by(name))], &[total], 1e-3, &what);
+                }
+                let without = truth.get("domega_db_frozen_equilibrium_WRONG").get(name);
+                let without = without.number();
+                let found = omega_by(&frozen, r, by(name));
+                assert_close(&[found], &[without], 1e-3, &format!("{what}, frozen"));
+                if (total - without).abs() > 1e-6 {
+                    assert!(
+                        (found - total).abs() > TIGHT * total.abs(),
+                        "{what}, frozen"
+                    );
+                    wrong_when_frozen += 1;
+                }
+                // The file's spread counts the speed among the design variables.
+                if let By::Input(_) = by(name) {
+                    let design = condition.get("design").list();
+                    let sigma = design
+                        .iter()
+                        .find(|variable| variable.get("name").text() == *name)
+                        .map_or(0.0, |variable| variable.get("sigma").number());
+                    variance += (total * sigma).powi(2);
+                }
+            }
+            let own = &spread.modes[r];
+            let sigma = own.sigma.expect("it oscillates");
+            let sigma1 = variance.mul_add(1.0, sigma * sigma).sqrt();
+            assert_close(&[sigma1], &[number("sigma1")], 0.0, &what);
+            assert_close(&[own.band.expect("a band")], &[3.0 * sigma], 0.0, &what);
+            assert_close(&[own.variance_shares.iter().sum()], &[1.0], 0.0, &what);
+        }
+    }
+    wrong_when_frozen
+}
+
+#[test]
+fn rotating_pendulum() {
+    // Two conditions above the critical speed, by length and by speed.
+    assert_eq!(check(RotatingPendulum, "P1", ["L", "m"]), 4);
+}
+
+#[test]
+fn rotating_double_pendulum() {
+    // Two conditions above the critical speed, two modes, four design variables and the speed.
+    let names = ["L1", "L2", "m1", "m2"];
+    assert_eq!(check(RotatingDoublePendulum, "P2", names), 20);
+}
+
+/// The modes leave the gyroscopic matrix out and say so; the undamped numbers are those of the file's `undamped_modes`.
+#[test]
+fn sliders_on_a_spinning_plate() {
+    let names = ["m", "kx", "ky", "x0", "y0", "cx", "cy"];
+    // Forces are linear and the mass matrix is constant: the moving equilibrium changes no matrix.
+    assert_eq!(check(SlidersOnPlate, "P3", names), 0);
+}

@@ -1,0 +1,102 @@
+//! Monte Carlo against moments by quadrature: `w1_moments`, and closed integrals near the critical speed.
+
+use eigentol::{Coordinate, DesignVariable, Input, MonteCarlo, Study};
+use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::truth::Truth;
+
+const SAMPLES: usize = 20_000;
+
+/// The pendulum with a tolerance on its length alone, sampled.
+fn sampled(omega: f64, half_width: f64) -> MonteCarlo<1, 2> {
+    Study::new(RotatingPendulum)
+        .input(Input(0), omega)
+        .start(Coordinate(0), 0.5)
+        .tolerance(DesignVariable(0), half_width)
+        .tolerance(DesignVariable(1), 0.0)
+        .samples(SAMPLES)
+        .seed(1)
+        .monte_carlo()
+        .expect("samples")
+}
+
+/// Mean and deviation within four standard errors, as a normal sample has them.
+#[track_caller]
+fn assert_moments(run: &MonteCarlo<1, 2>, mean: f64, deviation: f64, what: &str) {
+    assert_eq!(run.counts.stable, SAMPLES, "{what}");
+    let found = run.modes[0].expect("values");
+    assert_eq!(found.count, SAMPLES, "{what}");
+    let error = deviation / (SAMPLES as f64).sqrt();
+    let off = (found.mean - mean) / error;
+    assert!(
+        off.abs() <= 4.0,
+        "{what}: mean {}, not {mean}: {off:.1} standard errors",
+        found.mean
+    );
+    let error = deviation / (2.0 * SAMPLES as f64).sqrt();
+    let off = (found.standard_deviation - deviation) / error;
+    assert!(
+        off.abs() <= 4.0,
+        "{what}: deviation {}, not {deviation}: {off:.1} standard errors",
+        found.standard_deviation
+    );
+}
+
+#[test]
+fn moments_of_the_single_bar() {
+    let list = Truth::load("w1_w2_w3").get("w1_moments").list();
+    assert_eq!(list.len(), 15);
+    for moments in list {
+        let number = |field: &str| moments.get(field).number();
+        let (omega, half_width) = (number("Omega"), number("T"));
+        let run = sampled(omega, half_width);
+        let what = format!("{omega} rad/s, T = {half_width}");
+        assert_moments(&run, number("mean_omega"), number("std_omega"), &what);
+    }
+}
+
+/// `omega(L)` over both branches, integrated over the normal density by the midpoint rule.
+fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
+    const STEPS: usize = 400_000;
+    let (mut weight, mut first, mut second) = (0.0, 0.0, 0.0);
+    for k in 0..STEPS {
+        let z = 16.0 * ((k as f64 + 0.5) / STEPS as f64 - 0.5);
+        let density = (-0.5 * z * z).exp();
+        let w = 1.5 * 9.81 / (1.0 + sigma * z);
+        let square = omega * omega;
+        let lambda = if square < w {
+            w - square
+        } else {
+            square - w * w / square
+        };
+        weight += density;
+        first += density * lambda.sqrt();
+        second += density * lambda;
+    }
+    let mean = first / weight;
+    (mean, (second / weight - mean * mean).sqrt())
+}
+
+/// The very speed where first order fails: samples lie on both branches. THEORY section 6 has the deviations.
+#[test]
+fn moments_across_the_critical_speed() {
+    let critical = Truth::load("P1").get("Omega_critical").number();
+    for (factor, half_width, deviation) in [
+        (1.0, 0.03, 0.1745),
+        (1.0, 0.06, 0.2440),
+        (1.0, 0.12, 0.3382),
+        (1.005, 0.03, 0.2242),
+        (1.005, 0.06, 0.2858),
+        (1.005, 0.12, 0.3657),
+    ] {
+        let omega = factor * critical;
+        let (mean, exact) = quadrature(omega, half_width / 3.0);
+        assert!((exact - deviation).abs() < 1e-4, "{exact}, not {deviation}");
+        let run = sampled(omega, half_width);
+        let what = format!("{factor} of the critical speed, T = {half_width}");
+        assert_moments(&run, mean, exact, &what);
+        assert!(
+            run.left_nominal_branch > 0 && run.left_nominal_branch < SAMPLES,
+            "{what}"
+        );
+    }
+}
