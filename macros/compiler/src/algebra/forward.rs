@@ -43,7 +43,8 @@ pub fn derivatives_along(
 ) -> Vec<ExprId> {
     let mask = Graph::mask(direction.rates.iter().map(|(symbol, _)| *symbol));
     let zero = graph.zero();
-    let mut tangents = vec![zero; graph.len()];
+    let known = graph.len();
+    let mut tangents = vec![zero; known];
     for id in reachable(graph, roots) {
         if !graph.may_depend(id, mask) {
             continue;
@@ -64,7 +65,8 @@ pub fn derivatives_along(
                 binary_tangent(graph, operator, id, (a, da), (b, db))
             }
         };
-        if tangent != zero && graph.name(id).is_some() {
+        // What existed before has a meaning of its own.
+        if tangent.index() >= known && graph.name(id).is_some() {
             let name = format!("{}{}", graph.name(id).unwrap_or_default(), direction.suffix);
             graph.set_name(tangent, || name);
         }

@@ -9,6 +9,7 @@ use crate::base::ids::{ExprId, SymbolId};
 pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<ExprId> {
     let mask = Graph::mask(symbols.iter().copied());
     let zero = graph.zero();
+    let known = graph.len();
     let mut adjoints = vec![zero; root.index() + 1];
     adjoints[root.index()] = graph.constant(1.0);
     let mut by_symbol = vec![zero; graph.symbol_count()];
@@ -17,7 +18,9 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
         if adjoint == zero || !graph.may_depend(id, mask) {
             continue;
         }
-        if let Some(name) = graph.name(id).map(|name| format!("{name}_adjoint")) {
+        if adjoint.index() >= known
+            && let Some(name) = graph.name(id).map(|name| format!("{name}_adjoint"))
+        {
             graph.set_name(adjoint, || name);
         }
         let mut accumulate = |graph: &mut Graph, operand: ExprId, slope: ExprId| {

@@ -11,7 +11,8 @@ pub fn substitute(
     replacements: &[(SymbolId, ExprId)],
 ) -> Vec<ExprId> {
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
-    let mut image: Vec<ExprId> = (0..graph.len()).map(ExprId::new).collect();
+    let known = graph.len();
+    let mut image: Vec<ExprId> = (0..known).map(ExprId::new).collect();
     for id in reachable(graph, roots) {
         if !graph.may_depend(id, mask) {
             continue;
@@ -31,7 +32,9 @@ pub fn substitute(
                 graph.binary(operator, a, b)
             }
         };
-        if let Some(name) = graph.name(id).map(str::to_owned) {
+        if replaced.index() >= known
+            && let Some(name) = graph.name(id).map(str::to_owned)
+        {
             graph.set_name(replaced, || name);
         }
         image[id.index()] = replaced;

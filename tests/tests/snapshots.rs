@@ -1,0 +1,86 @@
+//! Every stage of the corpus as text, with operation counts: a difference shows what a change does, and at what cost.
+
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::Program;
+use eigentol_compiler::{Compilation, compile, expand, expand_pretty};
+use eigentol_tests::corpus::corpus;
+use insta::assert_snapshot;
+
+/// Kernels short enough to read line by line; of the others the counts are kept.
+const READABLE: [&str; 3] = ["residual", "linear", "violation"];
+
+/// Machines whose generated code is kept whole.
+const GENERATED: [&str; 3] = [
+    "rotating_pendulum",
+    "rotating_double_pendulum",
+    "turntable_slider",
+];
+
+fn compiled(declaration: &str) -> Compilation {
+    let tokens = declaration.parse().expect("tokens");
+    compile(tokens, Limits::default()).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+#[test]
+fn stages() {
+    for (machine, declaration) in corpus() {
+        let mut compilation = compiled(declaration);
+        let readable = |program: &Program| -> Program {
+            let kernels = program
+                .kernels
+                .iter()
+                .filter(|kernel| READABLE.contains(&kernel.name));
+            Program {
+                kernels: kernels.cloned().collect(),
+            }
+        };
+        compilation.program = readable(&compilation.program);
+        for (stage, text) in compilation.dumps() {
+            assert_snapshot!(format!("{machine}__{stage}"), text);
+        }
+    }
+}
+
+#[test]
+fn generated_code() {
+    for (machine, declaration) in corpus() {
+        if GENERATED.contains(&machine) {
+            let code = expand_pretty(declaration.parse().expect("tokens"))
+                .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+            assert_snapshot!(format!("{machine}__generated"), code);
+        }
+    }
+}
+
+#[test]
+fn the_same_declaration_gives_the_same_tokens() {
+    for (_, declaration) in corpus() {
+        let tokens = || expand(declaration.parse().expect("tokens")).to_string();
+        assert_eq!(tokens(), tokens());
+    }
+}
+
+/// Long bodies are cut into blocks: no chain of `let`s is long enough to bring rustc down.
+#[test]
+fn no_block_nests_many_statements() {
+    let long = corpus()
+        .into_iter()
+        .find(|(machine, _)| *machine == "chain_of_eight");
+    let (_, declaration) = long.expect("the chain of eight is in the corpus");
+    let code = expand_pretty(declaration.parse().expect("tokens"))
+        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let mut longest = 0;
+    let mut statements = 0;
+    for line in code.lines() {
+        if line.trim_start().starts_with("fn ") {
+            statements = 0;
+        }
+        statements += usize::from(line.trim_start().starts_with("let "));
+        longest = longest.max(statements);
+    }
+    assert!(longest <= 256, "{longest} nested statements");
+    assert!(
+        code.lines().count() > 10_000,
+        "the chain of eight has long bodies"
+    );
+}
