@@ -25,16 +25,12 @@ fn compiled(declaration: &str) -> Compilation {
 fn stages() {
     for (machine, declaration) in corpus() {
         let mut compilation = compiled(declaration);
-        let readable = |program: &Program| -> Program {
-            let kernels = program
-                .kernels
-                .iter()
-                .filter(|kernel| READABLE.contains(&kernel.name));
-            Program {
-                kernels: kernels.cloned().collect(),
-            }
+        let kernels = compilation.program.kernels.into_iter();
+        compilation.program = Program {
+            kernels: kernels
+                .filter(|kernel| READABLE.contains(&kernel.name))
+                .collect(),
         };
-        compilation.program = readable(&compilation.program);
         for (stage, text) in compilation.dumps() {
             assert_snapshot!(format!("{machine}__{stage}"), text);
         }

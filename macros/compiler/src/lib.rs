@@ -7,8 +7,8 @@
 //!          parse   resolve     cut loops    derive      lower     emit
 //! ```
 //!
-//! [`expand`] is the macro. For build scripts, snapshot tests and tools there are also [`expand_pretty`] (with the
-//! feature `pretty`), [`program`] for evaluation without compiling, and [`compile`] with every stage.
+//! [`expand`] is the macro. For build scripts, snapshot tests and tools there are also `expand_pretty` (with the
+//! feature `pretty`), [`program()`] for evaluation without compiling, and [`compile`] with every stage.
 //!
 //! Architecture invariant: nothing in here depends on the runtime.
 
