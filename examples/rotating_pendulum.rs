@@ -31,7 +31,11 @@ mechanism! {
     }
 }
 
-const PAPER: Paper = Paper { resonance: 2.712, critical: 3.835, ratio: 1179.0 };
+const PAPER: Paper = Paper {
+    resonance: 2.712,
+    critical: 3.835,
+    ratio: 1179.0,
+};
 
 /// The whole example: `arguments` as on the command line, the summary to `out`, figures and `sweep.csv` to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
@@ -48,14 +52,30 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     let analysis = Analysis::run(&study, &question, &options)?;
 
     let data = analysis.sweeps();
-    analysis.save(&options, "sweep.csv", &[
-        ("fig03.svg", angles(&data, "Dynamic equilibrium")),
-        ("fig04.svg", frequencies(&data, "Natural frequency")),
-        ("fig05.svg", means(&data, "Mean frequency under tolerances of the length")),
-        ("fig06.svg", deviations(&data, "Spread of the frequency, length within 3 %", 0, 1)),
-        ("fig07.svg", deviations(&data, "Spread of the frequency", 0, 3)),
-    ])?;
-    analysis.print(out, &PAPER)
+    let figures = [
+        ("fig03.svg", angles(&data, "Pendulum: dynamic equilibrium")),
+        (
+            "fig04.svg",
+            frequencies(&data, "Pendulum: natural frequency"),
+        ),
+        ("fig05.svg", means(&data, "Pendulum: mean frequency")),
+        (
+            "fig06.svg",
+            deviations(
+                &data,
+                "Pendulum: spread of the frequency, length within 3 %",
+                0,
+                1,
+            ),
+        ),
+        (
+            "fig07.svg",
+            deviations(&data, "Pendulum: spread of the frequency", 0, 3),
+        ),
+    ];
+    analysis.save(&options, "sweep.csv", &figures)?;
+    writeln!(out, "ROTATING PENDULUM\n")?;
+    analysis.print(out, Some(&PAPER))
 }
 
 fn main() -> ExitCode {

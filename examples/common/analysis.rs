@@ -92,7 +92,7 @@ impl Analysis {
     ///
     /// # Errors
     /// [`Failure::Print`].
-    pub fn print(&self, out: &mut dyn Write, paper: &Paper) -> Result<(), Failure> {
+    pub fn print(&self, out: &mut dyn Write, paper: Option<&Paper>) -> Result<(), Failure> {
         summary::events(out, &self.sampled, &self.events, paper)?;
         summary::by_speed(out, &self.sampled)?;
         summary::warnings(out, &self.sampled)?;

@@ -79,7 +79,13 @@ impl Cost {
         for point in study.sweep(question.speed, speeds)? {
             if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
                 let tolerances = question.tolerances(&state.design, level)?;
-                black_box(monte_carlo(mechanism, state, modes, &tolerances, &sampling)?);
+                black_box(monte_carlo(
+                    mechanism,
+                    state,
+                    modes,
+                    &tolerances,
+                    &sampling,
+                )?);
             }
         }
         Ok(Self {

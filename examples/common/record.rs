@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use crate::Failure;
 use crate::question::percent;
 use crate::sweep::{Row, Spread, Sweep};
-use crate::Failure;
 
 /// Writes the sweep to `path`.
 ///
@@ -41,10 +41,19 @@ fn head(sweep: &Sweep) -> Vec<String> {
     let mut names = vec!["omega".to_owned()];
     names.extend((1..=angles).map(|angle| format!("theta{angle}")));
     names.extend((1..=sweep.modes).map(|mode| format!("frequency_{mode}")));
-    let levels: Vec<String> = sweep.question.levels.iter().map(|&level| percent(level)).collect();
+    let levels: Vec<String> = sweep
+        .question
+        .levels
+        .iter()
+        .map(|&level| percent(level))
+        .collect();
     for (name, _) in BY_MODE {
         for mode in 1..=sweep.modes {
-            names.extend(levels.iter().map(|level| format!("{name}_{mode}_{level}pct")));
+            names.extend(
+                levels
+                    .iter()
+                    .map(|level| format!("{name}_{mode}_{level}pct")),
+            );
         }
     }
     if sweep.variables.len() > 1 {

@@ -45,7 +45,11 @@ mod tests {
             assert!(count == 1 || speeds[count - 1] == 8.0);
         }
         let speeds = around(89, (0.0, 8.0), 3.836);
-        assert!(speeds.iter().any(|speed| (speed / 3.836 - 1.0).abs() < 0.002));
+        assert!(
+            speeds
+                .iter()
+                .any(|speed| (speed / 3.836 - 1.0).abs() < 0.002)
+        );
         assert!(speeds.iter().any(|speed| (speed - 4.2).abs() < 1e-12));
     }
 

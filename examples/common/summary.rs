@@ -32,27 +32,36 @@ pub fn events(
     out: &mut dyn Write,
     sweep: &Sweep,
     events: &Events,
-    paper: &Paper,
+    paper: Option<&Paper>,
 ) -> io::Result<()> {
     let level = sweep.question.levels.first().copied().unwrap_or(0.0);
     let variables = sweep.variables.join(", ");
     let percent = percent(level);
-    writeln!(out, "Events (tolerance {percent} % on {variables} = 3 standard deviations)")?;
-    let mut table = Table::new(
-        ["event", "speed [rad/s]", "sigma", "paper"].map(str::to_owned),
-    );
-    let mut line = |name: &str, event: &Event, paper: f64| {
+    writeln!(
+        out,
+        "Events (tolerance {percent} % on {variables} = 3 standard deviations)"
+    )?;
+    let mut table = Table::new(["event", "speed [rad/s]", "sigma", "paper"].map(str::to_owned));
+    let mut line = |name: &str, event: &Event, paper: Option<f64>| {
         table.row([
             name.to_owned(),
             format!("{:.6}", event.speed),
             number(event.sigma, 6),
-            format!("{paper:.3}"),
+            number(paper, 3),
         ]);
     };
     for event in &events.resonances {
-        line("frequency meets the speed", event, paper.resonance);
+        line(
+            "frequency meets the speed",
+            event,
+            paper.map(|paper| paper.resonance),
+        );
     }
-    line("critical: stiffness vanishes", &events.critical, paper.critical);
+    line(
+        "critical: stiffness vanishes",
+        &events.critical,
+        paper.map(|paper| paper.critical),
+    );
     writeln!(out, "{table}")
 }
 
@@ -75,10 +84,20 @@ pub fn by_speed(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
     for mode in 1..=sweep.modes {
         head.push(format!("omega{mode}"));
         head.push(format!("sigma{mode}"));
-        head.extend(sweep.variables.iter().filter(|_| sweep.variables.len() > 1).map(|name| format!("of {name}")));
+        head.extend(
+            sweep
+                .variables
+                .iter()
+                .filter(|_| sweep.variables.len() > 1)
+                .map(|name| format!("of {name}")),
+        );
         head.push("sampled".to_owned());
     }
-    head.extend(["to critical".to_owned(), "unstable".to_owned(), String::new()]);
+    head.extend([
+        "to critical".to_owned(),
+        "unstable".to_owned(),
+        String::new(),
+    ]);
     let mut table = Table::new(head);
     for row in selected(sweep) {
         table.row(cells(sweep, row));
@@ -107,7 +126,11 @@ fn cells(sweep: &Sweep, row: &Row) -> Vec<String> {
         cells.push(number(spread.sampled[mode].sigma, 5));
     }
     cells.push(number(spread.distance, 1));
-    cells.push(spread.unstable.map_or_else(String::new, |count| count.to_string()));
+    cells.push(
+        spread
+            .unstable
+            .map_or_else(String::new, |count| count.to_string()),
+    );
     cells.push(if spread.trusted { " " } else { "!" }.to_owned());
     cells
 }
@@ -139,16 +162,32 @@ pub fn warnings(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
                 doubtful.len()
             )?;
         }
-        let unstable: usize = sweep.rows.iter().filter_map(|row| row.spreads[k].unstable).sum();
+        let unstable: usize = sweep
+            .rows
+            .iter()
+            .filter_map(|row| row.spreads[k].unstable)
+            .sum();
         let drawn = sweep.samples * sweep.rows.len();
-        writeln!(out, "At {level} %: {unstable} of {drawn} samples have no stable equilibrium.")?;
+        writeln!(
+            out,
+            "At {level} %: {unstable} of {drawn} samples have no stable equilibrium."
+        )?;
     }
-    let failed: Vec<&Row> = sweep.rows.iter().filter(|row| !row.troubles.is_empty()).collect();
+    let failed: Vec<&Row> = sweep
+        .rows
+        .iter()
+        .filter(|row| !row.troubles.is_empty())
+        .collect();
     if failed.is_empty() {
         writeln!(out, "All {} speeds were solved.\n", sweep.rows.len())?;
         return Ok(());
     }
-    writeln!(out, "{} of {} speeds failed:", failed.len(), sweep.rows.len())?;
+    writeln!(
+        out,
+        "{} of {} speeds failed:",
+        failed.len(),
+        sweep.rows.len()
+    )?;
     for row in failed {
         writeln!(out, "  {:.6} rad/s: {}", row.speed, row.troubles.join("; "))?;
     }
@@ -159,10 +198,22 @@ pub fn warnings(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn costs(out: &mut dyn Write, speeds: usize, costs: &[Cost], paper: &Paper) -> io::Result<()> {
+pub fn costs(
+    out: &mut dyn Write,
+    speeds: usize,
+    costs: &[Cost],
+    paper: Option<&Paper>,
+) -> io::Result<()> {
     writeln!(out, "CPU time over all {speeds} speeds")?;
     let mut table = Table::new(
-        ["tolerance", "analytic [ms]", "Monte Carlo [ms]", "ratio", "paper"].map(str::to_owned),
+        [
+            "tolerance",
+            "analytic [ms]",
+            "Monte Carlo [ms]",
+            "ratio",
+            "paper",
+        ]
+        .map(str::to_owned),
     );
     for cost in costs {
         table.row([
@@ -170,7 +221,7 @@ pub fn costs(out: &mut dyn Write, speeds: usize, costs: &[Cost], paper: &Paper) 
             format!("{:.4}", 1e3 * cost.analytic.as_secs_f64()),
             format!("{:.2}", 1e3 * cost.monte_carlo.as_secs_f64()),
             format!("{:.0}", cost.ratio()),
-            format!("{:.0}", paper.ratio),
+            number(paper.map(|paper| paper.ratio), 0),
         ]);
     }
     write!(out, "{table}")?;

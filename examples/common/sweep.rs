@@ -87,10 +87,19 @@ impl Sweep {
         let rows = points
             .iter()
             .map(|point| row(study.mechanism(), question, point, sampling));
-        let name = |index: usize| M::DESCRIPTION.design.get(index).map_or("?", |info| info.name);
+        let name = |index: usize| {
+            M::DESCRIPTION
+                .design
+                .get(index)
+                .map_or("?", |info| info.name)
+        };
         Ok(Self {
             question: question.clone(),
-            variables: question.varied.iter().map(|variable| name(variable.0)).collect(),
+            variables: question
+                .varied
+                .iter()
+                .map(|variable| name(variable.0))
+                .collect(),
             modes: N,
             samples: sampling.map_or(0, |sampling| sampling.samples),
             rows: rows.collect(),
@@ -122,7 +131,10 @@ where
         }
     };
     if !state.stability.holds() {
-        row.troubles.push(format!("the equilibrium is not stable: {:?}", state.stability));
+        row.troubles.push(format!(
+            "the equilibrium is not stable: {:?}",
+            state.stability
+        ));
     }
     let angles = mechanism.outputs(&state.coordinates, &state.inputs, &state.design);
     row.angles = angles.map(finite).to_vec();
@@ -156,7 +168,13 @@ where
     let tolerances = question.tolerances(&state.design, level)?;
     let mut spread = Spread::none(N);
     if let Some(sampling) = sampling {
-        spread.take_samples(&monte_carlo(mechanism, state, modes, &tolerances, sampling)?);
+        spread.take_samples(&monte_carlo(
+            mechanism,
+            state,
+            modes,
+            &tolerances,
+            sampling,
+        )?);
     }
     // A state that is exactly critical has no derivatives; its samples are kept.
     match sensitivities(mechanism, state, modes) {
@@ -189,7 +207,13 @@ impl Spread {
         self.shares = found
             .modes
             .iter()
-            .map(|mode| question.varied.iter().map(|variable| mode.variance_shares[variable.0]).collect())
+            .map(|mode| {
+                question
+                    .varied
+                    .iter()
+                    .map(|variable| mode.variance_shares[variable.0])
+                    .collect()
+            })
             .collect();
         self.distance = finite(found.distance_to_critical);
         self.trusted = found.trusted();
@@ -202,7 +226,9 @@ impl Spread {
             .iter()
             .map(|mode| Moments {
                 mean: mode.map(|mode| mode.mean),
-                sigma: mode.filter(|mode| mode.count > 1).map(|mode| mode.standard_deviation),
+                sigma: mode
+                    .filter(|mode| mode.count > 1)
+                    .map(|mode| mode.standard_deviation),
             })
             .collect();
     }

@@ -59,7 +59,13 @@ pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
     let count = sweeps.curve.modes;
     let (mut curves, mut markers) = (Vec::new(), Vec::new());
     for mode in 0..count {
-        let of = |name: String| if count > 1 { format!("mode {}, {name}", mode + 1) } else { name };
+        let of = |name: String| {
+            if count > 1 {
+                format!("mode {}, {name}", mode + 1)
+            } else {
+                name
+            }
+        };
         curves.push(Curve {
             label: of("analytic, any tolerance".to_owned()),
             colour: if mode == 0 { BLACK } else { GREY },
@@ -82,7 +88,14 @@ pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
 /// differences are shown too.
 pub fn deviations(sweeps: &Sweeps<'_>, title: &str, mode: usize, levels: usize) -> Figure {
     let (mut curves, mut markers) = (Vec::new(), Vec::new());
-    for (k, &level) in sweeps.sampled.question.levels.iter().take(levels).enumerate() {
+    for (k, &level) in sweeps
+        .sampled
+        .question
+        .levels
+        .iter()
+        .take(levels)
+        .enumerate()
+    {
         let level = percent(level);
         curves.push(Curve {
             label: format!("first order {level} %"),
@@ -151,7 +164,8 @@ impl Sweeps<'_> {
                 last = None;
                 continue;
             };
-            let same_branch = last.is_some_and(|last| (last < self.critical) == (row.speed < self.critical));
+            let same_branch =
+                last.is_some_and(|last| (last < self.critical) == (row.speed < self.critical));
             if !same_branch {
                 pieces.push(Vec::new());
             }
@@ -166,12 +180,21 @@ impl Sweeps<'_> {
 
     fn points(&self, value: impl Fn(&Row) -> Option<f64>) -> Vec<Point> {
         let rows = self.sampled.rows.iter();
-        rows.filter_map(|row| Some((row.speed, value(row)?))).collect()
+        rows.filter_map(|row| Some((row.speed, value(row)?)))
+            .collect()
     }
 
     /// A figure with room for everything in it.
-    fn figure(&self, title: &str, values: &str, curves: Vec<Curve>, markers: Vec<Markers>) -> Figure {
-        let lines = curves.iter().flat_map(|curve| curve.pieces.iter().flatten());
+    fn figure(
+        &self,
+        title: &str,
+        values: &str,
+        curves: Vec<Curve>,
+        markers: Vec<Markers>,
+    ) -> Figure {
+        let lines = curves
+            .iter()
+            .flat_map(|curve| curve.pieces.iter().flatten());
         let top = highest(lines.chain(markers.iter().flat_map(|markers| &markers.points)));
         Figure {
             title: title.to_owned(),
@@ -179,7 +202,10 @@ impl Sweeps<'_> {
             values: values.to_owned(),
             speeds: self.curve.question.range,
             top: 1.05 * top,
-            mark: (self.critical, format!("critical {:.3} rad/s", self.critical)),
+            mark: (
+                self.critical,
+                format!("critical {:.3} rad/s", self.critical),
+            ),
             curves,
             markers,
         }
@@ -196,9 +222,10 @@ impl Sweeps<'_> {
         let sampled = highest(figure.markers.iter().flat_map(|markers| &markers.points));
         if 1.25 * sampled < figure.top && sampled > 0.0 {
             figure.top = 1.25 * sampled;
-            figure.note = "First order grows without bound at the critical speed and is cut off here; \
+            figure.note =
+                "First order grows without bound at the critical speed and is cut off here; \
                            Monte Carlo stays finite."
-                .to_owned();
+                    .to_owned();
         }
         figure
     }

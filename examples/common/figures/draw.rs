@@ -11,14 +11,19 @@ use super::{Curve, Figure, Markers, Shape};
 type Svg<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Outcome<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
 
-const SIZE: (u32, u32) = (960, 640);
+/// plotters places everything on whole pixels: drawn three times larger and scaled down, curves are smooth.
+const SCALE: i32 = 3;
+const WIDTH: i32 = 960 * SCALE;
+const HEIGHT: i32 = 640 * SCALE;
 const FONT: &str = "sans-serif";
-const TITLE_HEIGHT: i32 = 52;
-const LEGEND_HEIGHT: i32 = 26;
-const NOTE_HEIGHT: i32 = 34;
+const TITLE_HEIGHT: i32 = 52 * SCALE;
+const LEGEND_HEIGHT: i32 = 26 * SCALE;
+const NOTE_HEIGHT: i32 = 36 * SCALE;
 const LEGEND_COLUMNS: usize = 3;
-const LEFT: i32 = 84;
-const SYMBOL: i32 = 36;
+const LEFT: i32 = 92 * SCALE;
+const RIGHT: i32 = 24 * SCALE;
+const SYMBOL: i32 = 36 * SCALE;
+const LINE: u32 = 2 * SCALE as u32;
 
 /// Colours that stay apart for colour-blind readers (Okabe and Ito 2008).
 const PALETTE: [RGBColor; 6] = [
@@ -37,57 +42,79 @@ fn colour(index: usize) -> RGBColor {
 /// The figure as SVG text.
 pub(super) fn svg(figure: &Figure) -> Result<String, Box<dyn std::error::Error>> {
     let mut text = String::new();
-    let drawn = {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        draw(figure, &area).map_err(|error| error.to_string())
-    };
+    let area =
+        SVGBackend::with_string(&mut text, (WIDTH as u32, HEIGHT as u32)).into_drawing_area();
+    let drawn = draw(figure, &area).map_err(|error| error.to_string());
+    drop(area);
     drawn?;
-    Ok(text)
+    let large = format!("width=\"{WIDTH}\" height=\"{HEIGHT}\"");
+    let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / SCALE, HEIGHT / SCALE);
+    Ok(text.replacen(&large, &shown, 1))
 }
 
 fn draw<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     area.fill(&WHITE)?;
-    let entries = figure.curves.len() + figure.markers.len();
+    let entries = figure.curves.len() + figure.markers.len() + 1;
     let legend_height = LEGEND_HEIGHT * entries.div_ceil(LEGEND_COLUMNS) as i32;
+    let note_height = if figure.note.is_empty() {
+        NOTE_HEIGHT / 4
+    } else {
+        NOTE_HEIGHT
+    };
     let (title, rest) = area.split_vertically(TITLE_HEIGHT);
     let (key, rest) = rest.split_vertically(legend_height);
-    let note_height = if figure.note.is_empty() { 8 } else { NOTE_HEIGHT };
-    let plot_height = SIZE.1 as i32 - TITLE_HEIGHT - legend_height - note_height;
-    let (plot_area, note) = rest.split_vertically(plot_height);
-    let centre = SIZE.0 as i32 / 2;
-    write(&title, &figure.title, (centre, TITLE_HEIGHT / 2), 24, HPos::Center)?;
-    write(&note, &figure.note, (centre, note_height / 2), 15, HPos::Center)?;
+    let (plot_area, note) =
+        rest.split_vertically(HEIGHT - TITLE_HEIGHT - legend_height - note_height);
+    let centre = WIDTH / 2;
+    write(
+        &title,
+        &figure.title,
+        (centre, TITLE_HEIGHT / 2),
+        24,
+        HPos::Center,
+    )?;
+    write(
+        &note,
+        &figure.note,
+        (centre, note_height / 2),
+        15,
+        HPos::Center,
+    )?;
     legend(figure, &key)?;
     plot(figure, &plot_area)?;
     area.present()
 }
 
 fn write<'a>(area: &Svg<'a>, text: &str, at: (i32, i32), size: i32, anchor: HPos) -> Outcome<'a> {
-    let style = (FONT, size)
+    let style = (FONT, size * SCALE)
         .into_font()
         .color(&BLACK)
         .pos(Pos::new(anchor, VPos::Center));
     area.draw(&Text::new(text, at, style))
 }
 
+/// Curves, then markers, then the vertical line, filled row by row.
 fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
-    let column = (SIZE.0 as i32 - LEFT) / LEGEND_COLUMNS as i32;
-    let place = |index: usize| {
+    let column = (WIDTH - LEFT) / LEGEND_COLUMNS as i32;
+    let mut places = (0..).map(|index: usize| {
         let (row, number) = (index / LEGEND_COLUMNS, index % LEGEND_COLUMNS);
-        (
-            LEFT + column * number as i32,
-            LEGEND_HEIGHT * row as i32 + LEGEND_HEIGHT / 2,
-        )
+        let x = LEFT + column * number as i32;
+        (x, LEGEND_HEIGHT * row as i32 + LEGEND_HEIGHT / 2)
+    });
+    let label = |(x, y): (i32, i32), text: &str| {
+        write(area, text, (x + SYMBOL + 8 * SCALE, y), 16, HPos::Left)
     };
-    for (index, curve) in figure.curves.iter().enumerate() {
-        let (x, y) = place(index);
+    for (curve, (x, y)) in figure.curves.iter().zip(&mut places) {
         line(area, curve, vec![(x, y), (x + SYMBOL, y)])?;
-        write(area, &curve.label, (x + SYMBOL + 8, y), 16, HPos::Left)?;
+        label((x, y), &curve.label)?;
     }
-    for (index, markers) in figure.markers.iter().enumerate() {
-        let (x, y) = place(figure.curves.len() + index);
+    for (markers, (x, y)) in figure.markers.iter().zip(&mut places) {
         area.draw(&marker(markers, (x + SYMBOL / 2, y)))?;
-        write(area, &markers.label, (x + SYMBOL + 8, y), 16, HPos::Left)?;
+        label((x, y), &markers.label)?;
+    }
+    if let Some((x, y)) = places.next() {
+        area.draw(&PathElement::new([(x, y), (x + SYMBOL, y)], mark()))?;
+        label((x, y), &figure.mark.1)?;
     }
     Ok(())
 }
@@ -95,66 +122,76 @@ fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
 fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     let (low, high) = figure.speeds;
     let mut chart = ChartBuilder::on(area)
-        .margin_right(24)
-        .margin_top(10)
-        .x_label_area_size(56)
-        .y_label_area_size(LEFT)
+        .margin_left(20 * SCALE)
+        .margin_right(RIGHT)
+        .margin_top(10 * SCALE)
+        .x_label_area_size(56 * SCALE)
+        .y_label_area_size(LEFT - 20 * SCALE)
         .build_cartesian_2d(low..high, 0.0..figure.top)?;
     chart
         .configure_mesh()
         .x_desc("drive speed [rad/s]")
         .y_desc(figure.values.as_str())
-        .axis_desc_style((FONT, 19))
-        .label_style((FONT, 17))
+        .axis_desc_style((FONT, 19 * SCALE))
+        .label_style((FONT, 17 * SCALE))
+        .axis_style(BLACK.stroke_width(SCALE as u32))
         .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.12))
+        .bold_line_style(BLACK.mix(0.12).stroke_width(SCALE as u32))
+        .set_all_tick_mark_size(5 * SCALE)
         .x_labels(9)
         .y_labels(8)
         .draw()?;
     // All else is drawn in pixels of the same area, where a dash and a marker have their true size.
-    let place = |point: &(f64, f64)| chart.backend_coord(point);
     let origin = area.get_base_pixel();
     let pixel = |point: &(f64, f64)| {
-        let (x, y) = place(point);
+        let (x, y) = chart.backend_coord(point);
         (x - origin.0, y - origin.1)
     };
-    let (mark, name) = &figure.mark;
-    if (low..=high).contains(mark) {
-        let ends = vec![pixel(&(*mark, 0.0)), pixel(&(*mark, figure.top))];
-        let (x, y) = ends[1];
-        area.draw(&PathElement::new(ends, BLACK.mix(0.5)))?;
-        write(area, name, (x + 6, y + 12), 15, HPos::Left)?;
+    let position = figure.mark.0;
+    if (low..=high).contains(&position) {
+        let ends = [(position, 0.0), (position, figure.top)].map(|point| pixel(&point));
+        area.draw(&PathElement::new(ends, mark()))?;
     }
     for curve in &figure.curves {
-        for piece in &curve.pieces {
-            for part in clip(piece, 0.0, figure.top) {
-                line(area, curve, part.iter().map(pixel).collect())?;
-            }
+        for part in curve
+            .pieces
+            .iter()
+            .flat_map(|piece| clip(piece, 0.0, figure.top))
+        {
+            line(area, curve, part.iter().map(pixel).collect())?;
         }
     }
     for markers in &figure.markers {
-        let shown = markers.points.iter().filter(|point| point.1 <= figure.top);
-        for point in shown {
+        for point in markers.points.iter().filter(|point| point.1 <= figure.top) {
             area.draw(&marker(markers, pixel(point)))?;
         }
     }
     Ok(())
 }
 
+/// The thin vertical line.
+fn mark() -> ShapeStyle {
+    BLACK.mix(0.5).stroke_width(SCALE as u32)
+}
+
 fn line<'a>(area: &Svg<'a>, curve: &Curve, points: Vec<(i32, i32)>) -> Outcome<'a> {
-    let style = colour(curve.colour).stroke_width(2);
+    let style = colour(curve.colour).stroke_width(LINE);
     if curve.dashed {
-        area.draw(&DashedPathElement::new(points, 7, 5, style))
+        area.draw(&DashedPathElement::new(points, 7 * SCALE, 5 * SCALE, style))
     } else {
         area.draw(&PathElement::new(points, style))
     }
 }
 
-fn marker<'a>(markers: &Markers, at: (i32, i32)) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
+fn marker<'a>(
+    markers: &Markers,
+    at: (i32, i32),
+) -> DynElement<'static, SVGBackend<'a>, (i32, i32)> {
     let colour = colour(markers.colour);
+    let thin = colour.stroke_width(4 * SCALE as u32 / 3);
     match markers.shape {
-        Shape::Ring => Circle::new(at, 4, colour.stroke_width(1)).into_dyn(),
-        Shape::Triangle => TriangleMarker::new(at, 5, colour.filled()).into_dyn(),
-        Shape::Cross => Cross::new(at, 4, colour.stroke_width(1)).into_dyn(),
+        Shape::Ring => Circle::new(at, 4 * SCALE, thin).into_dyn(),
+        Shape::Triangle => TriangleMarker::new(at, 5 * SCALE, colour.filled()).into_dyn(),
+        Shape::Cross => Cross::new(at, 4 * SCALE, thin).into_dyn(),
     }
 }
