@@ -72,7 +72,8 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
         "Natural frequencies of two bars on a spinning shaft and how tolerances spread them";
     let options = Options::parse("rotating_double_pendulum", about, arguments)?;
     equal_bars(&options, out)?;
-    independent_bars(&options, out)
+    independent_bars(&options, out)?;
+    options.print_directory(out)
 }
 
 /// The paper's analysis: one length for both bars.
@@ -111,8 +112,11 @@ fn equal_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failure> {
         ),
     ];
     analysis.save(options, "sweep.csv", &figures)?;
-    writeln!(out, "ROTATING DOUBLE PENDULUM, both bars of length l\n")?;
-    analysis.print(out, Some(&PAPER))
+    analysis.print(
+        out,
+        "ROTATING DOUBLE PENDULUM, both bars of length l",
+        Some(&PAPER),
+    )
 }
 
 /// Four dimensions that vary independently, each within 3 %.
@@ -139,11 +143,11 @@ fn independent_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failur
         ),
     ];
     analysis.save(options, "independent.csv", &figures)?;
-    writeln!(
+    analysis.print(
         out,
-        "INDEPENDENT BARS, lengths and masses vary one by one\n"
-    )?;
-    analysis.print(out, None)
+        "INDEPENDENT BARS, lengths and masses vary one by one",
+        None,
+    )
 }
 
 fn main() -> ExitCode {

@@ -74,8 +74,8 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
         ),
     ];
     analysis.save(&options, "sweep.csv", &figures)?;
-    writeln!(out, "ROTATING PENDULUM\n")?;
-    analysis.print(out, Some(&PAPER))
+    analysis.print(out, "ROTATING PENDULUM", Some(&PAPER))?;
+    options.print_directory(out)
 }
 
 fn main() -> ExitCode {

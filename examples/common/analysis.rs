@@ -35,7 +35,7 @@ impl Analysis {
         options: &Options,
     ) -> Result<Self, Error>
     where
-        M: Mechanism<N, U, P, O>,
+        M: Mechanism<N, U, P, O> + Clone,
     {
         let events = Events::find(study, question)?;
         let critical = events.critical.speed;
@@ -88,14 +88,20 @@ impl Analysis {
         Ok(())
     }
 
-    /// Prints the summary.
+    /// Prints the summary under a heading.
     ///
     /// # Errors
     /// [`Failure::Print`].
-    pub fn print(&self, out: &mut dyn Write, paper: Option<&Paper>) -> Result<(), Failure> {
+    pub fn print(
+        &self,
+        out: &mut dyn Write,
+        heading: &str,
+        paper: Option<&Paper>,
+    ) -> Result<(), Failure> {
+        writeln!(out, "{heading}\n")?;
         summary::events(out, &self.sampled, &self.events, paper)?;
         summary::by_speed(out, &self.sampled)?;
-        summary::warnings(out, &self.sampled)?;
+        summary::checks(out, &self.sampled)?;
         summary::costs(out, self.sampled.rows.len(), &self.costs, paper)?;
         Ok(())
     }

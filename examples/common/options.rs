@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{CommandFactory, FromArgMatches, Parser};
@@ -70,12 +71,28 @@ impl Options {
             .unwrap_or_else(|| Path::new("target").join(self.name))
     }
 
+    /// Says where the figures and CSV files are.
+    ///
+    /// # Errors
+    /// [`Failure::Print`].
+    pub fn print_directory(&self, out: &mut dyn Write) -> Result<(), Failure> {
+        let directory = self.directory();
+        writeln!(out, "Figures and CSV files: {}", directory.display())?;
+        Ok(())
+    }
+
     fn prepare_directory(&self) -> Result<(), Failure> {
         let refuse = |path: PathBuf, error: std::io::Error| Failure::Output {
             path,
             reason: error.to_string(),
         };
         let directory = self.directory();
+        if directory.exists() && !directory.is_dir() {
+            return Err(Failure::Output {
+                path: directory,
+                reason: "it is a file".to_owned(),
+            });
+        }
         fs::create_dir_all(&directory).map_err(|error| refuse(directory, error))?;
         // Appending nothing: an earlier result survives when this run is stopped.
         let probe = self.file("sweep.csv");

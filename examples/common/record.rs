@@ -27,8 +27,10 @@ pub fn write(sweep: &Sweep, path: &Path) -> Result<(), Failure> {
     writer.flush().map_err(|error| refuse(error.into()))
 }
 
-/// The columns of one mode under one tolerance.
-const BY_MODE: [(&str, fn(&Spread, usize) -> Option<f64>); 5] = [
+/// The name of a column and where its value is, by mode under one tolerance.
+type Column = (&'static str, fn(&Spread, usize) -> Option<f64>);
+
+const BY_MODE: [Column; 5] = [
     ("sigma", |spread, mode| spread.first_order[mode].sigma),
     ("mean", |spread, mode| spread.first_order[mode].mean),
     ("mc_sigma", |spread, mode| spread.sampled[mode].sigma),

@@ -142,7 +142,11 @@ where
         Ok(modes) => {
             row.frequencies = modes.frequencies().to_vec();
             for (k, &level) in question.levels.iter().enumerate() {
-                match spread(mechanism, question, level, state, modes, sampling) {
+                let sampling = sampling.map(|sampling| Sampling {
+                    seed: own_seed(sampling.seed, point.value, level),
+                    ..*sampling
+                });
+                match spread(mechanism, question, level, state, modes, sampling.as_ref()) {
                     Ok(spread) => row.spreads[k] = spread,
                     Err(error) => row.troubles.push(error.to_string()),
                 }
@@ -232,6 +236,19 @@ impl Spread {
             })
             .collect();
     }
+}
+
+/// Every speed and tolerance draws its own samples: with the same ones everywhere the error of one sample would look
+/// like a systematic one. (SplitMix64, Steele, Lea and Flood 2014.)
+fn own_seed(seed: u64, speed: f64, level: f64) -> u64 {
+    [speed.to_bits(), level.to_bits()]
+        .into_iter()
+        .fold(seed, |mixed, bits| {
+            let mut z = (mixed ^ bits).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        })
 }
 
 fn moments<const N: usize, const P: usize>(found: &FirstOrder<N, P>) -> Vec<Moments> {

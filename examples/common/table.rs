@@ -40,7 +40,33 @@ impl fmt::Display for Table {
     }
 }
 
-/// A number with fixed decimals, `-` where there is none.
+/// A number with fixed decimals, `-` where there is none; what rounds to zero has no sign.
 pub fn number(value: Option<f64>, decimals: usize) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$}"))
+    let Some(value) = value else {
+        return "-".to_owned();
+    };
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.chars().all(|digit| matches!(digit, '0' | '.')) => size.to_owned(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up() {
+        let mut table = Table::new(["a", "long"].map(str::to_owned));
+        table.row(["1.25", "x"].map(str::to_owned));
+        assert_eq!(table.to_string(), "     a  long\n  1.25     x\n");
+    }
+
+    #[test]
+    fn numbers_have_no_negative_zero() {
+        assert_eq!(number(Some(-1e-20), 2), "0.00");
+        assert_eq!(number(Some(-0.02), 2), "-0.02");
+        assert_eq!(number(None, 2), "-");
+    }
 }

@@ -57,31 +57,29 @@ pub fn frequencies(sweeps: &Sweeps<'_>, title: &str) -> Figure {
 /// Mean frequencies of all modes: first order, which is the nominal frequency whatever the tolerance, and Monte Carlo.
 pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
     let count = sweeps.curve.modes;
-    let (mut curves, mut markers) = (Vec::new(), Vec::new());
-    for mode in 0..count {
-        let of = |name: String| {
-            if count > 1 {
-                format!("mode {}, {name}", mode + 1)
-            } else {
-                name
-            }
-        };
-        curves.push(Curve {
-            label: of("analytic, any tolerance".to_owned()),
+    let curves = (0..count)
+        .map(|mode| Curve {
+            label: format!("first order, {}", mode_label(mode, count)),
             colour: if mode == 0 { BLACK } else { GREY },
             dashed: mode > 0,
             pieces: sweeps.pieces(|row| row.spreads.first()?.first_order[mode].mean),
-        });
-        for (k, &level) in sweeps.sampled.question.levels.iter().enumerate() {
-            markers.push(Markers {
-                label: of(format!("Monte Carlo {} %", percent(level))),
-                colour: k,
-                shape: Shape::of(k),
-                points: sweeps.points(|row| row.spreads[k].sampled[mode].mean),
-            });
-        }
-    }
-    sweeps.figure(title, "mean natural frequency [rad/s]", curves, markers)
+        })
+        .collect();
+    let levels = sweeps.sampled.question.levels.iter().enumerate();
+    let markers = levels
+        .map(|(k, &level)| Markers {
+            label: format!("Monte Carlo {} %", percent(level)),
+            colour: k,
+            shape: Shape::of(k),
+            points: (0..count)
+                .flat_map(|mode| sweeps.points(move |row| row.spreads[k].sampled[mode].mean))
+                .collect(),
+        })
+        .collect();
+    let mut figure = sweeps.figure(title, "mean natural frequency [rad/s]", curves, markers);
+    figure.note =
+        "At first order the mean is the nominal frequency, whatever the tolerance.".to_owned();
+    figure
 }
 
 /// Standard deviation of one mode under the first `levels` tolerances; for one tolerance alone the paper's central
