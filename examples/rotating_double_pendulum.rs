@@ -68,16 +68,17 @@ const PAPER: Paper = Paper {
 
 /// The whole example: `arguments` as on the command line, the summary to `out`, figures and CSV files to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
-    let about =
-        "Natural frequencies of two bars on a spinning shaft and how tolerances spread them";
+    let about = "How tolerances spread the frequencies of two spinning bars";
     let options = Options::parse("rotating_double_pendulum", about, arguments)?;
-    equal_bars(&options, out)?;
-    independent_bars(&options, out)?;
+    let equal = equal_bars(&options)?;
+    let independent = independent_bars(&options)?;
+    equal.print(out, "DOUBLE PENDULUM, equal bars", Some(&PAPER))?;
+    independent.print(out, "DOUBLE PENDULUM, independent bars", None)?;
     options.print_directory(out)
 }
 
 /// The paper's analysis: one length for both bars.
-fn equal_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failure> {
+fn equal_bars(options: &Options) -> Result<Analysis, Failure> {
     type Pendulum = RotatingDoublePendulum;
     let study = Study::new(RotatingDoublePendulum).start(Pendulum::theta1, 60f64.to_radians());
     let question = Question {
@@ -90,37 +91,18 @@ fn equal_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failure> {
 
     let data = analysis.sweeps();
     let figures = [
-        (
-            "fig09.svg",
-            angles(&data, "Double pendulum: dynamic equilibrium"),
-        ),
-        (
-            "fig10.svg",
-            frequencies(&data, "Double pendulum: natural frequencies"),
-        ),
-        (
-            "fig11.svg",
-            means(&data, "Double pendulum: mean frequencies"),
-        ),
-        (
-            "fig12.svg",
-            deviations(&data, "Double pendulum: spread of mode 1", 0, 3),
-        ),
-        (
-            "fig13.svg",
-            deviations(&data, "Double pendulum: spread of mode 2", 1, 3),
-        ),
+        angles(&data, "fig09", "Double pendulum: dynamic equilibrium"),
+        frequencies(&data, "fig10", "Double pendulum: natural frequencies"),
+        means(&data, "fig11", "Double pendulum: mean frequencies"),
+        deviations(&data, "fig12", "Double pendulum: spread of mode 1", 0, 3),
+        deviations(&data, "fig13", "Double pendulum: spread of mode 2", 1, 3),
     ];
     analysis.save(options, "sweep.csv", &figures)?;
-    analysis.print(
-        out,
-        "ROTATING DOUBLE PENDULUM, both bars of length l",
-        Some(&PAPER),
-    )
+    Ok(analysis)
 }
 
 /// Four dimensions that vary independently, each within 3 %.
-fn independent_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failure> {
+fn independent_bars(options: &Options) -> Result<Analysis, Failure> {
     type Bars = IndependentBars;
     let study = Study::new(IndependentBars).start(Bars::theta1, 60f64.to_radians());
     let question = Question {
@@ -133,21 +115,11 @@ fn independent_bars(options: &Options, out: &mut dyn Write) -> Result<(), Failur
 
     let data = analysis.sweeps();
     let figures = [
-        (
-            "independent_1.svg",
-            contributions(&data, "Independent bars: what spreads mode 1", 0),
-        ),
-        (
-            "independent_2.svg",
-            contributions(&data, "Independent bars: what spreads mode 2", 1),
-        ),
+        contributions(&data, "independent_1", "Bars: spread of mode 1", 0),
+        contributions(&data, "independent_2", "Bars: spread of mode 2", 1),
     ];
     analysis.save(options, "independent.csv", &figures)?;
-    analysis.print(
-        out,
-        "INDEPENDENT BARS, lengths and masses vary one by one",
-        None,
-    )
+    Ok(analysis)
 }
 
 fn main() -> ExitCode {

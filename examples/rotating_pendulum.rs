@@ -39,7 +39,7 @@ const PAPER: Paper = Paper {
 
 /// The whole example: `arguments` as on the command line, the summary to `out`, figures and `sweep.csv` to a directory.
 pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure> {
-    let about = "Natural frequency of a bar on a spinning shaft and how a tolerance of its length spreads it";
+    let about = "How a tolerance of its length spreads the frequency of a spinning bar";
     let options = Options::parse("rotating_pendulum", about, arguments)?;
 
     let study = Study::new(RotatingPendulum).start(RotatingPendulum::theta, 60f64.to_radians());
@@ -53,25 +53,11 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
 
     let data = analysis.sweeps();
     let figures = [
-        ("fig03.svg", angles(&data, "Pendulum: dynamic equilibrium")),
-        (
-            "fig04.svg",
-            frequencies(&data, "Pendulum: natural frequency"),
-        ),
-        ("fig05.svg", means(&data, "Pendulum: mean frequency")),
-        (
-            "fig06.svg",
-            deviations(
-                &data,
-                "Pendulum: spread of the frequency, length within 3 %",
-                0,
-                1,
-            ),
-        ),
-        (
-            "fig07.svg",
-            deviations(&data, "Pendulum: spread of the frequency", 0, 3),
-        ),
+        angles(&data, "fig03", "Pendulum: dynamic equilibrium"),
+        frequencies(&data, "fig04", "Pendulum: natural frequency"),
+        means(&data, "fig05", "Pendulum: mean frequency"),
+        deviations(&data, "fig06", "Pendulum: spread at 3 %", 0, 1),
+        deviations(&data, "fig07", "Pendulum: spread at 3, 6 and 12 %", 0, 3),
     ];
     analysis.save(&options, "sweep.csv", &figures)?;
     analysis.print(out, "ROTATING PENDULUM", Some(&PAPER))?;

@@ -75,15 +75,10 @@ impl Analysis {
     ///
     /// # Errors
     /// [`Failure::Output`].
-    pub fn save(
-        &self,
-        options: &Options,
-        table: &str,
-        figures: &[(&str, Figure)],
-    ) -> Result<(), Failure> {
+    pub fn save(&self, options: &Options, table: &str, figures: &[Figure]) -> Result<(), Failure> {
         record::write(&self.sampled, &options.file(table))?;
-        for (name, figure) in figures {
-            figure.save(&options.file(name))?;
+        for figure in figures {
+            figure.save(&options.directory())?;
         }
         Ok(())
     }

@@ -19,12 +19,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value = "3000", allow_negative_numbers = true, value_parser = whole::<2, 1_000_000_000>)]
     pub samples: usize,
     /// Seed of the samples: the same seed gives the same numbers
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true, value_parser = seed)]
     pub seed: u64,
     /// Threads of the Monte Carlo runs; 0 takes all
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true, value_parser = whole::<0, 1024>)]
@@ -109,4 +104,9 @@ fn whole<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, Str
         Ok(number) if (LEAST..=MOST).contains(&number) => Ok(number),
         _ => Err(format!("give a whole number from {LEAST} to {MOST}")),
     }
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    let range = format!("give a whole number from 0 to {}", u64::MAX);
+    text.parse().map_err(|_| range)
 }

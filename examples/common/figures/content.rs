@@ -21,7 +21,7 @@ const GREY: usize = 4;
 const BLACK: usize = 5;
 
 /// Equilibrium angles from the axis.
-pub fn angles(sweeps: &Sweeps<'_>, title: &str) -> Figure {
+pub fn angles(sweeps: &Sweeps<'_>, name: &str, title: &str) -> Figure {
     let count = sweeps.curve.rows.first().map_or(0, |row| row.angles.len());
     let curves = (0..count)
         .map(|k| Curve {
@@ -31,11 +31,16 @@ pub fn angles(sweeps: &Sweeps<'_>, title: &str) -> Figure {
             pieces: sweeps.pieces(|row| row.angles[k]),
         })
         .collect();
-    sweeps.figure(title, "angle from the axis [rad]", curves, Vec::new())
+    sweeps.figure(
+        (name, title),
+        "angle from the axis [rad]",
+        curves,
+        Vec::new(),
+    )
 }
 
 /// Natural frequencies, with the drive speed itself: where they meet, a mode is in resonance.
-pub fn frequencies(sweeps: &Sweeps<'_>, title: &str) -> Figure {
+pub fn frequencies(sweeps: &Sweeps<'_>, name: &str, title: &str) -> Figure {
     let count = sweeps.curve.modes;
     let mut curves: Vec<Curve> = (0..count)
         .map(|mode| Curve {
@@ -51,11 +56,16 @@ pub fn frequencies(sweeps: &Sweeps<'_>, title: &str) -> Figure {
         dashed: true,
         pieces: sweeps.pieces(|row| Some(row.speed)),
     });
-    sweeps.figure(title, "natural frequency [rad/s]", curves, Vec::new())
+    sweeps.figure(
+        (name, title),
+        "natural frequency [rad/s]",
+        curves,
+        Vec::new(),
+    )
 }
 
 /// Mean frequencies of all modes: first order, which is the nominal frequency whatever the tolerance, and Monte Carlo.
-pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
+pub fn means(sweeps: &Sweeps<'_>, name: &str, title: &str) -> Figure {
     let count = sweeps.curve.modes;
     let curves = (0..count)
         .map(|mode| Curve {
@@ -76,7 +86,12 @@ pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
                 .collect(),
         })
         .collect();
-    let mut figure = sweeps.figure(title, "mean natural frequency [rad/s]", curves, markers);
+    let mut figure = sweeps.figure(
+        (name, title),
+        "mean natural frequency [rad/s]",
+        curves,
+        markers,
+    );
     figure.note =
         "At first order the mean is the nominal frequency, whatever the tolerance.".to_owned();
     figure
@@ -84,7 +99,13 @@ pub fn means(sweeps: &Sweeps<'_>, title: &str) -> Figure {
 
 /// Standard deviation of one mode under the first `levels` tolerances; for one tolerance alone the paper's central
 /// differences are shown too.
-pub fn deviations(sweeps: &Sweeps<'_>, title: &str, mode: usize, levels: usize) -> Figure {
+pub fn deviations(
+    sweeps: &Sweeps<'_>,
+    name: &str,
+    title: &str,
+    mode: usize,
+    levels: usize,
+) -> Figure {
     let (mut curves, mut markers) = (Vec::new(), Vec::new());
     for (k, &level) in sweeps
         .sampled
@@ -116,11 +137,11 @@ pub fn deviations(sweeps: &Sweeps<'_>, title: &str, mode: usize, levels: usize) 
             pieces: sweeps.pieces(|row| row.spreads[0].differences[mode].sigma),
         });
     }
-    sweeps.spread_figure(title, curves, markers)
+    sweeps.spread_figure((name, title), curves, markers)
 }
 
 /// What each variable alone contributes to the standard deviation of one mode, under the first tolerance.
-pub fn contributions(sweeps: &Sweeps<'_>, title: &str, mode: usize) -> Figure {
+pub fn contributions(sweeps: &Sweeps<'_>, name: &str, title: &str, mode: usize) -> Figure {
     let mut curves = vec![Curve {
         label: "first order, all together".to_owned(),
         colour: BLACK,
@@ -141,7 +162,7 @@ pub fn contributions(sweeps: &Sweeps<'_>, title: &str, mode: usize) -> Figure {
         shape: Shape::Ring,
         points: sweeps.points(|row| row.spreads[0].sampled[mode].sigma),
     }];
-    sweeps.spread_figure(title, curves, markers)
+    sweeps.spread_figure((name, title), curves, markers)
 }
 
 impl Spread {
@@ -185,7 +206,7 @@ impl Sweeps<'_> {
     /// A figure with room for everything in it.
     fn figure(
         &self,
-        title: &str,
+        (name, title): (&str, &str),
         values: &str,
         curves: Vec<Curve>,
         markers: Vec<Markers>,
@@ -195,6 +216,7 @@ impl Sweeps<'_> {
             .flat_map(|curve| curve.pieces.iter().flatten());
         let top = highest(lines.chain(markers.iter().flat_map(|markers| &markers.points)));
         Figure {
+            name: name.to_owned(),
             title: title.to_owned(),
             note: String::new(),
             values: values.to_owned(),
@@ -210,9 +232,14 @@ impl Sweeps<'_> {
     }
 
     /// A figure of standard deviations: high enough for what was sampled, not for the spike of first order.
-    fn spread_figure(&self, title: &str, curves: Vec<Curve>, markers: Vec<Markers>) -> Figure {
+    fn spread_figure(
+        &self,
+        heading: (&str, &str),
+        curves: Vec<Curve>,
+        markers: Vec<Markers>,
+    ) -> Figure {
         let mut figure = self.figure(
-            title,
+            heading,
             "standard deviation of the frequency [rad/s]",
             curves,
             markers,

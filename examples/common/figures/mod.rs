@@ -17,6 +17,8 @@ pub type Point = (f64, f64);
 /// A figure: curves for what is computed, markers for what is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
+    /// Name of its file, without the ending.
+    pub name: String,
     /// What it shows.
     pub title: String,
     /// A sentence below the figure; may be empty.
@@ -80,16 +82,16 @@ impl Shape {
 }
 
 impl Figure {
-    /// Writes the figure as SVG.
+    /// Writes the figure as SVG into `directory`.
     ///
     /// # Errors
     /// [`Failure::Output`].
-    pub fn save(&self, path: &Path) -> Result<(), Failure> {
-        let refuse = |reason: String| Failure::Output {
-            path: path.to_owned(),
-            reason,
-        };
-        let picture = draw::svg(self).map_err(|error| refuse(error.to_string()))?;
-        fs::write(path, picture).map_err(|error| refuse(error.to_string()))
+    pub fn save(&self, directory: &Path) -> Result<(), Failure> {
+        let path = directory.join(format!("{}.svg", self.name));
+        let written = draw::svg(self).and_then(|text| Ok(fs::write(&path, text)?));
+        written.map_err(|error| Failure::Output {
+            path,
+            reason: error.to_string(),
+        })
     }
 }
