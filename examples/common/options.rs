@@ -24,7 +24,7 @@ pub struct Options {
     /// Threads of the Monte Carlo runs; 0 takes all
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true, value_parser = whole::<0, 1024>)]
     pub threads: usize,
-    /// Directory of the figures and CSV files [default: target/<name of the example>]
+    /// Directory of the figures and CSV files [default: `target/` and the name of the example]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[arg(skip)]

@@ -4,7 +4,7 @@
 use eigentol::equilibrium::SweepPoint;
 use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
 use eigentol::tolerance::{Sampling, first_order, monte_carlo};
-use eigentol::{Equilibrium, Error, FirstOrder, Mechanism, Modes, MonteCarlo, Study};
+use eigentol::{Equilibrium, Error, FirstOrder, Mechanism, Modes, MonteCarlo, Study, Tolerances};
 
 use crate::Question;
 
@@ -146,9 +146,18 @@ where
                     seed: own_seed(sampling.seed, point.value, level),
                     ..*sampling
                 });
-                match spread(mechanism, question, level, state, modes, sampling.as_ref()) {
-                    Ok(spread) => row.spreads[k] = spread,
-                    Err(error) => row.troubles.push(error.to_string()),
+                let tolerances = question.tolerances(&state.design, level);
+                let filled = tolerances.and_then(|tolerances| {
+                    let at = Place {
+                        mechanism,
+                        state,
+                        modes,
+                        tolerances,
+                    };
+                    row.spreads[k].fill(question, &at, sampling.as_ref())
+                });
+                if let Err(error) = filled {
+                    row.troubles.push(error.to_string());
                 }
             }
         }
@@ -158,37 +167,12 @@ where
     row
 }
 
-fn spread<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    question: &Question,
-    level: f64,
-    state: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    sampling: Option<&Sampling<'_>>,
-) -> Result<Spread, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let tolerances = question.tolerances(&state.design, level)?;
-    let mut spread = Spread::none(N);
-    if let Some(sampling) = sampling {
-        spread.take_samples(&monte_carlo(
-            mechanism,
-            state,
-            modes,
-            &tolerances,
-            sampling,
-        )?);
-    }
-    // A state that is exactly critical has no derivatives; its samples are kept.
-    match sensitivities(mechanism, state, modes) {
-        Ok(slopes) => spread.take_first_order(question, &first_order(modes, &slopes, &tolerances)),
-        Err(Error::CriticalState) => return Ok(spread),
-        Err(error) => return Err(error),
-    }
-    let slopes = sensitivities_by_finite_difference(mechanism, state, modes, STEP)?;
-    spread.differences = moments(&first_order(modes, &slopes, &tolerances));
-    Ok(spread)
+/// Where one spread is computed.
+struct Place<'a, M, const N: usize, const U: usize, const P: usize> {
+    mechanism: &'a M,
+    state: &'a Equilibrium<N, U, P>,
+    modes: &'a Modes<N>,
+    tolerances: Tolerances<P>,
 }
 
 impl Spread {
@@ -200,6 +184,35 @@ impl Spread {
             shares: vec![Vec::new(); modes],
             ..Self::default()
         }
+    }
+
+    /// Fills in everything; what was found before an error stays. The samples come first, because they exist also at an
+    /// exactly critical state, which has no derivatives.
+    fn fill<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        question: &Question,
+        at: &Place<'_, M, N, U, P>,
+        sampling: Option<&Sampling<'_>>,
+    ) -> Result<(), Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let Place {
+            mechanism,
+            state,
+            modes,
+            tolerances,
+        } = at;
+        if let Some(sampling) = sampling {
+            self.take_samples(&monte_carlo(
+                *mechanism, state, modes, tolerances, sampling,
+            )?);
+        }
+        let slopes = sensitivities(*mechanism, state, modes)?;
+        self.take_first_order(question, &first_order(modes, &slopes, tolerances));
+        let slopes = sensitivities_by_finite_difference(*mechanism, state, modes, STEP)?;
+        self.differences = moments(&first_order(modes, &slopes, tolerances));
+        Ok(())
     }
 
     fn take_first_order<const N: usize, const P: usize>(

@@ -1,5 +1,5 @@
 //! The examples as programs: options, exit codes, files, and their numbers against closed forms.
-#![allow(clippy::unwrap_used)] // A panic is a test's failure, in its helpers too.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -7,7 +7,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use eigentol_examples::Failure;
+use eigentol::tolerance::Sampling;
+use eigentol_examples::{Failure, Question, Sweep, record, summary};
 
 #[path = "../rotating_double_pendulum.rs"]
 #[allow(dead_code, unreachable_pub)]
@@ -264,4 +265,37 @@ fn the_smallest_sweep_works() {
         let columns = columns(&path.join("sweep.csv"));
         assert_eq!(columns["omega"].len().to_string(), speeds);
     }
+}
+
+#[test]
+fn a_speed_that_fails_is_reported_and_leaves_its_fields_empty() {
+    use rotating_pendulum::RotatingPendulum;
+    let question = Question {
+        speed: RotatingPendulum::omega,
+        range: (0.0, 8.0),
+        varied: vec![RotatingPendulum::l],
+        levels: vec![0.03],
+    };
+    let sampling = Sampling {
+        samples: 10,
+        ..Sampling::default()
+    };
+    let study = eigentol::Study::new(RotatingPendulum);
+    let speeds = [1.0, f64::NAN, 2.0];
+    let sweep = Sweep::run(&study, &question, &speeds, Some(&sampling)).unwrap();
+    let mut printed = Vec::new();
+    summary::by_speed(&mut printed, &sweep).unwrap();
+    summary::checks(&mut printed, &sweep).unwrap();
+    let printed = String::from_utf8(printed).unwrap();
+    assert!(printed.contains("1 of 3 speeds failed"), "{printed}");
+    let path = directory("failing");
+    fs::create_dir_all(&path).unwrap();
+    record::write(&sweep, &path.join("sweep.csv")).unwrap();
+    let columns = columns(&path.join("sweep.csv"));
+    assert!(columns.values().all(|column| column[1].is_none()));
+    assert!(
+        columns
+            .values()
+            .all(|column| column[0].is_some() && column[2].is_some())
+    );
 }
