@@ -1,6 +1,8 @@
 //! Bad values, far starts, critical states and extreme scales on compiled machines: each gives a typed error or a reported
 //! class, never NaN, a panic or a wrong answer.
 
+#[path = "hard_inputs/extremes.rs"]
+mod extremes;
 #[path = "hard_inputs/sampling.rs"]
 mod sampling;
 #[path = "hard_inputs/scales.rs"]

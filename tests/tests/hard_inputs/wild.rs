@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use super::sound::{assert_answers, assert_numbers};
 
 /// Of any size up to `10^powers`, zero, and sane numbers, so that every depth of the code is reached.
-fn sized(powers: f64) -> impl Strategy<Value = f64> {
+pub(crate) fn sized(powers: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => Just(0.0),
         3 => (-powers..powers, any::<bool>())
@@ -24,7 +24,7 @@ fn sized(powers: f64) -> impl Strategy<Value = f64> {
 }
 
 /// As [`sized`], and mostly positive.
-fn design(powers: f64) -> impl Strategy<Value = f64> {
+pub(crate) fn design(powers: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => sized(powers),
         3 => (-powers..powers).prop_map(|power| 10f64.powf(power)),
@@ -103,11 +103,11 @@ fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     }
 }
 
-fn list(strategy: impl Strategy<Value = f64>) -> impl Strategy<Value = Vec<f64>> {
+pub(crate) fn list(strategy: impl Strategy<Value = f64>) -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(strategy, 8)
 }
 
-fn ask_one_of_six(which: usize, [u, b, start, widths]: [&[f64]; 4]) {
+pub(crate) fn ask_one_of_six(which: usize, [u, b, start, widths]: [&[f64]; 4]) {
     match which {
         0 => ask(RotatingPendulum, u, b, start, widths),
         1 => ask(RotatingDoublePendulum, u, b, start, widths),
@@ -118,7 +118,7 @@ fn ask_one_of_six(which: usize, [u, b, start, widths]: [&[f64]; 4]) {
     }
 }
 
-fn many() -> ProptestConfig {
+pub(crate) fn many() -> ProptestConfig {
     ProptestConfig {
         cases: 2000,
         failure_persistence: None,
