@@ -24,3 +24,4 @@ pub mod model;
 pub mod oracle;
 pub mod random;
 pub mod truth;
+pub mod unheld;
