@@ -62,6 +62,27 @@ fn a_short_bar_on_a_bar_round_the_world() {
     }
 }
 
+/// The upper bar hangs in no time scale near the lower one's, and still has to come to rest.
+#[test]
+fn a_tiny_bar_under_a_long_one() {
+    let study = |start: f64| {
+        Study::new(RotatingDoublePendulum)
+            .input(RotatingDoublePendulum::omega, 6.960_622_633_984_01)
+            .design(RotatingDoublePendulum::l1, 174.200_789_846_162_2)
+            .design(RotatingDoublePendulum::l2, 1.597_802_686_943_615_8e-18)
+            .design(RotatingDoublePendulum::m1, 1.0)
+            .design(RotatingDoublePendulum::m2, 1.0)
+            .start(RotatingDoublePendulum::theta1, start)
+    };
+    for start in [-6.960_622_633_984_01, 0.5, 1.0, 3.0] {
+        for policy in [Policy::Stable, Policy::Nearest] {
+            if let Ok(state) = study(start).policy(policy).equilibrium() {
+                assert_equilibrium(&RotatingDoublePendulum, &state);
+            }
+        }
+    }
+}
+
 /// `Khat (|q| + 0.001)` overflows, and a residual relative to infinity is zero.
 #[test]
 fn a_residual_is_not_measured_by_infinity() {
