@@ -59,6 +59,11 @@ impl FrameMotion {
         }
     }
 
+    /// The same frame, from which the next body is counted.
+    pub(super) fn departing(self, g: &mut Graph) -> Self {
+        Self { offset: Vector3::zero(g), ..self }
+    }
+
     /// The frame with its origin moved by a body-fixed vector.
     pub(super) fn displaced(self, g: &mut Graph, vector: Vector3) -> Self {
         let (arm, second_rate) = self.carry(g, vector);

@@ -7,7 +7,7 @@ use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, CoordinateId, ExprId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Frame, Joint, Mechanism, StepMotion};
-use crate::topology::{Branch, Topology};
+use crate::topology::Topology;
 
 use super::frame::FrameMotion;
 use super::values::{State, Values};
@@ -173,10 +173,7 @@ impl Kinematics {
         let (inboard_offset, inboard_rotation) = values.placement(g, inboard);
         let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
 
-        let start = FrameMotion {
-            offset: Vector3::zero(g),
-            ..*parent
-        };
+        let start = parent.departing(g);
         let mut moving = start
             .displaced(g, inboard_offset)
             .rotated(g, inboard_rotation);

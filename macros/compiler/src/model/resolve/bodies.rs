@@ -70,14 +70,14 @@ impl Resolver<'_> {
             {
                 bodies.push(Body {
                     name: body.name.clone(),
-                    shape,
+                    parts: shape.into_iter().map(|shape| crate::model::mechanism::Part { hole: false, shape, placement: crate::model::mechanism::Placement { offset: [0.0; 3].map(Expr::Number), rotations: vec![] } }).collect(),
                 });
             }
         }
         bodies
     }
 
-    fn shape(&mut self, body: &ast::Body) -> Option<Shape> {
+    fn shape(&mut self, body: &ast::Body) -> Option<Option<Shape>> {
         let signature = self.signature(&body.shape, "shape", SHAPES)?;
         let arguments = self.arguments(&body.shape, signature);
         let mut part = Part {
@@ -95,8 +95,8 @@ impl Resolver<'_> {
         let inertia = part.inertia();
         let center = part.center();
         let default = || Some([0.0; 3].map(Expr::Number));
-        Some(match signature.word {
-            "massless" => Shape::Massless,
+        Some(Some(match signature.word {
+            "massless" => return Some(None),
             "point" => Shape::Point {
                 mass: mass?,
                 center: center.unwrap_or_else(default)?,
@@ -140,12 +140,12 @@ impl Resolver<'_> {
                 radius: radius?,
                 center: center.unwrap_or_else(default)?,
             },
-            _ => Shape::Rigid {
+            _ => Shape::Rigid { about: None,
                 mass: mass?,
                 center: center.unwrap_or_else(default)?,
                 inertia: inertia?,
             },
-        })
+        }))
     }
 }
 

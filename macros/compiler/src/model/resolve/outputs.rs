@@ -23,7 +23,7 @@ impl Resolver<'_> {
                 points.push(Point {
                     name: point.name.clone(),
                     frame,
-                    position,
+                    placement: crate::model::mechanism::Placement { offset: position, rotations: vec![] },
                 });
             }
         }
