@@ -61,7 +61,10 @@ impl FrameMotion {
 
     /// The same frame, from which the next body is counted.
     pub(super) fn departing(self, g: &mut Graph) -> Self {
-        Self { offset: Vector3::zero(g), ..self }
+        Self {
+            offset: Vector3::zero(g),
+            ..self
+        }
     }
 
     /// The frame with its origin moved by a body-fixed vector.

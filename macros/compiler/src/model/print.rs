@@ -35,7 +35,16 @@ impl Display for Mechanism {
             )?;
         }
         for body in &self.bodies {
-            writeln!(f, "body {}: {}", body.name, body.parts.iter().map(|p| names.shape(&p.shape)).collect::<Vec<_>>().join(" + "))?;
+            writeln!(
+                f,
+                "body {}: {}",
+                body.name,
+                body.parts
+                    .iter()
+                    .map(|p| names.shape(&p.shape))
+                    .collect::<Vec<_>>()
+                    .join(" + ")
+            )?;
         }
         for joint in &self.joints {
             writeln!(
@@ -62,7 +71,10 @@ impl Display for Mechanism {
             }
         }
         for point in &self.points {
-            let (frame, position) = (names.frame(point.frame), names.vector(&point.placement.offset));
+            let (frame, position) = (
+                names.frame(point.frame),
+                names.vector(&point.placement.offset),
+            );
             writeln!(f, "point {}: {frame} at {position}", point.name)?;
         }
         for force in &self.forces {
@@ -86,7 +98,12 @@ impl Names<'_> {
             Expr::Design(id) => self.0.design[id.index()].name.to_string(),
             Expr::Input(id) => self.0.inputs[id.index()].name.to_string(),
             Expr::Constant(id) => self.0.constants[id.index()].name.to_string(),
-            Expr::Rate(_) | Expr::Length | Expr::LengthRate | Expr::Reaction(..) | Expr::KineticEnergy | Expr::PotentialEnergy => String::new(),
+            Expr::Rate(_)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => String::new(),
             Expr::Coordinate(id) => self.0.coordinates[id.index()].name.to_string(),
             Expr::Position(id, axis) => {
                 format!(
@@ -137,7 +154,9 @@ impl Names<'_> {
             })
     }
 
-    fn joint(&self, joint: &Joint) -> String { joint.word.to_owned() }
+    fn joint(&self, joint: &Joint) -> String {
+        joint.word.to_owned()
+    }
 
     fn shape(&self, shape: &Shape) -> String {
         let (s, v) = (
@@ -203,7 +222,8 @@ impl Names<'_> {
             Shape::Rigid {
                 mass,
                 center,
-                inertia, ..
+                inertia,
+                ..
             } => {
                 let inertia: Vec<String> = inertia.iter().map(s).collect();
                 format!(
@@ -221,7 +241,12 @@ impl Names<'_> {
         let coordinate = |id: &crate::base::ids::CoordinateId| &self.0.coordinates[id.index()].name;
         let point = |id: &crate::base::ids::PointId| &self.0.points[id.index()].name;
         match law {
-            ForceLaw::Tension { .. } | ForceLaw::Generalized { .. } | ForceLaw::Potential { .. } | ForceLaw::Bushing { .. } | ForceLaw::Load { .. } | ForceLaw::Drag { .. } => String::new(),
+            ForceLaw::Tension { .. }
+            | ForceLaw::Generalized { .. }
+            | ForceLaw::Potential { .. }
+            | ForceLaw::Bushing { .. }
+            | ForceLaw::Load { .. }
+            | ForceLaw::Drag { .. } => String::new(),
             ForceLaw::CoordinateSpring {
                 coordinate: on,
                 stiffness,

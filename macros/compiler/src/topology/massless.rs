@@ -19,7 +19,9 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
     }
     for branch in &topology.branches {
         let joint = &mechanism.joints[branch.joint.index()];
-        let Some(step) = joint.steps.first() else { continue };
+        let Some(step) = joint.steps.first() else {
+            continue;
+        };
         let coordinate = step.coordinate;
         let is_free = mechanism.coordinates[coordinate.index()].motion == Motion::Free;
         if is_free && !carries_mass[branch.body.index()] {

@@ -70,7 +70,17 @@ impl Resolver<'_> {
             {
                 bodies.push(Body {
                     name: body.name.clone(),
-                    parts: shape.into_iter().map(|shape| crate::model::mechanism::Part { hole: false, shape, placement: crate::model::mechanism::Placement { offset: [0.0; 3].map(Expr::Number), rotations: vec![] } }).collect(),
+                    parts: shape
+                        .into_iter()
+                        .map(|shape| crate::model::mechanism::Part {
+                            hole: false,
+                            shape,
+                            placement: crate::model::mechanism::Placement {
+                                offset: [0.0; 3].map(Expr::Number),
+                                rotations: vec![],
+                            },
+                        })
+                        .collect(),
                 });
             }
         }
@@ -140,7 +150,8 @@ impl Resolver<'_> {
                 radius: radius?,
                 center: center.unwrap_or_else(default)?,
             },
-            _ => Shape::Rigid { about: None,
+            _ => Shape::Rigid {
+                about: None,
                 mass: mass?,
                 center: center.unwrap_or_else(default)?,
                 inertia: inertia?,

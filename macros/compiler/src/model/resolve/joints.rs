@@ -80,7 +80,8 @@ impl Resolver<'_> {
         };
         Some(Joint {
             name: joint.name.clone(),
-            word, steps,
+            word,
+            steps,
             from,
             to,
             from_placement: from_placement.unwrap_or_else(unplaced),
@@ -88,7 +89,11 @@ impl Resolver<'_> {
         })
     }
 
-    fn joint_kind(&mut self, joint: &ast::Joint, coordinate: JointCoordinate) -> Option<(&'static str, Vec<JointStep>)> {
+    fn joint_kind(
+        &mut self,
+        joint: &ast::Joint,
+        coordinate: JointCoordinate,
+    ) -> Option<(&'static str, Vec<JointStep>)> {
         let kind = &joint.kind;
         let arguments = joint.arguments.as_deref().unwrap_or_default();
         match coordinate {
@@ -120,8 +125,22 @@ impl Resolver<'_> {
                 };
                 let axis = self.direction(axis, Place::Parameter)?;
                 Some(match quantity {
-                    CoordinateQuantity::Angle => ("revolute", vec![JointStep { motion: StepMotion::Turn, axis, coordinate }]),
-                    CoordinateQuantity::Displacement => ("prismatic", vec![JointStep { motion: StepMotion::Slide, axis, coordinate }]),
+                    CoordinateQuantity::Angle => (
+                        "revolute",
+                        vec![JointStep {
+                            motion: StepMotion::Turn,
+                            axis,
+                            coordinate,
+                        }],
+                    ),
+                    CoordinateQuantity::Displacement => (
+                        "prismatic",
+                        vec![JointStep {
+                            motion: StepMotion::Slide,
+                            axis,
+                            coordinate,
+                        }],
+                    ),
                 })
             }
         }

@@ -23,7 +23,10 @@ impl Resolver<'_> {
                 points.push(Point {
                     name: point.name.clone(),
                     frame,
-                    placement: crate::model::mechanism::Placement { offset: position, rotations: vec![] },
+                    placement: crate::model::mechanism::Placement {
+                        offset: position,
+                        rotations: vec![],
+                    },
                 });
             }
         }
