@@ -35,14 +35,7 @@ impl<'a> Values<'a> {
             Expr::Design(id) => known(self.design, id.index()),
             Expr::Input(id) => known(self.inputs, id.index()),
             Expr::Constant(id) => known(&self.constants, id.index()),
-            Expr::Coordinate(_)
-            | Expr::Position(..)
-            | Expr::Rate(_)
-            | Expr::Length
-            | Expr::LengthRate
-            | Expr::Reaction(..)
-            | Expr::KineticEnergy
-            | Expr::PotentialEnergy => f64::NAN,
+            Expr::Coordinate(_) | Expr::Position(..) => f64::NAN,
             Expr::Negate(a) => -self.of(a),
             Expr::Add(a, b) => self.of(a) + self.of(b),
             Expr::Subtract(a, b) => self.of(a) - self.of(b),
@@ -83,16 +76,7 @@ impl InputDependence {
         match expr {
             Expr::Input(_) => true,
             Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
-            Expr::Number(_)
-            | Expr::Design(_)
-            | Expr::Coordinate(_)
-            | Expr::Position(..)
-            | Expr::Rate(_)
-            | Expr::Length
-            | Expr::LengthRate
-            | Expr::Reaction(..)
-            | Expr::KineticEnergy
-            | Expr::PotentialEnergy => false,
+            Expr::Number(_) | Expr::Design(_) | Expr::Coordinate(_) | Expr::Position(..) => false,
             Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.of(a),
             Expr::Add(a, b)
             | Expr::Subtract(a, b)

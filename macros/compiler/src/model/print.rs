@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::expression::{Expr, Function, Vector};
-use super::mechanism::{ForceLaw, Frame, Joint, Mechanism, Motion, Placement, Shape, Unit};
+use super::mechanism::{ForceLaw, Frame, JointKind, Mechanism, Motion, Placement, Shape, Unit};
 
 /// Text of values, with the names of the mechanism they belong to.
 struct Names<'a>(&'a Mechanism);
@@ -35,23 +35,14 @@ impl Display for Mechanism {
             )?;
         }
         for body in &self.bodies {
-            writeln!(
-                f,
-                "body {}: {}",
-                body.name,
-                body.parts
-                    .iter()
-                    .map(|p| names.shape(&p.shape))
-                    .collect::<Vec<_>>()
-                    .join(" + ")
-            )?;
+            writeln!(f, "body {}: {}", body.name, names.shape(&body.shape))?;
         }
         for joint in &self.joints {
             writeln!(
                 f,
                 "joint {}: {} from {}{} to {}{}",
                 joint.name,
-                names.joint(joint),
+                names.joint(&joint.kind),
                 names.frame(joint.from),
                 names.placement(&joint.from_placement),
                 names.frame(joint.to),
@@ -71,10 +62,7 @@ impl Display for Mechanism {
             }
         }
         for point in &self.points {
-            let (frame, position) = (
-                names.frame(point.frame),
-                names.vector(&point.placement.offset),
-            );
+            let (frame, position) = (names.frame(point.frame), names.vector(&point.position));
             writeln!(f, "point {}: {frame} at {position}", point.name)?;
         }
         for force in &self.forces {
@@ -98,12 +86,6 @@ impl Names<'_> {
             Expr::Design(id) => self.0.design[id.index()].name.to_string(),
             Expr::Input(id) => self.0.inputs[id.index()].name.to_string(),
             Expr::Constant(id) => self.0.constants[id.index()].name.to_string(),
-            Expr::Rate(_)
-            | Expr::Length
-            | Expr::LengthRate
-            | Expr::Reaction(..)
-            | Expr::KineticEnergy
-            | Expr::PotentialEnergy => String::new(),
             Expr::Coordinate(id) => self.0.coordinates[id.index()].name.to_string(),
             Expr::Position(id, axis) => {
                 format!(
@@ -154,8 +136,12 @@ impl Names<'_> {
             })
     }
 
-    fn joint(&self, joint: &Joint) -> String {
-        joint.word.to_owned()
+    fn joint(&self, kind: &JointKind) -> String {
+        match kind {
+            JointKind::Fixed => "fixed".to_owned(),
+            JointKind::Revolute { axis, .. } => format!("revolute({})", self.vector(axis)),
+            JointKind::Prismatic { axis, .. } => format!("prismatic({})", self.vector(axis)),
+        }
     }
 
     fn shape(&self, shape: &Shape) -> String {
@@ -164,6 +150,7 @@ impl Names<'_> {
             |vector: &Vector| self.vector(vector),
         );
         match shape {
+            Shape::Massless => "massless".to_owned(),
             Shape::Point { mass, center } => format!("point mass {} at {}", s(mass), v(center)),
             Shape::Rod {
                 mass,
@@ -203,7 +190,6 @@ impl Names<'_> {
                 v(axis),
                 v(center)
             ),
-            Shape::Tube { .. } => String::new(),
             Shape::Cuboid { mass, size, center } => {
                 format!("box mass {} size {} center {}", s(mass), v(size), v(center))
             }
@@ -223,7 +209,6 @@ impl Names<'_> {
                 mass,
                 center,
                 inertia,
-                ..
             } => {
                 let inertia: Vec<String> = inertia.iter().map(s).collect();
                 format!(
@@ -241,12 +226,6 @@ impl Names<'_> {
         let coordinate = |id: &crate::base::ids::CoordinateId| &self.0.coordinates[id.index()].name;
         let point = |id: &crate::base::ids::PointId| &self.0.points[id.index()].name;
         match law {
-            ForceLaw::Tension { .. }
-            | ForceLaw::Generalized { .. }
-            | ForceLaw::Potential { .. }
-            | ForceLaw::Bushing { .. }
-            | ForceLaw::Load { .. }
-            | ForceLaw::Drag { .. } => String::new(),
             ForceLaw::CoordinateSpring {
                 coordinate: on,
                 stiffness,

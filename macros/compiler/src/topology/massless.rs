@@ -2,7 +2,7 @@
 
 use super::Topology;
 use crate::base::diagnostics::Diagnostics;
-use crate::model::mechanism::{Frame, Mechanism, Motion};
+use crate::model::mechanism::{Frame, JointKind, Mechanism, Motion, Shape};
 
 /// Reports free coordinates beyond which everything is massless.
 pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mut Diagnostics) {
@@ -10,7 +10,7 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
     // Children come after their parents, so that backwards every body knows what hangs on it.
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
-        if !mechanism.bodies[body].parts.is_empty() {
+        if mechanism.bodies[body].shape != Shape::Massless {
             carries_mass[body] = true;
         }
         if let (true, Frame::Body(parent)) = (carries_mass[body], branch.parent) {
@@ -19,10 +19,11 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
     }
     for branch in &topology.branches {
         let joint = &mechanism.joints[branch.joint.index()];
-        let Some(step) = joint.steps.first() else {
+        let (JointKind::Revolute { coordinate, .. } | JointKind::Prismatic { coordinate, .. }) =
+            joint.kind
+        else {
             continue;
         };
-        let coordinate = step.coordinate;
         let is_free = mechanism.coordinates[coordinate.index()].motion == Motion::Free;
         if is_free && !carries_mass[branch.body.index()] {
             let name = &joint.name;

@@ -70,24 +70,14 @@ impl Resolver<'_> {
             {
                 bodies.push(Body {
                     name: body.name.clone(),
-                    parts: shape
-                        .into_iter()
-                        .map(|shape| crate::model::mechanism::Part {
-                            hole: false,
-                            shape,
-                            placement: crate::model::mechanism::Placement {
-                                offset: [0.0; 3].map(Expr::Number),
-                                rotations: vec![],
-                            },
-                        })
-                        .collect(),
+                    shape,
                 });
             }
         }
         bodies
     }
 
-    fn shape(&mut self, body: &ast::Body) -> Option<Option<Shape>> {
+    fn shape(&mut self, body: &ast::Body) -> Option<Shape> {
         let signature = self.signature(&body.shape, "shape", SHAPES)?;
         let arguments = self.arguments(&body.shape, signature);
         let mut part = Part {
@@ -105,8 +95,8 @@ impl Resolver<'_> {
         let inertia = part.inertia();
         let center = part.center();
         let default = || Some([0.0; 3].map(Expr::Number));
-        Some(Some(match signature.word {
-            "massless" => return Some(None),
+        Some(match signature.word {
+            "massless" => Shape::Massless,
             "point" => Shape::Point {
                 mass: mass?,
                 center: center.unwrap_or_else(default)?,
@@ -151,12 +141,11 @@ impl Resolver<'_> {
                 center: center.unwrap_or_else(default)?,
             },
             _ => Shape::Rigid {
-                about: None,
                 mass: mass?,
                 center: center.unwrap_or_else(default)?,
                 inertia: inertia?,
             },
-        }))
+        })
     }
 }
 

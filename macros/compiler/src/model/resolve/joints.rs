@@ -10,7 +10,7 @@ use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::nearest;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Coordinate, CoordinateQuantity, Frame, Joint, JointStep, Motion, Placement, StepMotion,
+    Coordinate, CoordinateQuantity, Frame, Joint, JointKind, Motion, Placement,
 };
 use crate::syntax::ast::{self, Ast, ItemKind, JointClause};
 
@@ -63,7 +63,7 @@ impl Resolver<'_> {
         let apart = self.distinct(joint, from, to);
         let sides = self.placements(joint);
         let motion = self.motion(joint, coordinate);
-        let ((word, steps), [from_placement, to_placement]) = (kind?, sides?);
+        let (kind, [from_placement, to_placement]) = (kind?, sides?);
         let (from, to) = (from?, to?);
         apart?;
         if let JointCoordinate::One(_, quantity) = coordinate {
@@ -80,8 +80,7 @@ impl Resolver<'_> {
         };
         Some(Joint {
             name: joint.name.clone(),
-            word,
-            steps,
+            kind,
             from,
             to,
             from_placement: from_placement.unwrap_or_else(unplaced),
@@ -89,11 +88,7 @@ impl Resolver<'_> {
         })
     }
 
-    fn joint_kind(
-        &mut self,
-        joint: &ast::Joint,
-        coordinate: JointCoordinate,
-    ) -> Option<(&'static str, Vec<JointStep>)> {
+    fn joint_kind(&mut self, joint: &ast::Joint, coordinate: JointCoordinate) -> Option<JointKind> {
         let kind = &joint.kind;
         let arguments = joint.arguments.as_deref().unwrap_or_default();
         match coordinate {
@@ -112,7 +107,7 @@ impl Resolver<'_> {
                     self.diagnostics.error(argument.extent, message);
                     return None;
                 }
-                Some(("fixed", vec![]))
+                Some(JointKind::Fixed)
             }
             JointCoordinate::One(coordinate, quantity) => {
                 let [axis] = arguments else {
@@ -125,22 +120,8 @@ impl Resolver<'_> {
                 };
                 let axis = self.direction(axis, Place::Parameter)?;
                 Some(match quantity {
-                    CoordinateQuantity::Angle => (
-                        "revolute",
-                        vec![JointStep {
-                            motion: StepMotion::Turn,
-                            axis,
-                            coordinate,
-                        }],
-                    ),
-                    CoordinateQuantity::Displacement => (
-                        "prismatic",
-                        vec![JointStep {
-                            motion: StepMotion::Slide,
-                            axis,
-                            coordinate,
-                        }],
-                    ),
+                    CoordinateQuantity::Angle => JointKind::Revolute { axis, coordinate },
+                    CoordinateQuantity::Displacement => JointKind::Prismatic { axis, coordinate },
                 })
             }
         }

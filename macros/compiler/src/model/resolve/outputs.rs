@@ -23,10 +23,7 @@ impl Resolver<'_> {
                 points.push(Point {
                     name: point.name.clone(),
                     frame,
-                    placement: crate::model::mechanism::Placement {
-                        offset: position,
-                        rotations: vec![],
-                    },
+                    position,
                 });
             }
         }
