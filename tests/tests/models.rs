@@ -2,11 +2,15 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::mem::discriminant;
 
 use eigentol_tests::declaration::declaration;
-use eigentol_tests::examples::{chain, two_sliders};
-use eigentol_tests::model::{Amount, ForceLaw, Frame, Motion, Shape};
+use eigentol_tests::examples::{
+    anisotropic_bearing, blade, chain, jeffcott_in_the_ground, screw_pendulum,
+    steadied_by_the_shaft, top, two_sliders,
+};
+use eigentol_tests::model::{Amount, ForceLaw, Frame, Motion, ORIGIN, Shape, Value};
 use eigentol_tests::random::on_plans;
 
 #[test]
@@ -39,6 +43,47 @@ fn forces_of_sliders_have_the_units_of_displacements() {
         "force spring_x: spring(on: along_x, stiffness: kx, rest: x0);",
         "force damper_y: damper(on: along_y, damping: cy);",
     ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+#[test]
+fn several_coordinates_have_names_and_drives_of_their_own() {
+    let particle = Shape::Point {
+        mass: Value::Number(1.0),
+        center: ORIGIN,
+    };
+    for (model, line) in [
+        (
+            top(particle.clone(), ORIGIN),
+            "joint pivot: spherical(precession: z, tilt: y, spin: z) from ground to top, \
+             precession driven at Omega, spin driven at nu;",
+        ),
+        (
+            blade(particle),
+            "joint root: universal(flap: y, lag: z) from shaft to blade;",
+        ),
+        (
+            screw_pendulum(1.0, 0.5, 0.25 / TAU, 0.0),
+            "joint theta: screw(x, lead: 0.25 m) from ground to nut;",
+        ),
+        (
+            jeffcott_in_the_ground(1.0, [2.0, 3.0], 0.1),
+            "force force2: drag(at: point0, damping: 0.1 N*s/m, turning_damping: 0.3 N*m*s/rad);",
+        ),
+        (
+            anisotropic_bearing(1.0, [2.0, 3.0]),
+            "force force0: potential(energy: (0.5) * (2.0 N/m) * (position(point0).x)^2 \
+             + (0.5) * (3.0 N/m) * (position(point0).y)^2);",
+        ),
+        (
+            steadied_by_the_shaft(1.0, 2.0, 0.5, 0.1),
+            "force force0: bushing(from: point0, to: point1, stiffness: [2.0, 2.0, 2.0] N/m, \
+             damping: [0.5, 0.5, 0.5] N*s/m, turning_stiffness: [7.0, 7.0, 7.0] N*m/rad, \
+             turning_damping: [0.4, 0.4, 0.4] N*m*s/rad);",
+        ),
+    ] {
+        let text = declaration(&model);
         assert!(text.contains(line), "{line}: {text}");
     }
 }

@@ -82,8 +82,7 @@ pub fn residual(
         by_speed.speed[coordinate].eps1 = 1.0;
         by_position.position[coordinate].eps1 = 1.0;
         // d/dt dL/dqdot_i - dL/dq_i + dD/dqdot_i - Q_i
-        lagrangian(&by_speed).eps1eps2 - lagrangian(&by_position).eps1
-            + dissipation(&by_speed).eps1
+        lagrangian(&by_speed).eps1eps2 - lagrangian(&by_position).eps1 + dissipation(&by_speed).eps1
             - work::along(&still, coordinate)
     };
     free.iter().map(equation).collect()

@@ -1,7 +1,7 @@
 //! Bodies and what their mass is made of.
 
-use super::values::{Value, Values};
 use super::Placement;
+use super::values::{Value, Values};
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,4 +133,3 @@ pub enum Shape {
         about: Option<Values>,
     },
 }
-

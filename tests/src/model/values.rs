@@ -5,7 +5,7 @@
 pub enum Value {
     /// A number.
     Number(f64),
-    /// `factor * variable`, the variable by its index in [`Model::design`].
+    /// `factor * variable`, the variable by its index in [`super::Model::design`].
     Design {
         /// Index of the design variable.
         variable: usize,

@@ -51,7 +51,10 @@ pub(crate) fn inertia<D: Scalar>(parts: &[Part], design: &[D]) -> Inertia<D> {
         .iter()
         .map(|part| {
             let sign = D::from(if part.hole { -1.0 } else { 1.0 });
-            let (pose, piece) = (placement(&part.placement, design), shape(&part.shape, design));
+            let (pose, piece) = (
+                placement(&part.placement, design),
+                shape(&part.shape, design),
+            );
             let tensor = pose.rotation * piece.tensor * pose.rotation.transpose();
             (
                 piece.mass * sign,
@@ -210,9 +213,7 @@ fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             let [xx, yy, zz, xy, yz, xz] = inertia.map(|entry| value(entry, design));
             let tensor = Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
             let (mass, center) = (get(mass), vector(center, design));
-            let about = about
-                .as_ref()
-                .map_or(center, |about| vector(about, design));
+            let about = about.as_ref().map_or(center, |about| vector(about, design));
             let away = steiner(mass, center - about);
             Inertia {
                 mass,

@@ -110,7 +110,11 @@ impl Builder {
         let (q, p) = (Expr::Coordinate(coordinate), Expr::Coordinate(other));
         let stiffness = self.source.positive((5.0, 80.0), energy, &[unit; 2]);
         let half = |stretch: Expr, k: Expr| {
-            Expr::Product(vec![Expr::number(0.5), k, Expr::Power(Box::new(stretch), 2)])
+            Expr::Product(vec![
+                Expr::number(0.5),
+                k,
+                Expr::Power(Box::new(stretch), 2),
+            ])
         };
         if unit == other_unit && other != coordinate && self.source.random.chance(0.6) {
             return half(q.minus(p), stiffness);

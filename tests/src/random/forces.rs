@@ -168,7 +168,10 @@ impl Builder {
         let point = elements.point(Frame::Body(body), placement);
         let law = match self.source.random.below(4) {
             0 => {
-                let [force, moment] = [self.load(5.0, Unit::Newton), self.load(2.0, Unit::NewtonMetre)];
+                let [force, moment] = [
+                    self.load(5.0, Unit::Newton),
+                    self.load(2.0, Unit::NewtonMetre),
+                ];
                 let upright = |[x, y, z]: Values| {
                     if turning {
                         [ORIGIN[0], ORIGIN[1], z]
@@ -197,7 +200,11 @@ impl Builder {
                     .between(0.05, 0.5, Unit::NewtonMetreSecondPerRadian),
             },
             _ => {
-                let axis = if turning { 2 } else { self.source.random.below(3) };
+                let axis = if turning {
+                    2
+                } else {
+                    self.source.random.below(3)
+                };
                 let bound = setting == Setting::Still;
                 ForceLaw::Potential {
                     energy: self.energy_of_position(point, axis, bound),

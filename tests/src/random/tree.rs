@@ -239,8 +239,7 @@ impl Builder {
         let turns_only = steps.iter().all(|step| step.motion == Motion::Turn);
         // Where drives need an order of motions from the ground outwards, a joint declared inwards lists them the other
         // way round, if its word allows it. The motions of a cylindrical joint commute.
-        let reversible =
-            !driven || steps.len() == 1 || word == Word::Cylindrical || (driven && turns_only);
+        let reversible = !driven || turns_only || steps.len() == 1 || word == Word::Cylindrical;
         let body = Frame::Body(index);
         let mut ends = [(parent, inboard), (body, outboard)];
         if reversible && self.source.random.chance(0.25) {

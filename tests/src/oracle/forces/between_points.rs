@@ -38,9 +38,7 @@ impl Oracle<'_> {
         let relative = start.inverse() * end;
         let (d, r) = (relative.origin, relative.rotation.vee());
         let along_from = |vector| start.rotation.now() * vector;
-        let force = along_from(
-            Vector::zero() - stiffness.times(d.now()) - damping.times(d.rate()),
-        );
+        let force = along_from(Vector::zero() - stiffness.times(d.now()) - damping.times(d.rate()));
         let moment = along_from(
             Vector::zero() - turning_stiffness.times(r.now()) - turning_damping.times(r.rate()),
         );

@@ -140,17 +140,18 @@ impl Oracle<'_> {
                 force,
                 moment,
                 following,
-            } => self.load(efforts, moving, *point, [all(force), all(moment)], *following),
+            } => self.load(
+                efforts,
+                moving,
+                *point,
+                [all(force), all(moment)],
+                *following,
+            ),
             &ForceLaw::Drag {
                 point,
                 damping,
                 turning_damping,
-            } => self.drag(
-                efforts,
-                moving,
-                point,
-                [get(damping), get(turning_damping)],
-            ),
+            } => self.drag(efforts, moving, point, [get(damping), get(turning_damping)]),
         }
     }
 

@@ -1,5 +1,13 @@
 //! Mechanisms with known answers.
 
+mod rotors;
+mod spatial;
+
+pub use rotors::{
+    anisotropic_bearing, jeffcott_in_the_ground, jeffcott_in_the_shaft, steadied_by_the_shaft,
+};
+pub use spatial::{blade, screw_pendulum, top};
+
 use crate::model::{
     Amount, Body, Coordinate, DesignVariable, Force, ForceLaw, Frame, Input, Joint, Model, Motion,
     ORIGIN, Part, Placement, Shape, Step, Unit, Value, Word, ZERO,
@@ -89,7 +97,9 @@ pub fn chain(lengths: &[f64], masses: &[f64]) -> Model {
             along: DOWN,
             center: None,
         };
-        model.bodies.push(body(&format!("bar{}", i + 1), vec![Part::whole(bar)]));
+        model
+            .bodies
+            .push(body(&format!("bar{}", i + 1), vec![Part::whole(bar)]));
         let mut hinge = revolute(&format!("theta{}", i + 1), Y, Frame::Body(i), i + 1);
         if i > 0 {
             let end = Value::Design {
