@@ -117,9 +117,11 @@ impl Resolver<'_> {
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
                 if !place.knows_places() {
-                    let message = format!(
-                        "`{text}` is a coordinate; only outputs, generalized forces and potentials may use coordinates"
-                    );
+                    let reason = match place {
+                        Place::Tension => "a tension depends on `length` and `rate` only",
+                        _ => "only outputs, generalized forces and potentials may use coordinates",
+                    };
+                    let message = format!("`{text}` is a coordinate; {reason}");
                     self.diagnostics.error(name, message);
                     return None;
                 }
