@@ -1,1 +1,27 @@
-//! Shared pieces of the examples.
+//! What the examples share: the command line, the sweep over the speed, tables, figures and files.
+//!
+//! An example file declares its mechanism and says what it wants to know; how that is gathered, drawn and written is
+//! here, in the order of a run:
+//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`figures`], [`record`], [`summary`].
+
+pub mod analysis;
+pub mod cost;
+pub mod events;
+pub mod failure;
+pub mod figures;
+pub mod options;
+pub mod program;
+pub mod progress;
+pub mod question;
+pub mod record;
+pub mod speeds;
+pub mod summary;
+pub mod sweep;
+pub mod table;
+
+pub use analysis::Analysis;
+pub use failure::Failure;
+pub use options::Options;
+pub use program::program;
+pub use question::Question;
+pub use sweep::Sweep;

@@ -6,7 +6,7 @@ use eigentol_tests::agreement::{Case, Reference, assert_agrees};
 use eigentol_tests::compiled::Compiled;
 use eigentol_tests::declaration::declaration;
 use eigentol_tests::kernels::{At, Gradient, Kernels};
-use eigentol_tests::model::{JointKind, Model};
+use eigentol_tests::model::Model;
 use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::random::{Plan, Setting, on_plans};
 
@@ -44,14 +44,9 @@ fn is_unresisted(model: &Model, message: &str) -> bool {
     else {
         return false;
     };
-    let free = model
-        .joints
-        .iter()
-        .filter(|joint| joint.drive.is_none() && joint.kind != JointKind::Fixed);
-    let Some(column) = free
-        .map(|joint| joint.name.as_str())
-        .position(|joint| joint == name)
-    else {
+    let free = model.free();
+    let named = |&coordinate| model.step(coordinate).name == name;
+    let Some(column) = free.iter().position(named) else {
         return false;
     };
     let Case { at: [q, u, b], .. } = Case::random(model, 1);

@@ -6,7 +6,7 @@ use std::mem::discriminant;
 
 use eigentol_tests::declaration::declaration;
 use eigentol_tests::examples::{chain, two_sliders};
-use eigentol_tests::model::{ForceLaw, Frame, JointKind, Shape};
+use eigentol_tests::model::{Amount, ForceLaw, Frame, Motion, Shape};
 use eigentol_tests::random::on_plans;
 
 #[test]
@@ -58,25 +58,47 @@ fn random_models_leave_nothing_out() {
         count(format!("{} design variables", model.design.len()));
         count(format!("{} drives", model.driven().len()));
         for body in &model.bodies {
-            count(format!("shape {:?}", discriminant(&body.shape)));
-            if matches!(
-                body.shape,
-                Shape::Rod {
-                    center: Some(_),
-                    ..
+            count(format!("sum of {}", body.parts.len()));
+            for part in &body.parts {
+                count(format!("shape {:?}", discriminant(&part.shape)));
+                match &part.shape {
+                    Shape::Rod {
+                        center: Some(_), ..
+                    } => count("rod with a centre".to_owned()),
+                    Shape::Rigid { about: Some(_), .. } => count("inertia elsewhere".to_owned()),
+                    Shape::Tube { mass, .. } | Shape::Disk { mass, .. }
+                        if matches!(mass, Amount::Density(_)) =>
+                    {
+                        count("density".to_owned());
+                    }
+                    _ => {}
                 }
-            ) {
-                count("rod with a centre".to_owned());
+                if part.hole {
+                    count("hole".to_owned());
+                }
             }
         }
         for joint in &model.joints {
-            count(format!("joint {:?}", discriminant(&joint.kind)));
-            if joint.drive.is_some() && matches!(joint.kind, JointKind::Prismatic(_)) {
+            count(format!("joint {:?}", joint.word));
+            let driven = joint.steps.iter().filter(|step| step.drive.is_some());
+            let driven: Vec<_> = driven.collect();
+            if driven.iter().any(|step| step.motion == Motion::Slide) {
                 count("driven slider".to_owned());
+            }
+            if !driven.is_empty() {
+                count(format!("driven {:?}", joint.word));
+                if driven.len() < joint.steps.len() {
+                    count("partly driven".to_owned());
+                }
+                if driven.len() > 1 {
+                    count("several drives in one joint".to_owned());
+                }
             }
         }
         for branch in model.tree() {
             if branch.reversed {
+                let word = model.joints[branch.joint].word;
+                count(format!("reversed {word:?}"));
                 count("reversed joint".to_owned());
             }
             let children = model
@@ -90,6 +112,9 @@ fn random_models_leave_nothing_out() {
         }
         for force in &model.forces {
             count(format!("force {:?}", discriminant(&force.law)));
+            if let ForceLaw::Load { following, .. } = force.law {
+                count(format!("load that follows: {following}"));
+            }
             if let ForceLaw::SpringDamper { from, to, .. } = force.law {
                 let ends = [model.points[from].frame, model.points[to].frame];
                 let ground = ends.contains(&Frame::Ground);
@@ -98,7 +123,16 @@ fn random_models_leave_nothing_out() {
         }
     });
     let seen = seen.into_inner();
-    for (what, least) in [("reversed joint", 50), ("fork", 50), ("driven slider", 20)] {
+    for (what, least) in [
+        ("reversed joint", 50),
+        ("fork", 50),
+        ("driven slider", 20),
+        ("hole", 50),
+        ("density", 50),
+        ("inertia elsewhere", 30),
+        ("partly driven", 20),
+        ("several drives in one joint", 20),
+    ] {
         assert!(
             seen.get(what).is_some_and(|&count| count >= least),
             "{what}: {seen:#?}"
@@ -106,8 +140,12 @@ fn random_models_leave_nothing_out() {
     }
     for (what, kinds) in [
         ("shape", 8),
-        ("joint", 3),
-        ("force", 3),
+        ("sum", 4),
+        ("joint", 9),
+        ("reversed ", 10),
+        ("driven ", 9),
+        ("force", 9),
+        ("load", 2),
         ("spring between", 2),
     ] {
         let found = seen.keys().filter(|key| key.starts_with(what)).count();

@@ -18,7 +18,7 @@ pub use stability::{Doubt, Stability};
 pub(crate) use problem::{Failure, Problem};
 
 use crate::array::{add_scaled, all_finite, largest};
-use crate::{Description, Error, Linear, Mechanism};
+use crate::{Description, Error, Linear, Mechanism, PoseMargin};
 use convergence::relative_residual;
 
 /// Which equilibrium is wanted.
@@ -51,6 +51,8 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub relative_residual: f64,
     /// Iterations spent.
     pub iterations: usize,
+    /// The joint nearest to its singular pose, if the mechanism has joints of three turns.
+    pub pose: Option<PoseMargin<f64>>,
     /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
@@ -149,6 +151,9 @@ where
             &found.residual,
             &found.stiffness,
         ),
+        pose: problem
+            .mechanism
+            .pose_margin(&found.coordinates, problem.inputs, problem.design),
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),

@@ -1,0 +1,93 @@
+//! CPU time of the first-order analysis against Monte Carlo (tables 1 and 2 of the paper).
+//!
+//! Both run on the calling thread alone and their own CPU time is measured, so that neither a busy machine nor the
+//! number of threads changes the ratio. Both are the one call of [`Study`] that a user makes, and both look for the
+//! equilibrium of each speed from the start value of the study, as the paper does.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use eigentol::tolerance::Sampling;
+use eigentol::{DesignVariable, Error, Mechanism, Study};
+
+use crate::Question;
+
+/// The first-order analysis is repeated until it took this long: one pass is too short to be measured.
+const MEASURABLE: Duration = Duration::from_millis(100);
+
+/// More samples than the paper's are not timed: they would only make the same comparison longer.
+const MOST_SAMPLES: usize = 3000;
+
+/// CPU time for one tolerance over all speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// The tolerance.
+    pub level: f64,
+    /// One pass of equilibrium, modes, sensitivities and first-order spread at every speed.
+    pub first_order: Duration,
+    /// How many passes were averaged.
+    pub passes: u32,
+    /// Equilibrium, modes and all samples at every speed.
+    pub monte_carlo: Duration,
+    /// Samples at each speed.
+    pub samples: usize,
+}
+
+impl Cost {
+    /// How many times longer Monte Carlo takes.
+    pub fn ratio(&self) -> f64 {
+        self.monte_carlo.as_secs_f64() / self.first_order.as_secs_f64().max(1e-9)
+    }
+
+    /// Measures one tolerance at all speeds.
+    ///
+    /// # Errors
+    /// Those of the tolerances; a speed that fails costs both what it costs.
+    pub fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        study: &Study<M, N, U, P, O>,
+        question: &Question,
+        level: f64,
+        speeds: &[f64],
+        sampling: &Sampling<'_>,
+    ) -> Result<Self, Error>
+    where
+        M: Mechanism<N, U, P, O> + Clone,
+    {
+        let samples = sampling.samples.min(MOST_SAMPLES);
+        let nominal = study.equilibrium()?.design;
+        let half_widths = *question.tolerances(&nominal, level)?.half_widths();
+        let mut ready = study
+            .clone()
+            .samples(samples)
+            .seed(sampling.seed)
+            .threads(1);
+        for (j, &half_width) in half_widths.iter().enumerate() {
+            ready = ready.tolerance(DesignVariable(j), half_width);
+        }
+        let at = |&speed: &f64| ready.clone().input(question.speed, speed);
+        let studies: Vec<_> = speeds.iter().map(at).collect();
+
+        let start = ThreadTime::now();
+        let mut passes = 0;
+        while passes == 0 || start.elapsed() < MEASURABLE {
+            for study in &studies {
+                black_box(study.first_order()).ok();
+            }
+            passes += 1;
+        }
+        let first_order = start.elapsed() / passes;
+
+        let start = ThreadTime::now();
+        for study in &studies {
+            black_box(study.monte_carlo()).ok();
+        }
+        Ok(Self {
+            level,
+            first_order,
+            passes,
+            monte_carlo: start.elapsed(),
+            samples,
+        })
+    }
+}

@@ -1,0 +1,280 @@
+//! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers
+//! for tables, files and figures.
+
+use eigentol::equilibrium::SweepPoint;
+use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
+use eigentol::tolerance::{Sampling, first_order, monte_carlo};
+use eigentol::{Equilibrium, Error, FirstOrder, Mechanism, Modes, MonteCarlo, Study, Tolerances};
+
+use crate::Question;
+
+/// Relative step of the central differences.
+const STEP: f64 = 5e-6;
+
+/// All rows of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The question it answers.
+    pub question: Question,
+    /// Names of the varied design variables.
+    pub variables: Vec<&'static str>,
+    /// Number of modes.
+    pub modes: usize,
+    /// Monte Carlo samples at each speed and tolerance; 0 without Monte Carlo.
+    pub samples: usize,
+    /// One row for each speed, ascending.
+    pub rows: Vec<Row>,
+}
+
+/// One speed. A number that does not exist (no frequency, because a mode diverges) is `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Speed, rad/s.
+    pub speed: f64,
+    /// The outputs of the mechanism: angles of the bars from the axis, rad.
+    pub angles: Vec<Option<f64>>,
+    /// Frequencies, rad/s.
+    pub frequencies: Vec<Option<f64>>,
+    /// One entry for each tolerance.
+    pub spreads: Vec<Spread>,
+    /// What failed here.
+    pub troubles: Vec<String>,
+}
+
+/// What one tolerance does at one speed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// First order, by mode; its mean is the nominal frequency.
+    pub first_order: Vec<Moments>,
+    /// First order from the paper's central differences, by mode.
+    pub differences: Vec<Moments>,
+    /// Monte Carlo, by mode, over the samples where the mode oscillates.
+    pub sampled: Vec<Moments>,
+    /// Share of each varied variable in the variance, by mode.
+    pub shares: Vec<Vec<f64>>,
+    /// Standard deviations to the critical state; `None` when infinite.
+    pub distance: Option<f64>,
+    /// Whether first order can be believed here.
+    pub trusted: bool,
+    /// Samples that are not stable, whatever the reason; `None` without Monte Carlo.
+    pub unstable: Option<usize>,
+}
+
+/// Mean and standard deviation of a frequency, rad/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moments {
+    /// Mean.
+    pub mean: Option<f64>,
+    /// Standard deviation.
+    pub sigma: Option<f64>,
+}
+
+impl Sweep {
+    /// Asks `question` at `speeds`; with `sampling` also by Monte Carlo.
+    ///
+    /// # Errors
+    /// Only those that concern every point; a point that fails says so in its row.
+    pub fn run<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        study: &Study<M, N, U, P, O>,
+        question: &Question,
+        speeds: &[f64],
+        sampling: Option<&Sampling<'_>>,
+    ) -> Result<Self, Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let points = study.sweep(question.speed, speeds)?;
+        let rows = points
+            .iter()
+            .map(|point| row(study.mechanism(), question, point, sampling));
+        let name = |index: usize| {
+            M::DESCRIPTION
+                .design
+                .get(index)
+                .map_or("?", |info| info.name)
+        };
+        Ok(Self {
+            question: question.clone(),
+            variables: question
+                .varied
+                .iter()
+                .map(|variable| name(variable.0))
+                .collect(),
+            modes: N,
+            samples: sampling.map_or(0, |sampling| sampling.samples),
+            rows: rows.collect(),
+        })
+    }
+}
+
+fn row<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    question: &Question,
+    point: &SweepPoint<N, U, P>,
+    sampling: Option<&Sampling<'_>>,
+) -> Row
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut row = Row {
+        speed: point.value,
+        angles: vec![None; O],
+        frequencies: vec![None; N],
+        spreads: vec![Spread::none(N); question.levels.len()],
+        troubles: Vec::new(),
+    };
+    let state = match &point.equilibrium {
+        Ok(state) => state,
+        Err(error) => {
+            row.troubles.push(error.to_string());
+            return row;
+        }
+    };
+    if !state.stability.holds() {
+        row.troubles.push(format!(
+            "the equilibrium is not stable: {:?}",
+            state.stability
+        ));
+    }
+    let angles = mechanism.outputs(&state.coordinates, &state.inputs, &state.design);
+    row.angles = angles.map(finite).to_vec();
+    match &point.modes {
+        Ok(modes) => {
+            row.frequencies = modes.frequencies().to_vec();
+            for (k, &level) in question.levels.iter().enumerate() {
+                let sampling = sampling.map(|sampling| Sampling {
+                    seed: own_seed(sampling.seed, point.value, level),
+                    ..*sampling
+                });
+                let tolerances = question.tolerances(&state.design, level);
+                let filled = tolerances.and_then(|tolerances| {
+                    let at = Place {
+                        mechanism,
+                        state,
+                        modes,
+                        tolerances,
+                    };
+                    row.spreads[k].fill(question, &at, sampling.as_ref())
+                });
+                if let Err(error) = filled {
+                    row.troubles.push(error.to_string());
+                }
+            }
+        }
+        Err(error) => row.troubles.push(error.to_string()),
+    }
+    row.troubles.dedup();
+    row
+}
+
+/// Where one spread is computed.
+struct Place<'a, M, const N: usize, const U: usize, const P: usize> {
+    mechanism: &'a M,
+    state: &'a Equilibrium<N, U, P>,
+    modes: &'a Modes<N>,
+    tolerances: Tolerances<P>,
+}
+
+impl Spread {
+    fn none(modes: usize) -> Self {
+        Self {
+            first_order: vec![Moments::default(); modes],
+            differences: vec![Moments::default(); modes],
+            sampled: vec![Moments::default(); modes],
+            shares: vec![Vec::new(); modes],
+            ..Self::default()
+        }
+    }
+
+    /// Fills in everything; what was found before an error stays. The samples come first, because they exist also at an
+    /// exactly critical state, which has no derivatives.
+    fn fill<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        question: &Question,
+        at: &Place<'_, M, N, U, P>,
+        sampling: Option<&Sampling<'_>>,
+    ) -> Result<(), Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let Place {
+            mechanism,
+            state,
+            modes,
+            tolerances,
+        } = at;
+        if let Some(sampling) = sampling {
+            self.take_samples(&monte_carlo(
+                *mechanism, state, modes, tolerances, sampling,
+            )?);
+        }
+        let slopes = sensitivities(*mechanism, state, modes)?;
+        self.take_first_order(question, &first_order(modes, &slopes, tolerances));
+        let slopes = sensitivities_by_finite_difference(*mechanism, state, modes, STEP)?;
+        self.differences = moments(&first_order(modes, &slopes, tolerances));
+        Ok(())
+    }
+
+    fn take_first_order<const N: usize, const P: usize>(
+        &mut self,
+        question: &Question,
+        found: &FirstOrder<N, P>,
+    ) {
+        self.first_order = moments(found);
+        self.shares = found
+            .modes
+            .iter()
+            .map(|mode| {
+                question
+                    .varied
+                    .iter()
+                    .map(|variable| mode.variance_shares[variable.0])
+                    .collect()
+            })
+            .collect();
+        self.distance = finite(found.distance_to_critical);
+        self.trusted = found.trusted();
+    }
+
+    fn take_samples<const N: usize, const P: usize>(&mut self, found: &MonteCarlo<N, P>) {
+        self.unstable = Some(found.counts.total() - found.counts.stable);
+        self.sampled = found
+            .modes
+            .iter()
+            .map(|mode| Moments {
+                mean: mode.map(|mode| mode.mean),
+                sigma: mode
+                    .filter(|mode| mode.count > 1)
+                    .map(|mode| mode.standard_deviation),
+            })
+            .collect();
+    }
+}
+
+/// Every speed and tolerance draws its own samples: with the same ones everywhere the error of one sample would look
+/// like a systematic one. (SplitMix64, Steele, Lea and Flood 2014.)
+fn own_seed(seed: u64, speed: f64, level: f64) -> u64 {
+    [speed.to_bits(), level.to_bits()]
+        .into_iter()
+        .fold(seed, |mixed, bits| {
+            let mut z = (mixed ^ bits).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        })
+}
+
+fn moments<const N: usize, const P: usize>(found: &FirstOrder<N, P>) -> Vec<Moments> {
+    found
+        .modes
+        .iter()
+        .map(|mode| Moments {
+            mean: mode.mean.and_then(finite),
+            sigma: mode.sigma.and_then(finite),
+        })
+        .collect()
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
