@@ -17,6 +17,7 @@ mod parameters;
 mod placements;
 mod references;
 mod scope;
+mod tension;
 mod typed;
 mod units;
 mod values;

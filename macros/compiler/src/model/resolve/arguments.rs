@@ -117,7 +117,9 @@ impl Signature {
         let choices = self.choices();
         if !choices.is_empty() && !choices.iter().any(|name| given(name)) {
             let words: Vec<String> = choices.iter().map(quoted).collect();
-            missing.push(words.join(" or "));
+            if let Some((last, others)) = words.split_last() {
+                missing.push(format!("{} or {last}", others.join(", ")));
+            }
         }
         let required = self.required.iter().filter(|name| !given(name));
         missing.extend(required.map(quoted));

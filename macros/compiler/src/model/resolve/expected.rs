@@ -33,21 +33,6 @@ impl Expected {
         Self::named(Dimension::MOMENT, "an energy", "J")
     }
 
-    /// A mass per length, area or volume, by the exponent of the metre.
-    pub(super) fn density(name: &str, length: i16) -> Self {
-        let dimension = Dimension::new(length, 1, 0);
-        let unit = match length {
-            -1 => "kg/m",
-            -2 => "kg/m^2",
-            _ => "kg/m^3",
-        };
-        Self::named(dimension, name, unit)
-    }
-
-    pub(super) fn volume_density() -> Self {
-        Self::density("a density", -3)
-    }
-
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
         Self {
             dimension,

@@ -15,6 +15,9 @@ use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
 use crate::syntax::ast::{self, ItemKind};
 
+const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
+const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
+
 const LAWS: &[Signature] = &[
     Signature::new(
         "spring",
@@ -24,18 +27,15 @@ const LAWS: &[Signature] = &[
     .optional(&["rest"])
     .refusing(&[
         ("damping", "add a `damper` on the same coordinate"),
-        ("from", "between two points it is `spring_damper`"),
-        ("to", "between two points it is `spring_damper`"),
+        ("from", BETWEEN_POINTS),
+        ("to", BETWEEN_POINTS),
     ]),
     Signature::new(
         "damper",
         &["on", "damping"],
         "damper(on: theta, damping: 0.1 N*m*s/rad)",
     )
-    .refusing(&[
-        ("from", "between two points it is `spring_damper`"),
-        ("to", "between two points it is `spring_damper`"),
-    ]),
+    .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
     Signature::new(
         "spring_damper",
         &["from", "to", "stiffness"],
@@ -70,9 +70,11 @@ const LAWS: &[Signature] = &[
         "turning_damping",
     ]),
     Signature::new("load", &["at"], "load(at: p, force: [0, 0, -1] N)")
-        .at_least_one(&["force", "moment"]),
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
     Signature::new("follower", &["at"], "follower(at: p, force: [0, 0, -1] N)")
-        .at_least_one(&["force", "moment"]),
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
     Signature::new("drag", &["at"], "drag(at: p, damping: 1 N*s/m)")
         .at_least_one(&["damping", "turning_damping"]),
 ];

@@ -6,6 +6,7 @@ use super::Resolver;
 use super::coordinates;
 use super::expected::Expected;
 use super::scope::Meaning;
+use super::tension;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
 use crate::base::nearest::nearest;
@@ -13,29 +14,6 @@ use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
 use crate::syntax::ast::{Unit, Value, ValueKind};
-
-/// A word that only the law of a tension knows.
-struct TensionWord {
-    name: &'static str,
-    meaning: &'static str,
-    expr: Expr,
-    dimension: Dimension,
-}
-
-const TENSION_WORDS: [TensionWord; 2] = [
-    TensionWord {
-        name: "length",
-        meaning: "the distance of the two ends",
-        expr: Expr::Length,
-        dimension: Dimension::LENGTH,
-    },
-    TensionWord {
-        name: "rate",
-        meaning: "the rate of the distance of the two ends",
-        expr: Expr::LengthRate,
-        dimension: Dimension::SPEED,
-    },
-];
 
 /// In all functions below, nothing means: wrong, and reported.
 impl Resolver<'_> {
@@ -85,7 +63,7 @@ impl Resolver<'_> {
             return Some(Typed::number(std::f64::consts::PI, Dimension::NONE));
         }
         if place == Place::Tension
-            && let Some(word) = TENSION_WORDS.into_iter().find(|word| word.name == text)
+            && let Some(word) = tension::word(&text)
         {
             return self.tension_word(word, name);
         }
@@ -117,9 +95,11 @@ impl Resolver<'_> {
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
                 if !place.knows_places() {
-                    let message = format!(
-                        "`{text}` is a coordinate; only outputs, generalized forces and potentials may use coordinates"
-                    );
+                    let reason = match place {
+                        Place::Tension => "a tension depends on `length` and `rate` only",
+                        _ => "only outputs, generalized forces and potentials may use coordinates",
+                    };
+                    let message = format!("`{text}` is a coordinate; {reason}");
                     self.diagnostics.error(name, message);
                     return None;
                 }
@@ -153,31 +133,17 @@ impl Resolver<'_> {
         }
     }
 
-    /// A word of tension laws must not be a guess when something else has that name.
-    fn tension_word(&mut self, word: TensionWord, name: &Ident) -> Option<Typed> {
-        if let Some(meaning) = self.scope.find(word.name) {
-            let message = format!(
-                "`{name}` is ambiguous here: {}, or {} of that name",
-                word.meaning,
-                meaning.describe()
-            );
-            let help = format!("give the declared `{name}` another name");
-            self.diagnostics.error_with_help(name, message, help);
-            return None;
-        }
-        Some(Typed::Scalar(word.expr, Quantity::Of(word.dimension)))
-    }
-
     fn unknown_value(&mut self, name: &Ident, place: Place) {
         let text = name.to_string();
         let usable = |meaning| match meaning {
             Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => place != Place::Nominal,
             meaning => place.knows_places() && meaning.is_coordinate(),
         };
-        let near = self.scope.nearest(&text, usable).or_else(|| {
-            let words = TENSION_WORDS.iter().map(|word| word.name);
-            nearest(&text, words).filter(|_| place == Place::Tension)
-        });
+        let near = self.scope.nearest(&text, usable);
+        let near = match place {
+            Place::Tension => near.or_else(|| nearest(&text, tension::words())),
+            _ => near,
+        };
         let help = match near {
             Some(near) => Some(format!("did you mean `{near}`?")),
             None if ["x", "y", "z"].contains(&text.as_str()) => Some(format!(

@@ -2,7 +2,6 @@
 
 use super::super::Resolver;
 use super::super::arguments::Arguments;
-use super::super::expected::Expected;
 use super::super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
@@ -40,24 +39,23 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
         });
     }
 
-    fn positive(&mut self, name: &str, words: &str, expected: Expected) -> Option<Expr> {
+    fn positive(&mut self, name: &str, words: &str, dimension: Dimension) -> Option<Expr> {
         let value = self.arguments.get(name)?;
-        let dimension = expected.dimension;
         let what = format!("`{name}`");
-        let expr = self.resolver.scalar_of(value, expected, &what)?;
+        let expr = self.resolver.scalar_of(value, dimension, &what)?;
         let demand = Demand::Positive(dimension);
         self.require(words, vec![expr.clone()], demand, value);
         Some(expr)
     }
 
     pub(super) fn mass(&mut self) -> Option<Expr> {
-        self.positive("mass", "mass", Dimension::MASS.into())
+        self.positive("mass", "mass", Dimension::MASS)
     }
 
     /// The mass as given, or a density times the length, area or volume that it refers to.
     pub(super) fn mass_or_density(
         &mut self,
-        density: Expected,
+        density: Dimension,
         extent: impl FnOnce() -> Option<Expr>,
     ) -> Option<Expr> {
         let mass = self.mass();
@@ -74,7 +72,7 @@ impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {
             "outer" => "outer radius",
             name => name,
         };
-        self.positive(name, words, Dimension::LENGTH.into())
+        self.positive(name, words, Dimension::LENGTH)
     }
 
     /// The bore of a tube leaves a wall.

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::super::arguments::Signature;
-use super::super::expected::Expected;
 use super::super::placements::zero;
 use super::quantities::Quantities;
+use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
 use crate::model::mechanism::Shape;
 use crate::model::simplify::{multiply, power_integer, subtract};
@@ -126,8 +126,8 @@ impl Quantities<'_, '_, '_> {
 
     fn rod(&mut self) -> Option<Shape> {
         let (length, along) = (self.length("length"), self.direction("along"));
-        let expected = Expected::density("a mass per length", -1);
-        let mass = self.mass_or_density(expected, || length.clone());
+        let density = Dimension::LINE_DENSITY;
+        let mass = self.mass_or_density(density, || length.clone());
         let center = self.center(|| {
             let half = multiply(Expr::Number(0.5), length.clone()?);
             let along = along.clone()?;
@@ -143,8 +143,8 @@ impl Quantities<'_, '_, '_> {
 
     fn disk(&mut self) -> Option<Shape> {
         let (radius, axis) = (self.length("radius"), self.direction("axis"));
-        let expected = Expected::density("a mass per area", -2);
-        let mass = self.mass_or_density(expected, || Some(circle(radius.clone()?)));
+        let density = Dimension::AREA_DENSITY;
+        let mass = self.mass_or_density(density, || Some(circle(radius.clone()?)));
         let center = self.center(|| Some(zero()));
         Some(Shape::Disk {
             mass: mass?,
@@ -157,7 +157,7 @@ impl Quantities<'_, '_, '_> {
     fn cylinder(&mut self) -> Option<Shape> {
         let (radius, length) = (self.length("radius"), self.length("length"));
         let axis = self.direction("axis");
-        let mass = self.mass_or_density(Expected::volume_density(), || {
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
             Some(multiply(circle(radius.clone()?), length.clone()?))
         });
         let center = self.center(|| Some(zero()));
@@ -174,7 +174,7 @@ impl Quantities<'_, '_, '_> {
         let (inner, outer) = (self.length("inner"), self.length("outer"));
         let (length, axis) = (self.length("length"), self.direction("axis"));
         self.inner_below_outer(inner.as_ref(), outer.as_ref());
-        let mass = self.mass_or_density(Expected::volume_density(), || {
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
             let section = subtract(circle(outer.clone()?), circle(inner.clone()?));
             Some(multiply(section, length.clone()?))
         });
@@ -191,7 +191,7 @@ impl Quantities<'_, '_, '_> {
 
     fn cuboid(&mut self) -> Option<Shape> {
         let size = self.size();
-        let mass = self.mass_or_density(Expected::volume_density(), || {
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
             let [x, y, z] = size.clone()?;
             Some(multiply(multiply(x, y), z))
         });
@@ -205,7 +205,7 @@ impl Quantities<'_, '_, '_> {
 
     fn sphere(&mut self) -> Option<Shape> {
         let radius = self.length("radius");
-        let mass = self.mass_or_density(Expected::volume_density(), || {
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
             let cube = power_integer(radius.clone()?, 3);
             Some(multiply(Expr::Number(4.0 / 3.0 * PI), cube))
         });

@@ -28,7 +28,7 @@ impl Resolver<'_> {
         let value = arguments.get("energy")?;
         let (energy, quantity) = self.scalar(value, Place::Energy)?;
         self.expect(quantity, Expected::energy(), "a potential", value)?;
-        if !moves(&energy) {
+        if !self.moves(&energy) {
             self.diagnostics.error_with_help(
                 value.extent,
                 "this energy never changes, so it exerts no force",
@@ -38,26 +38,28 @@ impl Resolver<'_> {
         }
         Some(ForceLaw::Potential { energy })
     }
-}
 
-/// The value changes with the motion.
-fn moves(value: &Expr) -> bool {
-    match value {
-        Expr::Number(_) | Expr::Design(_) | Expr::Input(_) | Expr::Constant(_) => false,
-        Expr::Coordinate(_)
-        | Expr::Rate(_)
-        | Expr::Position(..)
-        | Expr::Length
-        | Expr::LengthRate
-        | Expr::Reaction(..)
-        | Expr::KineticEnergy
-        | Expr::PotentialEnergy => true,
-        Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => moves(a),
-        Expr::Add(a, b)
-        | Expr::Subtract(a, b)
-        | Expr::Multiply(a, b)
-        | Expr::Divide(a, b)
-        | Expr::Power(a, b)
-        | Expr::Atan2(a, b) => moves(a) || moves(b),
+    /// The value changes with the motion.
+    fn moves(&self, value: &Expr) -> bool {
+        match value {
+            Expr::Number(_) | Expr::Design(_) | Expr::Input(_) | Expr::Constant(_) => false,
+            Expr::Position(point, _) => self
+                .point_frame(*point)
+                .is_some_and(|frame| frame != "ground"),
+            Expr::Coordinate(_)
+            | Expr::Rate(_)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => true,
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.moves(a),
+            Expr::Add(a, b)
+            | Expr::Subtract(a, b)
+            | Expr::Multiply(a, b)
+            | Expr::Divide(a, b)
+            | Expr::Power(a, b)
+            | Expr::Atan2(a, b) => self.moves(a) || self.moves(b),
+        }
     }
 }

@@ -8,6 +8,7 @@ use super::kinds::{Condition, Elementary, Kind};
 use crate::base::dimension::Dimension;
 use crate::base::ids::JointId;
 use crate::base::nearest::nearest;
+use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{JointStep, StepMotion};
 use crate::model::rules::physical::{Demand, Requirement};
@@ -25,12 +26,13 @@ impl Resolver<'_> {
         id: JointId,
         kind: &'static Kind,
     ) -> Option<Vec<JointStep>> {
-        let arguments = joint.arguments.as_deref().unwrap_or_default();
-        let is_lead = |argument: &&JointArgument| {
-            kind.is_screw() && argument.name.as_ref().is_some_and(|name| name == "lead")
+        let Sorted { axes, leads, stray } = Sorted::new(joint, kind);
+        let known = self.stray(joint, kind, &stray);
+        let lead = match known {
+            Some(()) => self.lead(joint, kind, &leads),
+            // A misspelt `lead` is not missing as well.
+            None => None,
         };
-        let (leads, axes): (Vec<_>, Vec<_>) = arguments.iter().partition(is_lead);
-        let lead = self.lead(joint, kind, &leads);
         let named = self.names(joint, kind, &axes);
         let counted = self.count(joint, kind, axes.len());
         let directions: Vec<Option<Vector>> = axes
@@ -41,6 +43,7 @@ impl Resolver<'_> {
         named.and(counted)?;
         self.conditions(kind, &axes, &directions)?;
         let lead = lead?;
+        known?;
         let coordinates = self.coordinates_of(id);
         let steps = kind.motions.iter().zip(directions).zip(coordinates);
         let steps = steps.map(|((motion, axis), coordinate)| JointStep {
@@ -83,44 +86,50 @@ impl Resolver<'_> {
         Some(simplify::divide(lead, Expr::Number(TAU)))
     }
 
+    /// Arguments with names that mean nothing.
+    fn stray(&mut self, joint: &Joint, kind: &Kind, stray: &[&JointArgument]) -> Option<()> {
+        for name in stray.iter().filter_map(|argument| argument.name.as_ref()) {
+            let word = kind.word;
+            let message = format!("`{word}` has no argument `{name}`");
+            let near = nearest(&name.to_string(), kind.is_screw().then_some("lead"));
+            let help = match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if name == "lead" => {
+                    "a joint that travels along its axis as it turns is `screw`".to_string()
+                }
+                None => format!(
+                    "write `{}`; the coordinate has the name of the joint, `{}`",
+                    kind.example, joint.name
+                ),
+            };
+            self.diagnostics.error_with_help(name, message, help);
+        }
+        stray.is_empty().then_some(())
+    }
+
     /// Several coordinates each need a name; a single one has that of the joint.
     fn names(&mut self, joint: &Joint, kind: &Kind, axes: &[&JointArgument]) -> Option<()> {
-        let several = kind.motions.len() > 1;
-        let mut right = Some(());
+        let word = kind.word;
+        let help = format!("write `{}`", kind.example);
         for axis in axes {
-            let problem = match &axis.name {
-                Some(name) if kind.motions.is_empty() => {
-                    (name.into(), format!("`{}` takes no argument", kind.word))
-                }
-                Some(name) if kind.is_screw() && nearest(&name.to_string(), ["lead"]).is_some() => {
-                    (
-                        name.into(),
-                        format!("`{}` has no argument `{name}`", kind.word),
-                    )
-                }
-                Some(name) if !several => (
+            let (extent, message) = match (&axis.name, kind.motions.len()) {
+                (Some(name), 1) => (
                     name.into(),
                     format!(
-                        "the only coordinate of `{}` has the name of the joint, `{}`",
-                        kind.word, joint.name
+                        "the only coordinate of `{word}` has the name of the joint, `{}`",
+                        joint.name
                     ),
                 ),
-                None if several => (
+                (None, 2..) => (
                     axis.value.extent,
-                    format!("each coordinate of `{}` needs a name", kind.word),
+                    format!("each coordinate of `{word}` needs a name"),
                 ),
                 _ => continue,
             };
-            let (extent, message) = problem;
-            let help = format!("write `{}`", kind.example);
             self.diagnostics.error_with_help(extent, message, help);
-            right = None;
-            // One help is enough for axes without names.
-            if axis.name.is_none() {
-                break;
-            }
+            return None;
         }
-        right
+        Some(())
     }
 
     fn count(&mut self, joint: &Joint, kind: &Kind, given: usize) -> Option<()> {
@@ -128,26 +137,26 @@ impl Resolver<'_> {
         if given == needed {
             return Some(());
         }
-        let word = kind.word;
-        let arguments = joint.arguments.as_deref().unwrap_or_default();
-        if let (0, Some(first)) = (needed, arguments.first()) {
-            if first.name.is_none() {
-                let message = format!("`{word}` takes no argument");
-                self.diagnostics.error(first.value.extent, message);
-            }
-            return None;
-        }
+        let (word, example) = (kind.word, kind.example);
         let (message, help) = match needed {
+            0 => {
+                let first = joint.arguments.iter().flatten().next()?;
+                let extent = first.name.as_ref().map_or(first.value.extent, Extent::from);
+                let message = format!("`{word}` takes no argument");
+                self.diagnostics.error(extent, message);
+                return None;
+            }
+            1 if kind.is_screw() => (
+                format!("`{word}` needs one axis"),
+                format!("write `{example}`"),
+            ),
             1 => (
                 format!("`{word}` needs one axis"),
-                match kind.is_screw() {
-                    true => format!("write `{}`", kind.example),
-                    false => format!("write `{word}(z)` or `{word}([1, 0, 1])`"),
-                },
+                format!("write `{word}(z)` or `{word}([1, 0, 1])`"),
             ),
             several => (
                 format!("`{word}` needs {several} axes, not {given}"),
-                format!("write `{}`", kind.example),
+                format!("write `{example}`"),
             ),
         };
         self.diagnostics.error_with_help(&joint.kind, message, help);
@@ -223,6 +232,30 @@ impl Resolver<'_> {
             extent: last?.extent,
         });
         Some(())
+    }
+}
+
+/// The arguments of a joint by what they are.
+struct Sorted<'a> {
+    axes: Vec<&'a JointArgument>,
+    leads: Vec<&'a JointArgument>,
+    /// Neither: with a name, beside the axis of a joint that has only one.
+    stray: Vec<&'a JointArgument>,
+}
+
+impl<'a> Sorted<'a> {
+    fn new(joint: &'a Joint, kind: &Kind) -> Self {
+        let arguments = joint.arguments.as_deref().unwrap_or_default();
+        let is_lead = |argument: &&JointArgument| {
+            kind.is_screw() && argument.name.as_ref().is_some_and(|name| name == "lead")
+        };
+        let has_axis = arguments.iter().any(|argument| argument.name.is_none());
+        let is_stray = |argument: &&JointArgument| {
+            kind.has_one_coordinate() && has_axis && argument.name.is_some()
+        };
+        let (leads, others): (Vec<_>, Vec<_>) = arguments.iter().partition(is_lead);
+        let (stray, axes) = others.into_iter().partition(is_stray);
+        Self { axes, leads, stray }
     }
 }
 
