@@ -49,6 +49,10 @@ impl Moments {
         if other.count == 0 {
             return;
         }
+        if self.count == 0 {
+            *self = *other;
+            return;
+        }
         let count = self.count + other.count;
         let deviation = other.mean - self.mean;
         let share = other.count as f64 / count as f64;
