@@ -4,8 +4,13 @@ use super::Tolerances;
 use crate::sensitivity::OutputSensitivities;
 use crate::{Description, Modes, Sensitivities};
 
-/// Closer to the critical state, or to another mode, than this many standard deviations, first order is not to be trusted: its error exceeds
-/// a few percent and grows without bound.
+/// Nearer to the critical state, or to another mode, than this many standard deviations, first order is not to be
+/// trusted: its error grows without bound.
+///
+/// It is a warning, not a bound on the error beyond. For the rotating bar, against quadrature of the exact
+/// distribution, first order misses the standard deviation at this distance by -3.4, -4.5 and -7.4 % for tolerances of
+/// 3, 6 and 12 %; for 12 % an error of a few percent needs about 6 standard deviations. Large tolerances bend the
+/// frequency itself, which a distance to the critical state does not show.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
 /// First-order spread of one mode.
