@@ -52,19 +52,14 @@ impl Cost {
         sampling: &Sampling<'_>,
     ) -> Result<Self, Error>
     where
-        M: Mechanism<N, U, P, O> + Clone,
+        M: Mechanism<N, U, P, O>,
     {
         let samples = sampling.samples.min(MOST_SAMPLES);
-        let nominal = study.equilibrium()?.design;
-        let half_widths = *question.tolerances(&nominal, level)?.half_widths();
-        let mut ready = study
-            .clone()
+        let ready = question
+            .varied_by(study, level)
             .samples(samples)
             .seed(sampling.seed)
             .threads(1);
-        for (j, &half_width) in half_widths.iter().enumerate() {
-            ready = ready.tolerance(DesignVariable(j), half_width);
-        }
         let at = |&speed: &f64| ready.clone().input(question.speed, speed);
         let studies: Vec<_> = speeds.iter().map(at).collect();
 

@@ -16,7 +16,9 @@ use crate::Real;
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which
 /// the solvers of this crate turn into typed errors.
-pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>: Sync {
+pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>:
+    Clone + Sync
+{
     /// Names, units, nominal values and what the compiler proved.
     const DESCRIPTION: Description;
 

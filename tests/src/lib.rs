@@ -25,3 +25,4 @@ pub mod model;
 pub mod oracle;
 pub mod random;
 pub mod truth;
+pub mod unheld;

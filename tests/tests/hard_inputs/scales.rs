@@ -1,0 +1,93 @@
+//! The same machine a million times smaller or larger: the shape of the answer does not change.
+
+use eigentol::{DesignVariable, Mechanism, Stability, Study};
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
+
+use super::sound::assert_equilibrium;
+
+/// Lengths by `a`, masses by `c`, speeds by `1/sqrt(a)`: angles stay, frequencies go with the speed.
+#[test]
+fn pendulums_of_every_size() {
+    let at = |length: f64, mass: f64, speed: f64| {
+        let design = RotatingDoublePendulum::DESCRIPTION.design;
+        let mut study = Study::new(RotatingDoublePendulum)
+            .input(RotatingDoublePendulum::omega, speed / length.sqrt())
+            .start(RotatingDoublePendulum::theta1, 0.3);
+        for (j, info) in design.iter().enumerate() {
+            let factor = if info.unit.symbol.contains("kg") {
+                mass
+            } else {
+                length
+            };
+            study = study
+                .design(DesignVariable(j), factor * info.nominal)
+                .tolerance(DesignVariable(j), factor * info.tolerance);
+        }
+        study
+    };
+    for speed in [0.0, 1.0, 2.6, 2.7, 3.5, 12.0] {
+        let usual = at(1.0, 1.0, speed);
+        let reference = usual.equilibrium().expect("a state");
+        let modes = usual.modes().expect("modes").modes;
+        let sigmas = usual.first_order().expect("a spread").modes;
+        for length in [1e-6, 1e-3, 1e3, 1e6] {
+            for mass in [1e-9, 1.0, 1e9] {
+                let what = format!("{speed} rad/s, lengths by {length:e}, masses by {mass:e}");
+                let study = at(length, mass, speed);
+                let state = study.equilibrium().expect("a state");
+                assert_equilibrium(&RotatingDoublePendulum, &state);
+                assert_eq!(state.stability, Stability::Stable, "{what}");
+                let scaled = study.modes().expect("modes").modes;
+                let spread = study.first_order().expect("a spread").modes;
+                for i in 0..2 {
+                    let off = (state.coordinates[i].abs() - reference.coordinates[i].abs()).abs();
+                    assert!(off < 1e-10, "{what}: {state:?}");
+                    let expected = modes[i].lambda / length;
+                    let off = (scaled[i].lambda - expected).abs();
+                    assert!(off <= 1e-8 * expected, "{what}: {}", scaled[i].lambda);
+                    let expected = sigmas[i].sigma.expect("a frequency") / length.sqrt();
+                    let found = spread[i].sigma.expect("a frequency");
+                    assert!(
+                        (found - expected).abs() <= 1e-7 * expected,
+                        "{what}: {found}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// `x* = kx x0 / (kx - m omega^2)`, whatever the size of each quantity.
+#[test]
+fn sliders_of_every_size() {
+    for length in [1e-9, 1e-3, 1e6, 1e12] {
+        for force in [1e-12, 1e-3, 1e9] {
+            for mass in [1e-9, 1.0, 1e6] {
+                let (kx, m, x0) = (40.0 * force, 0.5 * mass, 0.1 * length);
+                let omega = 4.0 * f64::sqrt(force / mass);
+                let study = Study::new(SlidersOnPlate)
+                    .input(SlidersOnPlate::omega, omega)
+                    .design(SlidersOnPlate::m, m)
+                    .design(SlidersOnPlate::kx, kx)
+                    .design(SlidersOnPlate::ky, 60.0 * force)
+                    .design(SlidersOnPlate::x0, x0)
+                    .design(SlidersOnPlate::y0, 0.02 * length);
+                let state = study.equilibrium().expect("a state");
+                assert_equilibrium(&SlidersOnPlate, &state);
+                let [x, y] = state.coordinates;
+                let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-12 * expected;
+                assert!(
+                    near(x, 0.125 * length),
+                    "{length:e} {force:e} {mass:e}: {x:e}"
+                );
+                assert!(
+                    near(y, 0.3 / 13.0 * length),
+                    "{length:e} {force:e} {mass:e}: {y:e}"
+                );
+                let lambda = study.modes().expect("modes").modes[0].lambda;
+                assert!(near(lambda, 64.0 * force / mass), "{lambda:e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Values that no machine can have, and settings that make no sense: refused by name.
+
+use eigentol::{Coordinate, DesignVariable, Error, Input, Mechanism, Study};
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::{Visitor, corpus, visit};
+
+const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+/// Every place of every machine.
+struct EveryPlace(usize);
+
+impl Visitor for EveryPlace {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        machine: &'static str,
+        _: &'static str,
+        mechanism: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let names = M::DESCRIPTION;
+        let refused = |study: Study<M, N, U, P, O>, expected: &str| {
+            for error in [
+                study.equilibrium().err(),
+                study.modes().err(),
+                study.sensitivities().err(),
+                study.monte_carlo().err(),
+            ] {
+                let Some(Error::NotFinite { name, .. }) = error else {
+                    panic!("{machine}, {expected}: {error:?}");
+                };
+                assert_eq!(name, expected, "{machine}");
+            }
+        };
+        for value in NOT_FINITE {
+            for i in 0..N {
+                let study = Study::new(mechanism).start(Coordinate(i), value);
+                refused(study, names.coordinates[i].name);
+            }
+            for j in 0..U {
+                refused(
+                    Study::new(mechanism).input(Input(j), value),
+                    names.inputs[j].name,
+                );
+            }
+            for j in 0..P {
+                let study = Study::new(mechanism).design(DesignVariable(j), value);
+                refused(study, names.design[j].name);
+            }
+        }
+        self.0 += 1;
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_named() {
+    let mut every = EveryPlace(0);
+    visit(&mut every);
+    assert_eq!(every.0, corpus().len());
+}
+
+#[test]
+fn what_no_body_can_have_is_named() {
+    for (variable, quantity) in [
+        (RotatingDoublePendulum::l1, "length of bar1"),
+        (RotatingDoublePendulum::l2, "length of bar2"),
+        (RotatingDoublePendulum::m1, "mass of bar1"),
+        (RotatingDoublePendulum::m2, "mass of bar2"),
+    ] {
+        for value in [0.0, -0.0, -1e-300, -3.0, f64::MIN] {
+            let study = Study::new(RotatingDoublePendulum).design(variable, value);
+            let error = study.equilibrium().err();
+            let Some(Error::Unphysical {
+                quantity: found,
+                requirement,
+                value: got,
+            }) = error
+            else {
+                panic!("{quantity} = {value}: {error:?}");
+            };
+            assert_eq!((found, requirement), (quantity, "positive"));
+            assert_eq!(got, value);
+        }
+    }
+}
+
+#[test]
+fn settings_without_sense_are_named() {
+    // Bent outwards: at rest on the axis the tip's radius has no derivative.
+    let study = || Study::new(RotatingDoublePendulum).input(RotatingDoublePendulum::omega, 4.0);
+    let refused = |study: Study<_, 2, 1, 4, 2>, expected: &str| {
+        for error in [
+            study.tolerances().err(),
+            study.first_order().err(),
+            study.output_tolerances().err(),
+            study.monte_carlo().err(),
+        ] {
+            let Some(Error::Setting { setting, .. }) = error else {
+                panic!("{expected}: {error:?}");
+            };
+            assert_eq!(setting, expected);
+        }
+    };
+    for value in [-1e-300, -1.0].into_iter().chain(NOT_FINITE) {
+        refused(
+            study().tolerance(RotatingDoublePendulum::m1, value),
+            "tolerance",
+        );
+    }
+    for value in [0.0, -0.0, -3.0].into_iter().chain(NOT_FINITE) {
+        refused(study().sigma_level(value), "sigma level");
+    }
+    let identity = |change: &[(usize, usize, f64)]| {
+        let mut matrix: [[f64; 4]; 4] =
+            std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+        for &(i, j, value) in change {
+            matrix[i][j] = value;
+        }
+        matrix
+    };
+    for change in [
+        // Not positive semidefinite: 1 follows 0, 2 follows 1, but 2 opposes 0.
+        &[
+            (0, 1, 0.9),
+            (1, 0, 0.9),
+            (1, 2, 0.9),
+            (2, 1, 0.9),
+            (0, 2, -0.9),
+            (2, 0, -0.9),
+        ][..],
+        &[(0, 3, 1.1), (3, 0, 1.1)],
+        &[(0, 3, 0.5)],
+        &[(1, 1, 0.9)],
+        &[(1, 1, f64::NAN)],
+        &[(2, 1, f64::NAN), (1, 2, f64::NAN)],
+        &[(2, 1, f64::INFINITY), (1, 2, f64::INFINITY)],
+    ] {
+        refused(study().correlation(identity(change)), "correlation matrix");
+    }
+    // At the edge: fully correlated, singular, but semidefinite.
+    let together = study().correlation([[1.0; 4]; 4]);
+    assert!(together.first_order().is_ok());
+}
+
+#[test]
+fn ranges_without_sense_are_named() {
+    let omega = RotatingDoublePendulum::omega;
+    let study = Study::new(RotatingDoublePendulum);
+    for (low, high, steps) in [
+        (f64::NAN, 1.0, 10),
+        (0.0, f64::INFINITY, 10),
+        (2.0, 2.0, 10),
+        (0.0, 5.0, 0),
+    ] {
+        let study = study.clone().steps(steps);
+        for error in [
+            study.critical_state(omega, low, high).err(),
+            study.crossings(omega, low, high, 1.0).err(),
+        ] {
+            let refused = matches!(
+                error,
+                Some(Error::Setting {
+                    setting: "range",
+                    ..
+                })
+            );
+            assert!(refused, "{low} to {high} in {steps}: {error:?}");
+        }
+    }
+    // A ratio that is no number crosses nothing.
+    for ratio in NOT_FINITE {
+        let found = study.crossings(omega, 0.1, 2.0, ratio);
+        assert!(
+            found.as_ref().map_or(true, Vec::is_empty),
+            "{ratio}: {found:?}"
+        );
+    }
+    let none = study.critical_state(omega, 0.1, 1.0);
+    assert!(matches!(none, Err(Error::NotInRange { .. })), "{none:?}");
+    let points = study
+        .sweep(omega, &NOT_FINITE)
+        .expect("points carry their errors");
+    for point in points {
+        assert!(matches!(point.equilibrium, Err(Error::NotFinite { .. })));
+        assert!(matches!(point.modes, Err(Error::NotFinite { .. })));
+    }
+}
+
+#[test]
+fn handles_of_other_machines_are_named() {
+    let study = || Study::new(RotatingDoublePendulum);
+    for (study, kind, index, count) in [
+        (study().input(Input(1), 0.0), "input", 1, 1),
+        (
+            study().design(DesignVariable(4), 1.0),
+            "design variable",
+            4,
+            4,
+        ),
+        (
+            study().tolerance(DesignVariable(9), 1.0),
+            "design variable",
+            9,
+            4,
+        ),
+        (
+            study().start(Coordinate(usize::MAX), 0.0),
+            "coordinate",
+            usize::MAX,
+            2,
+        ),
+    ] {
+        let expected = Error::UnknownHandle {
+            kind,
+            index,
+            mechanism: "RotatingDoublePendulum",
+            count,
+        };
+        assert_eq!(study.equilibrium().err(), Some(expected.clone()));
+        assert_eq!(study.first_order().err(), Some(expected.clone()));
+        assert_eq!(study.sweep(Input(0), &[1.0]).err(), Some(expected));
+    }
+    let swept = study().sweep(Input(1), &[1.0]);
+    assert!(matches!(
+        swept,
+        Err(Error::UnknownHandle { kind: "input", .. })
+    ));
+}

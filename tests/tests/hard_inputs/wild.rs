@@ -1,0 +1,141 @@
+//! Values of any size: nothing panics, nothing hangs, and what is called a result is one.
+
+use eigentol::equilibrium::equilibrium;
+use eigentol::tolerance::Tolerances;
+use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Policy, Study};
+use eigentol_tests::corpus::gimbal::Gimbal;
+use eigentol_tests::corpus::governor::Governor;
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
+use eigentol_tests::corpus::turntable_slider::TurntableSlider;
+use proptest::prelude::*;
+
+use super::sound::{assert_answers, assert_numbers};
+
+/// Of any size up to `10^powers`, zero, and sane numbers, so that every depth of the code is reached.
+pub(crate) fn sized(powers: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        3 => (-powers..powers, any::<bool>())
+            .prop_map(|(power, negative)| 10f64.powf(power) * if negative { -1.0 } else { 1.0 }),
+        6 => -10.0..10.0_f64,
+    ]
+}
+
+/// As [`sized`], and mostly positive.
+pub(crate) fn design(powers: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => sized(powers),
+        3 => (-powers..powers).prop_map(|power| 10f64.powf(power)),
+        16 => 1e-3..1e3_f64,
+    ]
+}
+
+fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: M,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    widths: &[f64],
+) where
+    M: Mechanism<N, U, P, O> + Copy,
+{
+    let u: [f64; U] = std::array::from_fn(|j| u[j]);
+    let b: [f64; P] = std::array::from_fn(|j| b[j]);
+    let start: [f64; N] = std::array::from_fn(|i| start[i]);
+    let usual = Tolerances::declared(&M::DESCRIPTION).expect("declared");
+    let tolerances =
+        Tolerances::new(std::array::from_fn(|j| widths[j]), 3.0, None).unwrap_or(usual);
+    for policy in [Policy::Stable, Policy::Nearest] {
+        if let Ok(state) = equilibrium(&machine, &u, &b, &start, policy) {
+            assert_answers(&machine, &state, &tolerances);
+        }
+    }
+    let mut study = Study::new(machine)
+        .samples(8)
+        .threads(1)
+        .steps(4)
+        .keep_samples(true);
+    for (j, value) in u.into_iter().enumerate() {
+        study = study.input(Input(j), value);
+    }
+    for (i, value) in start.into_iter().enumerate() {
+        study = study.start(Coordinate(i), value);
+    }
+    for j in 0..P {
+        study = study
+            .design(DesignVariable(j), b[j])
+            .tolerance(DesignVariable(j), widths[j]);
+    }
+    if let Ok(run) = study.monte_carlo() {
+        assert_eq!(run.counts.total(), 8);
+        for sample in run.all.iter().flatten() {
+            assert_numbers(sample.coordinates.into_iter().flatten(), "sample");
+            assert_numbers(sample.lambda.into_iter().flatten(), "sample");
+            assert_numbers(sample.frequencies.into_iter().flatten(), "sample");
+        }
+        for found in run.modes.into_iter().flatten() {
+            let spread = [found.standard_deviation, found.standard_error];
+            assert_numbers(spread.into_iter().flatten().chain([found.mean]), "moments");
+        }
+    }
+    if U > 0 {
+        let (low, high) = (start[0], u[0]);
+        if let Ok(critical) = study.critical_state(Input(0), low, high) {
+            assert_numbers([critical.value], "critical");
+            assert_numbers(critical.equilibrium.coordinates, "critical");
+        }
+        for crossing in study
+            .crossings(Input(0), low, high, 1.0)
+            .into_iter()
+            .flatten()
+        {
+            assert_numbers([crossing.value], "crossing");
+        }
+        for point in study.sweep(Input(0), &[low, high]).into_iter().flatten() {
+            if let Ok(state) = point.equilibrium {
+                assert_answers(&machine, &state, &usual);
+            }
+        }
+    }
+}
+
+pub(crate) fn list(strategy: impl Strategy<Value = f64>) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(strategy, 8)
+}
+
+pub(crate) fn ask_one_of_six(which: usize, [u, b, start, widths]: [&[f64]; 4]) {
+    match which {
+        0 => ask(RotatingPendulum, u, b, start, widths),
+        1 => ask(RotatingDoublePendulum, u, b, start, widths),
+        2 => ask(SlidersOnPlate, u, b, start, widths),
+        3 => ask(Governor, u, b, start, widths),
+        4 => ask(Gimbal, u, b, start, widths),
+        _ => ask(TurntableSlider, u, b, start, widths),
+    }
+}
+
+pub(crate) fn many() -> ProptestConfig {
+    ProptestConfig {
+        cases: 2000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
+
+proptest! {
+    #![proptest_config(many())]
+
+    /// Twenty orders of magnitude either way, starts of a million: products of several stay numbers.
+    #[test]
+    fn any_size(
+        which in 0..6_usize,
+        u in list(sized(20.0)),
+        b in list(design(20.0)),
+        start in list(sized(6.0)),
+        widths in list(design(20.0)),
+    ) {
+        ask_one_of_six(which, [&u, &b, &start, &widths]);
+    }
+}
