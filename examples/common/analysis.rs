@@ -59,7 +59,7 @@ impl Analysis {
             events,
             sampled,
             curve,
-            costs: question.levels.iter().map(cost).collect::<Result<_, _>>()?,
+            costs: question.levels.iter().map(cost).collect(),
         })
     }
 

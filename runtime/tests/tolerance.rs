@@ -144,13 +144,11 @@ fn agrees(run: &MonteCarlo<1, 2>, mean: f64, sigma: f64) {
         found.mean
     );
     // Standard error of a standard deviation, for moderate kurtosis.
-    let error = (found.standard_deviation.unwrap() - sigma).abs()
-        * (2.0 * run.samples as f64).sqrt()
-        / sigma;
+    let deviation = found.standard_deviation.unwrap();
+    let error = (deviation - sigma).abs() * (2.0 * run.samples as f64).sqrt() / sigma;
     assert!(
         error < 4.0,
-        "sigma {} is {error} standard errors from {sigma}",
-        found.standard_deviation.unwrap()
+        "sigma {deviation} is {error} standard errors from {sigma}"
     );
 }
 
