@@ -35,7 +35,7 @@ impl Analysis {
         options: &Options,
     ) -> Result<Self, Error>
     where
-        M: Mechanism<N, U, P, O> + Clone,
+        M: Mechanism<N, U, P, O>,
     {
         let events = Events::find(study, question)?;
         let critical = events.critical.speed;
@@ -45,6 +45,7 @@ impl Analysis {
         let sampling = Sampling {
             samples: options.samples,
             seed: options.seed,
+            stream: 0,
             threads: options.threads,
             keep_samples: false,
             progress: Some(&count),
@@ -58,7 +59,7 @@ impl Analysis {
             events,
             sampled,
             curve,
-            costs: question.levels.iter().map(cost).collect::<Result<_, _>>()?,
+            costs: question.levels.iter().map(cost).collect(),
         })
     }
 

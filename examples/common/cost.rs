@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use eigentol::tolerance::Sampling;
-use eigentol::{DesignVariable, Error, Mechanism, Study};
+use eigentol::{Mechanism, Study};
 
 use crate::Question;
 
@@ -40,31 +40,23 @@ impl Cost {
         self.monte_carlo.as_secs_f64() / self.first_order.as_secs_f64().max(1e-9)
     }
 
-    /// Measures one tolerance at all speeds.
-    ///
-    /// # Errors
-    /// Those of the tolerances; a speed that fails costs both what it costs.
+    /// Measures one tolerance at all speeds; a speed that fails costs both what it costs.
     pub fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         study: &Study<M, N, U, P, O>,
         question: &Question,
         level: f64,
         speeds: &[f64],
         sampling: &Sampling<'_>,
-    ) -> Result<Self, Error>
+    ) -> Self
     where
-        M: Mechanism<N, U, P, O> + Clone,
+        M: Mechanism<N, U, P, O>,
     {
         let samples = sampling.samples.min(MOST_SAMPLES);
-        let nominal = study.equilibrium()?.design;
-        let half_widths = *question.tolerances(&nominal, level)?.half_widths();
-        let mut ready = study
-            .clone()
+        let ready = question
+            .varied_by(study, level)
             .samples(samples)
             .seed(sampling.seed)
             .threads(1);
-        for (j, &half_width) in half_widths.iter().enumerate() {
-            ready = ready.tolerance(DesignVariable(j), half_width);
-        }
         let at = |&speed: &f64| ready.clone().input(question.speed, speed);
         let studies: Vec<_> = speeds.iter().map(at).collect();
 
@@ -82,12 +74,12 @@ impl Cost {
         for study in &studies {
             black_box(study.monte_carlo()).ok();
         }
-        Ok(Self {
+        Self {
             level,
             first_order,
             passes,
             monte_carlo: start.elapsed(),
             samples,
-        })
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Speeds at which something happens, with the tolerance that the design variables give them.
 
-use eigentol::sensitivity::{critical_sensitivity, crossing_sensitivity};
+use eigentol::tolerance::EventTolerance;
 use eigentol::{Error, Mechanism, Study};
 
 use crate::Question;
@@ -27,7 +27,7 @@ impl Events {
     /// Looks for them over the range of the question.
     ///
     /// # Errors
-    /// Those of [`Study::critical_state`] and [`Study::crossings`].
+    /// Those of [`Study::critical_tolerance`] and [`Study::crossing_tolerances`].
     pub fn find<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         study: &Study<M, N, U, P, O>,
         question: &Question,
@@ -36,25 +36,22 @@ impl Events {
         M: Mechanism<N, U, P, O>,
     {
         let (low, high) = question.range;
-        let state = study.critical_state(question.speed, low, high)?;
-        let nominal = state.equilibrium.design;
         let level = question.levels.first().copied().unwrap_or(0.0);
-        let deviations = question.tolerances(&nominal, level)?.standard_deviations();
-        let event = |speed: f64, slope: Result<[f64; P], Error>| Event {
-            speed,
-            sigma: slope.ok().map(|slope| {
-                let moved = slope.iter().zip(&deviations).map(|(s, sigma)| s * sigma);
-                moved.map(|move_by| move_by * move_by).sum::<f64>().sqrt()
-            }),
-        };
-        let mechanism = study.mechanism();
-        let resonances = study.crossings(question.speed, low, high, 1.0)?;
+        let study = question.varied_by(study, level);
+        let critical = study.critical_tolerance(question.speed, low, high)?;
+        let resonances = study.crossing_tolerances(question.speed, low, high, 1.0)?;
         Ok(Self {
-            critical: event(state.value, critical_sensitivity(mechanism, &state)),
-            resonances: resonances
-                .iter()
-                .map(|crossing| event(crossing.value, crossing_sensitivity(mechanism, crossing)))
-                .collect(),
+            critical: Event::from(&critical),
+            resonances: resonances.iter().map(Event::from).collect(),
         })
+    }
+}
+
+impl<const P: usize> From<&EventTolerance<P>> for Event {
+    fn from(found: &EventTolerance<P>) -> Self {
+        Self {
+            speed: found.value,
+            sigma: found.sigma(),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! What is asked of a mechanism: which input is swept, what varies, and by how much.
 
-use eigentol::{DesignVariable, Error, Input, Tolerances};
+use eigentol::{DesignVariable, Input, Mechanism, Study};
 
 /// A sweep of one input under tolerances of some design variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,23 +16,21 @@ pub struct Question {
 }
 
 impl Question {
-    /// The tolerances of one level about the design `nominal`.
-    ///
-    /// # Errors
-    /// Those of [`Tolerances::new`].
-    pub fn tolerances<const P: usize>(
+    /// The study with tolerances of one level on the varied design variables and on no other.
+    pub fn varied_by<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         &self,
-        nominal: &[f64; P],
+        study: &Study<M, N, U, P, O>,
         level: f64,
-    ) -> Result<Tolerances<P>, Error> {
-        let half_widths = core::array::from_fn(|j| {
-            if self.varied.contains(&DesignVariable(j)) {
-                level * nominal[j].abs()
-            } else {
-                0.0
-            }
-        });
-        Tolerances::new(half_widths, 3.0, None)
+    ) -> Study<M, N, U, P, O>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        (0..P)
+            .map(DesignVariable)
+            .fold(study.clone(), |study, variable| {
+                let varies = self.varied.contains(&variable);
+                study.relative_tolerance(variable, if varies { level } else { 0.0 })
+            })
     }
 }
 

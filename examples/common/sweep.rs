@@ -86,7 +86,8 @@ impl Sweep {
         let points = study.sweep(question.speed, speeds)?;
         let rows = points
             .iter()
-            .map(|point| row(study.mechanism(), question, point, sampling));
+            .zip(0..)
+            .map(|(point, place)| row(study, question, (point, place), sampling));
         let name = |index: usize| {
             M::DESCRIPTION
                 .design
@@ -108,14 +109,15 @@ impl Sweep {
 }
 
 fn row<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
+    study: &Study<M, N, U, P, O>,
     question: &Question,
-    point: &SweepPoint<N, U, P>,
+    (point, place): (&SweepPoint<N, U, P>, u64),
     sampling: Option<&Sampling<'_>>,
 ) -> Row
 where
     M: Mechanism<N, U, P, O>,
 {
+    let mechanism = study.mechanism();
     let mut row = Row {
         speed: point.value,
         angles: vec![None; O],
@@ -141,12 +143,15 @@ where
     match &point.modes {
         Ok(modes) => {
             row.frequencies = modes.frequencies().to_vec();
-            for (k, &level) in question.levels.iter().enumerate() {
+            // Every speed and tolerance draws its own samples: with the same ones everywhere the error of one sample
+            // would look like a systematic one.
+            let first_stream = place * question.levels.len() as u64;
+            for ((k, &level), stream) in question.levels.iter().enumerate().zip(first_stream..) {
                 let sampling = sampling.map(|sampling| Sampling {
-                    seed: own_seed(sampling.seed, point.value, level),
+                    stream,
                     ..*sampling
                 });
-                let tolerances = question.tolerances(&state.design, level);
+                let tolerances = question.varied_by(study, level).tolerances();
                 let filled = tolerances.and_then(|tolerances| {
                     let at = Place {
                         mechanism,
@@ -243,25 +248,10 @@ impl Spread {
             .iter()
             .map(|mode| Moments {
                 mean: mode.map(|mode| mode.mean),
-                sigma: mode
-                    .filter(|mode| mode.count > 1)
-                    .map(|mode| mode.standard_deviation),
+                sigma: mode.and_then(|mode| mode.standard_deviation),
             })
             .collect();
     }
-}
-
-/// Every speed and tolerance draws its own samples: with the same ones everywhere the error of one sample would look
-/// like a systematic one. (SplitMix64, Steele, Lea and Flood 2014.)
-fn own_seed(seed: u64, speed: f64, level: f64) -> u64 {
-    [speed.to_bits(), level.to_bits()]
-        .into_iter()
-        .fold(seed, |mixed, bits| {
-            let mut z = (mixed ^ bits).wrapping_add(0x9e37_79b9_7f4a_7c15);
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ (z >> 31)
-        })
 }
 
 fn moments<const N: usize, const P: usize>(found: &FirstOrder<N, P>) -> Vec<Moments> {

@@ -63,7 +63,7 @@ pub use eigentol_macros::mechanism;
 pub use mechanism::{Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
     CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo, Linear,
-    LinearPartials, Mechanism, OutputInfo, RestParts, Unit, Violation,
+    LinearPartials, Mechanism, OutputInfo, PoseMargin, RestParts, Unit, Violation,
 };
 pub use real::Real;
 

@@ -16,7 +16,9 @@ use crate::Real;
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which
 /// the solvers of this crate turn into typed errors.
-pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>: Sync {
+pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>:
+    Clone + Sync
+{
     /// Names, units, nominal values and what the compiler proved.
     const DESCRIPTION: Description;
 
@@ -147,6 +149,17 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// positive, an inertia that no body can have. NaN breaks every requirement.
     fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>>;
 
+    /// The joint of three turns that is nearest to its singular pose; `None` without such a joint. The generated equations
+    /// stay finite there, but two coordinates do the same, and the mass matrix becomes singular.
+    fn pose_margin<T: Real + PartialOrd>(
+        &self,
+        _q: &[T; N],
+        _u: &[T; U],
+        _b: &[T; P],
+    ) -> Option<PoseMargin<T>> {
+        None
+    }
+
     /// The declared outputs.
     fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
 
@@ -177,6 +190,15 @@ pub struct Violation<T> {
     pub requirement: &'static str,
     /// What it is, SI.
     pub value: T,
+}
+
+/// How far a joint is from the pose in which its coordinates fail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseMargin<T> {
+    /// Name of the joint.
+    pub joint: &'static str,
+    /// Volume spanned by its three unit axes: one when they are perpendicular, zero in the singular pose.
+    pub margin: T,
 }
 
 /// The residual at rest in two parts, `g = inertia - applied` (eq. 10).

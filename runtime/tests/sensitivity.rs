@@ -83,7 +83,7 @@ fn frozen_equilibrium_is_minus_half_of_the_truth_above() {
     let state = equilibrium(&Pendulum, &[5.0], &BAR, &[1.0], Policy::Stable).unwrap();
     let found = modes(&state).unwrap();
     let truth = sensitivities(&Pendulum, &state, &found).unwrap().modes[0];
-    let frozen = sensitivities_with_frozen_equilibrium(&Pendulum, &state, &found);
+    let frozen = sensitivities_with_frozen_equilibrium(&Pendulum, &state, &found).unwrap();
     close(
         frozen.modes[0].omega_by_design.unwrap()[1],
         -0.5 * truth.omega_by_design.unwrap()[1],

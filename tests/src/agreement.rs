@@ -8,9 +8,9 @@ use std::fmt::Write;
 
 use crate::declaration::declaration;
 use crate::kernels::{At, Kernels};
-use crate::model::{JointKind, Model};
+use crate::model::Model;
 use crate::oracle::{Linear, Oracle};
-use crate::random::Random;
+use crate::random::{Random, position};
 
 /// Allowed difference, relative to the size of the terms.
 pub const TOLERANCE: f64 = 1e-9;
@@ -50,15 +50,7 @@ impl Case {
         let (acceleration, velocity) = (full(n, 3.0), full(n, 2.0));
         let (mode, mode_along) = ((full(n, 1.0), 7.3), (full(n, 1.0), -0.6));
         let (weight, weight_along) = (full(n, 1.0), full(n, 1.0));
-        let position = |joint: usize| match model.joints[joint].kind {
-            JointKind::Prismatic(_) => 0.4,
-            _ => 1.2,
-        };
-        let free = model.free();
-        let q = free
-            .iter()
-            .map(|&joint| random.between(-1.0, 1.0) * position(joint))
-            .collect();
+        let q = position(model, &mut random);
         let u = (0..inputs).map(|_| random.between(0.5, 4.0)).collect();
         let b = model
             .design

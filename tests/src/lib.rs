@@ -18,6 +18,7 @@ pub mod declaration;
 pub mod dual;
 pub mod energy;
 pub mod examples;
+pub mod fixed;
 pub mod generated;
 pub mod kernels;
 pub mod model;

@@ -126,7 +126,8 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         black_box(output_sensitivities(&machine, &at)).expect("outputs");
         black_box(sensitivities(&machine, &at, &found)).expect("derivatives");
         black_box(sensitivities_explicit(&machine, &at, &found)).expect("derivatives");
-        black_box(sensitivities_with_frozen_equilibrium(&machine, &at, &found));
+        black_box(sensitivities_with_frozen_equilibrium(&machine, &at, &found))
+            .expect("derivatives");
     };
     assert_eq!(allocations(questions), 0, "derivatives of {name}");
     let spreads = || {

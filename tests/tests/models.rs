@@ -2,11 +2,15 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::mem::discriminant;
 
 use eigentol_tests::declaration::declaration;
-use eigentol_tests::examples::{chain, two_sliders};
-use eigentol_tests::model::{ForceLaw, Frame, JointKind, Shape};
+use eigentol_tests::examples::{
+    anisotropic_bearing, blade, chain, jeffcott_in_the_ground, screw_pendulum,
+    steadied_by_the_shaft, top, two_sliders,
+};
+use eigentol_tests::model::{Amount, ForceLaw, Frame, Motion, ORIGIN, Shape, Value};
 use eigentol_tests::random::on_plans;
 
 #[test]
@@ -43,6 +47,47 @@ fn forces_of_sliders_have_the_units_of_displacements() {
     }
 }
 
+#[test]
+fn several_coordinates_have_names_and_drives_of_their_own() {
+    let particle = Shape::Point {
+        mass: Value::Number(1.0),
+        center: ORIGIN,
+    };
+    for (model, line) in [
+        (
+            top(particle.clone(), ORIGIN),
+            "joint pivot: spherical(precession: z, tilt: y, spin: z) from ground to top, \
+             precession driven at Omega, spin driven at nu;",
+        ),
+        (
+            blade(particle),
+            "joint root: universal(flap: y, lag: z) from shaft to blade;",
+        ),
+        (
+            screw_pendulum(1.0, 0.5, 0.25 / TAU, 0.0),
+            "joint theta: screw(x, lead: 0.25 m) from ground to nut;",
+        ),
+        (
+            jeffcott_in_the_ground(1.0, [2.0, 3.0], 0.1),
+            "force force2: drag(at: point0, damping: 0.1 N*s/m, turning_damping: 0.3 N*m*s/rad);",
+        ),
+        (
+            anisotropic_bearing(1.0, [2.0, 3.0]),
+            "force force0: potential(energy: (0.5) * (2.0 N/m) * (position(point0).x)^2 \
+             + (0.5) * (3.0 N/m) * (position(point0).y)^2);",
+        ),
+        (
+            steadied_by_the_shaft(1.0, 2.0, 0.5, 0.1),
+            "force force0: bushing(from: point0, to: point1, stiffness: [2.0, 2.0, 2.0] N/m, \
+             damping: [0.5, 0.5, 0.5] N*s/m, turning_stiffness: [7.0, 7.0, 7.0] N*m/rad, \
+             turning_damping: [0.4, 0.4, 0.4] N*m*s/rad);",
+        ),
+    ] {
+        let text = declaration(&model);
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
 /// The generator makes everything it promises, and what it prints is made of tokens.
 #[test]
 fn random_models_leave_nothing_out() {
@@ -58,25 +103,47 @@ fn random_models_leave_nothing_out() {
         count(format!("{} design variables", model.design.len()));
         count(format!("{} drives", model.driven().len()));
         for body in &model.bodies {
-            count(format!("shape {:?}", discriminant(&body.shape)));
-            if matches!(
-                body.shape,
-                Shape::Rod {
-                    center: Some(_),
-                    ..
+            count(format!("sum of {}", body.parts.len()));
+            for part in &body.parts {
+                count(format!("shape {:?}", discriminant(&part.shape)));
+                match &part.shape {
+                    Shape::Rod {
+                        center: Some(_), ..
+                    } => count("rod with a centre".to_owned()),
+                    Shape::Rigid { about: Some(_), .. } => count("inertia elsewhere".to_owned()),
+                    Shape::Tube { mass, .. } | Shape::Disk { mass, .. }
+                        if matches!(mass, Amount::Density(_)) =>
+                    {
+                        count("density".to_owned());
+                    }
+                    _ => {}
                 }
-            ) {
-                count("rod with a centre".to_owned());
+                if part.hole {
+                    count("hole".to_owned());
+                }
             }
         }
         for joint in &model.joints {
-            count(format!("joint {:?}", discriminant(&joint.kind)));
-            if joint.drive.is_some() && matches!(joint.kind, JointKind::Prismatic(_)) {
+            count(format!("joint {:?}", joint.word));
+            let driven = joint.steps.iter().filter(|step| step.drive.is_some());
+            let driven: Vec<_> = driven.collect();
+            if driven.iter().any(|step| step.motion == Motion::Slide) {
                 count("driven slider".to_owned());
+            }
+            if !driven.is_empty() {
+                count(format!("driven {:?}", joint.word));
+                if driven.len() < joint.steps.len() {
+                    count("partly driven".to_owned());
+                }
+                if driven.len() > 1 {
+                    count("several drives in one joint".to_owned());
+                }
             }
         }
         for branch in model.tree() {
             if branch.reversed {
+                let word = model.joints[branch.joint].word;
+                count(format!("reversed {word:?}"));
                 count("reversed joint".to_owned());
             }
             let children = model
@@ -90,6 +157,9 @@ fn random_models_leave_nothing_out() {
         }
         for force in &model.forces {
             count(format!("force {:?}", discriminant(&force.law)));
+            if let ForceLaw::Load { following, .. } = force.law {
+                count(format!("load that follows: {following}"));
+            }
             if let ForceLaw::SpringDamper { from, to, .. } = force.law {
                 let ends = [model.points[from].frame, model.points[to].frame];
                 let ground = ends.contains(&Frame::Ground);
@@ -98,7 +168,16 @@ fn random_models_leave_nothing_out() {
         }
     });
     let seen = seen.into_inner();
-    for (what, least) in [("reversed joint", 50), ("fork", 50), ("driven slider", 20)] {
+    for (what, least) in [
+        ("reversed joint", 50),
+        ("fork", 50),
+        ("driven slider", 20),
+        ("hole", 50),
+        ("density", 50),
+        ("inertia elsewhere", 30),
+        ("partly driven", 20),
+        ("several drives in one joint", 20),
+    ] {
         assert!(
             seen.get(what).is_some_and(|&count| count >= least),
             "{what}: {seen:#?}"
@@ -106,8 +185,12 @@ fn random_models_leave_nothing_out() {
     }
     for (what, kinds) in [
         ("shape", 8),
-        ("joint", 3),
-        ("force", 3),
+        ("sum", 4),
+        ("joint", 9),
+        ("reversed ", 10),
+        ("driven ", 9),
+        ("force", 9),
+        ("load", 2),
         ("spring between", 2),
     ] {
         let found = seen.keys().filter(|key| key.starts_with(what)).count();

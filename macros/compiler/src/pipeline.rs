@@ -60,16 +60,10 @@ impl Compilation {
 
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
-        let Functions {
-            requirements,
-            properties,
-            ..
-        } = &self.functions;
         emit(
             &self.mechanism,
             &self.topology,
-            *properties,
-            requirements,
+            &self.functions,
             &self.program,
         )
     }

@@ -1,12 +1,15 @@
 //! When a solve is finished: its Newton step is small against the coordinates, or rounding lets the residual fall no
-//! further. The residual alone cannot tell near a critical state, where a small one hides a large displacement.
+//! further. The residual alone cannot tell near a critical state, where a small one hides a large displacement; a small
+//! step alone cannot tell where stiffnesses of very different size meet, so a finished state passes both.
 
 use super::problem::Problem;
 use crate::Mechanism;
 use crate::array::{Square, largest};
 
-/// Residual relative to its parts, or step relative to the coordinates, that counts as solved once neither falls.
+/// Relative residual that counts as solved once it no longer falls.
 pub(super) const TOLERANCE: f64 = 1e-10;
+/// Relative residual that a result may have; beyond it, it is no equilibrium.
+pub(super) const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small changes nothing.
 const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
@@ -16,6 +19,11 @@ const LAST_STEP: f64 = 1e-8;
 const STALLED: f64 = 0.5;
 /// Displacement (rad or m) that coordinates near zero are compared with.
 const SMALL_MOTION: f64 = 1e-3;
+/// Share of a coordinate that counts as a displacement in the scale of a residual: times [`TOLERANCE`] it is some seven
+/// roundings of the coordinate, which is what a far-off coordinate can resolve.
+const ROUNDED: f64 = 1.5e-5;
+/// Way, relative to where the residual last fell, on which a residual that stays the same is not small but left behind.
+const DRIFT: f64 = 1e3;
 
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,20 +37,23 @@ pub(super) enum Progress {
 }
 
 /// Watches a residual fall and tells when it has reached rounding.
-pub(super) struct Watch {
+pub(super) struct Watch<const N: usize> {
     previous: f64,
+    /// Where the residual last fell.
+    fell_at: [f64; N],
 }
 
-impl Watch {
-    pub(super) fn new() -> Self {
+impl<const N: usize> Watch<N> {
+    pub(super) fn new(start: &[f64; N]) -> Self {
         Self {
             previous: f64::INFINITY,
+            fell_at: *start,
         }
     }
 
     /// Judges a state by its residual and by the full step that would come next; without a step only the residual
     /// counts.
-    pub(super) fn judge<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    pub(super) fn judge<M, const U: usize, const P: usize, const O: usize>(
         &mut self,
         problem: &Problem<'_, M, N, U, P, O>,
         q: &[f64; N],
@@ -55,15 +66,19 @@ impl Watch {
         let size = largest(residual);
         let stalled = size >= STALLED * self.previous;
         self.previous = size;
+        if !stalled {
+            self.fell_at = *q;
+        }
         let motion = step.map_or(f64::INFINITY, |step| {
             (0..N).fold(0.0, |most: f64, j| {
                 most.max(ratio(step[j], q[j].abs() + SMALL_MOTION))
             })
         });
-        let settled = |tolerance: f64| {
-            motion <= tolerance || relative_residual(problem, q, residual, stiffness) <= tolerance
-        };
-        if motion <= FLOOR || (stalled && settled(TOLERANCE)) {
+        let solved = |tolerance| settled(problem, q, residual, stiffness, tolerance);
+        if motion <= FLOOR && solved(ACCEPTED) {
+            return Progress::Finished;
+        }
+        if stalled && !self.drifts(q) && solved(TOLERANCE) {
             Progress::Finished
         } else if motion <= LAST_STEP {
             Progress::LastStep
@@ -71,10 +86,32 @@ impl Watch {
             Progress::Underway
         }
     }
+
+    /// Whether the state runs away under a residual that stays what it is: forces that grow on the way make it small by
+    /// comparison only.
+    fn drifts(&self, q: &[f64; N]) -> bool {
+        (0..N).any(|j| (q[j] - self.fell_at[j]).abs() > DRIFT * (1.0 + self.fell_at[j].abs()))
+    }
 }
 
-/// Greatest residual relative to its parts (inertia, applied forces) plus the restoring force of a small motion.
-pub(crate) fn relative_residual<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+/// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
+pub(super) fn settled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    q: &[f64; N],
+    residual: &[f64; N],
+    stiffness: &Square<N>,
+    tolerance: f64,
+) -> bool
+where
+    M: Mechanism<N, U, P, O>,
+{
+    (0..N).all(|i| relative(residual[i], 0.0, q, &stiffness[i]) <= tolerance)
+        || relative_residual(problem, q, residual, stiffness) <= tolerance
+}
+
+/// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
+/// coordinate, or the rounding of a large one, restores in the same equation.
+pub(super) fn relative_residual<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
     residual: &[f64; N],
@@ -86,19 +123,28 @@ where
     let parts = problem
         .mechanism
         .residual_parts(q, problem.inputs, problem.design);
-    let mut most = 0.0_f64;
-    for i in 0..N {
+    (0..N).fold(0.0, |most: f64, i| {
         let force = parts.inertia[i].abs().max(parts.applied[i].abs());
         let force = if force.is_finite() { force } else { 0.0 };
-        most = most.max(ratio(residual[i], force + restoring(q, &stiffness[i])));
-    }
-    most
+        most.max(relative(residual[i], force, q, &stiffness[i]))
+    })
 }
 
-fn restoring<const N: usize>(q: &[f64; N], row: &[f64; N]) -> f64 {
-    (0..N).fold(0.0, |sum, j| {
-        sum + row[j].abs() * (q[j].abs() + SMALL_MOTION)
-    })
+/// One equation's residual relative to `force` and the row of stiffnesses; a scale that overflows is formed anew from
+/// smaller numbers.
+fn relative<const N: usize>(residual: f64, force: f64, q: &[f64; N], row: &[f64; N]) -> f64 {
+    let scale = |unit: f64| {
+        (0..N).fold(unit * force, |sum, j| {
+            sum + unit * row[j].abs() * (SMALL_MOTION + ROUNDED * q[j].abs())
+        })
+    };
+    let plain = scale(1.0);
+    if plain.is_finite() {
+        ratio(residual, plain)
+    } else {
+        let unit = f64::MIN_POSITIVE;
+        ratio(unit * residual, scale(unit))
+    }
 }
 
 fn ratio(residual: f64, scale: f64) -> f64 {

@@ -30,7 +30,7 @@ where
     let mut radius = FIRST_RADIUS;
     let mut departures = 0;
     let mut left_unstable_region = false;
-    let mut watch = Watch::new();
+    let mut watch = Watch::new(&q);
     for iterations in 0..MAX_ITERATIONS {
         let convex = Cholesky::new(&stiffness).ok();
         let curved = match &convex {
@@ -46,7 +46,6 @@ where
         let found = |q, residual, iterations| Found {
             coordinates: q,
             residual,
-            stiffness,
             iterations,
             left_unstable_region,
         };
@@ -66,12 +65,12 @@ where
             }
             q = add_scaled(&q, 1.0, &departure(&pairs.shapes[0], &mass, &q, start));
             (residual, stiffness) = problem.evaluate_start(&q)?;
-            watch = Watch::new();
+            watch = Watch::new(&q);
             continue;
         }
         if progress == Progress::LastStep
             && convex.is_some()
-            && let Some((end, rest)) = last_step(problem, &q, &residual, &step)
+            && let Some((end, rest)) = last_step(problem, &q, (&residual, &stiffness), &step)
         {
             return Ok(found(end, rest, iterations + 1));
         }

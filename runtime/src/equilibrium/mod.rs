@@ -18,8 +18,8 @@ pub use stability::{Doubt, Stability};
 pub(crate) use problem::{Failure, Problem};
 
 use crate::array::{add_scaled, all_finite, largest};
-use crate::{Description, Error, Linear, Mechanism};
-use convergence::relative_residual;
+use crate::{Description, Error, Linear, Mechanism, PoseMargin};
+use convergence::{ACCEPTED, TOLERANCE, relative_residual, settled};
 
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,10 +47,13 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub linear: Linear<f64, N>,
     /// Remaining residual, N or N m.
     pub residual: [f64; N],
-    /// Greatest remaining residual relative to the forces and stiffnesses in it.
+    /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
+    /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.
     pub relative_residual: f64,
     /// Iterations spent.
     pub iterations: usize,
+    /// The joint nearest to its singular pose, if the mechanism has joints of three turns.
+    pub pose: Option<PoseMargin<f64>>,
     /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
@@ -104,16 +107,15 @@ where
 pub(crate) struct Found<const N: usize> {
     pub(crate) coordinates: [f64; N],
     pub(crate) residual: [f64; N],
-    pub(crate) stiffness: [[f64; N]; N],
     pub(crate) iterations: usize,
     pub(crate) left_unstable_region: bool,
 }
 
-/// The last Newton step; the stiffness is not needed again, only that the residual did not grow.
+/// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding.
 fn last_step<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
-    residual: &[f64; N],
+    (residual, stiffness): (&[f64; N], &[[f64; N]; N]),
     step: &[f64; N],
 ) -> Option<([f64; N], [f64; N])>
 where
@@ -123,8 +125,10 @@ where
     let rest = problem
         .mechanism
         .residual(&end, problem.inputs, problem.design);
-    let smaller = all_finite(&rest) && largest(&rest) <= 1e-3 * largest(residual);
-    smaller.then_some((end, rest))
+    let reached = all_finite(&rest)
+        && largest(&rest) <= 1e-3 * largest(residual)
+        && settled(problem, &end, &rest, stiffness, TOLERANCE);
+    reached.then_some((end, rest))
 }
 
 fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -135,6 +139,20 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let linear = problem.linear(&found.coordinates)?;
+    let relative = relative_residual(
+        problem,
+        &found.coordinates,
+        &found.residual,
+        &linear.stiffness,
+    );
+    if relative.is_nan() || relative > ACCEPTED {
+        return Err(Failure::NotFound {
+            reason: "the residual stays larger than rounding explains",
+            coordinates: found.coordinates,
+            iterations: found.iterations,
+            relative,
+        });
+    }
     let stability = stability::judge(&M::DESCRIPTION, &linear)?;
     Ok(Equilibrium {
         coordinates: found.coordinates,
@@ -143,12 +161,10 @@ where
         stability,
         linear,
         residual: found.residual,
-        relative_residual: relative_residual(
-            problem,
-            &found.coordinates,
-            &found.residual,
-            &found.stiffness,
-        ),
+        relative_residual: relative,
+        pose: problem
+            .mechanism
+            .pose_margin(&found.coordinates, problem.inputs, problem.design),
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),

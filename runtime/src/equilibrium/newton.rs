@@ -22,12 +22,11 @@ where
     let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
     let weight = weights(&problem.linear(&q)?.mass)?;
     let mut radius = FIRST_RADIUS;
-    let mut watch = Watch::new();
+    let mut watch = Watch::new(&q);
     for iterations in 0..MAX_ITERATIONS {
         let found = Found {
             coordinates: q,
             residual,
-            stiffness,
             iterations,
             left_unstable_region: false,
         };
@@ -38,7 +37,8 @@ where
         }
         let mut step = newton.unwrap_or_else(|| damped_step(&residual, &stiffness, &weight));
         if progress == Progress::LastStep
-            && let Some((coordinates, residual)) = last_step(problem, &q, &residual, &step)
+            && let Some((coordinates, residual)) =
+                last_step(problem, &q, (&residual, &stiffness), &step)
         {
             return Ok(Found {
                 coordinates,

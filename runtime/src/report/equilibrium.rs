@@ -67,9 +67,20 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             f,
             "  relative residual {:.1e} after {} iterations",
             self.relative_residual, self.iterations
-        )
+        )?;
+        match self.pose {
+            Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
+                f,
+                "  {} is near its singular pose (margin {:.1e}): its coordinates are badly conditioned",
+                pose.joint, pose.margin
+            ),
+            _ => Ok(()),
+        }
     }
 }
+
+/// Pose margin below which a report warns.
+const NEAR_SINGULAR: f64 = 0.1;
 
 impl<const N: usize, const U: usize, const P: usize> fmt::Display for CriticalState<N, U, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

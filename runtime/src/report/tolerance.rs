@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, number, optional};
-use crate::tolerance::{Counts, TRUSTED_DISTANCE};
+use super::table::{Table, cells, in_unit, number, optional, per};
+use crate::tolerance::{Counts, Event, EventTolerance, Statistics, TRUSTED_DISTANCE};
 use crate::{FirstOrder, MonteCarlo};
 
 impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
@@ -38,8 +38,8 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
         if self.distance_to_critical < TRUSTED_DISTANCE {
             writeln!(
                 f,
-                "  Not to be trusted: the critical state is {} standard deviations away, and first order \
-                 needs about {TRUSTED_DISTANCE}. Use Monte Carlo here.",
+                "  Not to be trusted: the critical state is {} standard deviations away. First order errs by several \
+                 percent at {TRUSTED_DISTANCE} of them, and without bound nearer. Use Monte Carlo here.",
                 number(self.distance_to_critical)
             )?;
         }
@@ -97,14 +97,14 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
         ]));
         for (r, mode) in self.modes.iter().enumerate() {
             let value =
-                |pick: fn(&crate::tolerance::Statistics) -> f64| optional(mode.as_ref().map(pick));
+                |pick: fn(&Statistics) -> Option<f64>| optional(mode.as_ref().and_then(pick));
             table.row(vec![
                 (r + 1).to_string(),
-                value(|s| s.mean),
+                value(|s| Some(s.mean)),
                 value(|s| s.standard_error),
                 value(|s| s.standard_deviation),
-                value(|s| s.min),
-                value(|s| s.max),
+                value(|s| Some(s.min)),
+                value(|s| Some(s.max)),
                 mode.as_ref().map_or(0, |s| s.count).to_string(),
             ]);
         }
@@ -117,5 +117,51 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             )?;
         }
         Ok(())
+    }
+}
+
+impl<const P: usize> fmt::Display for EventTolerance<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.description;
+        let Some(info) = d.inputs.get(self.input.0) else {
+            return Ok(());
+        };
+        let (name, unit) = (info.name, info.unit);
+        match self.event {
+            Event::Critical => write!(f, "{}: critical at {name}", d.name)?,
+            Event::Crossing { mode, ratio } => {
+                write!(
+                    f,
+                    "{}: frequency {} is {ratio} times {name} at {name}",
+                    d.name,
+                    mode + 1
+                )?;
+            }
+        }
+        let (value, symbol) = (in_unit(self.value, unit), unit.symbol);
+        let spread = match &self.spread {
+            Ok(spread) => spread,
+            Err(error) => return writeln!(f, " = {value} {symbol}, without a spread: {error}"),
+        };
+        writeln!(
+            f,
+            " = {value} +/- {} {symbol} ({} sigma)",
+            in_unit(spread.band, unit),
+            self.sigma_level
+        )?;
+        let mut table = Table::new(cells(["derivative by", "value", "share of variance"]));
+        for ((info, &slope), &share) in d
+            .design
+            .iter()
+            .zip(&spread.by_design)
+            .zip(&spread.variance_shares)
+        {
+            table.row(vec![
+                per(info.name, info.unit),
+                number(slope * info.unit.scale / unit.scale),
+                format!("{:.1} %", 100.0 * share),
+            ]);
+        }
+        write!(f, "{table}")
     }
 }

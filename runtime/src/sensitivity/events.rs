@@ -1,10 +1,11 @@
 //! How a critical speed or a resonance moves with the design: `du_c/db`.
 
+use super::shift::outside_domain;
 use super::{mode_gradient, sensitivities};
-use crate::array::{Lu, Square, add_scaled, dot, largest, times, transpose};
+use crate::array::{Lu, Square, add_scaled, all_finite, dot, largest, times, transpose};
 use crate::equilibrium::{CriticalState, Crossing};
 use crate::modes::clusters;
-use crate::{Error, Mechanism};
+use crate::{Equilibrium, Error, Mechanism};
 
 /// `du_c/db` of a crossing `omega_j = k u`: `-(domega/db) / (domega/du - k)`; SI units of the input by those of the
 /// design variable.
@@ -43,7 +44,18 @@ where
             reason: "frequency and line touch without crossing",
         });
     }
-    Ok(by_design.map(|value| -value / rate))
+    finite(by_design.map(|value| -value / rate), &crossing.equilibrium)
+}
+
+fn finite<const N: usize, const U: usize, const P: usize>(
+    slopes: [f64; P],
+    at: &Equilibrium<N, U, P>,
+) -> Result<[f64; P], Error> {
+    if all_finite(&slopes) {
+        Ok(slopes)
+    } else {
+        Err(outside_domain(at))
+    }
 }
 
 /// Parts of the residual along the critical mode below this fraction of what a unit of motion there does count as zero.
@@ -58,7 +70,8 @@ const UNFORCED: f64 = 1e-6;
 ///
 /// # Errors
 /// [`Error::NoSensitivity`] when a design variable pushes along the mode at a bifurcation (it destroys the bifurcation:
-/// its effect is not differentiable) or `lambda` does not depend on the input; [`Error::ClusteredMode`].
+/// its effect is not differentiable) or `lambda` does not depend on the input; [`Error::ClusteredMode`];
+/// [`Error::OutsideDomain`] when a derivative is not finite.
 pub fn critical_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     critical: &CriticalState<N, U, P>,
@@ -95,7 +108,7 @@ where
     let motion = 1.0 / largest(phi);
     let push_u = dot(phi, &force_input);
     if push_u.abs() > UNFORCED * lambda_u.abs() * motion {
-        return Ok(forces_design.map(|force| -dot(phi, &force) / push_u));
+        return finite(forces_design.map(|force| -dot(phi, &force) / push_u), at);
     }
     if lambda_u == 0.0 {
         return Err(Error::NoSensitivity {
@@ -114,7 +127,7 @@ where
         }
         result[j] = -lambda_b / lambda_u;
     }
-    Ok(result)
+    finite(result, at)
 }
 
 /// `Khat` with the critical mode stiffened, so that it can be inverted in the complement of that mode.

@@ -20,7 +20,7 @@ where
 {
     let shift = equilibrium_shift(mechanism, at)?;
     let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
-    Ok(assemble(modes, Method::Explicit, |r| {
+    assemble(at, modes, Method::Explicit, |r| {
         let mode = &modes.modes[r];
         let by_coordinate = partials
             .by_coordinate
@@ -36,11 +36,14 @@ where
             }
         }
         (by_input, by_design)
-    }))
+    })
 }
 
 /// Derivatives with the equilibrium held still. **Not** the derivatives of the frequencies wherever the equilibrium
 /// moves: for the rotating pendulum above its critical speed they are -1/2 of the true ones. For comparison only.
+///
+/// # Errors
+/// [`Error::OutsideDomain`] when a derivative is not finite.
 pub fn sensitivities_with_frozen_equilibrium<
     M,
     const N: usize,
@@ -51,12 +54,12 @@ pub fn sensitivities_with_frozen_equilibrium<
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
     modes: &Modes<N>,
-) -> Sensitivities<N, U, P>
+) -> Result<Sensitivities<N, U, P>, Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
-    assemble(modes, Method::FrozenEquilibrium, |r| {
+    assemble(at, modes, Method::FrozenEquilibrium, |r| {
         direct(&modes.modes[r], &partials)
     })
 }

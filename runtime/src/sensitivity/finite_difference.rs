@@ -10,7 +10,7 @@ use crate::{Equilibrium, Error, Linear, Mechanism, Modes, Policy, equilibrium::e
 /// absolute for a variable that is zero.
 ///
 /// # Errors
-/// [`Error::Setting`] for a step that is not positive; otherwise those of the re-solved equilibria.
+/// [`Error::Setting`] for a step that is not positive, [`Error::OutsideDomain`] when a derivative is not finite; otherwise those of the re-solved equilibria.
 pub fn sensitivities_by_finite_difference<
     M,
     const N: usize,
@@ -59,7 +59,7 @@ where
             by_design[j] = slope(&modes.modes[r], &change);
         }
     }
-    Ok(assemble(modes, Method::FiniteDifference, |r| lambda[r]))
+    assemble(at, modes, Method::FiniteDifference, |r| lambda[r])
 }
 
 fn half_step(value: f64, step: f64) -> f64 {

@@ -15,8 +15,9 @@ pub use finite_difference::sensitivities_by_finite_difference;
 pub use outputs::{OutputSensitivities, output_sensitivities};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 
+use crate::array::all_finite;
 use crate::modes::clusters;
-use crate::{Description, Equilibrium, Mechanism, Modes};
+use crate::{Description, Equilibrium, Error, Mechanism, Modes};
 
 /// How derivatives were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +48,17 @@ pub struct ModeSensitivity<const U: usize, const P: usize> {
     pub clustered: bool,
 }
 
+impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
+    fn finite(&self) -> bool {
+        let omega_by_input = self.omega_by_input.as_ref();
+        let omega_by_design = self.omega_by_design.as_ref();
+        all_finite(&self.lambda_by_input)
+            && all_finite(&self.lambda_by_design)
+            && omega_by_input.is_none_or(all_finite)
+            && omega_by_design.is_none_or(all_finite)
+    }
+}
+
 /// Total derivatives of all modes at one equilibrium, in the order of the modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivities<const N: usize, const U: usize, const P: usize> {
@@ -61,14 +73,15 @@ pub struct Sensitivities<const N: usize, const U: usize, const P: usize> {
 /// Eigenvalues closer than this, relative to the larger, form a cluster.
 const CLUSTER_GAP: f64 = 1e-6;
 
-/// Puts the derivatives of `lambda` together with those of the frequencies.
+/// Puts the derivatives of `lambda` together with those of the frequencies; refuses what is not finite.
 fn assemble<const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
     modes: &Modes<N>,
     method: Method,
     lambda: impl Fn(usize) -> ([f64; U], [f64; P]),
-) -> Sensitivities<N, U, P> {
+) -> Result<Sensitivities<N, U, P>, Error> {
     let clustered = clusters(modes, CLUSTER_GAP);
-    let sensitivities = core::array::from_fn(|r| {
+    let sensitivities: [ModeSensitivity<U, P>; N] = core::array::from_fn(|r| {
         let (by_input, by_design) = lambda(r);
         let omega = modes.modes[r].frequency();
         ModeSensitivity {
@@ -79,11 +92,14 @@ fn assemble<const N: usize, const U: usize, const P: usize>(
             clustered: clustered[r],
         }
     });
-    Sensitivities {
+    if !sensitivities.iter().all(ModeSensitivity::finite) {
+        return Err(shift::outside_domain(at));
+    }
+    Ok(Sensitivities {
         modes: sensitivities,
         method,
         description: modes.description,
-    }
+    })
 }
 
 /// The gradient of `phi^T (Khat - lambda Mhat) phi` for one mode.

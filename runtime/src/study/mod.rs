@@ -6,6 +6,15 @@ use crate::equilibrium::Policy;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};
 
+/// Half-width of a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Width {
+    /// SI.
+    Absolute(f64),
+    /// Of the variable's value.
+    Relative(f64),
+}
+
 /// A mechanism at one operating point, with tolerances and settings.
 ///
 /// Starts from the declared nominal values and tolerances, inputs and start values zero, a stable equilibrium wanted.
@@ -17,11 +26,12 @@ pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usi
     design: [f64; P],
     start: [f64; N],
     policy: Policy,
-    half_widths: [f64; P],
+    half_widths: [Width; P],
     sigma_level: f64,
     correlation: Option<[[f64; P]; P]>,
     samples: usize,
     seed: u64,
+    stream: u64,
     threads: usize,
     keep_samples: bool,
     steps: usize,
@@ -41,11 +51,14 @@ where
             design: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.nominal)),
             start: [0.0; N],
             policy: Policy::Stable,
-            half_widths: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.tolerance)),
+            half_widths: core::array::from_fn(|j| {
+                Width::Absolute(design.get(j).map_or(0.0, |info| info.tolerance))
+            }),
             sigma_level: 3.0,
             correlation: None,
             samples: 3000,
             seed: 0,
+            stream: 0,
             threads: 0,
             keep_samples: false,
             steps: 200,
@@ -85,9 +98,20 @@ where
 
     /// Sets the half-width of a tolerance, SI.
     #[must_use]
-    pub fn tolerance(mut self, variable: DesignVariable, half_width: f64) -> Self {
+    pub fn tolerance(self, variable: DesignVariable, half_width: f64) -> Self {
+        self.width(variable, Width::Absolute(half_width))
+    }
+
+    /// Sets the half-width of a tolerance as a fraction of the variable's value, whatever value it is given, before or
+    /// after: 0.03 for 3 %.
+    #[must_use]
+    pub fn relative_tolerance(self, variable: DesignVariable, fraction: f64) -> Self {
+        self.width(variable, Width::Relative(fraction))
+    }
+
+    fn width(mut self, variable: DesignVariable, width: Width) -> Self {
         match self.half_widths.get_mut(variable.0) {
-            Some(place) => *place = half_width,
+            Some(place) => *place = width,
             None => self.refuse("design variable", variable.0, P),
         }
         self
@@ -125,6 +149,14 @@ where
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
+        self
+    }
+
+    /// Chooses one of the independent sequences of samples of the seed (0 unless set): one for each point of a sweep
+    /// keeps the errors of the points apart.
+    #[must_use]
+    pub fn stream(mut self, stream: u64) -> Self {
+        self.stream = stream;
         self
     }
 
@@ -168,12 +200,31 @@ where
         &self.mechanism
     }
 
+    /// The inputs, SI.
+    pub fn input_values(&self) -> &[f64; U] {
+        &self.inputs
+    }
+
+    /// The design variables, SI.
+    pub fn design_values(&self) -> &[f64; P] {
+        &self.design
+    }
+
+    /// Where the search for an equilibrium starts, rad or m.
+    pub fn start_values(&self) -> &[f64; N] {
+        &self.start
+    }
+
     /// The tolerances as set.
     ///
     /// # Errors
     /// [`Error::Setting`] when they make no sense; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances<P>, Error> {
         self.ready()?;
-        Tolerances::new(self.half_widths, self.sigma_level, self.correlation)
+        let half_widths = core::array::from_fn(|j| match self.half_widths[j] {
+            Width::Absolute(half_width) => half_width,
+            Width::Relative(fraction) => fraction * self.design[j].abs(),
+        });
+        Tolerances::new(half_widths, self.sigma_level, self.correlation)
     }
 }

@@ -3,7 +3,7 @@
 use super::Study;
 use crate::equilibrium::{self, CriticalState, Crossing, Equilibrium, Range, Search, SweepPoint};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Sensitivities};
-use crate::tolerance::{self, FirstOrder, MonteCarlo, OutputTolerance, Sampling};
+use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerance, Sampling};
 use crate::{Error, Input, Mechanism, Modes, modes};
 
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
@@ -122,6 +122,7 @@ where
         let sampling = Sampling {
             samples: self.samples,
             seed: self.seed,
+            stream: self.stream,
             threads: self.threads,
             keep_samples: self.keep_samples,
             progress,
@@ -198,5 +199,42 @@ where
             },
             ratio,
         )
+    }
+
+    /// As [`Study::critical_state`], with its sensitivity and spread ([`tolerance::critical_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn critical_tolerance(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<EventTolerance<P>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.critical_state(input, low, high)?;
+        Ok(tolerance::critical_tolerance(
+            &self.mechanism,
+            &state,
+            &tolerances,
+        ))
+    }
+
+    /// As [`Study::crossings`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn crossing_tolerances(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+        ratio: f64,
+    ) -> Result<Vec<EventTolerance<P>>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.crossings(input, low, high, ratio)?;
+        let spread =
+            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
+        Ok(found.iter().map(spread).collect())
     }
 }

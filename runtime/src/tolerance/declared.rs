@@ -1,5 +1,6 @@
 //! Half-widths, the number of standard deviations they hold, and how variables vary together.
 
+use crate::array::{dot, largest, times};
 use crate::{Description, Error};
 
 /// Tolerances of the `P` design variables.
@@ -27,7 +28,7 @@ impl<const P: usize> Tolerances<P> {
     /// `None` leaves them independent.
     ///
     /// # Errors
-    /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive, or a correlation matrix
+    /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
     /// that is not symmetric and positive semidefinite with ones on its diagonal.
     pub fn new(
         half_widths: [f64; P],
@@ -47,6 +48,17 @@ impl<const P: usize> Tolerances<P> {
             return Err(refuse(
                 "sigma level",
                 format!("{sigma_level} must be positive"),
+            ));
+        }
+        if let Some(&value) = half_widths
+            .iter()
+            .find(|&&value| !(value / sigma_level).is_finite())
+        {
+            return Err(refuse(
+                "sigma level",
+                format!(
+                    "{sigma_level} makes the standard deviation of half-width {value} infinite"
+                ),
             ));
         }
         let mut factor = [[0.0; P]; P];
@@ -90,17 +102,47 @@ impl<const P: usize> Tolerances<P> {
         &self.factor
     }
 
-    /// `Sigma s`.
-    pub(crate) fn covariance_times(&self, s: &[f64; P]) -> [f64; P] {
-        let sigma = self.standard_deviations();
-        match &self.correlation {
-            None => core::array::from_fn(|j| sigma[j] * sigma[j] * s[j]),
-            Some(matrix) => core::array::from_fn(|i| {
-                (0..P).fold(0.0, |sum, j| {
-                    sum + sigma[i] * matrix[i][j] * sigma[j] * s[j]
-                })
-            }),
+    /// Standard deviation of a quantity whose derivatives by the design variables are `slopes`, correlation included:
+    /// `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity when the slopes are by SI units.
+    ///
+    /// Infinite where it exceeds the range of a double, NaN where a slope is not finite.
+    pub fn sigma(&self, slopes: &[f64; P]) -> f64 {
+        self.spread(slopes).0
+    }
+
+    /// The standard deviation, and the share of each variable in the variance. Both are formed from numbers about 1, so
+    /// that a variance beyond the range of a double does no harm.
+    pub(crate) fn spread(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {
+        // 2^-513: a product of two numbers scaled by it does not overflow.
+        const SMALL: f64 = f64::from_bits(0x1fe0_0000_0000_0000);
+        let deviations = self.standard_deviations();
+        let products = |unit: f64| -> [f64; P] {
+            core::array::from_fn(|j| (unit * slopes[j]) * (unit * deviations[j]))
+        };
+        let (mut parts, mut unit) = (products(1.0), 1.0);
+        if largest(&parts).is_infinite() {
+            (parts, unit) = (products(SMALL), SMALL);
         }
+        let size = largest(&parts);
+        if size == 0.0 && !parts.iter().any(|part| part.is_nan()) {
+            return (0.0, [0.0; P]);
+        }
+        let parts = parts.map(|part| part / size);
+        let weighted = match &self.correlation {
+            None => parts,
+            Some(matrix) => times(matrix, &parts),
+        };
+        let variance = dot(&parts, &weighted);
+        let shares = core::array::from_fn(|j| {
+            if variance > 0.0 {
+                parts[j] * weighted[j] / variance
+            } else {
+                0.0
+            }
+        });
+        // A fully compensated variance may come out below zero by rounding; NaN stays NaN.
+        let variance = if variance < 0.0 { 0.0 } else { variance };
+        (size * variance.sqrt() / unit / unit, shares)
     }
 }
 

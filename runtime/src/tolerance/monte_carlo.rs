@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::pool;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
@@ -19,7 +20,9 @@ pub struct Sampling<'a> {
     pub samples: usize,
     /// The same seed gives the same samples and bit-identical results for any number of threads.
     pub seed: u64,
-    /// Number of threads; 0 takes what the machine has.
+    /// Which of the independent sequences of the seed: points of a sweep that must not share samples take one each.
+    pub stream: u64,
+    /// Number of threads; 0 takes what the machine has. Threads that were started wait for the next run.
     pub threads: usize,
     /// Return every sample, not only the statistics.
     pub keep_samples: bool,
@@ -32,6 +35,7 @@ impl Default for Sampling<'_> {
         Self {
             samples: 3000,
             seed: 0,
+            stream: 0,
             threads: 0,
             keep_samples: false,
             progress: None,
@@ -157,11 +161,7 @@ where
     let pieces: Vec<Piece<N, P>> = match sampling.threads {
         1 => chunks.map(chunk).collect(),
         0 => chunks.into_par_iter().map(chunk).collect(),
-        threads => rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|error| Error::Threads(error.to_string()))?
-            .install(|| chunks.into_par_iter().map(chunk).collect()),
+        threads => pool::of(threads)?.install(|| chunks.into_par_iter().map(chunk).collect()),
     };
     let mut counts = Counts::default();
     let mut moments = [Moments::EMPTY; N];
@@ -209,7 +209,12 @@ where
 {
     let first = index * CHUNK;
     let number = CHUNK.min(sampling.samples - first);
-    let mut draw = Draw::from(sampling.seed, first as u64, &nominal.design, tolerances);
+    let mut draw = Draw::from(
+        (sampling.seed, sampling.stream),
+        first as u64,
+        &nominal.design,
+        tolerances,
+    );
     let mut piece = Piece {
         counts: Counts::default(),
         left_nominal_branch: 0,

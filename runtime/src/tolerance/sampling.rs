@@ -1,4 +1,4 @@
-//! Random designs: sample `k` is a function of the seed and `k` alone, so any sample can be drawn on any machine.
+//! Random designs: sample `k` is a function of seed, stream and `k` alone, so any sample can be drawn on any machine.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -18,12 +18,13 @@ pub(super) struct Draw<'a, const P: usize> {
 impl<'a, const P: usize> Draw<'a, P> {
     /// Prepares to draw sample `first` and its successors; each takes two words of the stream by design variable.
     pub(super) fn from(
-        seed: u64,
+        (seed, stream): (u64, u64),
         first: u64,
         nominal: &'a [f64; P],
         tolerances: &'a Tolerances<P>,
     ) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(stream);
         random.set_word_pos(u128::from(first) * 2 * P as u128);
         let factor = tolerances.factor();
         let used = core::array::from_fn(|j| factor.iter().any(|row| row[j] != 0.0));
@@ -80,13 +81,13 @@ mod tests {
             panic!("valid")
         };
         let nominal = [1.0, 2.0];
-        let mut sequence = Draw::from(7, 0, &nominal, &tolerances);
+        let mut sequence = Draw::from((7, 0), 0, &nominal, &tolerances);
         let all: Vec<_> = (0..20).map(|_| sequence.next()).collect();
         for (k, sample) in all.iter().enumerate() {
-            assert_eq!(
-                *sample,
-                Draw::from(7, k as u64, &nominal, &tolerances).next()
-            );
+            let mut alone = Draw::from((7, 0), k as u64, &nominal, &tolerances);
+            assert_eq!(*sample, alone.next());
+            let mut other = Draw::from((7, 1), k as u64, &nominal, &tolerances);
+            assert_ne!(*sample, other.next());
         }
     }
 }

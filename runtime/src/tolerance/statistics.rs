@@ -7,10 +7,10 @@ pub struct Statistics {
     pub count: usize,
     /// Mean, rad/s.
     pub mean: f64,
-    /// Standard deviation with divisor `count - 1`, rad/s.
-    pub standard_deviation: f64,
-    /// Standard error of the mean, rad/s.
-    pub standard_error: f64,
+    /// Standard deviation with divisor `count - 1`, rad/s; `None` for a single value, which says nothing about it.
+    pub standard_deviation: Option<f64>,
+    /// Standard error of the mean, rad/s; `None` for a single value.
+    pub standard_error: Option<f64>,
     /// Least value, rad/s.
     pub min: f64,
     /// Greatest value, rad/s.
@@ -49,6 +49,10 @@ impl Moments {
         if other.count == 0 {
             return;
         }
+        if self.count == 0 {
+            *self = *other;
+            return;
+        }
         let count = self.count + other.count;
         let deviation = other.mean - self.mean;
         let share = other.count as f64 / count as f64;
@@ -59,18 +63,18 @@ impl Moments {
         self.max = self.max.max(other.max);
     }
 
-    /// `None` without values; one value has no spread.
+    /// `None` without values.
     pub(super) fn statistics(&self) -> Option<Statistics> {
         if self.count == 0 {
             return None;
         }
-        let freedom = (self.count - 1).max(1) as f64;
-        let standard_deviation = (self.squares / freedom).max(0.0).sqrt();
+        let standard_deviation =
+            (self.count > 1).then(|| (self.squares / (self.count - 1) as f64).max(0.0).sqrt());
         Some(Statistics {
             count: self.count,
             mean: self.mean,
             standard_deviation,
-            standard_error: standard_deviation / (self.count as f64).sqrt(),
+            standard_error: standard_deviation.map(|sigma| sigma / (self.count as f64).sqrt()),
             min: self.min,
             max: self.max,
         })
@@ -94,7 +98,14 @@ mod tests {
             panic!("values")
         };
         assert!((a.mean - 2.9).abs() < 1e-15 && (a.mean - b.mean).abs() < 1e-15);
-        assert!((a.standard_deviation - b.standard_deviation).abs() < 1e-14);
+        let (Some(of_a), Some(of_b)) = (a.standard_deviation, b.standard_deviation) else {
+            panic!("several values")
+        };
+        assert!((of_a - of_b).abs() < 1e-14);
+        let mut one = Moments::EMPTY;
+        one.add(3.0);
+        let alone = one.statistics();
+        assert!(alone.is_some_and(|one| one.mean == 3.0 && one.standard_deviation.is_none()));
         assert!(Moments::EMPTY.statistics().is_none());
     }
 }

@@ -10,7 +10,9 @@ use eigentol::{
 use super::dual::Dual;
 
 /// Equations of motion `g = inertia - applied`.
-pub trait Model<const N: usize, const U: usize, const P: usize, const O: usize>: Sync {
+pub trait Model<const N: usize, const U: usize, const P: usize, const O: usize>:
+    Clone + Sync
+{
     const DESCRIPTION: Description;
 
     fn inertia<T: Real>(

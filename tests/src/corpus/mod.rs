@@ -55,4 +55,9 @@ corpus! {
     centrifuge: Centrifuge,
     hoist: Hoist,
     bucket_chain: BucketChain,
+    flap_lag_blade: FlapLagBlade,
+    bearing_rotor: BearingRotor,
+    steady_top: SteadyTop,
+    screw_press: ScrewPress,
+    robot_arm: RobotArm,
 }

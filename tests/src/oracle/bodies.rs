@@ -1,8 +1,10 @@
 //! Values of a design, and the mass, centre and central inertia of bodies.
 
+use std::f64::consts::PI;
+
 use super::Scalar;
 use super::space::{Matrix, Pose, Vector, rotation, unit};
-use crate::model::{Placement, Shape, Value, Values};
+use crate::model::{Amount, Part, Placement, Shape, Value, Values};
 
 /// Value of a number or of a multiple of a design variable.
 pub(crate) fn value<D: Scalar>(value: Value, design: &[D]) -> D {
@@ -42,25 +44,67 @@ fn symmetric<D: Scalar>(a: [f64; 3], axial: D, transverse: D) -> Matrix<D> {
     Matrix::identity().scaled(transverse) + Matrix::square(a).scaled(axial - transverse)
 }
 
-pub(crate) fn inertia<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
+/// Mass, centre and central inertia of a sum of parts: `m = sum m_i`, `m c = sum m_i c_i`, and by Steiner's theorem
+/// `J = sum (R_i J_i R_i^T + m_i (d_i . d_i I - d_i d_i^T))` with `d_i = c_i - c`; a hole counts negatively.
+pub(crate) fn inertia<D: Scalar>(parts: &[Part], design: &[D]) -> Inertia<D> {
+    let pieces: Vec<(D, Vector<D>, Matrix<D>)> = parts
+        .iter()
+        .map(|part| {
+            let sign = D::from(if part.hole { -1.0 } else { 1.0 });
+            let (pose, piece) = (
+                placement(&part.placement, design),
+                shape(&part.shape, design),
+            );
+            let tensor = pose.rotation * piece.tensor * pose.rotation.transpose();
+            (
+                piece.mass * sign,
+                pose.point(piece.center),
+                tensor.scaled(sign),
+            )
+        })
+        .collect();
+    let mut total = Inertia {
+        mass: D::zero(),
+        center: Vector::zero(),
+        tensor: Matrix::constant([[0.0; 3]; 3]),
+    };
+    if pieces.is_empty() {
+        return total;
+    }
+    for &(mass, center, _) in &pieces {
+        total.mass += mass;
+        total.center = total.center + center.scaled(mass);
+    }
+    total.center = total.center.scaled(total.mass.recip());
+    for &(mass, center, tensor) in &pieces {
+        total.tensor = total.tensor + tensor + steiner(mass, center - total.center);
+    }
+    total
+}
+
+/// `m (d . d I - d d^T)`: what a mass adds to the inertia about a point at the distance `d` from its centre.
+fn steiner<D: Scalar>(mass: D, d: Vector<D>) -> Matrix<D> {
+    let square = Matrix(d.0.map(|x| d.0.map(|y| D::zero() - x * y)));
+    (Matrix::identity().scaled(d.dot(d)) + square).scaled(mass)
+}
+
+/// Mass of an amount that fills a volume (a length, an area).
+fn mass_of<D: Scalar>(amount: Amount, volume: D, design: &[D]) -> D {
+    match amount {
+        Amount::Mass(mass) => value(mass, design),
+        Amount::Density(density) => value(density, design) * volume,
+    }
+}
+
+/// A shape in the frame of its part.
+fn shape<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
     let get = |v: &Value| value(*v, design);
     match shape {
-        Shape::Massless => {
-            let tensor = Matrix::constant([[0.0; 3]; 3]);
-            Inertia {
-                mass: D::zero(),
-                center: Vector::zero(),
-                tensor,
-            }
-        }
-        Shape::Point { mass, center } => {
-            let tensor = Matrix::constant([[0.0; 3]; 3]);
-            Inertia {
-                mass: get(mass),
-                center: vector(center, design),
-                tensor,
-            }
-        }
+        Shape::Point { mass, center } => Inertia {
+            mass: get(mass),
+            center: vector(center, design),
+            tensor: Matrix::constant([[0.0; 3]; 3]),
+        },
         // m L^2 / 12 across, nothing along.
         Shape::Rod {
             mass,
@@ -68,14 +112,13 @@ pub(crate) fn inertia<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             along,
             center,
         } => {
-            let (m, l, a) = (get(mass), get(length), unit(*along));
+            let (l, a) = (get(length), unit(*along));
+            let m = mass_of(*mass, l, design);
             let half = Vector::constant(a).scaled(l * 0.5);
-            let center = center
-                .as_ref()
-                .map_or(half, |center| vector(center, design));
+            let center = center.as_ref();
             Inertia {
                 mass: m,
-                center,
+                center: center.map_or(half, |center| vector(center, design)),
                 tensor: symmetric(a, D::zero(), m * l * l / 12.0),
             }
         }
@@ -86,12 +129,12 @@ pub(crate) fn inertia<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             axis,
             center,
         } => {
-            let (m, r) = (get(mass), get(radius));
-            let tensor = symmetric(unit(*axis), m * r * r / 2.0, m * r * r / 4.0);
+            let r = get(radius);
+            let m = mass_of(*mass, r * r * PI, design);
             Inertia {
                 mass: m,
                 center: vector(center, design),
-                tensor,
+                tensor: symmetric(unit(*axis), m * r * r / 2.0, m * r * r / 4.0),
             }
         }
         // m r^2 / 2 along, m (3 r^2 + L^2) / 12 across.
@@ -102,24 +145,43 @@ pub(crate) fn inertia<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             axis,
             center,
         } => {
-            let (m, r, l) = (get(mass), get(radius), get(length));
+            let (r, l) = (get(radius), get(length));
+            let m = mass_of(*mass, r * r * l * PI, design);
             let across = m * (r * r * 3.0 + l * l) / 12.0;
-            let tensor = symmetric(unit(*axis), m * r * r / 2.0, across);
             Inertia {
                 mass: m,
                 center: vector(center, design),
-                tensor,
+                tensor: symmetric(unit(*axis), m * r * r / 2.0, across),
+            }
+        }
+        // m (a^2 + b^2) / 2 along, m (3 (a^2 + b^2) + L^2) / 12 across.
+        Shape::Tube {
+            mass,
+            inner,
+            outer,
+            length,
+            axis,
+            center,
+        } => {
+            let (a, b, l) = (get(inner), get(outer), get(length));
+            let m = mass_of(*mass, (b * b - a * a) * l * PI, design);
+            let squares = a * a + b * b;
+            let across = m * (squares * 3.0 + l * l) / 12.0;
+            Inertia {
+                mass: m,
+                center: vector(center, design),
+                tensor: symmetric(unit(*axis), m * squares / 2.0, across),
             }
         }
         // m (b^2 + c^2) / 12 about x, and so on.
         Shape::Cuboid { mass, size, center } => {
-            let m = get(mass);
-            let [a, b, c] = size.map(|edge| value(edge, design) * value(edge, design));
+            let [a, b, c] = size.map(|edge| value(edge, design));
+            let m = mass_of(*mass, a * b * c, design);
             let (o, k) = (D::zero(), m / 12.0);
             let rows = [
-                [k * (b + c), o, o],
-                [o, k * (a + c), o],
-                [o, o, k * (a + b)],
+                [k * (b * b + c * c), o, o],
+                [o, k * (a * a + c * c), o],
+                [o, o, k * (a * a + b * b)],
             ];
             Inertia {
                 mass: m,
@@ -133,25 +195,30 @@ pub(crate) fn inertia<D: Scalar>(shape: &Shape, design: &[D]) -> Inertia<D> {
             radius,
             center,
         } => {
-            let (m, r) = (get(mass), get(radius));
-            let tensor = Matrix::identity().scaled(m * r * r * 0.4);
+            let r = get(radius);
+            let m = mass_of(*mass, r * r * r * (4.0 * PI / 3.0), design);
             Inertia {
                 mass: m,
                 center: vector(center, design),
-                tensor,
+                tensor: Matrix::identity().scaled(m * r * r * 0.4),
             }
         }
+        // J_center = J_about - m (d . d I - d d^T) with d = center - about.
         Shape::Rigid {
             mass,
             center,
             inertia,
+            about,
         } => {
             let [xx, yy, zz, xy, yz, xz] = inertia.map(|entry| value(entry, design));
             let tensor = Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+            let (mass, center) = (get(mass), vector(center, design));
+            let about = about.as_ref().map_or(center, |about| vector(about, design));
+            let away = steiner(mass, center - about);
             Inertia {
-                mass: get(mass),
-                center: vector(center, design),
-                tensor,
+                mass,
+                center,
+                tensor: tensor + away.scaled(D::from(-1.0)),
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Poses of bodies, and the velocity transformation `xdot = B_D u + B_R qdot_R` (eq. 4).
 
-use super::bodies::{inertia, placement};
+use super::bodies::{inertia, placement, value};
 use super::space::{Matrix, Pose, Vector, rotation, unit};
 use super::{Oracle, Scalar};
-use crate::model::{Frame, JointKind};
+use crate::model::{Branch, Coordinate, Frame, Motion, Step};
 
 /// Where everything is, in the ground frame.
 pub(crate) struct Configuration<D> {
@@ -13,8 +13,16 @@ pub(crate) struct Configuration<D> {
     pub(crate) bodies: Vec<Pose<D>>,
     /// Centre of mass of each body.
     pub(crate) centers: Vec<Vector<D>>,
-    /// Direction and origin of each joint's axis; the direction is zero for a fixed joint.
-    pub(crate) axes: Vec<(Vector<D>, Vector<D>)>,
+    /// The axis of every step of every joint.
+    pub(crate) axes: Vec<Vec<Axis<D>>>,
+}
+
+/// How everything beyond a step moves at unit speed: it turns with `spin` about `origin` and slides with `slide`.
+#[derive(Clone, Copy)]
+pub(crate) struct Axis<D> {
+    pub(crate) origin: Vector<D>,
+    pub(crate) spin: Vector<D>,
+    pub(crate) slide: Vector<D>,
 }
 
 impl<D: Scalar> Configuration<D> {
@@ -53,9 +61,44 @@ pub(crate) fn transposed_times<D: Scalar>(columns: &Columns<D>, x: &[D]) -> Vec<
     columns.iter().map(product).collect()
 }
 
+/// The displacement of a step by `q`.
+fn displacement<D: Scalar>(step: &Step, q: D, design: &[D]) -> Pose<D> {
+    let e = Vector::constant(unit(step.axis));
+    let zero = Pose::identity();
+    match step.motion {
+        Motion::Turn => Pose {
+            rotation: rotation(step.axis, q),
+            ..zero
+        },
+        Motion::Slide => Pose {
+            origin: e.scaled(q),
+            ..zero
+        },
+        Motion::Screw { lead } => Pose {
+            rotation: rotation(step.axis, q),
+            origin: e.scaled(value(lead, design) * q),
+        },
+    }
+}
+
+/// The axis of a step whose frame is given; `sign` is -1 where the step is passed backwards.
+fn axis<D: Scalar>(step: &Step, frame: Pose<D>, sign: f64, design: &[D]) -> Axis<D> {
+    let e = (frame.rotation * Vector::constant(unit(step.axis))).scaled(D::from(sign));
+    let (spin, slide) = match step.motion {
+        Motion::Turn => (e, Vector::zero()),
+        Motion::Slide => (Vector::zero(), e),
+        Motion::Screw { lead } => (e, e.scaled(value(lead, design))),
+    };
+    Axis {
+        origin: frame.origin,
+        spin,
+        slide,
+    }
+}
+
 impl Oracle<'_> {
-    /// Pose of every body: `X_child = X_parent X_from J(q) X_to^-1`; a joint declared from the child to its parent
-    /// is passed the other way, `X_child = X_parent X_to J(-q) X_from^-1`.
+    /// Pose of every body: `X_child = X_parent X_from J_1(q_1) ... J_k(q_k) X_to^-1`; a joint declared from the child to
+    /// its parent is passed the other way, `X_child = X_parent X_to J_k(-q_k) ... J_1(-q_1) X_from^-1`.
     pub(crate) fn configuration<D: Scalar>(
         &self,
         free: &[D],
@@ -71,11 +114,10 @@ impl Oracle<'_> {
             },
             bodies: vec![zero; model.bodies.len()],
             centers: vec![Vector::zero(); model.bodies.len()],
-            axes: vec![(Vector::zero(), Vector::zero()); model.joints.len()],
+            axes: vec![Vec::new(); model.joints.len()],
         };
         for branch in &self.tree {
             let joint = &model.joints[branch.joint];
-            let coordinate = self.coordinate(branch.joint, free, driven);
             let from = placement(&joint.from_placement, design);
             let to = placement(&joint.to_placement, design);
             let (inboard, outboard, sign) = if branch.reversed {
@@ -83,46 +125,46 @@ impl Oracle<'_> {
             } else {
                 (from, to, 1.0)
             };
-            let frame = at.pose(branch.parent) * inboard;
-            let displacement = coordinate * sign;
-            let (motion, axis) = match joint.kind {
-                JointKind::Fixed => (zero, Vector::zero()),
-                JointKind::Revolute(axis) => {
-                    let turn = Pose {
-                        rotation: rotation(axis, displacement),
-                        ..zero
-                    };
-                    (turn, Vector::constant(unit(axis)))
-                }
-                JointKind::Prismatic(axis) => {
-                    let axis = Vector::constant(unit(axis));
-                    (
-                        Pose {
-                            origin: axis.scaled(displacement),
-                            ..zero
-                        },
-                        axis,
-                    )
-                }
-            };
-            // A reversed joint moves the outer body backwards along the axis.
-            let direction = (frame.rotation * axis).scaled(D::from(sign));
-            at.axes[branch.joint] = (direction, frame.origin);
-            let pose = frame * motion * outboard.inverse();
+            let mut order: Vec<usize> = (0..joint.steps.len()).collect();
+            if branch.reversed {
+                order.reverse();
+            }
+            let mut frame = at.pose(branch.parent) * inboard;
+            let mut axes = Vec::new();
+            for &step in &order {
+                let coordinate = Coordinate {
+                    joint: branch.joint,
+                    step,
+                };
+                let q = self.coordinate(coordinate, free, driven) * sign;
+                let step = &joint.steps[step];
+                axes.push(axis(step, frame, sign, design));
+                frame = frame * displacement(step, q, design);
+            }
+            if branch.reversed {
+                axes.reverse();
+            }
+            at.axes[branch.joint] = axes;
+            let pose = frame * outboard.inverse();
             at.bodies[branch.body] = pose;
             at.centers[branch.body] =
-                pose.point(inertia(&model.bodies[branch.body].shape, design).center);
+                pose.point(inertia(&model.bodies[branch.body].parts, design).center);
         }
         at
     }
 
-    /// The value of a joint's coordinate; zero for a fixed joint.
-    pub(crate) fn coordinate<D: Scalar>(&self, joint: usize, free: &[D], driven: &[D]) -> D {
-        if let Some(index) = self.free.iter().position(|&other| other == joint) {
-            return free[index];
+    /// Picks the value of a coordinate.
+    pub(crate) fn coordinate<D: Scalar>(
+        &self,
+        coordinate: Coordinate,
+        free: &[D],
+        driven: &[D],
+    ) -> D {
+        let place = |list: &[Coordinate]| list.iter().position(|&other| other == coordinate);
+        match place(&self.free) {
+            Some(index) => free[index],
+            None => driven[place(&self.driven).expect("free or driven")],
         }
-        let index = self.driven.iter().position(|&other| other == joint);
-        index.map_or(D::zero(), |index| driven[index])
     }
 
     /// `B_D` and `B_R` (eq. 4), column by column.
@@ -130,8 +172,9 @@ impl Oracle<'_> {
         &self,
         at: &Configuration<D>,
     ) -> VelocityTransformation<D> {
-        let columns = |joints: &[usize]| -> Columns<D> {
-            joints.iter().map(|&joint| self.column(at, joint)).collect()
+        let columns = |coordinates: &[Coordinate]| -> Columns<D> {
+            let columns = coordinates.iter();
+            columns.map(|&q| self.column(at, q)).collect()
         };
         VelocityTransformation {
             driven: columns(&self.driven),
@@ -139,33 +182,33 @@ impl Oracle<'_> {
         }
     }
 
-    /// The velocities that a unit speed of one joint gives to the bodies it carries: about an axis `a` through `o`
-    /// `v = a x (c - o)` and `omega = a`; along it `v = a` and `omega = 0`.
-    fn column<D: Scalar>(&self, at: &Configuration<D>, joint: usize) -> Vec<D> {
-        let (axis, origin) = at.axes[joint];
+    /// The velocities that a unit speed of one coordinate gives to the bodies it carries: `v = s x (c - o) + t` and
+    /// `omega = s` with the spin `s` about `o` and the slide `t` of its axis.
+    fn column<D: Scalar>(&self, at: &Configuration<D>, coordinate: Coordinate) -> Vec<D> {
+        let axis = at.axes[coordinate.joint][coordinate.step];
         let mut column = vec![D::zero(); 6 * at.bodies.len()];
-        for (body, carried) in self.carried(joint).into_iter().enumerate() {
-            if !carried {
-                continue;
-            }
-            let (velocity, spin) = match self.model.joints[joint].kind {
-                JointKind::Revolute(_) => (axis.cross(at.centers[body] - origin), axis),
-                JointKind::Prismatic(_) => (axis, Vector::zero()),
-                JointKind::Fixed => (Vector::zero(), Vector::zero()),
-            };
+        for &body in &self.carried[coordinate.joint] {
+            let velocity = axis.spin.cross(at.centers[body] - axis.origin) + axis.slide;
             column[6 * body..6 * body + 3].copy_from_slice(&velocity.0);
-            column[6 * body + 3..6 * body + 6].copy_from_slice(&spin.0);
+            column[6 * body + 3..6 * body + 6].copy_from_slice(&axis.spin.0);
         }
         column
     }
+}
 
-    /// Which bodies hang on a joint.
-    fn carried(&self, joint: usize) -> Vec<bool> {
-        let mut carried = vec![false; self.model.bodies.len()];
-        for branch in &self.tree {
-            let inherits = matches!(branch.parent, Frame::Body(parent) if carried[parent]);
-            carried[branch.body] = inherits || branch.joint == joint;
+/// For each joint the bodies that hang on it.
+pub(crate) fn carried(tree: &[Branch], joints: usize) -> Vec<Vec<usize>> {
+    let mut carried = vec![Vec::new(); joints];
+    for branch in tree {
+        carried[branch.joint].push(branch.body);
+        // Parents come first, so whoever carries the parent is known.
+        if let Frame::Body(parent) = branch.parent {
+            for bodies in carried.iter_mut().filter(|list| list.contains(&parent)) {
+                if !bodies.contains(&branch.body) {
+                    bodies.push(branch.body);
+                }
+            }
         }
-        carried
     }
+    carried
 }

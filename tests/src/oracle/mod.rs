@@ -18,15 +18,16 @@ pub use linear::{Linear, LinearPartials};
 pub use motion::{Motion, State};
 pub use scalar::Scalar;
 
-use crate::model::{Branch, Model};
+use crate::model::{Branch, Coordinate, Model};
 
 /// Evaluates a model. Driven coordinates are zero and the ground frame is the inertial one unless set otherwise.
 #[derive(Clone, Debug)]
 pub struct Oracle<'a> {
     model: &'a Model,
     tree: Vec<Branch>,
-    free: Vec<usize>,
-    driven: Vec<usize>,
+    carried: Vec<Vec<usize>>,
+    free: Vec<Coordinate>,
+    driven: Vec<Coordinate>,
     driven_position: Vec<f64>,
     ground: [[f64; 3]; 3],
 }
@@ -35,9 +36,11 @@ impl<'a> Oracle<'a> {
     /// The oracle of a model.
     pub fn new(model: &'a Model) -> Self {
         let driven = model.driven();
+        let tree = model.tree();
         Self {
             model,
-            tree: model.tree(),
+            carried: kinematics::carried(&tree, model.joints.len()),
+            tree,
             free: model.free(),
             driven_position: vec![0.0; driven.len()],
             driven,

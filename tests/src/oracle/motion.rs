@@ -3,11 +3,12 @@
 use num_dual::Dual;
 
 use super::bodies::inertia;
-use super::forces::{Moving, of_body};
-use super::kinematics::{Columns, VelocityTransformation, times, transposed_times};
+use super::forces::Moving;
+use super::kinematics::{Columns, Configuration, VelocityTransformation, times, transposed_times};
 use super::scalar::{along, rates, still};
 use super::space::{Matrix, Vector};
 use super::{Oracle, Scalar};
+use crate::model::Coordinate;
 
 /// A state of motion: free accelerations, speeds and positions, inputs, design variables.
 #[derive(Clone, Debug)]
@@ -56,7 +57,7 @@ pub struct Motion<D> {
     pub mass: Vec<Vec<D>>,
     /// `B_R^T (M (Bdot_D u + Bdot_R qdot_R) + omega x J omega)`.
     pub inertia: Vec<D>,
-    /// `B_R^T Q`.
+    /// `B_R^T Q`, and forces along the coordinates themselves.
     pub applied: Vec<D>,
 }
 
@@ -84,6 +85,8 @@ struct Bodies<D> {
     gyroscopic: Vec<D>,
     /// `Q`.
     applied: Vec<D>,
+    /// What forces on free coordinates add to `B_R^T Q`.
+    generalized: Vec<D>,
 }
 
 impl<D: Scalar> Bodies<D> {
@@ -103,8 +106,8 @@ impl<D: Scalar> Bodies<D> {
 impl Oracle<'_> {
     /// Speeds of the driven coordinates.
     pub(crate) fn drives<D: Scalar>(&self, inputs: &[D]) -> Vec<D> {
-        let speed = |&joint: &usize| {
-            let drive = self.model.joints[joint].drive.expect("a driven joint");
+        let speed = |&coordinate: &Coordinate| {
+            let drive = self.model.step(coordinate).drive.expect("it is driven");
             inputs[drive.input] * drive.factor
         };
         self.driven.iter().map(speed).collect()
@@ -122,7 +125,10 @@ impl Oracle<'_> {
         Motion {
             mass,
             inertia: transposed_times(&bodies.b_free, &inertial),
-            applied: transposed_times(&bodies.b_free, &bodies.applied),
+            applied: sum(
+                &transposed_times(&bodies.b_free, &bodies.applied),
+                &bodies.generalized,
+            ),
         }
     }
 
@@ -140,7 +146,10 @@ impl Oracle<'_> {
             .zip(&bodies.applied)
             .map(|(&inertial, &applied)| inertial - applied)
             .collect();
-        transposed_times(&bodies.b_free, &unbalanced)
+        let projected = transposed_times(&bodies.b_free, &unbalanced);
+        let both = projected.iter().zip(&bodies.generalized);
+        both.map(|(&unbalanced, &force)| unbalanced - force)
+            .collect()
     }
 
     fn bodies<D: Scalar>(&self, state: &State<D>) -> Bodies<D> {
@@ -156,7 +165,13 @@ impl Oracle<'_> {
             &times(&b.driven, &drives, rows),
             &times(&b.free, &state.velocity, rows),
         );
-        let b_dot = self.velocity_transformation_rate(state, &driven, &drives);
+        // The same with time, one part in epsilon of it ahead.
+        let moving = self.configuration(
+            &along(&state.position, &state.velocity),
+            &along(&driven, &drives),
+            &still(design),
+        );
+        let b_dot = self.velocity_transformation_rate(&moving);
         let bias = sum(
             &times(&b_dot.driven, &drives, rows),
             &times(&b_dot.free, &state.velocity, rows),
@@ -166,7 +181,7 @@ impl Oracle<'_> {
             .model
             .bodies
             .iter()
-            .map(|body| inertia(&body.shape, design))
+            .map(|body| inertia(&body.parts, design))
             .collect();
         let masses: Vec<D> = inertias.iter().map(|inertia| inertia.mass).collect();
         let tensors: Vec<Matrix<D>> = inertias
@@ -180,19 +195,13 @@ impl Oracle<'_> {
         });
         let gyroscopic = gyroscopic.collect();
 
-        let joints: Vec<(D, D)> = (0..self.model.joints.len())
-            .map(|joint| {
-                let position = self.coordinate(joint, &state.position, &driven);
-                (position, self.coordinate(joint, &state.velocity, &drives))
-            })
-            .collect();
         let moving = Moving {
             at: &at,
-            velocities: &velocities,
-            joints: &joints,
-            design,
+            moving: &moving,
+            driven: (&driven, &drives),
+            state,
         };
-        let applied = self.applied_forces(&moving, &masses);
+        let (applied, generalized) = self.applied_forces(&moving, &masses);
         Bodies {
             b_free: b.free,
             masses,
@@ -200,20 +209,16 @@ impl Oracle<'_> {
             bias,
             gyroscopic,
             applied,
+            generalized,
         }
     }
 
     /// `Bdot_D` and `Bdot_R`: `B` differentiated along the speeds of all coordinates.
     fn velocity_transformation_rate<D: Scalar>(
         &self,
-        state: &State<D>,
-        driven: &[D],
-        drives: &[D],
+        moving: &Configuration<Dual<D>>,
     ) -> VelocityTransformation<D> {
-        let position = along(&state.position, &state.velocity);
-        let driven = along(driven, drives);
-        let at = self.configuration(&position, &driven, &still(&state.design));
-        let b = self.velocity_transformation(&at);
+        let b = self.velocity_transformation(moving);
         let rate = |columns: Vec<Vec<Dual<D>>>| columns.iter().map(|c| rates(c)).collect();
         VelocityTransformation {
             driven: rate(b.driven),
@@ -224,6 +229,12 @@ impl Oracle<'_> {
 
 fn sum<D: Scalar>(a: &[D], b: &[D]) -> Vec<D> {
     a.iter().zip(b).map(|(&a, &b)| a + b).collect()
+}
+
+/// The components of one body: of its centre of mass, then of its rotation.
+fn of_body<D: Scalar>(rows: &[D], body: usize) -> (Vector<D>, Vector<D>) {
+    let three = |start: usize| Vector([rows[start], rows[start + 1], rows[start + 2]]);
+    (three(6 * body), three(6 * body + 3))
 }
 
 fn rows_of<D: Scalar>(linear: Vector<D>, angular: Vector<D>) -> [D; 6] {

@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use num_dual::Dual;
+
 use super::Scalar;
 
 /// Three components in the frame its owner says.
@@ -30,6 +32,11 @@ impl<D: Scalar> Vector<D> {
 
     pub(crate) fn scaled(self, factor: D) -> Self {
         Self(self.0.map(|component| component * factor))
+    }
+
+    /// Component by component.
+    pub(crate) fn times(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] * other.0[i]))
     }
 
     pub(crate) fn dot(self, other: Self) -> D {
@@ -73,6 +80,12 @@ impl<D: Scalar> Matrix<D> {
 
     pub(crate) fn scaled(self, factor: D) -> Self {
         Self(self.0.map(|row| row.map(|entry| entry * factor)))
+    }
+
+    /// The vector of the antisymmetric part: `[v]x = (A - A^T) / 2`.
+    pub(crate) fn vee(self) -> Vector<D> {
+        let part = |i: usize, j: usize| (self.0[i][j] - self.0[j][i]) * 0.5;
+        Vector([part(2, 1), part(0, 2), part(1, 0)])
     }
 
     pub(crate) fn transpose(self) -> Self {
@@ -138,6 +151,26 @@ impl<D: Scalar> Mul for Pose<D> {
             rotation: self.rotation * inner.rotation,
             origin: self.point(inner.origin),
         }
+    }
+}
+
+impl<D: Scalar> Vector<Dual<D>> {
+    pub(crate) fn now(self) -> Vector<D> {
+        Vector(self.0.map(|component| component.re))
+    }
+
+    pub(crate) fn rate(self) -> Vector<D> {
+        Vector(self.0.map(|component| component.eps))
+    }
+}
+
+impl<D: Scalar> Matrix<Dual<D>> {
+    pub(crate) fn now(self) -> Matrix<D> {
+        Matrix(self.0.map(|row| row.map(|entry| entry.re)))
+    }
+
+    pub(crate) fn rate(self) -> Matrix<D> {
+        Matrix(self.0.map(|row| row.map(|entry| entry.eps)))
     }
 }
 

@@ -2,8 +2,12 @@
 //!
 //! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either
 //! direction, axes are not normalised, values are numbers or multiples of design variables that several places share.
+//! Bodies are sums with holes, every word of joint and every force law occurs, and drives are wherever they leave a
+//! steady state.
 
+mod expressions;
 mod forces;
+mod joints;
 mod shapes;
 mod tree;
 mod values;
@@ -15,7 +19,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use crate::agreement::Case;
-use crate::model::Model;
+use crate::model::{Model, Motion};
 use crate::oracle::{Oracle, State};
 
 /// How the ground carries a mechanism.
@@ -25,7 +29,7 @@ pub enum Setting {
     Still,
     /// A body driven about the vertical, gravity along it; further bodies may stand beside it on the ground.
     Spinning,
-    /// A body driven along any straight line, gravity anywhere: by Galileo's principle nothing changes.
+    /// A body driven along straight lines, gravity anywhere: by Galileo's principle nothing changes.
     Conveyed,
     /// A body driven along the vertical, and on it a body driven about the vertical.
     Climbing,
@@ -111,6 +115,21 @@ pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
     }
 }
 
+/// A random state of the free coordinates, well away from poses in which a joint loses one.
+pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
+    let limit = |coordinate| match model.step(coordinate).motion {
+        Motion::Slide => 0.4,
+        Motion::Turn | Motion::Screw { .. } => 1.2,
+    };
+    let free = model.free();
+    let mut q = free
+        .iter()
+        .map(|&coordinate| random.between(-1.0, 1.0) * limit(coordinate))
+        .collect::<Vec<_>>();
+    joints::leave_singular_poses(model, &mut q);
+    q
+}
+
 /// The mass matrix, scaled to ones on the diagonal, is well away from singular at three states.
 fn is_regular(model: &Model) -> bool {
     let oracle = Oracle::new(model);
@@ -157,6 +176,11 @@ impl Random {
     /// True with the given probability.
     pub fn chance(&mut self, probability: f64) -> bool {
         self.between(0.0, 1.0) < probability
+    }
+
+    /// `size` with either sign.
+    pub fn signed(&mut self, size: f64) -> f64 {
+        if self.chance(0.5) { size } else { -size }
     }
 
     /// A vector with components in `[-limit, limit)`.

@@ -1,21 +1,32 @@
 //! Random trees of bodies.
 
+use super::joints::{self, Draft};
 use super::values::Source;
 use super::{Plan, Random, Setting};
 use crate::model::{
-    Body, Drive, Frame, Input, Joint, JointKind, Model, Placement, Shape, Unit, Values,
+    Body, Frame, Input, Joint, Model, Motion, Part, Placement, Step, Unit, Value, Values, Word,
 };
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// At most this many free coordinates: the cost of the oracle grows with their square.
+const MOST: usize = 8;
 
 pub(super) struct Builder {
     pub(super) source: Source,
     pub(super) bodies: Vec<Body>,
     pub(super) joints: Vec<Joint>,
-    inputs: Vec<Input>,
+    pub(super) inputs: Vec<Input>,
     /// Of each body: how many drives carry it, counted so that bodies with equal numbers are steady relative to each
     /// other. The ground has 0.
     pub(super) carriers: Vec<usize>,
+    /// The body that spins about its axis of symmetry, and the axis.
+    pub(super) rotor: Option<(usize, [f64; 3])>,
+    /// A body is driven along a line that is not vertical as well as about the vertical: the medium that would resist it
+    /// streams past from ever different sides.
+    pub(super) drifting: bool,
+    /// Bodies that still need a coordinate.
+    waiting: usize,
 }
 
 impl Builder {
@@ -29,10 +40,14 @@ impl Builder {
             joints: Vec::new(),
             inputs: Vec::new(),
             carriers: Vec::new(),
+            rotor: None,
+            drifting: false,
+            waiting: 0,
         }
     }
 
     pub(super) fn build(mut self, plan: &Plan) -> Model {
+        self.waiting = plan.bodies;
         let gravity = self.gravity(plan.setting);
         self.driven_bodies(plan.setting);
         let trunk = self.bodies.len();
@@ -40,14 +55,12 @@ impl Builder {
             self.free_body(plan.setting, trunk);
         }
         if plan.rotor {
-            self.rotor();
+            self.spinning_body();
         }
         self.give_leaves_mass();
         self.source.random.shuffle(&mut self.joints);
-        for (index, joint) in self.joints.iter_mut().enumerate() {
-            joint.name = format!("joint{index}");
-        }
-        let (points, forces) = self.forces();
+        joints::name(&mut self.joints);
+        let (points, forces) = self.forces(plan.setting);
         Model {
             name: "Tree".to_owned(),
             inputs: self.inputs,
@@ -75,16 +88,16 @@ impl Builder {
             Setting::Spinning => self.shaft(Frame::Ground),
             Setting::Conveyed => {
                 let axis = self.source.axis();
-                let (inboard, outboard) = (self.source.placement(), self.source.placement());
-                self.drive(
-                    JointKind::Prismatic(axis),
-                    Frame::Ground,
-                    [inboard, outboard],
-                );
+                let placements = [self.source.placement(), self.source.placement()];
+                let room = self.room();
+                let draft = self.sliding_joint(axis, room);
+                self.driven_body(draft, Frame::Ground, placements);
             }
             Setting::Climbing => {
-                let (inboard, outboard) = (self.upright(), self.upright());
-                self.drive(JointKind::Prismatic(Z), Frame::Ground, [inboard, outboard]);
+                let placements = [self.upright(), self.upright()];
+                let mut lift = joints::slide(Z);
+                self.drive(&mut lift);
+                self.driven_body((Word::Prismatic, vec![lift]), Frame::Ground, placements);
                 self.shaft(Frame::Body(0));
             }
         }
@@ -94,8 +107,10 @@ impl Builder {
     fn shaft(&mut self, parent: Frame) {
         let axis =
             [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.5]][self.source.random.below(3)];
-        let (inboard, outboard) = (self.upright(), self.source.placement());
-        self.drive(JointKind::Revolute(axis), parent, [inboard, outboard]);
+        let placements = [self.upright(), self.source.placement()];
+        let room = self.room();
+        let draft = self.turning_joint(axis, room);
+        self.driven_body(draft, parent, placements);
     }
 
     /// A placement that leaves z vertical.
@@ -109,12 +124,16 @@ impl Builder {
         }
     }
 
-    /// A driven body, massless or not; its input may drive another one as well.
-    fn drive(&mut self, kind: JointKind, parent: Frame, placements: [Placement; 2]) {
-        let unit = match kind {
-            JointKind::Prismatic(_) => Unit::MetrePerSecond,
-            _ => Unit::RadianPerSecond,
-        };
+    /// How many free coordinates there is room for, one set aside for every other body to come.
+    fn room(&self) -> usize {
+        let steps = self.joints.iter().flat_map(|joint| &joint.steps);
+        let free = steps.filter(|step| step.drive.is_none()).count();
+        MOST.saturating_sub(free + self.waiting)
+    }
+
+    /// Drives a step by an input of its own or one that drives others as well.
+    pub(super) fn drive(&mut self, step: &mut Step) {
+        let unit = step.motion.rate_unit();
         let shared = self.inputs.iter().position(|input| input.unit == unit);
         let input = match shared {
             Some(input) if self.source.random.chance(0.5) => input,
@@ -129,18 +148,18 @@ impl Builder {
         } else {
             -0.7
         };
-        let shape = if self.source.random.chance(0.6) {
-            Shape::Massless
+        *step = step.clone().driven(input, factor);
+    }
+
+    /// A body with drives; massless now and then, unless it has freedom of its own.
+    fn driven_body(&mut self, draft: Draft, parent: Frame, placements: [Placement; 2]) {
+        let free = draft.1.iter().any(|step| step.drive.is_none());
+        let parts = if !free && self.source.random.chance(0.6) {
+            Vec::new()
         } else {
-            self.source.shape()
+            self.source.parts()
         };
-        self.add(
-            shape,
-            kind,
-            parent,
-            placements,
-            Some(Drive { input, factor }),
-        );
+        self.add(parts, draft, parent, placements);
     }
 
     fn free_body(&mut self, setting: Setting, trunk: usize) {
@@ -156,36 +175,32 @@ impl Builder {
                 trunk.saturating_sub(1) + random.below(self.bodies.len() - trunk.saturating_sub(1)),
             )
         };
-        let axis = self.source.axis();
-        let kind = match self.source.random.below(10) {
-            0 => JointKind::Fixed,
-            1..=3 => JointKind::Prismatic(axis),
-            _ => JointKind::Revolute(axis),
-        };
+        self.waiting -= 1;
+        let room = self.room().max(1);
+        let draft = self.source.joint(room);
         let placements = [self.source.placement(), self.source.placement()];
         // Leaves get their mass at the end.
-        let shape = if self.source.random.chance(0.2) {
-            Shape::Massless
+        let parts = if draft.1.len() < 2 && self.source.random.chance(0.2) {
+            Vec::new()
         } else {
-            self.source.shape()
+            self.source.parts()
         };
-        self.add(shape, kind, parent, placements, None);
+        self.add(parts, draft, parent, placements);
     }
 
     /// A body that spins about its own axis of symmetry, on any body.
-    fn rotor(&mut self) {
+    fn spinning_body(&mut self) {
         let axis = self.source.axis();
         let parent = Frame::Body(self.bodies.len() - 1);
-        let mut placements = [self.source.placement(), Placement::NONE];
         // The joint may sit elsewhere on the axis of symmetry.
         let along = self.source.random.between(-0.4, 0.4);
-        let on_axis = axis.map(|component| crate::model::Value::Number(along * component));
-        placements[1].offset = on_axis;
-        self.drive(JointKind::Revolute(axis), parent, placements);
-        let rotor = self.source.rotor(axis);
-        if let Some(body) = self.bodies.last_mut() {
-            body.shape = rotor;
-        }
+        let on_axis = Placement::at(axis.map(|component| Value::Number(along * component)));
+        let placements = [self.source.placement(), on_axis];
+        let room = self.room();
+        let draft = self.spinning_joint(axis, room);
+        let parts = self.source.rotor(axis);
+        self.rotor = Some((self.bodies.len(), axis));
+        self.add(parts, draft, parent, placements);
     }
 
     fn give_leaves_mass(&mut self) {
@@ -196,8 +211,8 @@ impl Builder {
                 .iter()
                 .filter(|j| j.from == frame || j.to == frame)
                 .count();
-            if degree < 2 && self.bodies[index].shape == Shape::Massless {
-                self.bodies[index].shape = self.source.shape();
+            if degree < 2 && self.bodies[index].parts.is_empty() {
+                self.bodies[index].parts = self.source.parts();
             }
         }
     }
@@ -205,39 +220,39 @@ impl Builder {
     /// Adds a body and its joint, declared in either direction.
     fn add(
         &mut self,
-        shape: Shape,
-        kind: JointKind,
+        parts: Vec<Part>,
+        (word, mut steps): Draft,
         parent: Frame,
         [inboard, outboard]: [Placement; 2],
-        drive: Option<Drive>,
     ) {
-        let body = self.bodies.len();
-        self.bodies.push(Body {
-            name: format!("body{body}"),
-            shape,
-        });
+        let index = self.bodies.len();
+        let name = format!("body{index}");
+        self.bodies.push(Body { name, parts });
         let carrier = match parent {
             Frame::Ground => 0,
             Frame::Body(parent) => self.carriers[parent],
         };
+        let driven = steps.iter().any(|step| step.drive.is_some());
         let next = 1 + self.carriers.iter().copied().max().unwrap_or(0);
-        self.carriers
-            .push(if drive.is_some() { next } else { carrier });
-        let body = Frame::Body(body);
-        let ((from, from_placement), (to, to_placement)) = if self.source.random.chance(0.25) {
-            ((body, outboard), (parent, inboard))
-        } else {
-            ((parent, inboard), (body, outboard))
-        };
-        let name = String::new();
+        self.carriers.push(if driven { next } else { carrier });
+
+        let turns_only = steps.iter().all(|step| step.motion == Motion::Turn);
+        // Where drives need an order of motions from the ground outwards, a joint declared inwards lists them the other
+        // way round, if its word allows it. The motions of a cylindrical joint commute.
+        let reversible = !driven || turns_only || steps.len() == 1 || word == Word::Cylindrical;
+        let body = Frame::Body(index);
+        let mut ends = [(parent, inboard), (body, outboard)];
+        if reversible && self.source.random.chance(0.25) {
+            ends.reverse();
+            if driven && turns_only {
+                steps.reverse();
+            }
+        }
+        let [(from, from_placement), (to, to_placement)] = ends;
         self.joints.push(Joint {
-            name,
-            kind,
-            from,
-            to,
             from_placement,
             to_placement,
-            drive,
+            ..Joint::new("", word, steps, from, to)
         });
     }
 }

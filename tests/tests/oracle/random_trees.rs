@@ -22,7 +22,7 @@ fn largest(values: &[f64]) -> f64 {
 
 #[test]
 fn lagrange_gives_the_same_equations_of_motion() {
-    on_models(120, |model, seed| {
+    on_models(400, |model, seed| {
         let case = Case::random(model, seed);
         let oracle = Oracle::new(model);
         let paper =
@@ -41,7 +41,7 @@ fn lagrange_gives_the_same_equations_of_motion() {
 
 #[test]
 fn driven_coordinates_do_not_matter_in_a_steady_state() {
-    on_models(60, |model, seed| {
+    on_models(400, |model, seed| {
         let case = Case::random(model, seed);
         let driven: Vec<f64> = (0..model.driven().len())
             .map(|i| 0.8 - 1.7 * i as f64)

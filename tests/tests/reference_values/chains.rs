@@ -95,7 +95,8 @@ where
 
         let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
         let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
-        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes);
+        let frozen =
+            sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
         let mut misses = 0;
         for (r, expected) in point.get("domega_db").list().iter().enumerate() {
             let expected = expected.numbers();

@@ -114,7 +114,8 @@ where
         assert_eq!(modes.damping_ignored, file == "P3", "{what}");
         let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
         let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
-        let frozen = sensitivities_with_frozen_equilibrium(&machine, &at, &modes);
+        let frozen =
+            sensitivities_with_frozen_equilibrium(&machine, &at, &modes).expect("derivatives");
         let spread = study.first_order().expect("a spread");
         let truths = condition.get("undamped_modes").list();
         assert_eq!(truths.len(), N, "{what}");

@@ -81,6 +81,12 @@ impl Dimension {
     pub const ROTARY_DAMPING: Self = Self::new(2, 1, -1);
     /// kg m^2.
     pub const INERTIA: Self = Self::new(2, 1, 0);
+    /// kg/m^3.
+    pub const DENSITY: Self = Self::new(-3, 1, 0);
+    /// kg/m^2.
+    pub const AREA_DENSITY: Self = Self::new(-2, 1, 0);
+    /// kg/m.
+    pub const LINE_DENSITY: Self = Self::new(-1, 1, 0);
     /// Pa.
     pub const PRESSURE: Self = Self::new(-1, 1, -2);
     /// W.
@@ -161,7 +167,7 @@ impl Dimension {
 }
 
 /// Names of the dimensions that occur in mechanisms.
-const COMMON: [(Dimension, &str, &str); 20] = [
+const COMMON: [(Dimension, &str, &str); 22] = [
     (Dimension::NONE, "a plain number or an angle", "1"),
     (Dimension::LENGTH, "a length", "m"),
     (Dimension::MASS, "a mass", "kg"),
@@ -184,7 +190,9 @@ const COMMON: [(Dimension, &str, &str); 20] = [
         "an angular acceleration",
         "rad/s^2",
     ),
-    (Dimension::new(-3, 1, 0), "a density", "kg/m^3"),
+    (Dimension::DENSITY, "a density", "kg/m^3"),
+    (Dimension::AREA_DENSITY, "a mass per area", "kg/m^2"),
+    (Dimension::LINE_DENSITY, "a mass per length", "kg/m"),
     (Dimension::new(1, 1, -1), "a momentum", "kg*m/s"),
 ];
 

@@ -1,5 +1,18 @@
 //! A misspelt name is answered with the nearest known one.
 
+/// What is probably meant: the known word that another tool calls `name`, else the nearest known one.
+pub fn suggestion<'a>(
+    name: &str,
+    known: impl IntoIterator<Item = &'a str> + Clone,
+    synonyms: &[(&str, &str)],
+) -> Option<&'a str> {
+    let translated = synonyms
+        .iter()
+        .filter(|(theirs, _)| theirs.eq_ignore_ascii_case(name))
+        .find_map(|(_, ours)| known.clone().into_iter().find(|word| word == ours));
+    translated.or_else(|| nearest(name, known))
+}
+
 /// The candidate nearest to `name`, when one is near enough to be meant. The first of equals wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
@@ -57,6 +70,17 @@ mod tests {
         assert_eq!(distance("thtea", "theta"), 1);
         assert_eq!(distance("bar1", "bar2"), 1);
         assert_eq!(distance("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn words_of_other_tools_are_understood() {
+        let synonyms = [("ball", "spherical"), ("ball", "sphere")];
+        assert_eq!(
+            suggestion("Ball", ["spherical", "bell"], &synonyms),
+            Some("spherical")
+        );
+        assert_eq!(suggestion("ball", ["bell"], &synonyms), Some("bell"));
+        assert_eq!(suggestion("pin", ["spherical"], &synonyms), None);
     }
 
     #[test]

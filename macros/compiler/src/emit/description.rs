@@ -72,11 +72,12 @@ pub(super) fn description(
 /// One constant per name of the declaration, spelled as declared and at its span, so that editors complete it and jump
 /// to it.
 pub(super) fn handles(mechanism: &Mechanism, topology: &Topology) -> TokenStream {
+    let visibility = &mechanism.visibility;
     let handle = |name: &proc_macro2::Ident, kind: &str, index: usize, doc: String| {
         let kind = proc_macro2::Ident::new(kind, proc_macro2::Span::call_site());
         quote_spanned! { name.span() =>
             #[doc = #doc]
-            pub const #name: ::eigentol::#kind = ::eigentol::#kind(#index);
+            #visibility const #name: ::eigentol::#kind = ::eigentol::#kind(#index);
         }
     };
     let mut handles = TokenStream::new();

@@ -21,6 +21,7 @@ mod contract;
 mod description;
 mod expression;
 mod names;
+mod pose_margin;
 mod violation;
 
 use std::fmt::Write;
@@ -28,7 +29,7 @@ use std::fmt::Write;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::{Properties, Requirement};
+use crate::mechanics::Functions;
 use crate::model::mechanism::Mechanism;
 use crate::program::Program;
 use crate::topology::Topology;
@@ -37,8 +38,7 @@ use crate::topology::Topology;
 pub fn emit(
     mechanism: &Mechanism,
     topology: &Topology,
-    properties: Properties,
-    requirements: &[Requirement],
+    functions: &Functions,
     program: &Program,
 ) -> TokenStream {
     let sizes = contract::Sizes {
@@ -51,7 +51,10 @@ pub fn emit(
     for kernel in &program.kernels {
         let method = match contract::form(kernel.name) {
             Some(form) => contract::method(kernel, form, sizes),
-            None => violation::method(kernel, requirements),
+            None if kernel.name == "violation" => {
+                violation::method(kernel, &functions.requirements)
+            }
+            None => pose_margin::method(kernel, &functions.poses),
         };
         let _ = writeln!(methods, "{method}");
     }
@@ -66,7 +69,7 @@ pub fn emit(
         ..
     } = mechanism;
     let handles = description::handles(mechanism, topology);
-    let description = description::description(mechanism, topology, properties, program);
+    let description = description::description(mechanism, topology, functions.properties, program);
     let contract::Sizes {
         coordinates,
         inputs,
@@ -78,7 +81,7 @@ pub fn emit(
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         #visibility struct #name;
 
-        #[allow(non_upper_case_globals)]
+        #[allow(non_upper_case_globals, dead_code)]
         impl #name {
             #handles
         }

@@ -6,11 +6,13 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
 
-use super::functions::{Functions, Limits, Requirement};
+use super::functions::{Functions, Limits, Pose, Requirement};
 use super::kernels::{kernels, parameter};
 use super::kinematics::{CoordinateMotion, Kinematics};
 use super::linearise::{Jacobians, Linear, at_rest};
-use super::newton_euler::residual;
+use super::newton_euler::dynamics;
+use super::outputs::outputs;
+use super::poses::poses;
 use super::properties;
 use super::requirements::requirements;
 use super::sources::Sources;
@@ -45,10 +47,13 @@ pub fn derive(
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
     let requirements = requirements(g, mechanism, &values);
     functions.push(check_of(&requirements, &symbols));
+    let poses = poses(g, &problem);
+    functions.push(margins_of(&poses, &symbols));
     Ok(Functions {
         graph,
         functions,
         requirements,
+        poses,
         properties,
     })
 }
@@ -61,6 +66,24 @@ fn check_of(requirements: &[Requirement], symbols: &Symbols) -> Function {
         parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
         results: vec![Array {
             name: "requirements",
+            shape: vec![values.len()],
+            values,
+        }],
+    }
+}
+
+/// The function whose results tell how far joints are from their singular poses.
+fn margins_of(poses: &[Pose], symbols: &Symbols) -> Function {
+    let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
+    Function {
+        name: "pose_margin",
+        parameters: vec![
+            parameter("q", &symbols.q),
+            parameter("u", &symbols.u),
+            parameter("b", &symbols.b),
+        ],
+        results: vec![Array {
+            name: "volumes",
             shape: vec![values.len()],
             values,
         }],
@@ -127,27 +150,11 @@ impl Problem<'_> {
         kinematics: &Kinematics,
         sources: Sources,
     ) -> Vec<ExprId> {
-        let all = residual(
-            g,
-            self.mechanism,
-            self.topology,
-            self.values,
-            kinematics,
-            sources,
-        );
+        let all = dynamics(g, self, kinematics, sources).residual;
         self.topology
             .free
             .iter()
             .map(|id| all[id.index()])
-            .collect()
-    }
-
-    /// The outputs.
-    pub(super) fn outputs(&self, g: &mut Graph, kinematics: &Kinematics) -> Vec<ExprId> {
-        let outputs = &self.mechanism.outputs;
-        outputs
-            .iter()
-            .map(|output| self.values.scalar_at(g, &output.value, kinematics))
             .collect()
     }
 }
@@ -177,7 +184,7 @@ impl Equations {
         let motion = problem.residual(g, &kinematics, Sources::ALL);
         let inertia = problem.residual(g, &kinematics, Sources::INERTIA);
         let applied = problem.residual(g, &kinematics, Sources::APPLIED);
-        let outputs = problem.outputs(g, &kinematics);
+        let outputs = outputs(g, problem, &kinematics);
         let without: Vec<_> = symbols.velocity.with(&zeros).collect();
         let without_velocity = substitute(g, &motion, &without);
         let rest = at_rest(g, symbols, &motion);

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use crate::algebra::{Graph, Vector3};
+use crate::algebra::{Graph, Matrix3, Vector3, gradient};
 use crate::base::ids::{ExprId, ForceId, PointId};
-use crate::model::mechanism::{ForceLaw, Frame, JointKind, Mechanism};
-use crate::topology::{Branch, Topology};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Force, ForceLaw, Frame};
 
-use super::kinematics::Kinematics;
+use super::derive::Problem;
+use super::kinematics::{Kinematics, PointMotion};
+use super::path::Tree;
 use super::sources::Sources;
-use super::values::Values;
+use super::values::State;
 
 /// A force and its moment about the origin of the frame it is kept for.
 #[derive(Clone, Copy, Debug)]
@@ -25,11 +27,27 @@ impl Wrench {
             moment: self.moment.add(g, other.moment),
         }
     }
+
+    pub(super) fn neg(self, g: &mut Graph) -> Self {
+        Self {
+            force: self.force.neg(g),
+            moment: self.moment.neg(g),
+        }
+    }
 }
 
 /// Loads on one body, grouped by the frame on which each closes: a force pair between two bodies does no work on the
 /// joints below their last common ancestor, and adding it up there would only leave rounding errors.
 pub(super) type Loads = BTreeMap<Frame, Wrench>;
+
+/// Adds a load to those that close on the same frame.
+pub(super) fn add_load(g: &mut Graph, loads: &mut Loads, closing: Frame, load: Wrench) {
+    let sum = match loads.get(&closing) {
+        Some(so_far) => so_far.add(g, load),
+        None => load,
+    };
+    loads.insert(closing, sum);
+}
 
 /// Applied loads of a mechanism.
 pub(super) struct AppliedForces {
@@ -39,195 +57,342 @@ pub(super) struct AppliedForces {
     pub(super) on_coordinates: Vec<ExprId>,
 }
 
+/// What every force law reads.
+struct Setting<'a> {
+    problem: &'a Problem<'a>,
+    kinematics: &'a Kinematics,
+    tree: Tree,
+}
+
+impl Setting<'_> {
+    fn frame(&self, point: PointId) -> Frame {
+        self.problem.mechanism.points[point.index()].frame
+    }
+
+    fn point(&self, point: PointId) -> PointMotion {
+        self.kinematics.points[point.index()]
+    }
+
+    /// Velocity and angular velocity, relative to `closing`, of the point of `frame` that is at `position`.
+    fn velocity(
+        &self,
+        g: &mut Graph,
+        frame: Frame,
+        position: Vector3,
+        closing: Frame,
+    ) -> (Vector3, Vector3) {
+        self.tree
+            .relative_velocity(g, self.kinematics, (frame, position), closing)
+    }
+}
+
 impl AppliedForces {
     /// Evaluates the force elements.
     pub(super) fn new(
         g: &mut Graph,
-        mechanism: &Mechanism,
-        topology: &Topology,
-        values: &Values,
+        problem: &Problem,
         kinematics: &Kinematics,
         sources: Sources,
     ) -> Self {
-        let zero = g.zero();
+        let mechanism = problem.mechanism;
         let mut this = Self {
             on_bodies: vec![Loads::new(); mechanism.bodies.len()],
-            on_coordinates: vec![zero; mechanism.coordinates.len()],
+            on_coordinates: vec![g.zero(); mechanism.coordinates.len()],
         };
-        let tree = Tree::new(mechanism, topology);
+        let tree = Tree::new(mechanism, problem.topology);
+        let setting = Setting {
+            problem,
+            kinematics,
+            tree,
+        };
         for (index, force) in mechanism.forces.iter().enumerate() {
-            if !sources.forces.contains(ForceId::new(index)) {
-                continue;
-            }
-            let name = force.name.to_string();
-            match &force.law {
-                // Q = -stiffness (q - rest)
-                ForceLaw::CoordinateSpring {
-                    coordinate,
-                    stiffness,
-                    rest,
-                } => {
-                    let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
-                    let motion = kinematics.coordinates[coordinate.index()];
-                    let stretch = g.sub(motion.position, rest);
-                    let load = g.mul(stiffness, stretch);
-                    g.set_name(load, || name);
-                    let slot = &mut this.on_coordinates[coordinate.index()];
-                    *slot = g.sub(*slot, load);
-                }
-                // Q = -damping qdot
-                ForceLaw::CoordinateDamper {
-                    coordinate,
-                    damping,
-                } => {
-                    let damping = values.scalar(g, damping);
-                    let motion = kinematics.coordinates[coordinate.index()];
-                    let load = g.mul(damping, motion.velocity);
-                    g.set_name(load, || name);
-                    let slot = &mut this.on_coordinates[coordinate.index()];
-                    *slot = g.sub(*slot, load);
-                }
-                // tension = stiffness (distance - length) + damping d(distance)/dt
-                ForceLaw::SpringDamper {
-                    from,
-                    to,
-                    stiffness,
-                    damping,
-                    length,
-                } => {
-                    let stiffness = values.scalar(g, stiffness);
-                    let damping = values.scalar(g, damping);
-                    let length = values.scalar(g, length);
-                    let ends = [*from, *to];
-                    let [start, end] = ends.map(|id| kinematics.points[id.index()].1);
-                    let line = end.sub(g, start);
-                    let distance = line.norm(g);
-                    g.set_name(distance, || format!("{name}_length"));
-                    let stretch = g.sub(distance, length);
-                    let mut tension = g.mul(stiffness, stretch);
-                    let frames = ends.map(|id| mechanism.points[id.index()].frame);
-                    let closing = tree.common_ancestor(frames[0], frames[1]);
-                    if !g.is(damping, 0.0) {
-                        let [v_start, v_end] =
-                            ends.map(|id| tree.velocity(g, mechanism, kinematics, id, closing));
-                        let relative = v_end.sub(g, v_start);
-                        let closing_speed = relative.dot(g, line);
-                        let rate = g.div(closing_speed, distance);
-                        let resistance = g.mul(damping, rate);
-                        tension = g.add(tension, resistance);
-                    }
-                    g.set_name(tension, || format!("{name}_tension"));
-                    let density = g.div(tension, distance);
-                    let pull = line.scale(g, density).set_name(g, &format!("{name}_force"));
-                    let push = pull.neg(g);
-                    for ((point, frame), force) in ends.into_iter().zip(frames).zip([pull, push]) {
-                        this.apply(g, kinematics, point, frame, force, closing);
-                    }
-                }
+            if sources.forces.contains(ForceId::new(index)) {
+                this.act(g, &setting, force);
             }
         }
         this
     }
 
-    /// Applies a force at a named point.
+    fn act(&mut self, g: &mut Graph, setting: &Setting, force: &Force) {
+        let Setting {
+            problem,
+            kinematics,
+            ..
+        } = *setting;
+        let values = problem.values;
+        let name = force.name.to_string();
+        match &force.law {
+            // Q = -stiffness (q - rest)
+            ForceLaw::CoordinateSpring {
+                coordinate,
+                stiffness,
+                rest,
+            } => {
+                let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
+                let position = kinematics.coordinates[coordinate.index()].position;
+                let stretch = g.sub(position, rest);
+                let load = g.mul(stiffness, stretch);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.sub(*slot, load);
+            }
+            // Q = -damping qdot
+            ForceLaw::CoordinateDamper {
+                coordinate,
+                damping,
+            } => {
+                let damping = values.scalar(g, damping);
+                let velocity = kinematics.coordinates[coordinate.index()].velocity;
+                let load = g.mul(damping, velocity);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.sub(*slot, load);
+            }
+            ForceLaw::Generalized { coordinate, value } => {
+                let load = values.scalar_at(g, value, kinematics);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.add(*slot, load);
+            }
+            // Q_i = -dV/dq_i
+            ForceLaw::Potential { energy } => {
+                let energy = values.scalar_at(g, energy, kinematics);
+                let slopes = gradient(g, energy, &problem.symbols.q.ids);
+                for (id, slope) in problem.topology.free.iter().zip(slopes) {
+                    let slot = &mut self.on_coordinates[id.index()];
+                    *slot = g.sub(*slot, slope);
+                }
+            }
+            // tension = stiffness (distance - length) + damping d(distance)/dt
+            ForceLaw::SpringDamper {
+                from,
+                to,
+                stiffness,
+                damping,
+                length,
+            } => {
+                let line = Line::new(g, setting, *from, *to, &name);
+                let [stiffness, damping, length] =
+                    [stiffness, damping, length].map(|value| values.scalar(g, value));
+                let stretch = g.sub(line.distance, length);
+                let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, line.rate));
+                let tension = g.add(elastic, viscous);
+                self.pull(g, setting, &line, tension, &name);
+            }
+            ForceLaw::Tension { from, to, tension } => {
+                let line = Line::new(g, setting, *from, *to, &name);
+                let tension = values.scalar_at(g, tension, &line);
+                self.pull(g, setting, &line, tension, &name);
+            }
+            ForceLaw::Bushing {
+                from,
+                to,
+                stiffness,
+                damping,
+                turning_stiffness,
+                turning_damping,
+            } => {
+                let [stiffness, damping, turning_stiffness, turning_damping] =
+                    [stiffness, damping, turning_stiffness, turning_damping]
+                        .map(|value| values.vector(g, value));
+                let laws = [(stiffness, damping), (turning_stiffness, turning_damping)];
+                self.bushing(g, setting, (*from, *to), laws, &name);
+            }
+            ForceLaw::Load {
+                point,
+                force,
+                moment,
+                following,
+            } => {
+                let (force, moment) = (values.vector(g, force), values.vector(g, moment));
+                let axes = setting.point(*point).axes;
+                let load = match following {
+                    true => Wrench {
+                        force: axes.apply(g, force),
+                        moment: axes.apply(g, moment),
+                    },
+                    false => Wrench { force, moment },
+                };
+                self.apply(g, setting, *point, load, Frame::Ground);
+            }
+            // force = -damping v, moment = -turning_damping omega, both absolute
+            ForceLaw::Drag {
+                point,
+                damping,
+                turning_damping,
+            } => {
+                let [damping, turning_damping] =
+                    [damping, turning_damping].map(|value| values.scalar(g, value));
+                let position = setting.point(*point).position;
+                let (velocity, angular) =
+                    setting.velocity(g, setting.frame(*point), position, Frame::Ground);
+                let force = velocity
+                    .scale(g, damping)
+                    .set_name(g, &format!("minus_{name}_force"));
+                let moment = angular.scale(g, turning_damping);
+                let load = Wrench { force, moment }.neg(g);
+                self.apply(g, setting, *point, load, Frame::Ground);
+            }
+        }
+    }
+
+    /// Opposite forces along the line between two points.
+    fn pull(&mut self, g: &mut Graph, setting: &Setting, line: &Line, tension: ExprId, name: &str) {
+        g.set_name(tension, || format!("{name}_tension"));
+        let density = g.div(tension, line.distance);
+        let force = line
+            .vector
+            .scale(g, density)
+            .set_name(g, &format!("{name}_force"));
+        let pull = Wrench {
+            force,
+            moment: Vector3::zero(g),
+        };
+        let push = pull.neg(g);
+        self.apply(g, setting, line.from, pull, line.closing);
+        self.apply(g, setting, line.to, push, line.closing);
+    }
+
+    /// Force and moment by the displacement and rotation of `to` against `from`, in the axes of `from`; the opposite acts on
+    /// `from` at the place of `to`.
+    fn bushing(
+        &mut self,
+        g: &mut Graph,
+        setting: &Setting,
+        (from, to): (PointId, PointId),
+        [(stiffness, damping), (turning_stiffness, turning_damping)]: [(Vector3, Vector3); 2],
+        name: &str,
+    ) {
+        let [start, end] = [from, to].map(|id| setting.point(id));
+        let frames = [from, to].map(|id| setting.frame(id));
+        let closing = setting.tree.common_ancestor(frames[0], frames[1]);
+        let to_axes = start.axes.transpose();
+        let gap = end.position.sub(g, start.position);
+        let displacement = to_axes.apply(g, gap);
+        // As seen from `from`, the point of its body where `to` is stands still.
+        let [(carrier, carrier_turn), (own, own_turn)] =
+            frames.map(|frame| setting.velocity(g, frame, end.position, closing));
+        let velocity = own.sub(g, carrier);
+        let velocity = to_axes.apply(g, velocity);
+        let turning = own_turn.sub(g, carrier_turn);
+        let turning = to_axes.apply(g, turning);
+        let relative = to_axes.multiply(g, end.axes);
+        let rotation = half_antisymmetric(g, relative);
+        let rotation_rate = half_antisymmetric_rate(g, relative, turning);
+
+        let mut law = |stiffness: Vector3, x: Vector3, damping: Vector3, rate: Vector3| {
+            Vector3(std::array::from_fn(|i| {
+                let elastic = g.mul(stiffness.0[i], x.0[i]);
+                let viscous = g.mul(damping.0[i], rate.0[i]);
+                g.add(elastic, viscous)
+            }))
+        };
+        let force = law(stiffness, displacement, damping, velocity);
+        let moment = law(turning_stiffness, rotation, turning_damping, rotation_rate);
+        let force = start
+            .axes
+            .apply(g, force)
+            .set_name(g, &format!("{name}_force"));
+        let moment = start
+            .axes
+            .apply(g, moment)
+            .set_name(g, &format!("{name}_moment"));
+        // At the place of `to`, seen from the origin of `from`, the force on `from` has a moment more.
+        let lever = gap.cross(g, force);
+        let on_from = Wrench {
+            force,
+            moment: moment.add(g, lever),
+        };
+        self.apply(g, setting, from, on_from, closing);
+        let on_to = Wrench { force, moment }.neg(g);
+        self.apply(g, setting, to, on_to, closing);
+    }
+
+    /// Applies a force and a moment at a named point.
     fn apply(
         &mut self,
         g: &mut Graph,
-        kinematics: &Kinematics,
+        setting: &Setting,
         point: PointId,
-        frame: Frame,
-        force: Vector3,
+        load: Wrench,
         closing: Frame,
     ) {
+        let frame = setting.frame(point);
         let Frame::Body(body) = frame else { return };
         if frame == closing {
             return;
         }
-        let arm = kinematics.points[point.index()].0;
+        let arm = setting.point(point).arm;
+        let lever = arm.cross(g, load.force);
         let load = Wrench {
-            force,
-            moment: arm.cross(g, force),
+            force: load.force,
+            moment: load.moment.add(g, lever),
         };
-        let loads = &mut self.on_bodies[body.index()];
-        let sum = match loads.get(&closing) {
-            Some(so_far) => so_far.add(g, load),
-            None => load,
-        };
-        loads.insert(closing, sum);
+        add_load(g, &mut self.on_bodies[body.index()], closing, load);
     }
 }
 
-/// The branches by body, for walking towards the ground.
-struct Tree {
-    branch: Vec<Option<Branch>>,
+/// The line between two points, and how fast it grows.
+struct Line {
+    from: PointId,
+    to: PointId,
+    /// From the first to the second.
+    vector: Vector3,
+    distance: ExprId,
+    rate: ExprId,
+    /// The last frame that both ends hang on.
+    closing: Frame,
 }
 
-impl Tree {
-    fn new(mechanism: &Mechanism, topology: &Topology) -> Self {
-        let mut branch = vec![None; mechanism.bodies.len()];
-        for b in &topology.branches {
-            branch[b.body.index()] = Some(*b);
+impl Line {
+    fn new(g: &mut Graph, setting: &Setting, from: PointId, to: PointId, name: &str) -> Self {
+        let ends = [from, to].map(|id| (setting.frame(id), setting.point(id).position));
+        let closing = setting.tree.common_ancestor(ends[0].0, ends[1].0);
+        let vector = ends[1].1.sub(g, ends[0].1);
+        let distance = vector.norm(g);
+        g.set_name(distance, || format!("{name}_length"));
+        let [start, end] =
+            ends.map(|(frame, position)| setting.velocity(g, frame, position, closing).0);
+        let relative = end.sub(g, start);
+        let growth = relative.dot(g, vector);
+        let rate = g.div(growth, distance);
+        Self {
+            from,
+            to,
+            vector,
+            distance,
+            rate,
+            closing,
         }
-        Self { branch }
     }
+}
 
-    fn parent(&self, frame: Frame) -> Option<Branch> {
-        match frame {
-            Frame::Ground => None,
-            Frame::Body(body) => self.branch[body.index()],
+impl State for Line {
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Length => self.distance,
+            Expr::LengthRate => self.rate,
+            _ => unreachable!("resolution admits {leaf:?} elsewhere only"),
         }
     }
+}
 
-    /// The frame and all it hangs on, up to the ground.
-    fn path(&self, frame: Frame) -> Vec<Frame> {
-        let mut path = vec![frame];
-        let mut at = frame;
-        while let Some(branch) = self.parent(at) {
-            at = branch.parent;
-            path.push(at);
-        }
-        path
-    }
+/// `r = vee((R - R^T) / 2)`: the rotation vector of a small rotation.
+fn half_antisymmetric(g: &mut Graph, rotation: Matrix3) -> Vector3 {
+    let entry = |i: usize, j: usize| rotation.0[j].0[i];
+    let mut half_difference = |a, b| {
+        let difference = g.sub(a, b);
+        g.scale(0.5, difference)
+    };
+    Vector3([
+        half_difference(entry(2, 1), entry(1, 2)),
+        half_difference(entry(0, 2), entry(2, 0)),
+        half_difference(entry(1, 0), entry(0, 1)),
+    ])
+}
 
-    /// The last frame that both hang on.
-    fn common_ancestor(&self, a: Frame, b: Frame) -> Frame {
-        let path = self.path(a);
-        self.path(b)
-            .into_iter()
-            .find(|frame| path.contains(frame))
-            .unwrap_or(Frame::Ground)
-    }
-
-    /// Velocity of a point relative to a frame it hangs on: the sum over the joints between.
-    fn velocity(
-        &self,
-        g: &mut Graph,
-        mechanism: &Mechanism,
-        kinematics: &Kinematics,
-        point: PointId,
-        relative_to: Frame,
-    ) -> Vector3 {
-        let position = kinematics.points[point.index()].1;
-        let mut velocity = Vector3::zero(g);
-        let mut at = mechanism.points[point.index()].frame;
-        while at != relative_to {
-            let Some(branch) = self.parent(at) else { break };
-            let motion = kinematics.of(branch.body);
-            let share = match &mechanism.joints[branch.joint.index()].kind {
-                JointKind::Fixed => Vector3::zero(g),
-                JointKind::Revolute { coordinate, .. } => {
-                    let joint = motion.frame.position.add(g, motion.joint_point);
-                    let arm = position.sub(g, joint);
-                    let turn = motion.joint_axis.cross(g, arm);
-                    turn.scale(g, kinematics.coordinates[coordinate.index()].velocity)
-                }
-                JointKind::Prismatic { coordinate, .. } => motion
-                    .joint_axis
-                    .scale(g, kinematics.coordinates[coordinate.index()].velocity),
-            };
-            velocity = velocity.add(g, share);
-            at = branch.parent;
-        }
-        velocity
-    }
+/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes it is written in): `R' = [omega]x R`.
+fn half_antisymmetric_rate(g: &mut Graph, rotation: Matrix3, omega: Vector3) -> Vector3 {
+    let rate = Matrix3(rotation.0.map(|column| omega.cross(g, column)));
+    half_antisymmetric(g, rate)
 }

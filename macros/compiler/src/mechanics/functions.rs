@@ -12,6 +12,8 @@ pub struct Functions {
     pub functions: Vec<Function>,
     /// Physical requirements on inputs and design variables.
     pub requirements: Vec<Requirement>,
+    /// Joints whose coordinates fail in some pose.
+    pub poses: Vec<Pose>,
     /// What holds for every design, input and position.
     pub properties: Properties,
 }
@@ -42,6 +44,15 @@ pub struct Requirement {
     pub requirement: &'static str,
     /// The value.
     pub value: ExprId,
+}
+
+/// A joint of three turns: where its axes lie in one plane, two of its coordinates do the same.
+#[derive(Clone, Debug)]
+pub struct Pose {
+    /// Name of the joint.
+    pub joint: String,
+    /// Volume spanned by the three unit axes, with either sign: zero in the singular pose, one when they are perpendicular.
+    pub volume: ExprId,
 }
 
 /// What the compiler established: structurally, or at random states up to rounding.

@@ -10,8 +10,8 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
-use crate::model::expression::Vector;
-use crate::model::mechanism::Shape;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{Body, Placement, Shape};
 
 use super::values::Values;
 
@@ -38,13 +38,38 @@ pub(super) struct Arm {
 }
 
 impl MassDistribution {
-    /// The mass distribution of a shape; `None` when massless.
-    pub(super) fn new(g: &mut Graph, values: &Values, shape: &Shape) -> Option<Self> {
+    /// The pieces of a body, each about the body's origin; a hole counts negative.
+    pub(super) fn of_body(g: &mut Graph, values: &Values, body: &Body) -> Vec<Self> {
+        let several = body.parts.len() > 1;
+        body.parts
+            .iter()
+            .enumerate()
+            .map(|(index, part)| {
+                let mut piece = Self::of_shape(g, values, &part.shape);
+                if part.hole {
+                    piece = piece.negated(g);
+                }
+                piece = piece.placed(g, values, &part.placement);
+                let name = body.name.to_string();
+                piece.set_names(
+                    g,
+                    &if several {
+                        format!("{name}_part{index}")
+                    } else {
+                        name
+                    },
+                );
+                piece
+            })
+            .collect()
+    }
+
+    /// The mass distribution of a shape about the origin of its frame.
+    fn of_shape(g: &mut Graph, values: &Values, shape: &Shape) -> Self {
         match shape {
-            Shape::Massless => None,
             Shape::Point { mass, center } => {
                 let mass = values.scalar(g, mass);
-                Some(Self::point(g, values, mass, center))
+                Self::point(g, values, mass, center)
             }
             Shape::Rod {
                 mass,
@@ -54,7 +79,7 @@ impl MassDistribution {
             } => {
                 let (mass, length) = (values.scalar(g, mass), values.scalar(g, length));
                 let along = values.vector(g, along);
-                Some(Self::rod(g, values, mass, length, along, center))
+                Self::rod(g, values, mass, length, along, center)
             }
             Shape::Disk {
                 mass,
@@ -66,7 +91,7 @@ impl MassDistribution {
                 let across = quadratic(g, 0.25, mass, radius);
                 let minus = g.neg(across);
                 let axis = values.vector(g, axis);
-                Some(Self::point(g, values, mass, center).with(g, across, &[(axis, minus)]))
+                Self::point(g, values, mass, center).with(g, across, &[(axis, minus)])
             }
             Shape::Cylinder {
                 mass,
@@ -76,20 +101,31 @@ impl MassDistribution {
                 center,
             } => {
                 let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
-                let length = values.scalar(g, length);
                 let across = quadratic(g, 0.25, mass, radius);
-                let along = quadratic(g, 1.0 / 12.0, mass, length);
-                let excess = g.sub(along, across);
-                let axis = values.vector(g, axis);
-                Some(Self::point(g, values, mass, center).with(g, across, &[(axis, excess)]))
+                Self::round(g, values, (mass, length, axis, center), across)
+            }
+            Shape::Tube {
+                mass,
+                inner,
+                outer,
+                length,
+                axis,
+                center,
+            } => {
+                let mass = values.scalar(g, mass);
+                let [inner, outer] = [inner, outer].map(|radius| {
+                    let radius = values.scalar(g, radius);
+                    quadratic(g, 0.25, mass, radius)
+                });
+                let across = g.add(inner, outer);
+                Self::round(g, values, (mass, length, axis, center), across)
             }
             Shape::Cuboid { mass, size, center } => {
                 let mass = values.scalar(g, mass);
                 let size = values.vector(g, size);
                 let second = size.0.map(|edge| quadratic(g, 1.0 / 12.0, mass, edge));
                 let zero = g.zero();
-                let body = Self::point(g, values, mass, center);
-                Some(body.with_tensor(g, second, [zero; 3]))
+                Self::point(g, values, mass, center).with_tensor(g, second, [zero; 3])
             }
             Shape::Sphere {
                 mass,
@@ -98,12 +134,13 @@ impl MassDistribution {
             } => {
                 let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
                 let isotropic = quadratic(g, 0.2, mass, radius);
-                Some(Self::point(g, values, mass, center).with(g, isotropic, &[]))
+                Self::point(g, values, mass, center).with(g, isotropic, &[])
             }
             Shape::Rigid {
                 mass,
                 center,
                 inertia,
+                about,
             } => {
                 let mass = values.scalar(g, mass);
                 let [xx, yy, zz, xy, yz, xz] =
@@ -112,14 +149,69 @@ impl MassDistribution {
                 let half_trace = g.scale(0.5, sum);
                 let diagonal = [xx, yy, zz].map(|j| g.sub(half_trace, j));
                 let products = [xy, yz, xz].map(|j| g.neg(j));
-                let body = Self::point(g, values, mass, center);
-                Some(body.with_tensor(g, diagonal, products))
+                let mut body = Self::point(g, values, mass, center);
+                if let Some(about) = about {
+                    // The given tensor holds the mass at its distance from the point; take that away.
+                    let (center, about) = (values.vector(g, center), values.vector(g, about));
+                    let distance = center.sub(g, about);
+                    let (zero, minus) = (g.zero(), g.neg(mass));
+                    body = body.with(g, zero, &[(distance, minus)]);
+                }
+                body.with_tensor(g, diagonal, products)
             }
         }
     }
 
+    /// A solid of revolution, uniform along its axis: `across` is its second moment along any diameter.
+    fn round(
+        g: &mut Graph,
+        values: &Values,
+        (mass, length, axis, center): (ExprId, &Expr, &Vector, &Vector),
+        across: ExprId,
+    ) -> Self {
+        let length = values.scalar(g, length);
+        let along = quadratic(g, 1.0 / 12.0, mass, length);
+        let excess = g.sub(along, across);
+        let axis = values.vector(g, axis);
+        Self::point(g, values, mass, center).with(g, across, &[(axis, excess)])
+    }
+
+    /// The negative of a mass distribution: a hole.
+    fn negated(mut self, g: &mut Graph) -> Self {
+        self.mass = g.neg(self.mass);
+        self.isotropic = g.neg(self.isotropic);
+        for arm in &mut self.arms {
+            arm.first = g.neg(arm.first);
+            for second in &mut arm.second {
+                *second = g.neg(*second);
+            }
+        }
+        self
+    }
+
+    /// The distribution seen from a frame in which its own frame is placed: arms turn, and the offset `o` becomes one
+    /// more arm, because `rho = o + R rho'`.
+    fn placed(mut self, g: &mut Graph, values: &Values, placement: &Placement) -> Self {
+        let (offset, rotation) = values.placement(g, placement);
+        if let Some(rotation) = rotation {
+            for arm in &mut self.arms {
+                arm.direction = rotation.apply(g, arm.direction);
+            }
+        }
+        if !offset.is_zero(g) {
+            let firsts: Vec<ExprId> = self.arms.iter().map(|arm| arm.first).collect();
+            self.add_arm(g, offset, self.mass, self.mass);
+            let last = self.arms.len() - 1;
+            for (k, first) in firsts.into_iter().enumerate() {
+                self.arms[k].second[last] = first;
+                self.arms[last].second[k] = first;
+            }
+        }
+        self
+    }
+
     /// Names the moments for readers.
-    pub(super) fn set_names(&self, g: &mut Graph, body: &str) {
+    fn set_names(&self, g: &mut Graph, body: &str) {
         g.set_name(self.mass, || format!("{body}_mass"));
         g.set_name(self.isotropic, || format!("{body}_isotropic_moment"));
         for arm in &self.arms {

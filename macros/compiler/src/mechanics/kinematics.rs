@@ -4,11 +4,12 @@
 //! zero. (A recursion in body frames would turn every vector at every joint and cost about twice as much.)
 
 use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::ids::{BodyId, CoordinateId, ExprId, PointId};
-use crate::model::mechanism::{Frame, JointKind, Mechanism};
-use crate::topology::{Branch, Topology};
+use crate::base::ids::{BodyId, CoordinateId, ExprId};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Frame, Joint, Mechanism, StepMotion};
+use crate::topology::Topology;
 
-use super::orientation::Orientation;
+use super::frame::FrameMotion;
 use super::values::{State, Values};
 
 /// A joint coordinate and its two time derivatives.
@@ -19,32 +20,69 @@ pub(super) struct CoordinateMotion {
     pub(super) acceleration: ExprId,
 }
 
-/// Motion of a frame, everything in the common frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrameMotion {
-    pub(super) orientation: Orientation,
-    /// Origin from the ground's origin.
-    pub(super) position: Vector3,
-    pub(super) angular_velocity: Vector3,
-    pub(super) angular_acceleration: Vector3,
-    /// Acceleration of the origin.
-    pub(super) acceleration: Vector3,
-    /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
-    second_rate: Matrix3,
-    /// Second time derivatives of the body axes: `W` applied to each.
-    axes_second_rate: Matrix3,
-}
-
 /// Motion of a body, and of the joint that carries it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct BodyMotion {
     pub(super) frame: FrameMotion,
-    /// Origin from the parent's origin.
-    pub(super) from_parent: Vector3,
-    /// Joint axis; zero for a fixed joint.
-    pub(super) joint_axis: Vector3,
-    /// The joint's origin from the body's origin.
-    pub(super) joint_point: Vector3,
+    /// The axes of the joint frame on the side that was declared as `from`.
+    pub(super) from_axes: Matrix3,
+    /// Its origin, from the body's origin.
+    pub(super) from_origin: Vector3,
+    /// The elementary motions of the joint, from the parent to the body.
+    pub(super) steps: Vec<StepAxis>,
+}
+
+/// Where an elementary motion acts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepAxis {
+    pub(super) coordinate: CoordinateId,
+    /// Axis of rotation; `None` for a slide.
+    pub(super) turn: Option<Vector3>,
+    /// Direction and amount of translation per unit of the coordinate; `None` for a turn.
+    pub(super) slide: Option<Vector3>,
+    /// A point of the axis, from the body's origin.
+    pub(super) point: Vector3,
+}
+
+impl StepAxis {
+    /// Power of a force and its moment about the body's origin per unit rate of the coordinate.
+    pub(super) fn project(&self, g: &mut Graph, force: Vector3, moment: Vector3) -> ExprId {
+        let mut power = g.zero();
+        if let Some(axis) = self.turn {
+            let shift = self.point.cross(g, force);
+            let about_axis = moment.sub(g, shift);
+            power = axis.dot(g, about_axis);
+        }
+        if let Some(slide) = self.slide {
+            let along = slide.dot(g, force);
+            power = g.add(power, along);
+        }
+        power
+    }
+
+    /// Velocity, per unit rate of the coordinate, of a point given from the body's origin.
+    pub(super) fn velocity(&self, g: &mut Graph, arm: Vector3) -> Vector3 {
+        let mut velocity = Vector3::zero(g);
+        if let Some(axis) = self.turn {
+            let lever = arm.sub(g, self.point);
+            velocity = axis.cross(g, lever);
+        }
+        if let Some(slide) = self.slide {
+            velocity = velocity.add(g, slide);
+        }
+        velocity
+    }
+}
+
+/// A named point in the common frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PointMotion {
+    /// From the origin of its frame.
+    pub(super) arm: Vector3,
+    /// From the ground's origin.
+    pub(super) position: Vector3,
+    /// Its axes.
+    pub(super) axes: Matrix3,
 }
 
 /// Motion of every frame of a mechanism.
@@ -53,8 +91,8 @@ pub(super) struct Kinematics {
     pub(super) ground: FrameMotion,
     /// By body id.
     pub(super) bodies: Vec<BodyMotion>,
-    /// Offset of each named point from its frame's origin, and its position.
-    pub(super) points: Vec<(Vector3, Vector3)>,
+    /// By point id.
+    pub(super) points: Vec<PointMotion>,
 }
 
 impl Kinematics {
@@ -69,9 +107,9 @@ impl Kinematics {
         let ground = FrameMotion::ground(g);
         let placeholder = BodyMotion {
             frame: ground,
-            from_parent: ground.position,
-            joint_axis: ground.position,
-            joint_point: ground.position,
+            from_axes: ground.orientation.axes,
+            from_origin: ground.position,
+            steps: Vec::new(),
         };
         let mut this = Self {
             coordinates,
@@ -81,18 +119,25 @@ impl Kinematics {
         };
         for branch in &topology.branches {
             let parent = *this.frame(branch.parent);
-            let motion = this.body(g, mechanism, values, branch, &parent);
+            let name = mechanism.bodies[branch.body.index()].name.to_string();
+            let joint = &mechanism.joints[branch.joint.index()];
+            let motion = this.body(g, values, joint, branch.reversed, &parent, &name);
             this.bodies[branch.body.index()] = motion;
         }
         for point in &mechanism.points {
             let frame = *this.frame(point.frame);
-            let offset = values.vector(g, &point.position);
+            let (offset, rotation) = values.placement(g, &point.placement);
             let arm = frame.orientation.express(g, offset);
             let position = frame
                 .position
                 .add(g, arm)
                 .set_name(g, &point.name.to_string());
-            this.points.push((arm, position));
+            let axes = frame.orientation.then_fixed(g, rotation).axes;
+            this.points.push(PointMotion {
+                arm,
+                position,
+                axes,
+            });
         }
         this
     }
@@ -110,176 +155,97 @@ impl Kinematics {
         &self.bodies[body.index()]
     }
 
+    /// From the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
+    /// the body to its parent is walked backwards, each motion about the opposite axis.
     fn body(
         &self,
         g: &mut Graph,
-        mechanism: &Mechanism,
         values: &Values,
-        branch: &Branch,
+        joint: &Joint,
+        reversed: bool,
         parent: &FrameMotion,
+        name: &str,
     ) -> BodyMotion {
-        let joint = &mechanism.joints[branch.joint.index()];
-        let name = mechanism.bodies[branch.body.index()].name.to_string();
-        let (inboard, outboard) = if branch.reversed {
-            (&joint.to_placement, &joint.from_placement)
-        } else {
-            (&joint.from_placement, &joint.to_placement)
+        let (inboard, outboard) = match reversed {
+            false => (&joint.from_placement, &joint.to_placement),
+            true => (&joint.to_placement, &joint.from_placement),
         };
         let (inboard_offset, inboard_rotation) = values.placement(g, inboard);
         let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
-        let joint_orientation = parent.orientation.then_fixed(g, inboard_rotation);
 
-        let mut orientation = joint_orientation;
-        let mut omega = parent.angular_velocity;
-        let mut alpha = parent.angular_acceleration;
-        let (mut offset, mut acceleration) = parent.carry(g, inboard_offset);
-        acceleration = parent.acceleration.add(g, acceleration);
-        let mut joint_axis = Vector3::zero(g);
-
-        match &joint.kind {
-            JointKind::Fixed => {}
-            JointKind::Revolute { axis, coordinate } => {
-                let axis = values.vector(g, axis);
-                let axis = oriented(g, axis, branch);
-                let motion = self.coordinates[coordinate.index()];
-                orientation = orientation.then_turned(g, axis, motion.position, &name);
-                joint_axis = joint_orientation.express(g, axis);
-                let spin = joint_axis.scale(g, motion.velocity);
-                let growth = joint_axis.scale(g, motion.acceleration);
-                let gyroscopic = omega.cross(g, spin);
-                omega = omega.add(g, spin);
-                let relative = growth.add(g, gyroscopic);
-                alpha = alpha.add(g, relative);
-            }
-            JointKind::Prismatic { axis, coordinate } => {
-                let axis = values.vector(g, axis);
-                let axis = oriented(g, axis, branch);
-                let motion = self.coordinates[coordinate.index()];
-                joint_axis = joint_orientation.express(g, axis);
-                let slide = joint_axis.scale(g, motion.position);
-                let carried = parent
-                    .second_rate
-                    .apply(g, joint_axis)
-                    .scale(g, motion.position);
-                let twist = omega.cross(g, joint_axis);
-                let double_speed = g.scale(2.0, motion.velocity);
-                let coriolis = twist.scale(g, double_speed);
-                let growth = joint_axis.scale(g, motion.acceleration);
-                offset = offset.add(g, slide);
-                for term in [carried, coriolis, growth] {
-                    acceleration = acceleration.add(g, term);
+        let start = parent.departing(g);
+        let mut moving = start
+            .displaced(g, inboard_offset)
+            .rotated(g, inboard_rotation);
+        let joint_frame = moving;
+        let mut steps = Vec::new();
+        let order: Vec<_> = match reversed {
+            false => joint.steps.iter().collect(),
+            true => joint.steps.iter().rev().collect(),
+        };
+        for step in order {
+            let axis = values.vector(g, &step.axis);
+            let axis = if reversed { axis.neg(g) } else { axis };
+            let motion = self.coordinates[step.coordinate.index()];
+            let direction = moving.orientation.express(g, axis);
+            let (turn, slide) = match &step.motion {
+                StepMotion::Turn => (Some(direction), None),
+                StepMotion::Slide => (None, Some(direction)),
+                StepMotion::Screw { lead } => {
+                    let lead = values.scalar(g, lead);
+                    (Some(direction), Some(direction.scale(g, lead)))
                 }
+            };
+            let point = moving.offset;
+            steps.push(StepAxis {
+                coordinate: step.coordinate,
+                turn,
+                slide,
+                point,
+            });
+            if let Some(slide) = slide {
+                moving = moving.slid(g, slide, motion);
+            }
+            if let Some(direction) = turn {
+                moving = moving.turned(g, (axis, direction), motion, name);
             }
         }
 
-        orientation = orientation.then_fixed(g, outboard_rotation.map(Matrix3::transpose));
-        let omega = omega.set_name(g, &format!("{name}_angular_velocity"));
-        let alpha = alpha.set_name(g, &format!("{name}_angular_acceleration"));
-        let mut frame = FrameMotion::new(g, orientation, omega, alpha, &name);
-        let (joint_point, joint_point_rate) = frame.carry(g, outboard_offset);
-        let from_parent = offset.sub(g, joint_point);
-        frame.position = parent
-            .position
-            .add(g, from_parent)
-            .set_name(g, &format!("{name}_position"));
-        frame.acceleration = acceleration
-            .sub(g, joint_point_rate)
-            .set_name(g, &format!("{name}_acceleration"));
+        let backwards = outboard_offset.neg(g);
+        let mut frame = moving
+            .rotated(g, outboard_rotation.map(Matrix3::transpose))
+            .displaced(g, backwards);
+        frame.position = parent.position.add(g, frame.offset);
+        frame.set_names(g, name);
+        for step in &mut steps {
+            step.point = step.point.sub(g, frame.offset);
+        }
+        let (from_axes, from_origin) = match reversed {
+            false => (
+                joint_frame.orientation.axes,
+                joint_frame.offset.sub(g, frame.offset),
+            ),
+            true => (
+                frame.orientation.then_fixed(g, outboard_rotation).axes,
+                frame.orientation.express(g, outboard_offset),
+            ),
+        };
         BodyMotion {
             frame,
-            from_parent,
-            joint_axis,
-            joint_point,
+            from_axes,
+            from_origin,
+            steps,
         }
     }
-}
-
-/// The joint axis as seen from the parent: a joint declared from the body to its parent turns the other way.
-fn oriented(g: &mut Graph, axis: Vector3, branch: &Branch) -> Vector3 {
-    if branch.reversed { axis.neg(g) } else { axis }
-}
-
-impl FrameMotion {
-    fn ground(g: &mut Graph) -> Self {
-        let zero = Vector3::zero(g);
-        let orientation = Orientation::aligned(g);
-        Self::new(g, orientation, zero, zero, "ground")
-    }
-
-    /// A frame turning with `omega` and `alpha`, its origin at rest in the ground's.
-    fn new(
-        g: &mut Graph,
-        orientation: Orientation,
-        omega: Vector3,
-        alpha: Vector3,
-        name: &str,
-    ) -> Self {
-        let zero = Vector3::zero(g);
-        let second_rate = second_rate(g, omega, alpha);
-        let axes_second_rate = second_rate.multiply(g, orientation.axes);
-        for (column, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            orientation.axes.0[column].set_name(g, &format!("{name}_axis_{axis}"));
-            axes_second_rate.0[column].set_name(g, &format!("{name}_axis_{axis}_second_rate"));
-        }
-        Self {
-            orientation,
-            position: zero,
-            angular_velocity: omega,
-            angular_acceleration: alpha,
-            acceleration: zero,
-            second_rate,
-            axes_second_rate,
-        }
-    }
-
-    /// A body-fixed vector in the common frame, and its second time derivative. One along a body axis shares the work
-    /// with every other vector along that axis.
-    pub(super) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
-        let nonzero: Vec<usize> = (0..3).filter(|&k| !g.is(vector.0[k], 0.0)).collect();
-        match nonzero[..] {
-            [] => (vector, vector),
-            [k] => {
-                let length = vector.0[k];
-                let arm = self.orientation.axes.0[k].scale(g, length);
-                (arm, self.axes_second_rate.0[k].scale(g, length))
-            }
-            _ => {
-                let arm = self.orientation.express(g, vector);
-                (arm, self.second_rate.apply(g, arm))
-            }
-        }
-    }
-}
-
-/// `[alpha]x + omega omega^T - |omega|^2 1`.
-fn second_rate(g: &mut Graph, omega: Vector3, alpha: Vector3) -> Matrix3 {
-    let ([wx, wy, wz], [ax, ay, az]) = (omega.0, alpha.0);
-    let [xx, yy, zz] = omega.0.map(|w| {
-        let square = g.mul(w, w);
-        if let Some(name) = g.name(w).map(|name| format!("{name}_squared")) {
-            g.set_name(square, || name);
-        }
-        square
-    });
-    let (xy, yz, zx) = (g.mul(wx, wy), g.mul(wy, wz), g.mul(wz, wx));
-    let mut minus_sum = |a, b| {
-        let sum = g.add(a, b);
-        g.neg(sum)
-    };
-    let (dx, dy, dz) = (minus_sum(yy, zz), minus_sum(xx, zz), minus_sum(xx, yy));
-    Matrix3([
-        Vector3([dx, g.add(xy, az), g.sub(zx, ay)]),
-        Vector3([g.sub(xy, az), dy, g.add(yz, ax)]),
-        Vector3([g.add(zx, ay), g.sub(yz, ax), dz]),
-    ])
 }
 
 impl State for Kinematics {
-    fn coordinate(&self, id: CoordinateId) -> ExprId {
-        self.coordinates[id.index()].position
-    }
-
-    fn point(&self, id: PointId) -> Vector3 {
-        self.points[id.index()].1
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Coordinate(id) => self.coordinates[id.index()].position,
+            Expr::Rate(id) => self.coordinates[id.index()].velocity,
+            Expr::Position(id, axis) => self.points[id.index()].position.0[*axis],
+            _ => unreachable!("resolution admits {leaf:?} elsewhere only"),
+        }
     }
 }

@@ -5,7 +5,9 @@
 
 mod adjoint;
 mod derive;
+mod energy;
 mod forces;
+mod frame;
 mod functions;
 mod inertia;
 mod kernels;
@@ -13,6 +15,9 @@ mod kinematics;
 mod linearise;
 mod newton_euler;
 mod orientation;
+mod outputs;
+mod path;
+mod poses;
 mod print;
 mod properties;
 mod requirements;
@@ -22,4 +27,4 @@ mod symbols;
 mod values;
 
 pub use derive::derive;
-pub use functions::{Damping, Functions, Limits, Properties, Requirement};
+pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement};

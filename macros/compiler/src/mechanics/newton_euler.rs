@@ -3,90 +3,110 @@
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{BodyId, ExprId};
-use crate::model::mechanism::{Frame, JointKind, Mechanism};
-use crate::topology::Topology;
+use crate::model::mechanism::Frame;
 
-use super::forces::{AppliedForces, Loads, Wrench};
+use super::derive::Problem;
+use super::forces::{AppliedForces, Loads, Wrench, add_load};
+use super::frame::FrameMotion;
 use super::inertia::MassDistribution;
-use super::kinematics::{FrameMotion, Kinematics};
+use super::kinematics::Kinematics;
 use super::sources::Sources;
-use super::values::Values;
 
-/// `g(qddot, qdot, q; u, b)` by coordinate id (THEORY eq. 12): inertia less applied forces along each coordinate.
-pub(super) fn residual(
+/// The equations of motion, and what the joints transmit.
+pub(super) struct Dynamics {
+    /// `g(qddot, qdot, q; u, b)` by coordinate id (THEORY eq. 12): inertia less applied forces along each coordinate.
+    pub(super) residual: Vec<ExprId>,
+    /// By body id: what the parent exerts on the body and all it carries, about the body's origin.
+    pub(super) transmitted: Vec<Wrench>,
+}
+
+/// Sums inertia less applied forces from the leaves towards the ground.
+pub(super) fn dynamics(
     g: &mut Graph,
-    mechanism: &Mechanism,
-    topology: &Topology,
-    values: &Values,
+    problem: &Problem,
     kinematics: &Kinematics,
     sources: Sources,
-) -> Vec<ExprId> {
-    let gravity = if sources.gravity {
-        values.vector(g, &mechanism.gravity)
-    } else {
-        Vector3::zero(g)
-    };
-    let applied = AppliedForces::new(g, mechanism, topology, values, kinematics, sources);
+) -> Dynamics {
+    let Problem {
+        mechanism,
+        topology,
+        ..
+    } = *problem;
+    let applied = AppliedForces::new(g, problem, kinematics, sources);
     let mut loads: Vec<Loads> = applied.on_bodies.iter().map(|on| negated(g, on)).collect();
-    for (index, body) in mechanism.bodies.iter().enumerate() {
-        let with_inertia = sources.inertia.contains(BodyId::new(index));
-        if !with_inertia && !sources.gravity {
-            continue;
-        }
-        if let Some(mass) = MassDistribution::new(g, values, &body.shape) {
-            mass.set_names(g, &body.name.to_string());
-            let motion = &kinematics.bodies[index].frame;
-            let load = inertia_wrench(g, &mass, motion, gravity, with_inertia);
-            add(g, &mut loads[index], Frame::Ground, load);
-        }
-    }
+    add_inertia(g, problem, kinematics, sources, &mut loads);
 
+    let zero = Vector3::zero(g);
     let mut residual: Vec<ExprId> = applied
         .on_coordinates
         .iter()
         .map(|&force| g.neg(force))
         .collect();
+    let mut transmitted = vec![
+        Wrench {
+            force: zero,
+            moment: zero
+        };
+        mechanism.bodies.len()
+    ];
     for branch in topology.branches.iter().rev() {
-        let name = mechanism.bodies[branch.body.index()].name.to_string();
-        let motion = *kinematics.of(branch.body);
-        let carried = std::mem::take(&mut loads[branch.body.index()]);
-        let joint = &mechanism.joints[branch.joint.index()];
+        let body = branch.body.index();
+        let name = mechanism.bodies[body].name.to_string();
+        let motion = kinematics.of(branch.body);
+        let carried = std::mem::take(&mut loads[body]);
         for (&closing, &load) in &carried {
             load.force.set_name(g, &format!("{name}_total_force"));
             load.moment.set_name(g, &format!("{name}_total_moment"));
-            let along = match &joint.kind {
-                JointKind::Fixed => None,
-                JointKind::Revolute { coordinate, .. } => {
-                    let shift = motion.joint_point.cross(g, load.force);
-                    let moment = load.moment.sub(g, shift);
-                    Some((coordinate, motion.joint_axis.dot(g, moment)))
-                }
-                JointKind::Prismatic { coordinate, .. } => {
-                    Some((coordinate, motion.joint_axis.dot(g, load.force)))
-                }
-            };
-            if let Some((coordinate, projection)) = along {
-                let slot = &mut residual[coordinate.index()];
-                *slot = g.add(*slot, projection);
+            transmitted[body] = transmitted[body].add(g, load);
+            for step in &motion.steps {
+                let along = step.project(g, load.force, load.moment);
+                let slot = &mut residual[step.coordinate.index()];
+                *slot = g.add(*slot, along);
             }
             if let Frame::Body(parent) = branch.parent
                 && closing != branch.parent
             {
-                let shift = motion.from_parent.cross(g, load.force);
+                let shift = motion.frame.offset.cross(g, load.force);
                 let moved = Wrench {
                     force: load.force,
                     moment: load.moment.add(g, shift),
                 };
-                add(g, &mut loads[parent.index()], closing, moved);
+                add_load(g, &mut loads[parent.index()], closing, moved);
             }
         }
     }
-    for (index, &value) in residual.iter().enumerate() {
-        g.set_name(value, || {
-            format!("residual_{}", mechanism.coordinates[index].name)
-        });
+    for (value, coordinate) in residual.iter().zip(&mechanism.coordinates) {
+        g.set_name(*value, || format!("residual_{}", coordinate.name));
     }
-    residual
+    Dynamics {
+        residual,
+        transmitted,
+    }
+}
+
+/// Adds the inertia less the weight of every body to its loads.
+fn add_inertia(
+    g: &mut Graph,
+    problem: &Problem,
+    kinematics: &Kinematics,
+    sources: Sources,
+    loads: &mut [Loads],
+) {
+    let gravity = match sources.gravity {
+        true => problem.values.vector(g, &problem.mechanism.gravity),
+        false => Vector3::zero(g),
+    };
+    for (index, body) in problem.mechanism.bodies.iter().enumerate() {
+        let with_inertia = sources.inertia.contains(BodyId::new(index));
+        if !with_inertia && !sources.gravity {
+            continue;
+        }
+        let motion = &kinematics.bodies[index].frame;
+        for piece in MassDistribution::of_body(g, problem.values, body) {
+            let load = inertia_wrench(g, &piece, motion, gravity, with_inertia);
+            add_load(g, &mut loads[index], Frame::Ground, load);
+        }
+    }
 }
 
 /// Inertia less weight of one body, about its origin. Gravity enters as an acceleration of the whole frame:
@@ -140,25 +160,9 @@ fn inertia_wrench(
     Wrench { force, moment }
 }
 
-fn add(g: &mut Graph, loads: &mut Loads, closing: Frame, load: Wrench) {
-    let sum = match loads.get(&closing) {
-        Some(so_far) => so_far.add(g, load),
-        None => load,
-    };
-    loads.insert(closing, sum);
-}
-
 fn negated(g: &mut Graph, loads: &Loads) -> Loads {
     loads
         .iter()
-        .map(|(&closing, load)| {
-            (
-                closing,
-                Wrench {
-                    force: load.force.neg(g),
-                    moment: load.moment.neg(g),
-                },
-            )
-        })
+        .map(|(&closing, load)| (closing, load.neg(g)))
         .collect()
 }

@@ -12,6 +12,13 @@ impl Display for Functions {
         for requirement in &self.requirements {
             writeln!(f, "{}: {}", requirement.quantity, requirement.requirement)?;
         }
+        for pose in &self.poses {
+            writeln!(
+                f,
+                "{}: singular where its axes lie in one plane",
+                pose.joint
+            )?;
+        }
         for function in &self.functions {
             let cost = function.cost(&self.graph);
             let parameters: Vec<&str> = function.parameters.iter().map(|p| p.name).collect();

@@ -61,7 +61,7 @@ pub(super) fn check(
             diagnostics.error_with_help(
                 name(k).span(),
                 format!(
-                    "nothing resists `{}`: every value of it is an equilibrium, and it has no natural frequency",
+                    "nothing resists `{}`: its equilibrium is not determined, and it has no natural frequency",
                     name(k)
                 ),
                 "add a spring on it, drive it, or make the joint fixed",

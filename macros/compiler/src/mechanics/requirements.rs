@@ -1,12 +1,13 @@
 //! What every body must satisfy at run time, whatever the design values: positive masses and lengths, and inertias that
 //! a body can have.
 
-use crate::algebra::Graph;
+use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Mechanism, Shape};
+use crate::model::mechanism::{Body, Mechanism, Shape};
 
 use super::functions::Requirement;
+use super::inertia::MassDistribution;
 use super::values::Values;
 
 /// Share of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
@@ -22,51 +23,43 @@ pub(super) fn requirements(
     let mut list = Vec::new();
     for body in &mechanism.bodies {
         let name = &body.name;
-        let mut positive = |g: &mut Graph, quantity: &str, value: &Expr| {
-            let value = values.scalar(g, value);
-            list.push(Requirement {
-                quantity: format!("{quantity} of {name}"),
-                requirement: "positive",
-                value,
-            });
-        };
-        match &body.shape {
-            Shape::Massless => {}
-            Shape::Point { mass, .. } => positive(g, "mass", mass),
-            Shape::Rod { mass, length, .. } => {
-                positive(g, "mass", mass);
-                positive(g, "length", length);
+        for part in &body.parts {
+            for (quantity, value) in positive_quantities(&part.shape) {
+                list.push(Requirement {
+                    quantity: format!("{quantity} of {name}"),
+                    requirement: "positive",
+                    value: values.scalar(g, value),
+                });
             }
-            Shape::Disk { mass, radius, .. } | Shape::Sphere { mass, radius, .. } => {
-                positive(g, "mass", mass);
-                positive(g, "radius", radius);
+            if let Shape::Tube { inner, outer, .. } = &part.shape {
+                let (inner, outer) = (values.scalar(g, inner), values.scalar(g, outer));
+                list.push(Requirement {
+                    quantity: format!("wall thickness of {name}"),
+                    requirement: "positive",
+                    value: g.sub(outer, inner),
+                });
             }
-            Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                ..
-            } => {
-                positive(g, "mass", mass);
-                positive(g, "radius", radius);
-                positive(g, "length", length);
+        }
+        let holes = body.parts.iter().any(|part| part.hole);
+        let given = body
+            .parts
+            .iter()
+            .any(|part| matches!(part.shape, Shape::Rigid { .. }));
+        if holes || given {
+            let (mass, second) = central_moments(g, values, body);
+            if holes {
+                list.push(Requirement {
+                    quantity: format!("mass of {name}"),
+                    requirement: "positive",
+                    value: mass,
+                });
             }
-            Shape::Cuboid { mass, size, .. } => {
-                positive(g, "mass", mass);
-                for (edge, axis) in size.iter().zip(["x", "y", "z"]) {
-                    positive(g, &format!("size along {axis}"), edge);
-                }
-            }
-            Shape::Rigid { mass, inertia, .. } => {
-                positive(g, "mass", mass);
-                let inertia = std::array::from_fn(|i| values.scalar(g, &inertia[i]));
-                for value in second_moment_minors(g, inertia) {
-                    list.push(Requirement {
-                        quantity: format!("inertia of {name}"),
-                        requirement: "one that a body can have (triangle inequality)",
-                        value,
-                    });
-                }
+            for value in principal_minors(g, second) {
+                list.push(Requirement {
+                    quantity: format!("inertia of {name}"),
+                    requirement: "one that a body can have (triangle inequality)",
+                    value,
+                });
             }
         }
     }
@@ -74,30 +67,88 @@ pub(super) fn requirements(
     list
 }
 
-/// Principal minors of the second-moment tensor `tr(J)/2 1 - J`, each raised a little: all positive exactly when the
-/// inertia `J` (xx, yy, zz, xy, yz, xz) is one that a mass distribution can have.
-fn second_moment_minors(g: &mut Graph, inertia: [ExprId; 6]) -> Vec<ExprId> {
-    let [xx, yy, zz, xy, yz, xz] = inertia;
-    let trace = g.sum([xx, yy, zz]);
-    let half = g.scale(0.5 + FLATNESS, trace);
-    let [a, b, c] = [xx, yy, zz].map(|j| g.sub(half, j));
+/// The dimensions of a shape that have to be positive.
+fn positive_quantities(shape: &Shape) -> Vec<(&'static str, &Expr)> {
+    match shape {
+        Shape::Point { mass, .. } | Shape::Rigid { mass, .. } => vec![("mass", mass)],
+        Shape::Rod { mass, length, .. } => vec![("mass", mass), ("length", length)],
+        Shape::Disk { mass, radius, .. } | Shape::Sphere { mass, radius, .. } => {
+            vec![("mass", mass), ("radius", radius)]
+        }
+        Shape::Cylinder {
+            mass,
+            radius,
+            length,
+            ..
+        } => {
+            vec![("mass", mass), ("radius", radius), ("length", length)]
+        }
+        Shape::Tube {
+            mass,
+            inner,
+            length,
+            ..
+        } => {
+            vec![("mass", mass), ("inner radius", inner), ("length", length)]
+        }
+        Shape::Cuboid {
+            mass,
+            size: [x, y, z],
+            ..
+        } => vec![
+            ("mass", mass),
+            ("size along x", x),
+            ("size along y", y),
+            ("size along z", z),
+        ],
+    }
+}
+
+/// Mass of a body, and its second moments about its centre of mass: rows of `S - F F^T / m`, each diagonal entry raised
+/// by a little of the trace of `S`.
+fn central_moments(g: &mut Graph, values: &Values, body: &Body) -> (ExprId, [Vector3; 3]) {
+    let zero = g.zero();
+    let (mut mass, mut first) = (zero, Vector3::zero(g));
+    let mut second = [first; 3];
+    for piece in MassDistribution::of_body(g, values, body) {
+        mass = g.add(mass, piece.mass);
+        for (k, row) in second.iter_mut().enumerate() {
+            row.0[k] = g.add(row.0[k], piece.isotropic);
+        }
+        for arm in &piece.arms {
+            let share = arm.direction.scale(g, arm.first);
+            first = first.add(g, share);
+            for (other, &weight) in piece.arms.iter().zip(&arm.second) {
+                for (row, &component) in second.iter_mut().zip(&arm.direction.0) {
+                    let factor = g.mul(weight, component);
+                    let share = other.direction.scale(g, factor);
+                    *row = row.add(g, share);
+                }
+            }
+        }
+    }
+    let trace = g.sum([second[0].0[0], second[1].0[1], second[2].0[2]]);
+    let raise = g.scale(FLATNESS, trace);
+    for (k, row) in second.iter_mut().enumerate() {
+        let factor = g.div(first.0[k], mass);
+        let shift = first.scale(g, factor);
+        *row = row.sub(g, shift);
+        row.0[k] = g.add(row.0[k], raise);
+    }
+    (mass, second)
+}
+
+/// Principal minors of a symmetric matrix: all positive exactly when it is positive definite.
+fn principal_minors(g: &mut Graph, [x, y, z]: [Vector3; 3]) -> Vec<ExprId> {
+    let ([a, xy, xz], [_, b, yz], [_, _, c]) = (x.0, y.0, z.0);
     let mut minors = vec![a, b, c];
-    let two = |g: &mut Graph, p, q, r| {
-        let (product, square) = (g.mul(p, q), g.mul(r, r));
-        g.sub(product, square)
-    };
-    let (ab, bc, ac) = (two(g, a, b, xy), two(g, b, c, yz), two(g, a, c, xz));
-    if [xy, yz, xz].iter().any(|&j| !g.is(j, 0.0)) {
-        // det = a (bc - yz^2) - xy (xy c - yz xz) + xz (xy yz - b xz), with off-diagonal entries -xy, -yz, -xz.
-        let first = g.mul(a, bc);
-        let (xyc, yzxz) = (g.mul(xy, c), g.mul(yz, xz));
-        let inner = g.add(xyc, yzxz);
-        let second = g.mul(xy, inner);
-        let (xyyz, bxz) = (g.mul(xy, yz), g.mul(b, xz));
-        let inner = g.add(xyyz, bxz);
-        let third = g.mul(xz, inner);
-        let partial = g.sub(first, second);
-        minors.extend([ab, bc, ac, g.sub(partial, third)]);
+    if [xy, yz, xz].iter().any(|&product| !g.is(product, 0.0)) {
+        for (p, q, r) in [(a, b, xy), (b, c, yz), (a, c, xz)] {
+            let (product, square) = (g.mul(p, q), g.mul(r, r));
+            minors.push(g.sub(product, square));
+        }
+        let normal = x.cross(g, y);
+        minors.push(normal.dot(g, z));
     }
     minors
 }

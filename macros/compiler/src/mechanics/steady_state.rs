@@ -7,6 +7,7 @@ use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
 use super::derive::Problem;
 use super::kinematics::Kinematics;
 use super::linearise::by_symbol;
+use super::outputs::outputs;
 use super::properties::vanish;
 use super::sources::{Selection, Sources};
 
@@ -15,7 +16,7 @@ pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics>
     let mut diagnostics = Diagnostics::new();
     let kinematics = problem.kinematics(g, &problem.symbols.driven.values);
     let residual = problem.residual(g, &kinematics, Sources::ALL);
-    let outputs = problem.outputs(g, &kinematics);
+    let outputs = outputs(g, problem, &kinematics);
     for (k, &symbol) in problem.symbols.driven.ids.iter().enumerate() {
         let name = &problem.mechanism.coordinates[problem.topology.driven[k].index()].name;
         if depends(g, problem, &residual, symbol) {

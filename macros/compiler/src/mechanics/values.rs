@@ -1,7 +1,7 @@
 //! Values of the declaration as expressions of the graph.
 
 use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
-use crate::base::ids::{ConstantId, CoordinateId, ExprId, PointId};
+use crate::base::ids::{ConstantId, ExprId};
 use crate::model::expression::{Expr, Function, Vector};
 use crate::model::mechanism::{Mechanism, Placement};
 
@@ -13,25 +13,19 @@ pub(super) struct Values<'a> {
     constants: Vec<ExprId>,
 }
 
-/// Where outputs find coordinates and points.
+/// What a value that depends on the state of the mechanism may ask for. Resolution has checked that a value asks only for
+/// what its place offers, so the default is never reached.
 pub(super) trait State {
-    /// A joint coordinate.
-    fn coordinate(&self, id: CoordinateId) -> ExprId;
-    /// A point in the ground frame.
-    fn point(&self, id: PointId) -> Vector3;
+    /// A leaf of a value: a coordinate, a rate, a point, a length, a reaction or an energy.
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        unreachable!("resolution admits {leaf:?} elsewhere only")
+    }
 }
 
-/// No state: for values that depend on inputs and design only. Resolution has checked that nothing else occurs.
+/// No state: for values that depend on inputs and design only.
 struct Stateless;
 
-impl State for Stateless {
-    fn coordinate(&self, _: CoordinateId) -> ExprId {
-        unreachable!("resolution admits coordinates in outputs only")
-    }
-    fn point(&self, _: PointId) -> Vector3 {
-        unreachable!("resolution admits points in outputs only")
-    }
-}
+impl State for Stateless {}
 
 impl<'a> Values<'a> {
     /// Translates the named constants once; each uses only earlier ones.
@@ -88,8 +82,14 @@ impl<'a> Values<'a> {
             Expr::Design(id) => self.symbols.b.values[id.index()],
             Expr::Input(id) => self.symbols.u.values[id.index()],
             Expr::Constant(id) => self.constant(*id),
-            Expr::Coordinate(id) => state.coordinate(*id),
-            Expr::Position(id, axis) => state.point(*id).0[*axis],
+            Expr::Coordinate(_)
+            | Expr::Rate(_)
+            | Expr::Position(..)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => state.leaf(value),
             Expr::Add(a, b) => binary(Operator::Add, a, b),
             Expr::Subtract(a, b) => binary(Operator::Subtract, a, b),
             Expr::Multiply(a, b) => binary(Operator::Multiply, a, b),

@@ -1,6 +1,6 @@
 //! Numbers for expressions: what a declaration comes to at given inputs and design variables.
 
-use super::expression::Expr;
+use super::expression::{Expr, Vector};
 use super::mechanism::{Constant, Mechanism};
 use super::simplify::apply;
 
@@ -35,7 +35,14 @@ impl<'a> Values<'a> {
             Expr::Design(id) => known(self.design, id.index()),
             Expr::Input(id) => known(self.inputs, id.index()),
             Expr::Constant(id) => known(&self.constants, id.index()),
-            Expr::Coordinate(_) | Expr::Position(..) => f64::NAN,
+            Expr::Coordinate(_)
+            | Expr::Rate(_)
+            | Expr::Position(..)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => f64::NAN,
             Expr::Negate(a) => -self.of(a),
             Expr::Add(a, b) => self.of(a) + self.of(b),
             Expr::Subtract(a, b) => self.of(a) - self.of(b),
@@ -46,6 +53,13 @@ impl<'a> Values<'a> {
             Expr::Call(function, a) => apply(*function, self.of(a)),
             Expr::Atan2(y, x) => self.of(y).atan2(self.of(x)),
         }
+    }
+}
+
+impl Values<'_> {
+    /// The components of a vector.
+    pub fn vector(&self, vector: &Vector) -> [f64; 3] {
+        [0, 1, 2].map(|axis: usize| self.of(&vector[axis]))
     }
 }
 
@@ -76,7 +90,16 @@ impl InputDependence {
         match expr {
             Expr::Input(_) => true,
             Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
-            Expr::Number(_) | Expr::Design(_) | Expr::Coordinate(_) | Expr::Position(..) => false,
+            Expr::Number(_)
+            | Expr::Design(_)
+            | Expr::Coordinate(_)
+            | Expr::Rate(_)
+            | Expr::Position(..)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => false,
             Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.of(a),
             Expr::Add(a, b)
             | Expr::Subtract(a, b)

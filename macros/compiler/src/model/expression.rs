@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::base::ids::{ConstantId, CoordinateId, DesignId, InputId, PointId};
+use crate::base::ids::{ConstantId, CoordinateId, DesignId, InputId, JointId, PointId};
 
 /// A scalar value in SI; dimensions have been checked and are gone.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,10 +15,23 @@ pub enum Expr {
     Input(InputId),
     /// A named constant.
     Constant(ConstantId),
-    /// A joint coordinate (in outputs only).
+    /// A joint coordinate (in force laws and outputs).
     Coordinate(CoordinateId),
-    /// Component 0, 1 or 2 of a point's position in the ground frame (in outputs only).
+    /// Rate of a joint coordinate (in force laws).
+    Rate(CoordinateId),
+    /// Component 0, 1 or 2 of a point's position in the ground frame (in force laws and outputs).
     Position(PointId, usize),
+    /// Distance of the two points of the tension law it stands in.
+    Length,
+    /// Rate of that distance.
+    LengthRate,
+    /// Component of what a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
+    /// the `from` side on the `to` side, along the axes of the joint frame on the `from` side.
+    Reaction(JointId, usize),
+    /// Kinetic energy in steady motion (in outputs).
+    KineticEnergy,
+    /// Energy of gravity, springs and potentials, zero at the ground's origin and at free lengths (in outputs).
+    PotentialEnergy,
     /// `-a`.
     Negate(Rc<Expr>),
     /// `a + b`.

@@ -94,15 +94,25 @@ pub enum Frame {
 pub struct Body {
     /// Declared name.
     pub name: Ident,
-    /// Mass distribution.
-    pub shape: Shape,
+    /// What its mass is made of; nothing when massless.
+    pub parts: Vec<Part>,
 }
 
-/// Mass distribution in the body frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2.
+/// One piece of a body's mass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The piece is missing from the others: a hole.
+    pub hole: bool,
+    /// Its mass distribution in the frame of the piece.
+    pub shape: Shape,
+    /// Where that frame is in the body frame.
+    pub placement: Placement,
+}
+
+/// A mass distribution in a frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2. A density has been
+/// multiplied by the volume.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// No mass.
-    Massless,
     /// A point mass.
     Point {
         /// Mass.
@@ -145,6 +155,21 @@ pub enum Shape {
         /// Centre of mass.
         center: Vector,
     },
+    /// A uniform tube: a cylinder with a coaxial bore.
+    Tube {
+        /// Mass.
+        mass: Expr,
+        /// Radius of the bore.
+        inner: Expr,
+        /// Radius of the outside.
+        outer: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
     /// A uniform solid box with edges along the body axes.
     Cuboid {
         /// Mass.
@@ -169,9 +194,11 @@ pub enum Shape {
         mass: Expr,
         /// Centre of mass.
         center: Vector,
-        /// Inertia tensor about the centre of mass along the body axes: xx, yy, zz, xy, yz, xz; the products are the
-        /// tensor's entries, `Jxy = -integral x y dm`.
+        /// Inertia tensor along the axes of the frame: xx, yy, zz, xy, yz, xz; the products are the tensor's entries,
+        /// `Jxy = -integral x y dm`.
         inertia: [Expr; 6],
+        /// The point that the inertia is about; the centre of mass unless given.
+        about: Option<Vector>,
     },
 }
 
@@ -184,13 +211,17 @@ pub struct Placement {
     pub rotations: Vec<(Vector, Expr)>,
 }
 
-/// A joint between two frames. Its frame on the `from` side turns or slides about `axis` into its frame on the `to` side.
+/// A joint between two frames: a sequence of elementary motions takes its frame on the `from` side into its frame on the
+/// `to` side.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// Declared name.
     pub name: Ident,
-    /// Kind of joint, with its axis as a unit vector in the joint frame.
-    pub kind: JointKind,
+    /// The word it was declared with, for example `universal`.
+    pub word: &'static str,
+    /// Elementary motions from the `from` side to the `to` side, each about or along an axis of the frame that the
+    /// ones before have left; none for a fixed joint.
+    pub steps: Vec<JointStep>,
     /// Inboard side as declared.
     pub from: Frame,
     /// Outboard side as declared.
@@ -201,31 +232,35 @@ pub struct Joint {
     pub to_placement: Placement,
 }
 
-/// Kinds of joint.
+/// An elementary motion.
 #[derive(Clone, Debug, PartialEq)]
-pub enum JointKind {
-    /// No relative motion.
-    Fixed,
-    /// Rotation about an axis.
-    Revolute {
-        /// Unit vector in the joint frame.
-        axis: Vector,
-        /// Angle, rad.
-        coordinate: CoordinateId,
-    },
-    /// Translation along an axis.
-    Prismatic {
-        /// Unit vector in the joint frame.
-        axis: Vector,
-        /// Displacement, m.
-        coordinate: CoordinateId,
+pub struct JointStep {
+    /// Its kind.
+    pub motion: StepMotion,
+    /// Unit vector.
+    pub axis: Vector,
+    /// How far it has gone.
+    pub coordinate: CoordinateId,
+}
+
+/// Kinds of elementary motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepMotion {
+    /// Rotation about the axis; the coordinate is an angle.
+    Turn,
+    /// Translation along the axis; the coordinate is a displacement.
+    Slide,
+    /// Rotation about the axis and translation along it; the coordinate is the angle.
+    Screw {
+        /// Translation per radian, m.
+        lead: Expr,
     },
 }
 
 /// A joint coordinate.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
-    /// Name: the joint's.
+    /// Name: the joint's when it is the only one, else its own.
     pub name: Ident,
     /// The joint it belongs to.
     pub joint: JointId,
@@ -253,15 +288,15 @@ pub enum Motion {
     Driven(Expr),
 }
 
-/// A named point fixed in a frame.
+/// A named point, with axes, fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// Declared name.
     pub name: Ident,
     /// The frame it is fixed in.
     pub frame: Frame,
-    /// Its position there.
-    pub position: Vector,
+    /// Its position there, and how its axes are turned.
+    pub placement: Placement,
 }
 
 /// A force element.
@@ -304,6 +339,65 @@ pub enum ForceLaw {
         damping: Expr,
         /// Free length, m.
         length: Expr,
+    },
+    /// Tension between two points by an expression of `Expr::Length` and `Expr::LengthRate`, N.
+    Tension {
+        /// One end.
+        from: PointId,
+        /// The other end.
+        to: PointId,
+        /// Positive when it pulls the ends together.
+        tension: Expr,
+    },
+    /// A generalised force along a coordinate by an expression of coordinates, rates and points, N m or N.
+    Generalized {
+        /// The coordinate.
+        coordinate: CoordinateId,
+        /// Positive in the direction of the coordinate.
+        value: Expr,
+    },
+    /// Forces from a potential energy, an expression of coordinates and points, J.
+    Potential {
+        /// The energy.
+        energy: Expr,
+    },
+    /// Elastic connection between two frames, written along the axes of `from`: force `-stiffness d - damping d'` and
+    /// moment `-turning_stiffness r - turning_damping r'` on `to`, opposite on `from` at the place of `to`; `d` the displacement of `to`,
+    /// `r` half the antisymmetric part of its rotation (the rotation vector while small).
+    Bushing {
+        /// One frame.
+        from: PointId,
+        /// The other.
+        to: PointId,
+        /// N/m along x, y, z.
+        stiffness: Vector,
+        /// N s/m along x, y, z.
+        damping: Vector,
+        /// N m/rad about x, y, z.
+        turning_stiffness: Vector,
+        /// N m s/rad about x, y, z.
+        turning_damping: Vector,
+    },
+    /// A force and a moment on a body at a point.
+    Load {
+        /// Where.
+        point: PointId,
+        /// N.
+        force: Vector,
+        /// N m.
+        moment: Vector,
+        /// The components are along the axes of the point and follow it; else along the ground's.
+        following: bool,
+    },
+    /// Resistance of a medium at rest: force `-damping v` and moment `-turning_damping omega`, absolute velocities. The
+    /// external, non-rotating damping of rotor dynamics.
+    Drag {
+        /// Where.
+        point: PointId,
+        /// N s/m.
+        damping: Expr,
+        /// N m s/rad.
+        turning_damping: Expr,
     },
 }
 

@@ -1,9 +1,14 @@
 //! A mechanism as text, for snapshots: every value in SI with its names resolved.
 
+mod law;
+mod shape;
+
 use std::fmt::{self, Display, Formatter};
 
 use super::expression::{Expr, Function, Vector};
-use super::mechanism::{ForceLaw, Frame, JointKind, Mechanism, Motion, Placement, Shape, Unit};
+use super::mechanism::{Frame, Joint, Mechanism, Motion, Placement, StepMotion, Unit};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Text of values, with the names of the mechanism they belong to.
 struct Names<'a>(&'a Mechanism);
@@ -35,14 +40,14 @@ impl Display for Mechanism {
             )?;
         }
         for body in &self.bodies {
-            writeln!(f, "body {}: {}", body.name, names.shape(&body.shape))?;
+            writeln!(f, "body {}: {}", body.name, names.parts(&body.parts))?;
         }
         for joint in &self.joints {
             writeln!(
                 f,
                 "joint {}: {} from {}{} to {}{}",
                 joint.name,
-                names.joint(&joint.kind),
+                names.joint(joint),
                 names.frame(joint.from),
                 names.placement(&joint.from_placement),
                 names.frame(joint.to),
@@ -62,8 +67,10 @@ impl Display for Mechanism {
             }
         }
         for point in &self.points {
-            let (frame, position) = (names.frame(point.frame), names.vector(&point.position));
-            writeln!(f, "point {}: {frame} at {position}", point.name)?;
+            let frame = names.frame(point.frame);
+            let offset = names.vector(&point.placement.offset);
+            let rotations = names.rotations(&point.placement);
+            writeln!(f, "point {}: {frame} at {offset}{rotations}", point.name)?;
         }
         for force in &self.forces {
             writeln!(f, "force {}: {}", force.name, names.law(&force.law))?;
@@ -87,13 +94,19 @@ impl Names<'_> {
             Expr::Input(id) => self.0.inputs[id.index()].name.to_string(),
             Expr::Constant(id) => self.0.constants[id.index()].name.to_string(),
             Expr::Coordinate(id) => self.0.coordinates[id.index()].name.to_string(),
+            Expr::Rate(id) => format!("rate({})", self.0.coordinates[id.index()].name),
             Expr::Position(id, axis) => {
-                format!(
-                    "{}.{}",
-                    self.0.points[id.index()].name,
-                    ["x", "y", "z"][*axis]
-                )
+                format!("{}.{}", self.0.points[id.index()].name, AXES[*axis])
             }
+            Expr::Length => "length".to_owned(),
+            Expr::LengthRate => "rate".to_owned(),
+            Expr::Reaction(id, component) => {
+                let kind = ["force", "moment"][component / 3];
+                let name = &self.0.joints[id.index()].name;
+                format!("reaction_{kind}({name}).{}", AXES[component % 3])
+            }
+            Expr::KineticEnergy => "kinetic_energy()".to_owned(),
+            Expr::PotentialEnergy => "potential_energy()".to_owned(),
             Expr::Negate(a) => format!("-{}", self.scalar(a)),
             Expr::Add(a, b) => binary(a, "+", b),
             Expr::Subtract(a, b) => binary(a, "-", b),
@@ -124,140 +137,32 @@ impl Names<'_> {
             true => String::new(),
             false => format!(" at {}", self.vector(&placement.offset)),
         };
-        placement
-            .rotations
-            .iter()
-            .fold(offset, |text, (axis, angle)| {
-                format!(
-                    "{text} rotated({}, {})",
-                    self.vector(axis),
-                    self.scalar(angle)
-                )
-            })
+        offset + &self.rotations(placement)
     }
 
-    fn joint(&self, kind: &JointKind) -> String {
-        match kind {
-            JointKind::Fixed => "fixed".to_owned(),
-            JointKind::Revolute { axis, .. } => format!("revolute({})", self.vector(axis)),
-            JointKind::Prismatic { axis, .. } => format!("prismatic({})", self.vector(axis)),
-        }
+    fn rotations(&self, placement: &Placement) -> String {
+        let rotations = placement.rotations.iter().map(|(axis, angle)| {
+            format!(" rotated({}, {})", self.vector(axis), self.scalar(angle))
+        });
+        rotations.collect()
     }
 
-    fn shape(&self, shape: &Shape) -> String {
-        let (s, v) = (
-            |value: &Expr| self.scalar(value),
-            |vector: &Vector| self.vector(vector),
-        );
-        match shape {
-            Shape::Massless => "massless".to_owned(),
-            Shape::Point { mass, center } => format!("point mass {} at {}", s(mass), v(center)),
-            Shape::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => format!(
-                "rod mass {} length {} along {} center {}",
-                s(mass),
-                s(length),
-                v(along),
-                v(center)
-            ),
-            Shape::Disk {
-                mass,
-                radius,
-                axis,
-                center,
-            } => format!(
-                "disk mass {} radius {} axis {} center {}",
-                s(mass),
-                s(radius),
-                v(axis),
-                v(center)
-            ),
-            Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => format!(
-                "cylinder mass {} radius {} length {} axis {} center {}",
-                s(mass),
-                s(radius),
-                s(length),
-                v(axis),
-                v(center)
-            ),
-            Shape::Cuboid { mass, size, center } => {
-                format!("box mass {} size {} center {}", s(mass), v(size), v(center))
+    /// The word with its axes; several coordinates have names of their own.
+    fn joint(&self, joint: &Joint) -> String {
+        let several = joint.steps.len() > 1;
+        let arguments = joint.steps.iter().map(|step| {
+            let axis = self.vector(&step.axis);
+            let name = &self.0.coordinates[step.coordinate.index()].name;
+            match &step.motion {
+                StepMotion::Screw { lead } => format!("{axis}, {} m/rad", self.scalar(lead)),
+                StepMotion::Turn | StepMotion::Slide if several => format!("{name}: {axis}"),
+                StepMotion::Turn | StepMotion::Slide => axis,
             }
-            Shape::Sphere {
-                mass,
-                radius,
-                center,
-            } => {
-                format!(
-                    "sphere mass {} radius {} center {}",
-                    s(mass),
-                    s(radius),
-                    v(center)
-                )
-            }
-            Shape::Rigid {
-                mass,
-                center,
-                inertia,
-            } => {
-                let inertia: Vec<String> = inertia.iter().map(s).collect();
-                format!(
-                    "rigid mass {} center {} inertia [{}]",
-                    s(mass),
-                    v(center),
-                    inertia.join(", ")
-                )
-            }
-        }
-    }
-
-    fn law(&self, law: &ForceLaw) -> String {
-        let s = |value: &Expr| self.scalar(value);
-        let coordinate = |id: &crate::base::ids::CoordinateId| &self.0.coordinates[id.index()].name;
-        let point = |id: &crate::base::ids::PointId| &self.0.points[id.index()].name;
-        match law {
-            ForceLaw::CoordinateSpring {
-                coordinate: on,
-                stiffness,
-                rest,
-            } => {
-                format!(
-                    "spring on {} stiffness {} rest {}",
-                    coordinate(on),
-                    s(stiffness),
-                    s(rest)
-                )
-            }
-            ForceLaw::CoordinateDamper {
-                coordinate: on,
-                damping,
-            } => {
-                format!("damper on {} damping {}", coordinate(on), s(damping))
-            }
-            ForceLaw::SpringDamper {
-                from,
-                to,
-                stiffness,
-                damping,
-                length,
-            } => format!(
-                "spring_damper from {} to {} stiffness {} damping {} length {}",
-                point(from),
-                point(to),
-                s(stiffness),
-                s(damping),
-                s(length)
-            ),
+        });
+        let arguments: Vec<String> = arguments.collect();
+        match arguments.as_slice() {
+            [] => joint.word.to_owned(),
+            arguments => format!("{}({})", joint.word, arguments.join(", ")),
         }
     }
 }

@@ -4,6 +4,7 @@
 mod arguments;
 mod bodies;
 mod constants;
+mod coordinates;
 mod directions;
 mod expected;
 mod forces;
@@ -13,33 +14,36 @@ mod joints;
 mod operators;
 mod outputs;
 mod parameters;
+mod placements;
 mod references;
 mod scope;
+mod tension;
 mod typed;
 mod units;
 mod values;
 
+use self::coordinates::Declared;
+use self::joints::kinds::Kind;
 use self::parameters::Nominal;
 use self::scope::Scope;
 use self::typed::Typed;
 use super::expression::Expr;
-use super::mechanism::{Constant, Coordinate, CoordinateQuantity, Mechanism};
+use super::mechanism::{Constant, Coordinate, Mechanism};
 use super::rules::physical::{self, Demand, Requirement};
 use super::rules::presence;
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
-use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;
-use crate::syntax::ast::{Ast, ItemKind};
+use crate::syntax::ast::{Ast, ItemKind, Joint};
 
 /// Resolves and checks a declaration.
 pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let scope = Scope::new(ast, &mut diagnostics);
-    let mut resolver = Resolver::new(ast, scope, diagnostics);
+    let coordinates = coordinates::declared(ast);
+    let scope = Scope::new(ast, &coordinates, &mut diagnostics);
+    let mut resolver = Resolver::new(ast, coordinates, scope, diagnostics);
     let inputs = resolver.inputs();
     let design = resolver.design_variables();
-    resolver.coordinates();
     resolver.named_constants();
     let gravity = resolver.gravity();
     let bodies = resolver.bodies();
@@ -47,7 +51,7 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
     let points = resolver.points();
     let forces = resolver.forces();
     let outputs = resolver.outputs();
-    presence::check(ast, &mut resolver.diagnostics);
+    presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
     physical::check(
         &resolver.requirements,
         &resolver.constants,
@@ -89,6 +93,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
         && mechanism.constants.len() >= count(|kind| matches!(kind, ItemKind::Let(_)))
         && mechanism.bodies.len() == count(|kind| matches!(kind, ItemKind::Body(_)))
         && mechanism.joints.len() == count(|kind| matches!(kind, ItemKind::Joint(_)))
+        && mechanism.coordinates.len() == coordinates::declared(ast).len()
         && mechanism.points.len() == count(|kind| matches!(kind, ItemKind::Point(_)))
         && mechanism.forces.len() == count(|kind| matches!(kind, ItemKind::Force(_)))
         && mechanism.outputs.len() == count(|kind| matches!(kind, ItemKind::Output(_)))
@@ -103,24 +108,18 @@ struct Resolver<'a> {
     design: Vec<Option<Nominal>>,
     lets: Vec<Option<Typed>>,
     constants: Vec<Constant>,
-    joint_coordinates: Vec<JointCoordinate>,
+    coordinates: Vec<Declared<'a>>,
     declared_coordinates: Vec<Coordinate>,
     requirements: Vec<Requirement>,
 }
 
-/// The coordinate of a joint.
-#[derive(Clone, Copy, Debug)]
-enum JointCoordinate {
-    /// The joint is fixed.
-    None,
-    /// The kind of joint is wrong.
-    Unknown,
-    /// The joint turns or slides.
-    One(CoordinateId, CoordinateQuantity),
-}
-
 impl<'a> Resolver<'a> {
-    fn new(ast: &'a Ast, scope: Scope, diagnostics: Diagnostics) -> Self {
+    fn new(
+        ast: &'a Ast,
+        coordinates: Vec<Declared<'a>>,
+        scope: Scope,
+        diagnostics: Diagnostics,
+    ) -> Self {
         Self {
             ast,
             diagnostics,
@@ -129,7 +128,7 @@ impl<'a> Resolver<'a> {
             design: Vec::new(),
             lets: Vec::new(),
             constants: Vec::new(),
-            joint_coordinates: Vec::new(),
+            coordinates,
             declared_coordinates: Vec::new(),
             requirements: Vec::new(),
         }
@@ -147,15 +146,22 @@ impl<'a> Resolver<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// A value must be finite at the nominal values.
-    fn require_finite(&mut self, expr: &Expr, what: &str, extent: Extent) {
-        if !matches!(expr, Expr::Number(_)) {
+    /// A value must be finite at the nominal values; `what` names it, a vector once.
+    fn require_finite(&mut self, values: &[Expr], what: &str, extent: Extent) {
+        if !values.iter().all(|value| matches!(value, Expr::Number(_))) {
             self.requirements.push(Requirement {
                 what: what.to_string(),
-                values: vec![expr.clone()],
+                values: values.to_vec(),
                 demand: Demand::Finite,
                 extent,
             });
         }
+    }
+
+    /// Some coordinate is free. A joint of an unknown kind gets the benefit of the doubt.
+    fn can_move(&self) -> bool {
+        let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
+        self.coordinates.iter().any(|coordinate| !coordinate.driven)
+            || coordinates::joints(self.ast).any(unknown)
     }
 }

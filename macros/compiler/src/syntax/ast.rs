@@ -128,8 +128,19 @@ pub struct Gravity {
 pub struct Body {
     /// Name.
     pub name: Ident,
+    /// What it is made of, in order: `disk(...) + rod(...) at [0, 0, 10 cm] - cylinder(...)`.
+    pub terms: Vec<Term>,
+}
+
+/// A shape that adds to a body, or that is missing from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// It follows a minus.
+    pub hole: bool,
     /// `massless`, or a shape with its arguments.
     pub shape: NamedCall,
+    /// Where its frame is in the body frame.
+    pub placement: Option<Placement>,
 }
 
 /// A word with named arguments: `rod(mass: m1, length: l1, along: -z)`.
@@ -155,10 +166,10 @@ pub struct Argument {
 pub struct Joint {
     /// Name.
     pub name: Ident,
-    /// `fixed`, `revolute`, `prismatic`.
+    /// A word such as `revolute`.
     pub kind: Ident,
     /// What stands in parentheses after the kind.
-    pub arguments: Option<Vec<Value>>,
+    pub arguments: Option<Vec<JointArgument>>,
     /// Frame before `to`.
     pub from: Ident,
     /// Frame after `to`.
@@ -167,42 +178,60 @@ pub struct Joint {
     pub clauses: Vec<JointClause>,
 }
 
+/// An axis, or something else that a joint needs: `z`, `turn: z`, `lead: 5 mm`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointArgument {
+    /// The name before the colon.
+    pub name: Option<Ident>,
+    /// What it is.
+    pub value: Value,
+}
+
 /// What may follow the two frames of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JointClause {
     /// `at VECTOR rotated(DIRECTION, ANGLE) on BODY`.
-    Placement(Placement),
-    /// `driven at SPEED`.
-    Drive {
-        /// The word `driven`.
-        keyword: Extent,
-        /// The speed.
-        speed: Value,
+    Placement {
+        /// Where the joint's frame is.
+        placement: Placement,
+        /// `on BODY`; the `from` side when absent.
+        on: Option<Ident>,
     },
+    /// `COORDINATE driven at SPEED`.
+    Drive(Drive),
 }
 
-/// Where a joint's frame is on one of its sides.
+/// A coordinate whose motion is prescribed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// Its name; the joint's only one when absent.
+    pub coordinate: Option<Ident>,
+    /// The word `driven`.
+    pub keyword: Extent,
+    /// The speed.
+    pub speed: Value,
+}
+
+/// Where a frame is in another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// `at VECTOR`.
     pub offset: Option<Value>,
     /// `rotated(DIRECTION, ANGLE)`, in order.
     pub rotations: Vec<(Value, Value)>,
-    /// `on BODY`; the `from` side when absent.
-    pub on: Option<Ident>,
     /// Its first word.
     pub keyword: Extent,
 }
 
-/// A point fixed in a frame.
+/// A point with axes, fixed in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Name.
     pub name: Ident,
     /// The frame it is fixed in.
     pub frame: Ident,
-    /// `at VECTOR`; the frame's origin when absent.
-    pub at: Option<Value>,
+    /// Where it is there; at the origin when absent.
+    pub placement: Option<Placement>,
 }
 
 /// A force element.

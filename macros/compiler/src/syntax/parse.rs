@@ -1,6 +1,9 @@
 //! Tokens to tree. A syntax error ends its item, not the declaration: reading goes on after the next semicolon.
 
+mod body;
 mod item;
+mod joint;
+mod placement;
 mod unit;
 mod value;
 
@@ -8,7 +11,7 @@ use proc_macro2::{Delimiter, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
-use super::ast::{Ast, Item, ItemKind, Value};
+use super::ast::{Ast, Item, ItemKind};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::span::Extent;
@@ -174,7 +177,7 @@ fn starts_item(tokens: &Tokens) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax::ast::ValueKind;
+    use crate::syntax::ast::{Value, ValueKind};
     use crate::syntax::print::print;
 
     /// The canonical text of a value.

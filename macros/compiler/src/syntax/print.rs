@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use quote::ToTokens as _;
 
 use super::ast::{
-    Ast, Item, ItemKind, Joint, JointClause, NamedCall, Operator, Placement, ToleranceKind, Unit,
-    UnitFactor, Value, ValueKind,
+    Ast, Body, Item, ItemKind, Joint, JointArgument, JointClause, NamedCall, Operator, Placement,
+    ToleranceKind, Unit, UnitFactor, Value, ValueKind,
 };
 
 /// The canonical text of a declaration.
@@ -84,49 +84,83 @@ fn item(kind: &ItemKind) -> String {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),
             None => format!("gravity {}", value(&gravity.value)),
         },
-        ItemKind::Body(body) => format!("body {}: {}", body.name, call(&body.shape)),
+        ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),
-        ItemKind::Point(point) => match &point.at {
-            Some(at) => format!("point {}: {} at {}", point.name, point.frame, value(at)),
-            None => format!("point {}: {}", point.name, point.frame),
-        },
+        ItemKind::Point(point) => format!(
+            "point {}: {}{}",
+            point.name,
+            point.frame,
+            placed(point.placement.as_ref())
+        ),
         ItemKind::Joint(item) => joint(item),
     }
+}
+
+fn body(body: &Body) -> String {
+    let mut text = format!("body {}:", body.name);
+    for (index, term) in body.terms.iter().enumerate() {
+        let sign = match (term.hole, index) {
+            (true, 0) => " -",
+            (true, _) => " - ",
+            (false, 0) => " ",
+            (false, _) => " + ",
+        };
+        let placement = placed(term.placement.as_ref());
+        let _ = write!(text, "{sign}{}{placement}", call(&term.shape));
+    }
+    text
 }
 
 fn joint(joint: &Joint) -> String {
     let mut text = format!("joint {}: {}", joint.name, joint.kind);
     if let Some(arguments) = &joint.arguments {
-        let _ = write!(text, "({})", list(arguments));
+        let arguments: Vec<String> = arguments.iter().map(joint_argument).collect();
+        let _ = write!(text, "({})", arguments.join(", "));
     }
     let _ = write!(text, " from {} to {}", joint.from, joint.to);
     for (index, clause) in joint.clauses.iter().enumerate() {
-        let words = match clause {
-            JointClause::Placement(place) => placement(place),
-            JointClause::Drive { speed, .. } => format!("driven at {}", value(speed)),
-        };
-        let comma = if index > 0 || words.starts_with("driven") {
-            ","
-        } else {
-            ""
-        };
-        let _ = write!(text, "{comma} {words}");
+        let is_drive = matches!(clause, JointClause::Drive(_));
+        if index > 0 || is_drive {
+            text.push(',');
+        }
+        match clause {
+            JointClause::Placement { placement, on } => {
+                text.push_str(&placed(Some(placement)));
+                if let Some(on) = on {
+                    let _ = write!(text, " on {on}");
+                }
+            }
+            JointClause::Drive(drive) => {
+                if let Some(coordinate) = &drive.coordinate {
+                    let _ = write!(text, " {coordinate}");
+                }
+                let _ = write!(text, " driven at {}", value(&drive.speed));
+            }
+        }
     }
     text
 }
 
-fn placement(placement: &Placement) -> String {
-    let mut words = Vec::new();
+fn joint_argument(argument: &JointArgument) -> String {
+    match &argument.name {
+        Some(name) => format!("{name}: {}", value(&argument.value)),
+        None => value(&argument.value),
+    }
+}
+
+/// A placement with a space before each of its words.
+fn placed(placement: Option<&Placement>) -> String {
+    let mut text = String::new();
+    let Some(placement) = placement else {
+        return text;
+    };
     if let Some(offset) = &placement.offset {
-        words.push(format!("at {}", value(offset)));
+        let _ = write!(text, " at {}", value(offset));
     }
     for (axis, angle) in &placement.rotations {
-        words.push(format!("rotated({}, {})", value(axis), value(angle)));
+        let _ = write!(text, " rotated({}, {})", value(axis), value(angle));
     }
-    if let Some(on) = &placement.on {
-        words.push(format!("on {on}"));
-    }
-    words.join(" ")
+    text
 }
 
 fn call(call: &NamedCall) -> String {

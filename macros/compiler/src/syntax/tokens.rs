@@ -98,6 +98,22 @@ impl<'a> Tokens<'a> {
             .all(|sign| copy.sign(sign).is_some())
     }
 
+    /// A name and a colon are next.
+    pub(super) fn peek_named(&self) -> bool {
+        let mut ahead = *self;
+        ahead.ident().is_some() && ahead.peek_sign(':')
+    }
+
+    /// A sign and a shape with named arguments are next: the next term of a body, not of a sum.
+    pub(super) fn peek_shape(&self) -> bool {
+        let mut ahead = *self;
+        (ahead.sign('+').is_some() || ahead.sign('-').is_some())
+            && ahead.ident().is_some()
+            && ahead
+                .group(Delimiter::Parenthesis)
+                .is_some_and(|(_, content, _)| content.peek_named())
+    }
+
     pub(super) fn ident(&mut self) -> Option<Ident> {
         let (ident, rest) = self.cursor.ident()?;
         self.cursor = rest;

@@ -2,7 +2,7 @@
 
 use super::Topology;
 use crate::base::diagnostics::Diagnostics;
-use crate::model::mechanism::{Frame, JointKind, Mechanism, Motion, Shape};
+use crate::model::mechanism::{Frame, Mechanism, Motion};
 
 /// Reports free coordinates beyond which everything is massless.
 pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mut Diagnostics) {
@@ -10,7 +10,7 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
     // Children come after their parents, so that backwards every body knows what hangs on it.
     for branch in topology.branches.iter().rev() {
         let body = branch.body.index();
-        if mechanism.bodies[body].shape != Shape::Massless {
+        if !mechanism.bodies[body].parts.is_empty() {
             carries_mass[body] = true;
         }
         if let (true, Frame::Body(parent)) = (carries_mass[body], branch.parent) {
@@ -18,20 +18,30 @@ pub(super) fn check(mechanism: &Mechanism, topology: &Topology, diagnostics: &mu
         }
     }
     for branch in &topology.branches {
+        if carries_mass[branch.body.index()] {
+            continue;
+        }
         let joint = &mechanism.joints[branch.joint.index()];
-        let (JointKind::Revolute { coordinate, .. } | JointKind::Prismatic { coordinate, .. }) =
-            joint.kind
-        else {
+        let coordinates = joint
+            .steps
+            .iter()
+            .map(|step| &mechanism.coordinates[step.coordinate.index()]);
+        let free: Vec<_> = coordinates
+            .filter(|coordinate| coordinate.motion == Motion::Free)
+            .map(|coordinate| &coordinate.name)
+            .collect();
+        let Some(first) = free.first() else {
             continue;
         };
-        let is_free = mechanism.coordinates[coordinate.index()].motion == Motion::Free;
-        if is_free && !carries_mass[branch.body.index()] {
-            let name = &joint.name;
-            diagnostics.error_with_help(
-                name,
-                format!("`{name}` moves no mass: nothing determines its motion"),
-                "give a body beyond it a mass, or drive it, or make it `fixed`",
-            );
-        }
+        let names: Vec<String> = free.iter().map(|name| format!("`{name}`")).collect();
+        let message = match names.as_slice() {
+            [one] => format!("{one} moves no mass: nothing determines its motion"),
+            several => format!(
+                "{} move no mass: nothing determines their motion",
+                several.join(", ")
+            ),
+        };
+        let help = "give a body beyond it a mass, or drive it, or make it `fixed`";
+        diagnostics.error_with_help(*first, message, help);
     }
 }

@@ -1,16 +1,130 @@
-//! Named arguments of shapes and force laws: each exactly once, none unknown.
+//! Named arguments of shapes and force laws: each at most once, none unknown, none missing.
 
 use super::Resolver;
-use crate::base::nearest::nearest;
+use crate::base::nearest::suggestion;
 use crate::syntax::ast::{NamedCall, Value};
 
 /// A shape or a law with its arguments.
 pub(super) struct Signature {
     pub(super) word: &'static str,
-    pub(super) required: &'static [&'static str],
-    pub(super) optional: &'static [&'static str],
+    required: &'static [&'static str],
+    optional: &'static [&'static str],
+    choice: Choice,
+    /// Arguments that one might expect, each with the reason why there is none.
+    refused: &'static [(&'static str, &'static str)],
     /// What to write, for messages.
-    pub(super) example: &'static str,
+    example: &'static str,
+}
+
+/// Arguments of which some must be given.
+enum Choice {
+    ExactlyOne(&'static [&'static str]),
+    AtLeastOne(&'static [&'static str]),
+}
+
+/// What other tools call arguments; only what a signature knows is ever suggested.
+const SYNONYMS: [(&str, &str); 28] = [
+    ("m", "mass"),
+    ("weight", "mass"),
+    ("rho", "density"),
+    ("l", "length"),
+    ("height", "length"),
+    ("r", "radius"),
+    ("inner_radius", "inner"),
+    ("outer_radius", "outer"),
+    ("radius", "outer"),
+    ("axis", "along"),
+    ("direction", "along"),
+    ("along", "axis"),
+    ("direction", "axis"),
+    ("com", "center"),
+    ("centre", "center"),
+    ("dimensions", "size"),
+    ("moments", "inertia"),
+    ("k", "stiffness"),
+    ("c", "damping"),
+    ("free_length", "length"),
+    ("natural_length", "length"),
+    ("torque", "moment"),
+    ("coordinate", "on"),
+    ("joint", "on"),
+    ("point", "at"),
+    ("expression", "law"),
+    ("force", "value"),
+    ("force", "law"),
+];
+
+impl Signature {
+    /// A word with the arguments it needs.
+    pub(super) const fn new(
+        word: &'static str,
+        required: &'static [&'static str],
+        example: &'static str,
+    ) -> Self {
+        Self {
+            word,
+            required,
+            optional: &[],
+            choice: Choice::ExactlyOne(&[]),
+            refused: &[],
+            example,
+        }
+    }
+
+    /// Arguments that may be left out.
+    pub(super) const fn optional(mut self, names: &'static [&'static str]) -> Self {
+        self.optional = names;
+        self
+    }
+
+    /// One of these and no other.
+    pub(super) const fn exactly_one(mut self, names: &'static [&'static str]) -> Self {
+        self.choice = Choice::ExactlyOne(names);
+        self
+    }
+
+    /// One of these or more.
+    pub(super) const fn at_least_one(mut self, names: &'static [&'static str]) -> Self {
+        self.choice = Choice::AtLeastOne(names);
+        self
+    }
+
+    /// Arguments that it does not have, with reasons.
+    pub(super) const fn refusing(
+        mut self,
+        reasons: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        self.refused = reasons;
+        self
+    }
+
+    fn choices(&self) -> &'static [&'static str] {
+        match self.choice {
+            Choice::ExactlyOne(names) | Choice::AtLeastOne(names) => names,
+        }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'static str> + Clone {
+        let choices = self.choices().iter();
+        let others = self.required.iter().chain(self.optional);
+        choices.chain(others).copied()
+    }
+
+    /// What must be given and is not: "`mass` or `density`".
+    fn missing(&self, given: impl Fn(&str) -> bool) -> Vec<String> {
+        let quoted = |name: &&str| format!("`{name}`");
+        let mut missing = Vec::new();
+        let choices = self.choices();
+        if !choices.is_empty() && !choices.iter().any(|name| given(name)) {
+            let words: Vec<String> = choices.iter().map(quoted).collect();
+            if let Some((last, others)) = words.split_last() {
+                missing.push(format!("{} or {last}", others.join(", ")));
+            }
+        }
+        let required = self.required.iter().filter(|name| !given(name));
+        missing.extend(required.map(quoted));
+        missing
+    }
 }
 
 /// The arguments of a call that are right.
@@ -29,18 +143,19 @@ impl<'a> Arguments<'a> {
 }
 
 impl Resolver<'_> {
-    /// The signature that a call uses.
+    /// The signature that a call uses. `synonyms` are what other tools call the words.
     pub(super) fn signature(
         &mut self,
         call: &NamedCall,
         kind: &str,
         known: &'static [Signature],
+        synonyms: &[(&str, &str)],
     ) -> Option<&'static Signature> {
         let word = call.word.to_string();
         let found = known.iter().find(|signature| signature.word == word);
         if found.is_none() {
             let words: Vec<&str> = known.iter().map(|signature| signature.word).collect();
-            let help = match nearest(&word, words.iter().copied()) {
+            let help = match suggestion(&word, words.iter().copied(), synonyms) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("known are {}", words.join(", ")),
             };
@@ -57,38 +172,49 @@ impl Resolver<'_> {
         signature: &'static Signature,
     ) -> Arguments<'a> {
         let word = signature.word;
-        let known = || signature.required.iter().chain(signature.optional).copied();
         let mut given: Vec<(&'static str, &'a Value)> = Vec::new();
-        // A misspelt argument is not missing as well.
+        // A misspelt argument is not missing as well, nor is the mass where a density was refused.
         let mut meant = Vec::new();
         for argument in call.arguments.iter().flatten() {
             let name = argument.name.to_string();
-            match known().find(|known| *known == name) {
-                Some(known) if given.iter().any(|(given, _)| *given == known) => {
+            let is_given = |name: &str| given.iter().any(|(given, _)| *given == name);
+            match signature.names().find(|known| *known == name) {
+                Some(known) if is_given(known) => {
                     let message = format!("`{name}` is given twice");
                     self.diagnostics.error(&argument.name, message);
                 }
-                Some(known) => given.push((known, &argument.value)),
+                Some(known) => {
+                    let other = signature.choices().iter().find(|other| is_given(other));
+                    let exclusive = matches!(signature.choice, Choice::ExactlyOne(names) if names.contains(&known));
+                    if let (Some(other), true) = (other, exclusive) {
+                        let message = format!("`{word}` takes `{other}` or `{known}`, not both");
+                        self.diagnostics.error(&argument.name, message);
+                    }
+                    given.push((known, &argument.value));
+                }
                 None => {
-                    let near = nearest(&name, known());
-                    meant.extend(near);
-                    let help = match near {
-                        Some(near) => format!("did you mean `{near}`?"),
-                        None => format!("write `{}`", signature.example),
+                    let refused = signature
+                        .refused
+                        .iter()
+                        .find(|(refused, _)| *refused == name);
+                    let near = suggestion(&name, signature.names(), &SYNONYMS);
+                    let help = match (refused, near) {
+                        (Some((_, reason)), _) => (*reason).to_string(),
+                        (None, Some(near)) => format!("did you mean `{near}`?"),
+                        (None, None) => format!("write `{}`", signature.example),
                     };
+                    match refused {
+                        Some(_) => meant.extend(signature.names()),
+                        None => meant.extend(near),
+                    }
                     let message = format!("`{word}` has no argument `{name}`");
                     self.diagnostics
                         .error_with_help(&argument.name, message, help);
                 }
             }
         }
-        let missing: Vec<String> = signature
-            .required
-            .iter()
-            .filter(|name| !given.iter().any(|(given, _)| given == *name))
-            .filter(|name| !meant.contains(name))
-            .map(|name| format!("`{name}`"))
-            .collect();
+        let missing = signature
+            .missing(|name| given.iter().any(|(given, _)| *given == name) || meant.contains(&name));
         if !missing.is_empty() {
             self.diagnostics.error_with_help(
                 &call.word,

@@ -1,263 +1,97 @@
-//! Bodies: shapes with their masses, sizes and places in the body frame.
+//! Bodies: sums of shapes, with holes.
 
+mod inertia;
+mod quantities;
+mod shapes;
+
+use std::rc::Rc;
+
+use self::quantities::Quantities;
+use self::shapes::{SHAPES, SYNONYMS};
 use super::Resolver;
-use super::arguments::{Arguments, Signature};
-use super::typed::Place;
-use crate::base::dimension::Dimension;
-use crate::model::expression::{Expr, Vector};
-use crate::model::mechanism::{Body, Shape};
+use crate::model::mechanism::{Body, Part};
 use crate::model::rules::physical::{Demand, Requirement};
-use crate::model::simplify;
-use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
-
-const SHAPES: &[Signature] = &[
-    Signature {
-        word: "massless",
-        required: &[],
-        optional: &[],
-        example: "massless",
-    },
-    Signature {
-        word: "point",
-        required: &["mass"],
-        optional: &["center"],
-        example: "point(mass: 1 kg)",
-    },
-    Signature {
-        word: "rod",
-        required: &["mass", "length", "along"],
-        optional: &["center"],
-        example: "rod(mass: 1 kg, length: 1 m, along: -z)",
-    },
-    Signature {
-        word: "disk",
-        required: &["mass", "radius", "axis"],
-        optional: &["center"],
-        example: "disk(mass: 1 kg, radius: 0.1 m, axis: z)",
-    },
-    Signature {
-        word: "cylinder",
-        required: &["mass", "radius", "length", "axis"],
-        optional: &["center"],
-        example: "cylinder(mass: 1 kg, radius: 0.1 m, length: 1 m, axis: z)",
-    },
-    Signature {
-        word: "box",
-        required: &["mass", "size"],
-        optional: &["center"],
-        example: "box(mass: 1 kg, size: [1 m, 2 m, 3 m])",
-    },
-    Signature {
-        word: "sphere",
-        required: &["mass", "radius"],
-        optional: &["center"],
-        example: "sphere(mass: 1 kg, radius: 0.1 m)",
-    },
-    Signature {
-        word: "rigid",
-        required: &["mass", "inertia"],
-        optional: &["center"],
-        example: "rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2)",
-    },
-];
+use crate::syntax::ast::{self, ItemKind, Term};
 
 impl Resolver<'_> {
     pub(super) fn bodies(&mut self) -> Vec<Body> {
         let mut bodies = Vec::new();
         for item in &self.ast.items {
             if let ItemKind::Body(body) = &item.kind
-                && let Some(shape) = self.shape(body)
+                && let Some(parts) = self.parts(body)
             {
                 bodies.push(Body {
                     name: body.name.clone(),
-                    shape,
+                    parts,
                 });
             }
         }
         bodies
     }
 
-    fn shape(&mut self, body: &ast::Body) -> Option<Shape> {
-        let signature = self.signature(&body.shape, "shape", SHAPES)?;
-        let arguments = self.arguments(&body.shape, signature);
-        let mut part = Part {
-            resolver: self,
-            arguments,
-            body: body.name.to_string(),
-        };
-        // Every argument is looked at before any is found missing.
-        let mass = part.positive("mass", Dimension::MASS);
-        let length = part.positive("length", Dimension::LENGTH);
-        let radius = part.positive("radius", Dimension::LENGTH);
-        let along = part.direction("along");
-        let axis = part.direction("axis");
-        let size = part.size();
-        let inertia = part.inertia();
-        let center = part.center();
-        let default = || Some([0.0; 3].map(Expr::Number));
-        Some(match signature.word {
-            "massless" => Shape::Massless,
-            "point" => Shape::Point {
-                mass: mass?,
-                center: center.unwrap_or_else(default)?,
-            },
-            "rod" => {
-                let (length, along) = (length?, along?);
-                let middle = || {
-                    let half = simplify::multiply(Expr::Number(0.5), length.clone());
-                    along
-                        .clone()
-                        .map(|component| simplify::multiply(half.clone(), component))
-                };
-                let center = center.unwrap_or_else(|| Some(middle()))?;
-                Shape::Rod {
-                    mass: mass?,
-                    length,
-                    along,
-                    center,
-                }
-            }
-            "disk" => Shape::Disk {
-                mass: mass?,
-                radius: radius?,
-                axis: axis?,
-                center: center.unwrap_or_else(default)?,
-            },
-            "cylinder" => Shape::Cylinder {
-                mass: mass?,
-                radius: radius?,
-                length: length?,
-                axis: axis?,
-                center: center.unwrap_or_else(default)?,
-            },
-            "box" => Shape::Cuboid {
-                mass: mass?,
-                size: size?,
-                center: center.unwrap_or_else(default)?,
-            },
-            "sphere" => Shape::Sphere {
-                mass: mass?,
-                radius: radius?,
-                center: center.unwrap_or_else(default)?,
-            },
-            _ => Shape::Rigid {
-                mass: mass?,
-                center: center.unwrap_or_else(default)?,
-                inertia: inertia?,
-            },
-        })
-    }
-}
-
-/// The arguments of one body while they are resolved.
-struct Part<'a, 'b, 'c> {
-    resolver: &'a mut Resolver<'b>,
-    arguments: Arguments<'c>,
-    body: String,
-}
-
-impl Part<'_, '_, '_> {
-    fn require(&mut self, what: &str, values: Vec<Expr>, demand: Demand, value: &Value) {
-        self.resolver.requirements.push(Requirement {
-            what: format!("the {what} of `{}`", self.body),
-            values,
-            demand,
-            extent: value.extent,
-        });
-    }
-
-    fn positive(&mut self, name: &str, dimension: Dimension) -> Option<Expr> {
-        let value = self.arguments.get(name)?;
-        let what = format!("`{name}`");
-        let expr = self.resolver.scalar_of(value, dimension, &what)?;
-        self.require(name, vec![expr.clone()], Demand::Positive(dimension), value);
-        Some(expr)
-    }
-
-    fn direction(&mut self, name: &str) -> Option<Vector> {
-        let value = self.arguments.get(name)?;
-        self.resolver.direction(value, Place::Parameter)
-    }
-
-    fn size(&mut self) -> Option<Vector> {
-        let value = self.arguments.get("size")?;
-        let (size, quantity) = self.resolver.vector(value, Place::Parameter)?;
-        self.resolver
-            .expect(quantity, Dimension::LENGTH, "`size`", value)?;
-        for edge in &size {
-            let demand = Demand::Positive(Dimension::LENGTH);
-            self.require("size", vec![edge.clone()], demand, value);
+    fn parts(&mut self, body: &ast::Body) -> Option<Vec<Part>> {
+        let is_massless = |term: &&Term| term.shape.word == "massless";
+        if let Some(massless) = body.terms.iter().find(is_massless) {
+            return self.massless(body, massless);
         }
-        Some(size)
-    }
-
-    /// Nothing when not given, nothing inside when wrong.
-    fn center(&mut self) -> Option<Option<Vector>> {
-        let value = self.arguments.get("center")?;
-        Some(self.resolver.position(value, "`center`"))
-    }
-
-    /// Three moments, or the six entries of the tensor.
-    fn inertia(&mut self) -> Option<[Expr; 6]> {
-        let value = self.arguments.get("inertia")?;
-        let ValueKind::Vector(entries, unit) = &value.bare().kind else {
-            return self.wrong_inertia(value);
-        };
-        if entries.len() != 3 && entries.len() != 6 {
-            return self.wrong_inertia(value);
-        }
-        let scale = match unit {
-            Some(unit) => self.resolver.unit(unit).map(Some),
-            None => Some(None),
-        };
-        let scalars: Vec<_> = entries
+        let right = self.first_is_solid(body);
+        let resolved: Vec<Option<Part>> = body
+            .terms
             .iter()
-            .map(|entry| (entry, self.resolver.scalar(entry, Place::Parameter)))
+            .map(|term| self.part(&body.name.to_string(), term))
             .collect();
-        let scale = scale?;
-        let mut tensor = Vec::new();
-        for (entry, scalar) in scalars {
-            let resolved = scalar.and_then(|(expr, quantity)| match scale {
-                // The unit behind the bracket belongs to every entry.
-                Some((dimension, scale)) => {
-                    let product = quantity.dimension().times(dimension);
-                    let quantity = self.resolver.in_range(product, value.extent)?;
-                    self.resolver
-                        .expect(quantity, Dimension::INERTIA, "`inertia`", value)?;
-                    Some(simplify::multiply(Expr::Number(scale), expr))
-                }
-                None => {
-                    self.resolver.expect(
-                        quantity,
-                        Dimension::INERTIA,
-                        "an entry of `inertia`",
-                        entry,
-                    )?;
-                    Some(expr)
-                }
+        right?;
+        let parts: Vec<Part> = resolved.into_iter().collect::<Option<_>>()?;
+        if let Some(hole) = body.terms.iter().find(|term| term.hole) {
+            self.requirements.push(Requirement {
+                what: format!("the holes of `{}`", body.name),
+                values: Vec::new(),
+                demand: Demand::Holes(Rc::from(parts.as_slice())),
+                extent: (&hole.shape.word).into(),
             });
-            match resolved {
-                Some(expr) => tensor.push(expr),
-                // One wrong unit behind the bracket is one mistake.
-                None if scale.is_some() => return None,
-                None => {}
-            }
         }
-        if tensor.len() != entries.len() {
+        Some(parts)
+    }
+
+    /// Nothing cannot be added, cut out or moved.
+    fn massless(&mut self, body: &ast::Body, massless: &Term) -> Option<Vec<Part>> {
+        let signature = self.signature(&massless.shape, "shape", SHAPES, &SYNONYMS)?;
+        self.arguments(&massless.shape, signature);
+        let word = &massless.shape.word;
+        if body.terms.len() > 1 || massless.hole {
+            let message = "`massless` stands alone: it is no part of a sum";
+            self.diagnostics.error(word, message);
             return None;
         }
-        tensor.resize(6, Expr::Number(0.0));
-        let tensor: [Expr; 6] = tensor.try_into().ok()?;
-        self.require("inertia", tensor.to_vec(), Demand::Inertia, value);
-        Some(tensor)
+        if let Some(placement) = &massless.placement {
+            let message = "a massless body has no shape to place";
+            let help = "place the joint instead";
+            self.diagnostics
+                .error_with_help(placement.keyword, message, help);
+            return None;
+        }
+        Some(Vec::new())
     }
 
-    fn wrong_inertia(&mut self, value: &Value) -> Option<[Expr; 6]> {
-        self.resolver.diagnostics.error_with_help(
-            value.extent,
-            "an inertia has 3 or 6 entries",
-            "write `[Jxx, Jyy, Jzz] kg*m^2` or `[Jxx, Jyy, Jzz, Jxy, Jyz, Jxz] kg*m^2`",
-        );
-        None
+    fn first_is_solid(&mut self, body: &ast::Body) -> Option<()> {
+        let first = body.terms.first()?;
+        if first.hole {
+            let message = "the first shape of a body cannot be a hole: there is nothing to cut";
+            self.diagnostics.error(&first.shape.word, message);
+            return None;
+        }
+        Some(())
+    }
+
+    fn part(&mut self, body: &str, term: &Term) -> Option<Part> {
+        let placement = self.placement(term.placement.as_ref(), "a shape's place");
+        let signature = self.signature(&term.shape, "shape", SHAPES, &SYNONYMS)?;
+        let arguments = self.arguments(&term.shape, signature);
+        let shape = Quantities::new(self, arguments, body).shape(signature.word);
+        Some(Part {
+            hole: term.hole,
+            shape: shape?,
+            placement: placement?,
+        })
     }
 }

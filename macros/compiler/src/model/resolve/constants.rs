@@ -120,7 +120,7 @@ impl Resolver<'_> {
         let what = format!("`{name}`");
         match self.value(value, Place::Parameter)? {
             Typed::Scalar(expr, quantity) => {
-                self.require_finite(&expr, &what, value.extent);
+                self.require_finite(std::slice::from_ref(&expr), &what, value.extent);
                 Some(Typed::Scalar(
                     self.shared(name.clone(), expr),
                     promoted(quantity),
@@ -129,8 +129,8 @@ impl Resolver<'_> {
             // A vector becomes three constants, so that it is computed once however often it is used.
             Typed::Vector(vector, quantity) => {
                 let mut axes = ["x", "y", "z"].into_iter();
+                self.require_finite(&vector, &what, value.extent);
                 let vector = vector.map(|expr| {
-                    self.require_finite(&expr, &what, value.extent);
                     let axis = axes.next().unwrap_or_default();
                     self.shared(self.component_name(name, axis), expr)
                 });

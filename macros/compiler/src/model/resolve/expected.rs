@@ -25,6 +25,14 @@ impl Expected {
         Self::named(Dimension::ROTARY_DAMPING, "a rotary damping", "N*m*s/rad")
     }
 
+    pub(super) fn moment() -> Self {
+        Self::named(Dimension::MOMENT, "a moment", "N*m")
+    }
+
+    pub(super) fn energy() -> Self {
+        Self::named(Dimension::MOMENT, "an energy", "J")
+    }
+
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
         Self {
             dimension,

@@ -1,34 +1,109 @@
-//! Force elements: springs and dampers on coordinates and between points.
+//! Force elements: the table of laws. Each family of laws has a file of its own.
+
+mod at_points;
+mod between_points;
+mod by_expression;
+mod on_coordinates;
 
 use super::Resolver;
 use super::arguments::{Arguments, Signature};
 use super::expected::Expected;
+use super::placements::zero;
 use super::typed::Place;
-use crate::base::dimension::Dimension;
-use crate::base::ids::{CoordinateId, PointId};
-use crate::model::expression::Expr;
-use crate::model::mechanism::{CoordinateQuantity, Force, ForceLaw};
-use crate::syntax::ast::{self, ItemKind, JointClause, ValueKind};
+use crate::base::ids::PointId;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{Force, ForceLaw};
+use crate::syntax::ast::{self, ItemKind};
+
+const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
+const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
 const LAWS: &[Signature] = &[
-    Signature {
-        word: "spring",
-        required: &["on", "stiffness"],
-        optional: &["rest"],
-        example: "spring(on: theta, stiffness: 10 N*m/rad)",
-    },
-    Signature {
-        word: "damper",
-        required: &["on", "damping"],
-        optional: &[],
-        example: "damper(on: theta, damping: 0.1 N*m*s/rad)",
-    },
-    Signature {
-        word: "spring_damper",
-        required: &["from", "to", "stiffness"],
-        optional: &["damping", "length"],
-        example: "spring_damper(from: p, to: q, stiffness: 100 N/m)",
-    },
+    Signature::new(
+        "spring",
+        &["on", "stiffness"],
+        "spring(on: theta, stiffness: 10 N*m/rad)",
+    )
+    .optional(&["rest"])
+    .refusing(&[
+        ("damping", "add a `damper` on the same coordinate"),
+        ("from", BETWEEN_POINTS),
+        ("to", BETWEEN_POINTS),
+    ]),
+    Signature::new(
+        "damper",
+        &["on", "damping"],
+        "damper(on: theta, damping: 0.1 N*m*s/rad)",
+    )
+    .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
+    Signature::new(
+        "spring_damper",
+        &["from", "to", "stiffness"],
+        "spring_damper(from: p, to: q, stiffness: 100 N/m)",
+    )
+    .optional(&["damping", "length"])
+    .refusing(&[("on", "on a coordinate there are `spring` and `damper`")]),
+    Signature::new(
+        "tension",
+        &["from", "to", "law"],
+        "tension(from: p, to: q, law: 100 N/m * (length - 1 m))",
+    ),
+    Signature::new(
+        "generalized",
+        &["on", "value"],
+        "generalized(on: theta, value: -1 N*m * sin(theta))",
+    ),
+    Signature::new(
+        "potential",
+        &["energy"],
+        "potential(energy: 1 J * cos(theta))",
+    ),
+    Signature::new(
+        "bushing",
+        &["from", "to"],
+        "bushing(from: p, to: q, stiffness: [1, 1, 1] kN/m)",
+    )
+    .at_least_one(&[
+        "stiffness",
+        "damping",
+        "turning_stiffness",
+        "turning_damping",
+    ]),
+    Signature::new("load", &["at"], "load(at: p, force: [0, 0, -1] N)")
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
+    Signature::new("follower", &["at"], "follower(at: p, force: [0, 0, -1] N)")
+        .at_least_one(&["force", "moment"])
+        .refusing(&ON_A_COORDINATE),
+    Signature::new("drag", &["at"], "drag(at: p, damping: 1 N*s/m)")
+        .at_least_one(&["damping", "turning_damping"]),
+];
+
+/// What other tools call them.
+const SYNONYMS: [(&str, &str); 23] = [
+    ("torsion_spring", "spring"),
+    ("torsional_spring", "spring"),
+    ("rotational_spring", "spring"),
+    ("rotary_spring", "spring"),
+    ("dashpot", "damper"),
+    ("damping", "damper"),
+    ("friction", "damper"),
+    ("strut", "spring_damper"),
+    ("shock", "spring_damper"),
+    ("tsda", "spring_damper"),
+    ("cable", "tension"),
+    ("rope", "tension"),
+    ("tendon", "tension"),
+    ("energy", "potential"),
+    ("bearing", "bushing"),
+    ("mount", "bushing"),
+    ("beam", "bushing"),
+    ("force", "load"),
+    ("torque", "load"),
+    ("moment", "load"),
+    ("thrust", "follower"),
+    ("motor", "generalized"),
+    ("actuator", "generalized"),
 ];
 
 impl Resolver<'_> {
@@ -48,54 +123,22 @@ impl Resolver<'_> {
     }
 
     fn law(&mut self, force: &ast::Force) -> Option<ForceLaw> {
-        let signature = self.signature(&force.law, "force law", LAWS)?;
+        let signature = self.signature(&force.law, "force law", LAWS, &SYNONYMS)?;
         let arguments = self.arguments(&force.law, signature);
         match signature.word {
+            "spring" => self.spring(&arguments),
+            "damper" => self.damper(&arguments),
             "spring_damper" => self.spring_damper(&arguments),
-            word => self.on_coordinate(word, &arguments),
+            "tension" => self.tension(&arguments),
+            "generalized" => self.generalized(&arguments),
+            "potential" => self.potential(&arguments),
+            "bushing" => self.bushing(&arguments),
+            "drag" => self.drag(&arguments),
+            word => self.load(&arguments, word == "follower"),
         }
     }
 
-    fn on_coordinate(&mut self, word: &str, arguments: &Arguments) -> Option<ForceLaw> {
-        let target = self.free_coordinate(word, arguments);
-        let quantity = target.map(|(_, quantity)| quantity);
-        let is_angle = quantity == Some(CoordinateQuantity::Angle);
-        let pick = |angle: Expected, displacement: Dimension| {
-            let displacement = displacement.into();
-            quantity.map(|_| if is_angle { angle } else { displacement })
-        };
-        let stiffness = self.coefficient(
-            arguments,
-            "stiffness",
-            pick(Expected::rotary_stiffness(), Dimension::STIFFNESS),
-        );
-        let damping = self.coefficient(
-            arguments,
-            "damping",
-            pick(Expected::rotary_damping(), Dimension::DAMPING),
-        );
-        let rest = match arguments.get("rest") {
-            Some(_) => {
-                let dimension = pick(Expected::angle(), Dimension::LENGTH);
-                self.coefficient(arguments, "rest", dimension)
-            }
-            None => Some(Expr::Number(0.0)),
-        };
-        let (coordinate, _) = target?;
-        Some(match word {
-            "spring" => ForceLaw::CoordinateSpring {
-                coordinate,
-                stiffness: stiffness?,
-                rest: rest?,
-            },
-            _ => ForceLaw::CoordinateDamper {
-                coordinate,
-                damping: damping?,
-            },
-        })
-    }
-
-    /// An argument of a dimension that is unknown when the coordinate is: then only the value itself is checked.
+    /// A required argument of a dimension that is unknown when the coordinate is: then only the value is checked.
     fn coefficient(
         &mut self,
         arguments: &Arguments,
@@ -109,101 +152,48 @@ impl Resolver<'_> {
         };
         let what = format!("`{name}`");
         let expr = self.scalar_of(value, expected, &what)?;
-        self.require_finite(&expr, &what, value.extent);
+        self.require_finite(std::slice::from_ref(&expr), &what, value.extent);
         Some(expr)
     }
 
-    /// A spring or damper on a driven coordinate changes no motion: the drive takes whatever force it needs.
-    fn free_coordinate(
+    /// As `coefficient`; zero when not given.
+    fn coefficient_or_zero(
         &mut self,
-        word: &str,
         arguments: &Arguments,
-    ) -> Option<(CoordinateId, CoordinateQuantity)> {
-        let on = arguments.get("on")?;
-        let ValueKind::Name(name) = &on.bare().kind else {
-            let message = "the name of a joint is expected here";
-            self.diagnostics.error(on.extent, message);
-            return None;
-        };
-        let found = self.coordinate(name)?;
-        let driven = self.ast.items.iter().any(|item| match &item.kind {
-            ItemKind::Joint(joint) => {
-                let drive = |clause: &JointClause| matches!(clause, JointClause::Drive { .. });
-                joint.name == *name && joint.clauses.iter().any(drive)
-            }
-            _ => false,
-        });
-        if driven {
-            self.diagnostics.error_with_help(
-                name,
-                format!("`{name}` is driven; a {word} on it has no effect on the motion"),
-                format!("remove the {word}, or the drive"),
-            );
-            return None;
-        }
-        Some(found)
-    }
-
-    fn spring_damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
-        let (from, to) = (self.end(arguments, "from"), self.end(arguments, "to"));
-        let apart = self.ends_apart(arguments, from, to);
-        let stiffness = self.coefficient(arguments, "stiffness", Some(Dimension::STIFFNESS.into()));
-        let mut optional = |name, dimension| match arguments.get(name) {
-            Some(_) => self.coefficient(arguments, name, Some(Expected::from(dimension))),
+        name: &str,
+        expected: Option<Expected>,
+    ) -> Option<Expr> {
+        match arguments.get(name) {
+            Some(_) => self.coefficient(arguments, name, expected),
             None => Some(Expr::Number(0.0)),
-        };
-        let damping = optional("damping", Dimension::DAMPING);
-        let length = optional("length", Dimension::LENGTH);
-        apart?;
-        Some(ForceLaw::SpringDamper {
-            from: from?,
-            to: to?,
-            stiffness: stiffness?,
-            damping: damping?,
-            length: length?,
-        })
-    }
-
-    fn end(&mut self, arguments: &Arguments, name: &str) -> Option<PointId> {
-        let value = arguments.get(name)?;
-        match &value.bare().kind {
-            ValueKind::Name(point) => self.point_named(point),
-            _ => {
-                let message = "the name of a point is expected here";
-                self.diagnostics.error(value.extent, message);
-                None
-            }
         }
     }
 
-    /// Between two points of one body the distance never changes, so the element does nothing.
-    fn ends_apart(
+    /// A vector; zero when not given.
+    fn vector_or_zero(
         &mut self,
         arguments: &Arguments,
-        from: Option<PointId>,
-        to: Option<PointId>,
-    ) -> Option<()> {
-        let (from, to) = (from?, to?);
-        let frames = self.point_frames();
-        let message = if from == to {
-            "both ends of this element are the same point".to_string()
-        } else if frames.get(from.index()) == frames.get(to.index()) {
-            let frame = frames.get(from.index())?;
-            format!(
-                "both ends of this element are fixed in `{frame}`: their distance never changes"
-            )
-        } else {
-            return Some(());
-        };
-        self.diagnostics.error(arguments.get("to")?.extent, message);
-        None
+        name: &str,
+        expected: impl Into<Expected>,
+    ) -> Option<Vector> {
+        match arguments.get(name) {
+            Some(value) => self.vector_of(value, expected, &format!("`{name}`")),
+            None => Some(zero()),
+        }
     }
 
-    fn point_frames(&self) -> Vec<String> {
-        let frames = self.ast.items.iter().filter_map(|item| match &item.kind {
+    /// An argument that must be the name of a point.
+    fn point_argument(&mut self, arguments: &Arguments, name: &str) -> Option<PointId> {
+        let point = self.name_of(arguments.get(name)?, "point")?;
+        self.point_named(point)
+    }
+
+    /// The frame of each point as written.
+    fn point_frame(&self, point: PointId) -> Option<String> {
+        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
             ItemKind::Point(point) => Some(point.frame.to_string()),
             _ => None,
         });
-        frames.collect()
+        points.nth(point.index())
     }
 }

@@ -1,36 +1,77 @@
-//! Functions: elementary ones, those of vectors, and those of positions that only outputs may use.
+//! Functions: their table, and those that need to know nothing of the motion.
+
+mod motion;
 
 use proc_macro2::Ident;
 
 use super::Resolver;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
-use crate::base::nearest::nearest;
-use crate::model::expression::{Expr, Function, Vector};
+use crate::base::nearest::suggestion;
+use crate::model::expression::{Expr, Function};
 use crate::model::simplify;
-use crate::syntax::ast::{Value, ValueKind};
+use crate::syntax::ast::Value;
+
+/// What a function needs to know, which decides where it may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Needs {
+    /// Its arguments only.
+    Arguments,
+    /// Where the bodies are.
+    Places,
+    /// How fast they move.
+    Rates,
+    /// The whole solution.
+    Solution,
+}
+
+use Needs::{Arguments, Places, Rates, Solution};
 
 /// Every function with its arguments.
-const SIGNATURES: [(&str, &[&str]); 16] = [
-    ("sqrt", &["x"]),
-    ("sin", &["angle"]),
-    ("cos", &["angle"]),
-    ("tan", &["angle"]),
-    ("asin", &["x"]),
-    ("acos", &["x"]),
-    ("atan", &["x"]),
-    ("atan2", &["y", "x"]),
-    ("exp", &["x"]),
-    ("ln", &["x"]),
-    ("norm", &["vector"]),
-    ("dot", &["a", "b"]),
-    ("cross", &["a", "b"]),
-    ("position", &["point"]),
-    ("distance", &["point", "point"]),
-    ("distance_from_axis", &["point", "direction"]),
+const SIGNATURES: [(&str, &[&str], Needs); 22] = [
+    ("sqrt", &["x"], Arguments),
+    ("sin", &["angle"], Arguments),
+    ("cos", &["angle"], Arguments),
+    ("tan", &["angle"], Arguments),
+    ("asin", &["x"], Arguments),
+    ("acos", &["x"], Arguments),
+    ("atan", &["x"], Arguments),
+    ("atan2", &["y", "x"], Arguments),
+    ("exp", &["x"], Arguments),
+    ("ln", &["x"], Arguments),
+    ("norm", &["vector"], Arguments),
+    ("dot", &["a", "b"], Arguments),
+    ("cross", &["a", "b"], Arguments),
+    ("angle", &["a", "b"], Arguments),
+    ("position", &["point"], Places),
+    ("distance", &["point", "point"], Places),
+    ("distance_from_axis", &["point", "direction"], Places),
+    ("rate", &["coordinate"], Rates),
+    ("reaction_force", &["joint"], Solution),
+    ("reaction_moment", &["joint"], Solution),
+    ("kinetic_energy", &[], Solution),
+    ("potential_energy", &[], Solution),
 ];
 
-const OF_POSITIONS: [&str; 3] = ["position", "distance", "distance_from_axis"];
+/// What other tools and languages call them.
+const SYNONYMS: [(&str, &str); 16] = [
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("arctan2", "atan2"),
+    ("log", "ln"),
+    ("length", "norm"),
+    ("magnitude", "norm"),
+    ("mag", "norm"),
+    ("hypot", "norm"),
+    ("velocity", "rate"),
+    ("speed", "rate"),
+    ("der", "rate"),
+    ("reaction", "reaction_force"),
+    ("reaction_torque", "reaction_moment"),
+    ("force", "reaction_force"),
+    ("energy", "potential_energy"),
+];
 
 impl Resolver<'_> {
     pub(super) fn call(
@@ -40,10 +81,11 @@ impl Resolver<'_> {
         place: Place,
     ) -> Option<Typed> {
         let name = function.to_string();
-        let known = SIGNATURES.iter().find(|(known, _)| *known == name);
-        let Some((_, parameters)) = known else {
-            let help = nearest(&name, SIGNATURES.iter().map(|(known, _)| *known))
-                .map(|near| format!("did you mean `{near}`?"));
+        let known = SIGNATURES.iter().find(|(known, ..)| *known == name);
+        let Some(&(name, parameters, needs)) = known else {
+            let words = SIGNATURES.iter().map(|(known, ..)| *known);
+            let help =
+                suggestion(&name, words, &SYNONYMS).map(|near| format!("did you mean `{near}`?"));
             self.report(function, format!("unknown function `{name}`"), help);
             return None;
         };
@@ -57,28 +99,41 @@ impl Resolver<'_> {
             self.diagnostics.error_with_help(function, message, help);
             return None;
         }
-        if OF_POSITIONS.contains(&name.as_str()) && place != Place::Output {
-            self.diagnostics.error(
-                function,
-                format!("`{name}` depends on the motion; only an output may use it"),
-            );
+        if let Some((message, help)) = refusal(name, needs, place) {
+            self.report(function, message, help);
             return None;
         }
-        let result = match (name.as_str(), arguments) {
+        let result = match needs {
+            Arguments => self.of_arguments(name, function, arguments, place)?,
+            _ => self.of_motion(name, function, arguments, place)?,
+        };
+        self.finite(result, function.into())
+    }
+
+    fn of_arguments(
+        &mut self,
+        name: &str,
+        function: &Ident,
+        arguments: &[Value],
+        place: Place,
+    ) -> Option<Typed> {
+        match (name, arguments) {
             ("norm", [a]) => {
                 let (a, quantity) = self.vector(a, place)?;
-                Typed::Scalar(simplify::norm(&a), quantity)
+                Some(Typed::Scalar(simplify::norm(&a), quantity))
             }
-            ("dot" | "cross", [a, b]) => {
+            ("dot" | "cross" | "angle", [a, b]) => {
                 let (a, b) = (self.vector(a, place), self.vector(b, place));
                 let ((a, of_a), (b, of_b)) = (a?, b?);
+                if name == "angle" {
+                    return Some(Typed::Scalar(simplify::angle(&a, &b), plain()));
+                }
                 let product = of_a.dimension().times(of_b.dimension());
                 let quantity = self.in_range(product, function.into())?;
-                if name == "dot" {
-                    Typed::Scalar(simplify::dot(&a, &b), quantity)
-                } else {
-                    Typed::Vector(simplify::cross(&a, &b), quantity)
-                }
+                Some(match name {
+                    "dot" => Typed::Scalar(simplify::dot(&a, &b), quantity),
+                    _ => Typed::Vector(simplify::cross(&a, &b), quantity),
+                })
             }
             ("atan2", [y, x]) => {
                 let (above, right) = (self.scalar(y, place), self.scalar(x, place));
@@ -93,26 +148,12 @@ impl Resolver<'_> {
                     self.report(x.extent, message, help);
                     return None;
                 };
-                Typed::Scalar(simplify::atan2(above, right), Quantity::Of(Dimension::NONE))
+                Some(Typed::Scalar(simplify::atan2(above, right), plain()))
             }
-            ("position", [point]) => {
-                Typed::Vector(self.position_of(point)?, Quantity::Of(Dimension::LENGTH))
-            }
-            ("distance", [from, to]) => {
-                let (from, to) = (self.position_of(from), self.position_of(to));
-                let apart = simplify::componentwise(to?, from?, simplify::subtract);
-                Typed::Scalar(simplify::norm(&apart), Quantity::Of(Dimension::LENGTH))
-            }
-            ("distance_from_axis", [point, axis]) => {
-                let (point, axis) = (self.position_of(point), self.direction(axis, place));
-                let arm = simplify::cross(&axis?, &point?);
-                Typed::Scalar(simplify::norm(&arm), Quantity::Of(Dimension::LENGTH))
-            }
-            (_, [argument]) => self.elementary(&name, argument, place)?,
+            (_, [argument]) => self.elementary(name, argument, place),
             // The number of arguments has been checked.
-            _ => return None,
-        };
-        self.finite(result, function.into())
+            _ => None,
+        }
     }
 
     fn elementary(&mut self, name: &str, argument: &Value, place: Place) -> Option<Typed> {
@@ -134,26 +175,58 @@ impl Resolver<'_> {
             // atan(x) = atan2(x, 1).
             _ => {
                 let angle = simplify::atan2(expr, Expr::Number(1.0));
-                return Some(Typed::Scalar(angle, Quantity::Of(Dimension::NONE)));
+                return Some(Typed::Scalar(angle, plain()));
             }
         };
-        let result = simplify::call(function, expr);
-        Some(Typed::Scalar(result, Quantity::Of(Dimension::NONE)))
+        Some(Typed::Scalar(simplify::call(function, expr), plain()))
     }
+}
 
-    fn position_of(&mut self, point: &Value) -> Option<Vector> {
-        let ValueKind::Name(name) = &point.bare().kind else {
-            self.diagnostics
-                .error(point.extent, "the name of a point is expected here");
+/// Why a function cannot stand where it does.
+fn refusal(name: &str, needs: Needs, place: Place) -> Option<(String, Option<String>)> {
+    let message = match (needs, place) {
+        (Arguments, _) | (Rates, Place::GeneralizedForce) | (Solution, Place::Output) => {
             return None;
-        };
-        let point = self.point_named(name)?;
-        Some([0, 1, 2].map(|axis| Expr::Position(point, axis)))
-    }
+        }
+        (Places, place) if place.knows_places() => return None,
+        (Rates, Place::Tension) => {
+            let message = "in a tension, `rate` is the rate of the distance of its two ends";
+            let help = "write `rate` without parentheses".to_string();
+            return Some((message.to_string(), Some(help)));
+        }
+        (_, Place::Tension) => {
+            format!("`{name}` cannot be used here: a tension depends on `length` and `rate` only")
+        }
+        (Rates, Place::Output) => {
+            "a rate is no output: outputs are values in steady motion, where every free coordinate is at rest"
+                .to_string()
+        }
+        (Rates, Place::Energy) => {
+            let message = "a potential energy depends on places, not on rates".to_string();
+            let help = "a force that depends on rates is `generalized`".to_string();
+            return Some((message, Some(help)));
+        }
+        (Rates, _) => {
+            format!("`{name}` depends on the motion; only generalized forces may use it")
+        }
+        (Places, _) => format!(
+            "`{name}` depends on the motion; only outputs, generalized forces and potentials may use it"
+        ),
+        (Solution, _) => {
+            format!("`{name}` is known only when the motion is; only outputs may use it")
+        }
+    };
+    Some((message, None))
+}
+
+/// An angle or a plain number.
+fn plain() -> Quantity {
+    Quantity::Of(Dimension::NONE)
 }
 
 fn count(parameters: usize) -> String {
     match parameters {
+        0 => "no arguments".to_string(),
         1 => "1 argument".to_string(),
         more => format!("{more} arguments"),
     }

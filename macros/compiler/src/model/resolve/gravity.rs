@@ -60,9 +60,7 @@ impl Resolver<'_> {
                 return None;
             }
         };
-        for component in &vector {
-            self.require_finite(component, what, value.extent);
-        }
+        self.require_finite(&vector, what, value.extent);
         Some(vector)
     }
 }

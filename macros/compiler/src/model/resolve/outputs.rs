@@ -15,15 +15,12 @@ impl Resolver<'_> {
                 continue;
             };
             let frame = self.frame(&point.frame);
-            let position = match &point.at {
-                Some(at) => self.position(at, "a point's place"),
-                None => Some([0.0; 3].map(Expr::Number)),
-            };
-            if let (Some(frame), Some(position)) = (frame, position) {
+            let placement = self.placement(point.placement.as_ref(), "a point's place");
+            if let (Some(frame), Some(placement)) = (frame, placement) {
                 points.push(Point {
                     name: point.name.clone(),
                     frame,
-                    position,
+                    placement,
                 });
             }
         }
@@ -37,11 +34,10 @@ impl Resolver<'_> {
                 continue;
             };
             if let Some((value, quantity)) = self.scalar(&output.value, Place::Output) {
-                let dimension = quantity.dimension();
-                let symbol = if dimension.is_none() && self.is_angle(&value) {
-                    "rad".to_string()
-                } else {
-                    dimension.si_symbol()
+                let symbol = match self.measure(&value) {
+                    Some(Measure::Angle) => "rad".to_string(),
+                    Some(Measure::Energy) => "J".to_string(),
+                    None => quantity.dimension().si_symbol(),
                 };
                 outputs.push(Output {
                     name: output.name.clone(),
@@ -54,22 +50,35 @@ impl Resolver<'_> {
         outputs
     }
 
-    /// The dimension does not tell an angle from a plain number; a coordinate or an inverse function does.
-    fn is_angle(&self, value: &Expr) -> bool {
+    /// What the dimension does not tell. Only terms of a sum and what is scaled by a number keep their measure.
+    fn measure(&self, value: &Expr) -> Option<Measure> {
         match value {
-            Expr::Coordinate(id) => self
-                .declared_coordinates
-                .get(id.index())
-                .is_some_and(|coordinate| coordinate.quantity == CoordinateQuantity::Angle),
-            Expr::Negate(a) => self.is_angle(a),
-            Expr::Add(a, b) | Expr::Subtract(a, b) => self.is_angle(a) || self.is_angle(b),
+            Expr::Coordinate(id) => {
+                let angle = Some(CoordinateQuantity::Angle);
+                let own = self.coordinates.get(id.index())?;
+                (own.quantity == angle).then_some(Measure::Angle)
+            }
+            Expr::KineticEnergy | Expr::PotentialEnergy => Some(Measure::Energy),
+            Expr::Negate(a) => self.measure(a),
+            Expr::Add(a, b) | Expr::Subtract(a, b) => self.measure(a).or_else(|| self.measure(b)),
             Expr::Multiply(a, b) => match (&**a, &**b) {
-                (Expr::Number(_), angle) | (angle, Expr::Number(_)) => self.is_angle(angle),
-                _ => false,
+                (Expr::Number(_), other) | (other, Expr::Number(_)) => self.measure(other),
+                _ => None,
             },
-            Expr::Divide(a, b) => matches!(**b, Expr::Number(_)) && self.is_angle(a),
-            Expr::Call(Function::Asin | Function::Acos, _) | Expr::Atan2(..) => true,
-            _ => false,
+            Expr::Divide(a, b) if matches!(**b, Expr::Number(_)) => self.measure(a),
+            Expr::Call(Function::Asin | Function::Acos, _) | Expr::Atan2(..) => {
+                Some(Measure::Angle)
+            }
+            _ => None,
         }
     }
+}
+
+/// Quantities that share their dimension with others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Measure {
+    /// Not a plain number.
+    Angle,
+    /// Not a moment.
+    Energy,
 }

@@ -1,9 +1,10 @@
-//! Names that stand for bodies, points and joints, each with the nearest name of the right kind when wrong.
+//! Names that stand for bodies, points, joints and coordinates, each with the nearest name of the right kind when wrong.
 
 use proc_macro2::Ident;
 
+use super::joints::kinds::Kind;
 use super::scope::Meaning;
-use super::{JointCoordinate, Resolver};
+use super::{Resolver, coordinates};
 use crate::base::ids::{CoordinateId, JointId, PointId};
 use crate::model::mechanism::{CoordinateQuantity, Frame};
 
@@ -36,34 +37,58 @@ impl Resolver<'_> {
         }
     }
 
-    /// The coordinate of a joint.
-    pub(super) fn coordinate(
-        &mut self,
-        name: &Ident,
-    ) -> Option<(CoordinateId, CoordinateQuantity)> {
+    /// A joint.
+    pub(super) fn joint_named(&mut self, name: &Ident) -> Option<JointId> {
         match self.scope.find(&name.to_string()) {
-            Some(Meaning::Joint(id)) => self.coordinate_of(id, name),
+            Some(Meaning::Joint(id)) => Some(id),
+            Some(Meaning::OnlyCoordinate(id)) => Some(self.coordinates.get(id.index())?.joint),
             found => {
-                let is_joint = |meaning| matches!(meaning, Meaning::Joint(_));
-                self.wrong_reference(name, "coordinate", found, is_joint);
+                let is_joint =
+                    |meaning| matches!(meaning, Meaning::Joint(_) | Meaning::OnlyCoordinate(_));
+                self.wrong_reference(name, "joint", found, is_joint);
                 None
             }
         }
     }
 
-    fn coordinate_of(
+    /// A coordinate, by its name or by that of a joint that has no other.
+    pub(super) fn coordinate(
         &mut self,
-        joint: JointId,
         name: &Ident,
     ) -> Option<(CoordinateId, CoordinateQuantity)> {
-        match self.joint_coordinates.get(joint.index())? {
-            JointCoordinate::One(id, quantity) => Some((*id, *quantity)),
-            JointCoordinate::Unknown => None,
-            JointCoordinate::None => {
-                let message = format!("`{name}` is a fixed joint and has no coordinate");
-                self.diagnostics.error(name, message);
+        match self.scope.find(&name.to_string()) {
+            Some(Meaning::OnlyCoordinate(id) | Meaning::Coordinate(id)) => {
+                let quantity = self.coordinates.get(id.index())?.quantity?;
+                Some((id, quantity))
+            }
+            Some(Meaning::Joint(id)) => {
+                self.no_coordinate_of_its_name(name, id);
                 None
             }
+            found => {
+                self.wrong_reference(name, "coordinate", found, Meaning::is_coordinate);
+                None
+            }
+        }
+    }
+
+    /// A fixed joint, or one with several coordinates; of an unknown kind nothing more can be said.
+    fn no_coordinate_of_its_name(&mut self, name: &Ident, id: JointId) {
+        let joint = coordinates::joints(self.ast).nth(id.index());
+        let Some(kind) = joint.and_then(|joint| Kind::find(&joint.kind.to_string())) else {
+            return;
+        };
+        if kind.motions.is_empty() {
+            let message = format!("`{name}` is a {} joint and has no coordinate", kind.word);
+            self.diagnostics.error(name, message);
+            return;
+        }
+        let own = self.coordinates.iter().filter(|other| other.joint == id);
+        let names: Vec<String> = own.map(|other| format!("`{}`", other.name)).collect();
+        if !names.is_empty() {
+            let message = format!("`{name}` is a {} joint with several coordinates", kind.word);
+            let help = format!("name one of them: {}", names.join(", "));
+            self.diagnostics.error_with_help(name, message, help);
         }
     }
 
@@ -81,6 +106,11 @@ impl Resolver<'_> {
                 Meaning::Body(_) if kind == "point" => Some(format!(
                     "declare a point of the body: `point p: {name} at [0, 0, 0];`"
                 )),
+                Meaning::Coordinate(id) if kind == "joint" => self
+                    .coordinates
+                    .get(id.index())
+                    .and_then(|own| coordinates::joints(self.ast).nth(own.joint.index()))
+                    .map(|joint| format!("its joint is `{}`", joint.name)),
                 _ => None,
             };
             self.report(name, message, help);

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use proc_macro2::Ident;
 
+use super::coordinates::Declared;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{BodyId, DesignId, InputId, JointId, PointId};
+use crate::base::ids::{BodyId, CoordinateId, DesignId, InputId, JointId, PointId};
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -17,13 +18,23 @@ pub(super) enum Meaning {
     /// The index of the `let` among the lets.
     Let(usize),
     Body(BodyId),
+    /// A joint that has no coordinate of its name: none at all, or several with names of their own.
     Joint(JointId),
+    /// A joint with one coordinate, and that coordinate.
+    OnlyCoordinate(CoordinateId),
+    /// One of several coordinates of a joint.
+    Coordinate(CoordinateId),
     Point(PointId),
     Force,
     Output,
 }
 
 impl Meaning {
+    /// The name stands for a coordinate.
+    pub(super) fn is_coordinate(self) -> bool {
+        matches!(self, Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_))
+    }
+
     /// The kind of thing, with an article.
     pub(super) fn describe(self) -> &'static str {
         match self {
@@ -31,7 +42,8 @@ impl Meaning {
             Meaning::Design(_) => "a design variable",
             Meaning::Let(_) => "a constant",
             Meaning::Body(_) => "a body",
-            Meaning::Joint(_) => "a joint",
+            Meaning::Joint(_) | Meaning::OnlyCoordinate(_) => "a joint",
+            Meaning::Coordinate(_) => "a coordinate",
             Meaning::Point(_) => "a point",
             Meaning::Force => "a force",
             Meaning::Output => "an output",
@@ -48,7 +60,11 @@ pub(super) struct Scope {
 
 impl Scope {
     /// Enters the name of every item, whether or not the rest of the item is right.
-    pub(super) fn new(ast: &Ast, diagnostics: &mut Diagnostics) -> Self {
+    pub(super) fn new(
+        ast: &Ast,
+        coordinates: &[Declared<'_>],
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
         let mut scope = Self::default();
         let mut counts = [0; 6];
         let mut next = |table: usize| {
@@ -61,7 +77,11 @@ impl Scope {
                 ItemKind::Design(_) => Meaning::Design(DesignId::new(next(1))),
                 ItemKind::Let(_) => Meaning::Let(next(2)),
                 ItemKind::Body(_) => Meaning::Body(BodyId::new(next(3))),
-                ItemKind::Joint(_) => Meaning::Joint(JointId::new(next(4))),
+                ItemKind::Joint(_) => {
+                    let id = JointId::new(next(4));
+                    scope.declare_joint(id, item.kind.name(), coordinates, diagnostics);
+                    continue;
+                }
                 ItemKind::Point(_) => Meaning::Point(PointId::new(next(5))),
                 ItemKind::Force(_) => Meaning::Force,
                 ItemKind::Output(_) => Meaning::Output,
@@ -72,6 +92,34 @@ impl Scope {
             }
         }
         scope
+    }
+
+    /// A joint, and the coordinates that have names of their own.
+    fn declare_joint(
+        &mut self,
+        id: JointId,
+        name: Option<&Ident>,
+        coordinates: &[Declared<'_>],
+        diagnostics: &mut Diagnostics,
+    ) {
+        let own = || {
+            let all = coordinates.iter().enumerate();
+            all.filter(|(_, coordinate)| coordinate.joint == id)
+                .map(|(index, coordinate)| (CoordinateId::new(index), coordinate.name))
+        };
+        // The only coordinate's name is the token that names the joint; another's can only be spelt like it.
+        let is_only = |coordinate: &Ident| name.is_some_and(|name| std::ptr::eq(name, coordinate));
+        let only = own().find(|(_, coordinate)| is_only(coordinate));
+        if let Some(name) = name {
+            let meaning = match only {
+                Some((coordinate, _)) => Meaning::OnlyCoordinate(coordinate),
+                None => Meaning::Joint(id),
+            };
+            self.declare(name, meaning, diagnostics);
+        }
+        for (coordinate, name) in own().filter(|(_, name)| !is_only(name)) {
+            self.declare(name, Meaning::Coordinate(coordinate), diagnostics);
+        }
     }
 
     /// One name means one thing, whatever its kind: `theta1` in an output must not be a guess.

@@ -61,6 +61,22 @@ pub(super) enum Place {
     Nominal,
     /// Anything about the mechanism itself: numbers, design variables, inputs and constants.
     Parameter,
-    /// An output: everything.
+    /// The law of a tension: also the distance of its ends and the rate of that.
+    Tension,
+    /// A generalised force: also coordinates, their rates and points.
+    GeneralizedForce,
+    /// A potential energy: also coordinates and points.
+    Energy,
+    /// An output: also coordinates, points, reactions and energies.
     Output,
+}
+
+impl Place {
+    /// Coordinates and points may be used here.
+    pub(super) fn knows_places(self) -> bool {
+        matches!(
+            self,
+            Place::GeneralizedForce | Place::Energy | Place::Output
+        )
+    }
 }

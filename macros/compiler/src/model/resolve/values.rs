@@ -3,13 +3,15 @@
 use proc_macro2::Ident;
 
 use super::Resolver;
+use super::coordinates;
 use super::expected::Expected;
 use super::scope::Meaning;
+use super::tension;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
+use crate::base::nearest::nearest;
 use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
-use crate::model::mechanism::CoordinateQuantity;
 use crate::model::simplify;
 use crate::syntax::ast::{Unit, Value, ValueKind};
 
@@ -60,6 +62,11 @@ impl Resolver<'_> {
         if text == "pi" {
             return Some(Typed::number(std::f64::consts::PI, Dimension::NONE));
         }
+        if place == Place::Tension
+            && let Some(word) = tension::word(&text)
+        {
+            return self.tension_word(word, name);
+        }
         let Some(meaning) = self.scope.find(&text) else {
             self.unknown_value(name, place);
             return None;
@@ -85,25 +92,23 @@ impl Resolver<'_> {
                 Some(Typed::Scalar(Expr::Design(id), Quantity::Of(dimension)))
             }
             Meaning::Let(index) => self.lets.get(index)?.clone(),
-            Meaning::Joint(_) => {
+            Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
-                if place != Place::Output {
-                    self.diagnostics.error(
-                        name,
-                        format!("`{text}` is a coordinate; only an output may use coordinates"),
-                    );
+                if !place.knows_places() {
+                    let reason = match place {
+                        Place::Tension => "a tension depends on `length` and `rate` only",
+                        _ => "only outputs, generalized forces and potentials may use coordinates",
+                    };
+                    let message = format!("`{text}` is a coordinate; {reason}");
+                    self.diagnostics.error(name, message);
                     return None;
                 }
-                let dimension = match quantity {
-                    CoordinateQuantity::Angle => Dimension::NONE,
-                    CoordinateQuantity::Displacement => Dimension::LENGTH,
-                };
                 Some(Typed::Scalar(
                     Expr::Coordinate(coordinate),
-                    Quantity::Of(dimension),
+                    Quantity::Of(coordinates::dimension(quantity)),
                 ))
             }
-            Meaning::Point(_) if place == Place::Output => {
+            Meaning::Point(_) if place.knows_places() => {
                 self.diagnostics.error_with_help(
                     name,
                     format!("`{text}` is a point, not a value"),
@@ -132,10 +137,13 @@ impl Resolver<'_> {
         let text = name.to_string();
         let usable = |meaning| match meaning {
             Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => place != Place::Nominal,
-            Meaning::Joint(_) => place == Place::Output,
-            _ => false,
+            meaning => place.knows_places() && meaning.is_coordinate(),
         };
         let near = self.scope.nearest(&text, usable);
+        let near = match place {
+            Place::Tension => near.or_else(|| nearest(&text, tension::words())),
+            _ => near,
+        };
         let help = match near {
             Some(near) => Some(format!("did you mean `{near}`?")),
             None if ["x", "y", "z"].contains(&text.as_str()) => Some(format!(
@@ -266,11 +274,19 @@ impl Resolver<'_> {
 
     /// A position in a frame.
     pub(super) fn position(&mut self, value: &Value, what: &str) -> Option<Vector> {
+        self.vector_of(value, Dimension::LENGTH, what)
+    }
+
+    /// A vector that must have the given dimension; `what` names its role.
+    pub(super) fn vector_of(
+        &mut self,
+        value: &Value,
+        expected: impl Into<Expected>,
+        what: &str,
+    ) -> Option<Vector> {
         let (vector, quantity) = self.vector(value, Place::Parameter)?;
-        self.expect(quantity, Dimension::LENGTH, what, value)?;
-        for component in &vector {
-            self.require_finite(component, what, value.extent);
-        }
+        self.expect(quantity, expected, what, value)?;
+        self.require_finite(&vector, what, value.extent);
         Some(vector)
     }
 

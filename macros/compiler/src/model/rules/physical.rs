@@ -1,11 +1,14 @@
 //! Values that no real part can have: at the nominal values, and at the ends of every tolerance.
 
+use std::rc::Rc;
+
+use super::composite;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::evaluate::{InputDependence, Values};
 use crate::model::expression::Expr;
-use crate::model::mechanism::Constant;
+use crate::model::mechanism::{Constant, Part};
 
 /// Something that values must satisfy.
 #[derive(Clone, Debug)]
@@ -21,16 +24,26 @@ pub(crate) struct Requirement {
 }
 
 /// What values must satisfy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Demand {
-    /// A finite number.
+    /// Finite numbers.
     Finite,
-    /// One number above zero.
+    /// Numbers above zero.
     Positive(Dimension),
     /// A vector longer than zero.
     Direction,
-    /// Six tensor entries that a body can have: xx, yy, zz, xy, yz, xz.
+    /// Six tensor entries about the centre of mass that a body can have: xx, yy, zz, xy, yz, xz.
     Inertia,
+    /// Two radii, the first below the second.
+    BelowOuter,
+    /// The travel of a screw per turn.
+    Lead,
+    /// Two unit vectors that are not parallel.
+    Distinct,
+    /// Three unit vectors that are not in one plane.
+    Spanning,
+    /// No values: a body that its holes leave something of.
+    Holes(Rc<[Part]>),
 }
 
 /// A design variable as far as the rules need it.
@@ -59,19 +72,14 @@ pub(crate) fn check(
     let dependence = InputDependence::new(constants);
     let values = Values::new(constants, &unknown, &nominal);
     let mut met = Vec::new();
-    let mut reported: Vec<&str> = Vec::new();
     for requirement in requirements {
         if requirement.values.iter().any(|expr| dependence.of(expr)) {
             continue;
         }
         match violation(requirement, &values) {
             None => met.push(requirement),
-            // One quantity is reported once, although a size has three edges and a place three components.
-            Some(_) if reported.contains(&requirement.what.as_str()) => {}
             Some(problem) => {
-                let what = &requirement.what;
-                let message = format!("{what} {problem}");
-                reported.push(what);
+                let message = format!("{} {problem}", requirement.what);
                 diagnostics.error(requirement.extent, message);
             }
         }
@@ -120,18 +128,55 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<String> {
     if values.iter().any(|value| !value.is_finite()) {
         return Some("is not a finite real number".to_string());
     }
-    match (requirement.demand, values.as_slice()) {
-        (Demand::Positive(dimension), &[value]) if value <= 0.0 => Some(format!(
-            "is {} {}; it must be positive",
-            rounded(value),
-            dimension.si_symbol()
-        )),
+    match (&requirement.demand, values.as_slice()) {
+        (Demand::Positive(dimension), values) => {
+            let value = values.iter().find(|&&value| value <= 0.0)?;
+            let (value, unit) = (rounded(*value), dimension.si_symbol());
+            Some(format!("is {value} {unit}; it must be positive"))
+        }
         (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {
             Some("has no length".to_string())
         }
         (Demand::Inertia, &[xx, yy, zz, xy, yz, xz]) => inertia([xx, yy, zz, xy, yz, xz]),
+        (Demand::BelowOuter, &[inner, outer]) if inner >= outer => Some(format!(
+            "is {} m; it must be smaller than the outer, {} m",
+            rounded(inner),
+            rounded(outer)
+        )),
+        (Demand::Lead, [0.0]) => {
+            Some("is zero; a joint that turns without travel is `revolute`".to_string())
+        }
+        (Demand::Distinct, axes) => parallel(axes)
+            .then(|| "are parallel: the second motion would repeat the first".to_string()),
+        (Demand::Spanning, axes) => in_one_plane(axes)
+            .then(|| "lie in one plane: together they do not reach every place".to_string()),
+        (Demand::Holes(parts), _) => composite::holes(parts, at),
         _ => None,
     }
+}
+
+/// Sine of an angle, or volume between unit vectors, that counts as zero.
+const NEARLY: f64 = 1e-9;
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    let [[ax, ay, az], [bx, by, bz]] = [a, b];
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+fn parallel(axes: &[f64]) -> bool {
+    let &[ax, ay, az, bx, by, bz] = axes else {
+        return false;
+    };
+    let normal = cross([ax, ay, az], [bx, by, bz]);
+    normal.iter().all(|component| component.abs() < NEARLY)
+}
+
+fn in_one_plane(axes: &[f64]) -> bool {
+    let &[ax, ay, az, bx, by, bz, cx, cy, cz] = axes else {
+        return false;
+    };
+    let [x, y, z] = cross([ax, ay, az], [bx, by, bz]);
+    (x * cx + y * cy + z * cz).abs() < NEARLY
 }
 
 /// Six digits tell enough in a message.
@@ -146,23 +191,24 @@ fn inertia([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Option<String> {
         return Some("has a negative moment".to_string());
     }
     let half = (xx + yy + zz) / 2.0;
-    let [a, b, c] = [half - xx, half - yy, half - zz];
-    let [d, e, f] = [-xy, -yz, -xz];
+    let moments = [half - xx, half - yy, half - zz, -xy, -yz, -xz];
+    (!positive_semidefinite(moments, half)).then(|| {
+        "belongs to no body: each principal moment is at most the sum of the other two".to_string()
+    })
+}
+
+/// The symmetric matrix xx, yy, zz, xy, yz, xz has no negative eigenvalue, up to rounding errors of entries of size
+/// `scale`: all its principal minors are positive or zero.
+pub(super) fn positive_semidefinite([a, b, c, d, e, f]: [f64; 6], scale: f64) -> bool {
     // Rounding may leave a flat body a little below zero.
-    let scale = half.max(f64::MIN_POSITIVE);
+    let scale = scale.max(f64::MIN_POSITIVE);
     let slack = -1e-9;
     let first = [a, b, c].map(|entry| entry / scale);
     let second = [a * b - d * d, b * c - e * e, a * c - f * f].map(|minor| minor / scale / scale);
     let determinant = a * (b * c - e * e) - d * (d * c - e * f) + f * (d * e - b * f);
     let third = determinant / scale / scale / scale;
-    let least = first
-        .into_iter()
-        .chain(second)
-        .chain([third])
-        .fold(f64::INFINITY, f64::min);
-    (least < slack).then(|| {
-        "belongs to no body: each principal moment is at most the sum of the other two".to_string()
-    })
+    let mut minors = first.into_iter().chain(second).chain([third]);
+    minors.all(|minor| minor >= slack)
 }
 
 #[cfg(test)]

@@ -52,8 +52,8 @@ fn chain(
     operand: fn(&mut Tokens, u32) -> Parsed<Value>,
 ) -> Parsed<Value> {
     let mut left = operand(tokens, depth)?;
-    // A sum ends before a tolerance.
-    while !tokens.peek_plus_minus() {
+    // A sum ends before a tolerance, and before the next shape of a body.
+    while !tokens.peek_plus_minus() && !tokens.peek_shape() {
         let read = operators
             .iter()
             .find_map(|&operator| Some((operator, tokens.sign(operator.sign())?)));

@@ -1,8 +1,16 @@
 //! Mechanisms with known answers.
 
+mod rotors;
+mod spatial;
+
+pub use rotors::{
+    anisotropic_bearing, jeffcott_in_the_ground, jeffcott_in_the_shaft, steadied_by_the_shaft,
+};
+pub use spatial::{blade, screw_pendulum, top};
+
 use crate::model::{
-    Body, DesignVariable, Drive, Force, ForceLaw, Frame, Input, Joint, JointKind, Model, ORIGIN,
-    Placement, Shape, Unit, Value, ZERO,
+    Amount, Body, Coordinate, DesignVariable, Force, ForceLaw, Frame, Input, Joint, Model, Motion,
+    ORIGIN, Part, Placement, Shape, Step, Unit, Value, Word, ZERO,
 };
 use crate::truth::Truth;
 
@@ -26,23 +34,21 @@ fn variable(name: &str, nominal: f64, unit: Unit) -> DesignVariable {
     }
 }
 
-fn body(name: &str, shape: Shape) -> Body {
+fn body(name: &str, parts: Vec<Part>) -> Body {
     Body {
         name: name.to_owned(),
-        shape,
+        parts,
     }
 }
 
-fn joint(name: &str, kind: JointKind, from: Frame, to: usize) -> Joint {
-    Joint {
-        name: name.to_owned(),
-        kind,
-        from,
-        to: Frame::Body(to),
-        from_placement: Placement::NONE,
-        to_placement: Placement::NONE,
-        drive: None,
-    }
+fn revolute(name: &str, axis: [f64; 3], from: Frame, to: usize) -> Joint {
+    let steps = vec![Step::new(Motion::Turn, axis)];
+    Joint::new(name, Word::Revolute, steps, from, Frame::Body(to))
+}
+
+fn prismatic(name: &str, axis: [f64; 3], from: Frame, to: usize) -> Joint {
+    let steps = vec![Step::new(Motion::Slide, axis)];
+    Joint::new(name, Word::Prismatic, steps, from, Frame::Body(to))
 }
 
 fn gravity() -> [Value; 3] {
@@ -51,7 +57,8 @@ fn gravity() -> [Value; 3] {
 
 /// The shaft that turns at `omega` about z.
 fn spinning(name: &str) -> Model {
-    let spin = joint("spin", JointKind::Revolute(Z), Frame::Ground, 0);
+    let mut spin = revolute("spin", Z, Frame::Ground, 0);
+    spin.steps[0] = spin.steps[0].clone().driven(0, 1.0);
     Model {
         name: name.to_owned(),
         inputs: vec![Input {
@@ -60,14 +67,8 @@ fn spinning(name: &str) -> Model {
         }],
         design: Vec::new(),
         gravity: gravity(),
-        bodies: vec![body("shaft", Shape::Massless)],
-        joints: vec![Joint {
-            drive: Some(Drive {
-                input: 0,
-                factor: 1.0,
-            }),
-            ..spin
-        }],
+        bodies: vec![body("shaft", Vec::new())],
+        joints: vec![spin],
         points: Vec::new(),
         forces: Vec::new(),
     }
@@ -91,18 +92,15 @@ pub fn chain(lengths: &[f64], masses: &[f64]) -> Model {
     for i in 0..bars {
         let (length, mass) = (design(i), design(bars + i));
         let bar = Shape::Rod {
-            mass,
+            mass: Amount::Mass(mass),
             length,
             along: DOWN,
             center: None,
         };
-        model.bodies.push(body(&format!("bar{}", i + 1), bar));
-        let mut hinge = joint(
-            &format!("theta{}", i + 1),
-            JointKind::Revolute(Y),
-            Frame::Body(i),
-            i + 1,
-        );
+        model
+            .bodies
+            .push(body(&format!("bar{}", i + 1), vec![Part::whole(bar)]));
+        let mut hinge = revolute(&format!("theta{}", i + 1), Y, Frame::Body(i), i + 1);
         if i > 0 {
             let end = Value::Design {
                 variable: i - 1,
@@ -132,29 +130,33 @@ pub fn two_sliders(nominal: [f64; 7]) -> Model {
         .zip(nominal)
         .map(|(&(name, unit), x)| variable(name, x, unit))
         .collect();
-    model.bodies.push(body("carriage", Shape::Massless));
+    model.bodies.push(body("carriage", Vec::new()));
     model.bodies.push(body(
         "particle",
-        Shape::Point {
+        vec![Part::whole(Shape::Point {
             mass: design(0),
             center: ORIGIN,
-        },
+        })],
     ));
     model
         .joints
-        .push(joint("along_x", JointKind::Prismatic(X), Frame::Body(0), 1));
+        .push(prismatic("along_x", X, Frame::Body(0), 1));
     model
         .joints
-        .push(joint("along_y", JointKind::Prismatic(Y), Frame::Body(1), 2));
+        .push(prismatic("along_y", Y, Frame::Body(1), 2));
     for (i, axis) in ["x", "y"].into_iter().enumerate() {
+        let coordinate = Coordinate {
+            joint: 1 + i,
+            step: 0,
+        };
         let (stiffness, rest, damping) = (design(1 + i), design(3 + i), design(5 + i));
         let spring = ForceLaw::Spring {
-            joint: 1 + i,
+            coordinate,
             stiffness,
             rest,
         };
         let damper = ForceLaw::Damper {
-            joint: 1 + i,
+            coordinate,
             damping,
         };
         model.forces.push(Force {
@@ -190,14 +192,16 @@ pub fn arm(truth: &Truth) -> Model {
             mass,
             center: vector("com"),
             inertia,
+            about: None,
         };
-        model.bodies.push(body(&format!("link{}", i + 1), shape));
+        let parts = vec![Part::whole(shape)];
+        model.bodies.push(body(&format!("link{}", i + 1), parts));
         let parent = if i == 0 {
             Frame::Ground
         } else {
             Frame::Body(i - 1)
         };
-        let mut hinge = joint(&format!("q{}", i + 1), JointKind::Revolute(Z), parent, i);
+        let mut hinge = revolute(&format!("q{}", i + 1), Z, parent, i);
         hinge.from_placement.offset = vector("p");
         hinge.from_placement.rotations = axis_and_angle(&link.get("R").matrix());
         model.joints.push(hinge);

@@ -1,0 +1,71 @@
+//! Outputs: what they may refer to beyond coordinates and points.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::{ExprId, JointId};
+use crate::model::expression::Expr;
+
+use super::derive::Problem;
+use super::energy::{kinetic, potential};
+use super::kinematics::Kinematics;
+use super::newton_euler::dynamics;
+use super::sources::Sources;
+use super::values::State;
+
+/// The declared outputs.
+pub(super) fn outputs(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<ExprId> {
+    let state = Everything {
+        kinematics,
+        reactions: reactions(g, problem, kinematics),
+        kinetic: kinetic(g, problem, kinematics),
+        potential: potential(g, problem, kinematics),
+    };
+    let outputs = &problem.mechanism.outputs;
+    outputs
+        .iter()
+        .map(|output| problem.values.scalar_at(g, &output.value, &state))
+        .collect()
+}
+
+/// All that an output can be made of. What none asks for costs nothing: only what results reach is generated.
+struct Everything<'a> {
+    kinematics: &'a Kinematics,
+    /// By joint id: force and moment.
+    reactions: Vec<[Vector3; 2]>,
+    kinetic: ExprId,
+    potential: ExprId,
+}
+
+impl Everything<'_> {
+    fn reaction(&self, joint: JointId, component: usize) -> ExprId {
+        self.reactions[joint.index()][component / 3].0[component % 3]
+    }
+}
+
+impl State for Everything<'_> {
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Reaction(joint, component) => self.reaction(*joint, *component),
+            Expr::KineticEnergy => self.kinetic,
+            Expr::PotentialEnergy => self.potential,
+            _ => self.kinematics.leaf(leaf),
+        }
+    }
+}
+
+/// What the `from` side of each joint exerts on its `to` side: force and moment at the origin of the joint frame on the
+/// `from` side, along its axes.
+fn reactions(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<[Vector3; 2]> {
+    let transmitted = dynamics(g, problem, kinematics, Sources::ALL).transmitted;
+    let zero = Vector3::zero(g);
+    let mut reactions = vec![[zero; 2]; problem.mechanism.joints.len()];
+    for branch in &problem.topology.branches {
+        let motion = kinematics.of(branch.body);
+        let load = transmitted[branch.body.index()];
+        let load = if branch.reversed { load.neg(g) } else { load };
+        let shift = motion.from_origin.cross(g, load.force);
+        let moment = load.moment.sub(g, shift);
+        let to_axes = motion.from_axes.transpose();
+        reactions[branch.joint.index()] = [to_axes.apply(g, load.force), to_axes.apply(g, moment)];
+    }
+    reactions
+}

@@ -1,0 +1,239 @@
+//! The shapes: their arguments, and what those make of them.
+
+use std::f64::consts::PI;
+
+use super::super::arguments::Signature;
+use super::super::placements::zero;
+use super::quantities::Quantities;
+use crate::base::dimension::Dimension;
+use crate::model::expression::Expr;
+use crate::model::mechanism::Shape;
+use crate::model::simplify::{multiply, power_integer, subtract};
+
+const MASS: &[&str] = &["mass", "density"];
+const CENTER: &[&str] = &["center"];
+
+pub(super) const SHAPES: &[Signature] = &[
+    Signature::new("massless", &[], "massless"),
+    Signature::new("point", &["mass"], "point(mass: 1 kg)")
+        .optional(CENTER)
+        .refusing(&[("density", "a point has no volume: give its `mass`")]),
+    Signature::new(
+        "rod",
+        &["length", "along"],
+        "rod(mass: 1 kg, length: 1 m, along: -z)",
+    )
+    .exactly_one(MASS)
+    .optional(CENTER)
+    .refusing(&[("radius", "a rod is thin; a thick one is a `cylinder`")]),
+    Signature::new(
+        "disk",
+        &["radius", "axis"],
+        "disk(mass: 1 kg, radius: 0.1 m, axis: z)",
+    )
+    .exactly_one(MASS)
+    .optional(CENTER)
+    .refusing(&[
+        ("length", "a disk is thin; a thick one is a `cylinder`"),
+        ("thickness", "a disk is thin; a thick one is a `cylinder`"),
+        (
+            "inner",
+            "a disk with a bore is a `disk` minus a `disk`, or a `tube`",
+        ),
+    ]),
+    Signature::new(
+        "cylinder",
+        &["radius", "length", "axis"],
+        "cylinder(mass: 1 kg, radius: 0.1 m, length: 1 m, axis: z)",
+    )
+    .exactly_one(MASS)
+    .optional(CENTER)
+    .refusing(&[("inner", "a hollow cylinder is a `tube`")]),
+    Signature::new(
+        "tube",
+        &["inner", "outer", "length", "axis"],
+        "tube(mass: 1 kg, inner: 8 cm, outer: 10 cm, length: 1 m, axis: z)",
+    )
+    .exactly_one(MASS)
+    .optional(CENTER),
+    Signature::new("box", &["size"], "box(mass: 1 kg, size: [1 m, 2 m, 3 m])")
+        .exactly_one(MASS)
+        .optional(CENTER),
+    Signature::new("sphere", &["radius"], "sphere(mass: 1 kg, radius: 0.1 m)")
+        .exactly_one(MASS)
+        .optional(CENTER),
+    Signature::new(
+        "rigid",
+        &["mass", "inertia"],
+        "rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2)",
+    )
+    .optional(&["center", "about"])
+    .refusing(&[(
+        "density",
+        "the volume of a `rigid` body is not known: give its `mass`",
+    )]),
+];
+
+/// What other tools call them.
+pub(super) const SYNONYMS: [(&str, &str); 23] = [
+    ("none", "massless"),
+    ("weightless", "massless"),
+    ("empty", "massless"),
+    ("mass", "point"),
+    ("point_mass", "point"),
+    ("particle", "point"),
+    ("bar", "rod"),
+    ("beam", "rod"),
+    ("link", "rod"),
+    ("stick", "rod"),
+    ("disc", "disk"),
+    ("wheel", "disk"),
+    ("shaft", "cylinder"),
+    ("pipe", "tube"),
+    ("ring", "tube"),
+    ("hollow_cylinder", "tube"),
+    ("cuboid", "box"),
+    ("block", "box"),
+    ("brick", "box"),
+    ("plate", "box"),
+    ("ball", "sphere"),
+    ("inertia", "rigid"),
+    ("inertial", "rigid"),
+];
+
+impl Quantities<'_, '_, '_> {
+    /// The shape that a word and its arguments mean. Every argument is looked at before any is found missing.
+    pub(super) fn shape(mut self, word: &str) -> Option<Shape> {
+        match word {
+            "point" => self.point(),
+            "rod" => self.rod(),
+            "disk" => self.disk(),
+            "cylinder" => self.cylinder(),
+            "tube" => self.tube(),
+            "box" => self.cuboid(),
+            "sphere" => self.sphere(),
+            _ => self.rigid(),
+        }
+    }
+
+    fn point(&mut self) -> Option<Shape> {
+        let (mass, center) = (self.mass(), self.center(|| Some(zero())));
+        Some(Shape::Point {
+            mass: mass?,
+            center: center?,
+        })
+    }
+
+    fn rod(&mut self) -> Option<Shape> {
+        let (length, along) = (self.length("length"), self.direction("along"));
+        let density = Dimension::LINE_DENSITY;
+        let mass = self.mass_or_density(density, || length.clone());
+        let center = self.center(|| {
+            let half = multiply(Expr::Number(0.5), length.clone()?);
+            let along = along.clone()?;
+            Some(along.map(|component| multiply(half.clone(), component)))
+        });
+        Some(Shape::Rod {
+            mass: mass?,
+            length: length?,
+            along: along?,
+            center: center?,
+        })
+    }
+
+    fn disk(&mut self) -> Option<Shape> {
+        let (radius, axis) = (self.length("radius"), self.direction("axis"));
+        let density = Dimension::AREA_DENSITY;
+        let mass = self.mass_or_density(density, || Some(circle(radius.clone()?)));
+        let center = self.center(|| Some(zero()));
+        Some(Shape::Disk {
+            mass: mass?,
+            radius: radius?,
+            axis: axis?,
+            center: center?,
+        })
+    }
+
+    fn cylinder(&mut self) -> Option<Shape> {
+        let (radius, length) = (self.length("radius"), self.length("length"));
+        let axis = self.direction("axis");
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
+            Some(multiply(circle(radius.clone()?), length.clone()?))
+        });
+        let center = self.center(|| Some(zero()));
+        Some(Shape::Cylinder {
+            mass: mass?,
+            radius: radius?,
+            length: length?,
+            axis: axis?,
+            center: center?,
+        })
+    }
+
+    fn tube(&mut self) -> Option<Shape> {
+        let (inner, outer) = (self.length("inner"), self.length("outer"));
+        let (length, axis) = (self.length("length"), self.direction("axis"));
+        self.inner_below_outer(inner.as_ref(), outer.as_ref());
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
+            let section = subtract(circle(outer.clone()?), circle(inner.clone()?));
+            Some(multiply(section, length.clone()?))
+        });
+        let center = self.center(|| Some(zero()));
+        Some(Shape::Tube {
+            mass: mass?,
+            inner: inner?,
+            outer: outer?,
+            length: length?,
+            axis: axis?,
+            center: center?,
+        })
+    }
+
+    fn cuboid(&mut self) -> Option<Shape> {
+        let size = self.size();
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
+            let [x, y, z] = size.clone()?;
+            Some(multiply(multiply(x, y), z))
+        });
+        let center = self.center(|| Some(zero()));
+        Some(Shape::Cuboid {
+            mass: mass?,
+            size: size?,
+            center: center?,
+        })
+    }
+
+    fn sphere(&mut self) -> Option<Shape> {
+        let radius = self.length("radius");
+        let mass = self.mass_or_density(Dimension::DENSITY, || {
+            let cube = power_integer(radius.clone()?, 3);
+            Some(multiply(Expr::Number(4.0 / 3.0 * PI), cube))
+        });
+        let center = self.center(|| Some(zero()));
+        Some(Shape::Sphere {
+            mass: mass?,
+            radius: radius?,
+            center: center?,
+        })
+    }
+
+    fn rigid(&mut self) -> Option<Shape> {
+        let (mass, center) = (self.mass(), self.center(|| Some(zero())));
+        let about = self.place("about");
+        let inertia = self.inertia(mass.as_ref(), center.as_ref(), about.as_ref());
+        Some(Shape::Rigid {
+            mass: mass?,
+            center: center?,
+            inertia: inertia?,
+            about: match about {
+                Some(about) => Some(about?),
+                None => None,
+            },
+        })
+    }
+}
+
+/// The area of a circle.
+fn circle(radius: Expr) -> Expr {
+    multiply(Expr::Number(PI), power_integer(radius, 2))
+}

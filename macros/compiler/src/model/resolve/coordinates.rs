@@ -1,0 +1,83 @@
+//! The coordinates of a declaration, found before anything is resolved, so that everything can refer to them.
+
+use proc_macro2::Ident;
+
+use super::joints::kinds::Kind;
+use crate::base::dimension::Dimension;
+use crate::base::ids::JointId;
+use crate::model::mechanism::CoordinateQuantity;
+use crate::syntax::ast::{Ast, ItemKind, Joint, JointClause};
+
+/// A coordinate as declared, whether or not the rest of its joint is right. Its place in the list is its id.
+#[derive(Clone, Debug)]
+pub(super) struct Declared<'a> {
+    /// The joint's name when it is the only one, else its own.
+    pub(super) name: &'a Ident,
+    pub(super) joint: JointId,
+    /// Nothing when the joint is wrong.
+    pub(super) quantity: Option<CoordinateQuantity>,
+    pub(super) driven: bool,
+}
+
+/// The dimension of a coordinate.
+pub(super) fn dimension(quantity: CoordinateQuantity) -> Dimension {
+    match quantity {
+        CoordinateQuantity::Angle => Dimension::NONE,
+        CoordinateQuantity::Displacement => Dimension::LENGTH,
+    }
+}
+
+/// The dimension of its rate.
+pub(super) fn rate_dimension(quantity: CoordinateQuantity) -> Dimension {
+    match quantity {
+        CoordinateQuantity::Angle => Dimension::RATE,
+        CoordinateQuantity::Displacement => Dimension::SPEED,
+    }
+}
+
+/// All joints in order.
+pub(super) fn joints(ast: &Ast) -> impl Iterator<Item = &Joint> {
+    ast.items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Joint(joint) => Some(joint),
+        _ => None,
+    })
+}
+
+/// All coordinates in the order of their joints.
+pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
+    let mut coordinates = Vec::new();
+    for (index, joint) in joints(ast).enumerate() {
+        let id = JointId::new(index);
+        let kind = Kind::find(&joint.kind.to_string());
+        let motions = kind.map_or(&[][..], |kind| kind.motions);
+        if kind.is_some_and(Kind::has_one_coordinate) {
+            coordinates.push(Declared {
+                name: &joint.name,
+                joint: id,
+                quantity: motions.first().map(|motion| motion.quantity()),
+                driven: is_driven(joint, None) || is_driven(joint, Some(&joint.name)),
+            });
+            continue;
+        }
+        // A joint of an unknown kind may name coordinates too; `lead` is none of them.
+        let arguments = joint.arguments.iter().flatten();
+        let named = arguments.filter_map(|argument| argument.name.as_ref());
+        for (place, name) in named.filter(|name| *name != "lead").enumerate() {
+            coordinates.push(Declared {
+                name,
+                joint: id,
+                quantity: motions.get(place).map(|motion| motion.quantity()),
+                driven: is_driven(joint, Some(name)),
+            });
+        }
+    }
+    coordinates
+}
+
+/// A clause drives the coordinate of this name, or the only one.
+fn is_driven(joint: &Joint, name: Option<&Ident>) -> bool {
+    joint.clauses.iter().any(|clause| match clause {
+        JointClause::Drive(drive) => drive.coordinate.as_ref() == name,
+        JointClause::Placement { .. } => false,
+    })
+}

@@ -1,0 +1,47 @@
+//! Loads, and the resistance of a medium, at a point of a body.
+
+use super::super::Resolver;
+use super::super::arguments::Arguments;
+use super::super::expected::Expected;
+use crate::base::dimension::Dimension;
+use crate::base::ids::PointId;
+use crate::model::mechanism::ForceLaw;
+
+impl Resolver<'_> {
+    pub(super) fn load(&mut self, arguments: &Arguments, following: bool) -> Option<ForceLaw> {
+        let point = self.moving_point(arguments, "nothing moves under a load there");
+        let force = self.vector_or_zero(arguments, "force", Dimension::FORCE);
+        let moment = self.vector_or_zero(arguments, "moment", Expected::moment());
+        Some(ForceLaw::Load {
+            point: point?,
+            force: force?,
+            moment: moment?,
+            following,
+        })
+    }
+
+    pub(super) fn drag(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let point = self.moving_point(arguments, "it never moves");
+        let damping = Some(Dimension::DAMPING.into());
+        let damping = self.coefficient_or_zero(arguments, "damping", damping);
+        let turning = Some(Expected::rotary_damping());
+        let turning_damping = self.coefficient_or_zero(arguments, "turning_damping", turning);
+        Some(ForceLaw::Drag {
+            point: point?,
+            damping: damping?,
+            turning_damping: turning_damping?,
+        })
+    }
+
+    /// A point of a body; at one of the ground a force does nothing, and `reason` says so.
+    fn moving_point(&mut self, arguments: &Arguments, reason: &str) -> Option<PointId> {
+        let point = self.point_argument(arguments, "at")?;
+        if self.point_frame(point)? == "ground" {
+            let value = arguments.get("at")?;
+            let message = format!("this point is fixed in the ground: {reason}");
+            self.diagnostics.error(value.extent, message);
+            return None;
+        }
+        Some(point)
+    }
+}

@@ -1,0 +1,76 @@
+//! Forces between two points.
+
+use super::super::Resolver;
+use super::super::arguments::Arguments;
+use super::super::expected::Expected;
+use super::super::typed::Place;
+use crate::base::dimension::Dimension;
+use crate::base::ids::PointId;
+use crate::model::mechanism::ForceLaw;
+
+impl Resolver<'_> {
+    pub(super) fn spring_damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let ends = self.ends(arguments, "their distance never changes");
+        let stiffness = Some(Dimension::STIFFNESS.into());
+        let stiffness = self.coefficient(arguments, "stiffness", stiffness);
+        let damping = Some(Dimension::DAMPING.into());
+        let damping = self.coefficient_or_zero(arguments, "damping", damping);
+        let length = Some(Dimension::LENGTH.into());
+        let length = self.coefficient_or_zero(arguments, "length", length);
+        let (from, to) = ends?;
+        Some(ForceLaw::SpringDamper {
+            from,
+            to,
+            stiffness: stiffness?,
+            damping: damping?,
+            length: length?,
+        })
+    }
+
+    /// The law cannot be evaluated before the motion is known, so that only its dimension is checked.
+    pub(super) fn tension(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let ends = self.ends(arguments, "their distance never changes");
+        let law = arguments.get("law")?;
+        let (tension, quantity) = self.scalar(law, Place::Tension)?;
+        self.expect(quantity, Dimension::FORCE, "a tension", law)?;
+        let (from, to) = ends?;
+        Some(ForceLaw::Tension { from, to, tension })
+    }
+
+    pub(super) fn bushing(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let ends = self.ends(arguments, "nothing moves between them");
+        let stiffness = self.vector_or_zero(arguments, "stiffness", Dimension::STIFFNESS);
+        let damping = self.vector_or_zero(arguments, "damping", Dimension::DAMPING);
+        let turning_stiffness =
+            self.vector_or_zero(arguments, "turning_stiffness", Expected::rotary_stiffness());
+        let turning_damping =
+            self.vector_or_zero(arguments, "turning_damping", Expected::rotary_damping());
+        let (from, to) = ends?;
+        Some(ForceLaw::Bushing {
+            from,
+            to,
+            stiffness: stiffness?,
+            damping: damping?,
+            turning_stiffness: turning_stiffness?,
+            turning_damping: turning_damping?,
+        })
+    }
+
+    /// Between two points of one body nothing ever changes, so the element does nothing; `reason` says so.
+    fn ends(&mut self, arguments: &Arguments, reason: &str) -> Option<(PointId, PointId)> {
+        let from = self.point_argument(arguments, "from");
+        let to = self.point_argument(arguments, "to");
+        let (from, to) = (from?, to?);
+        let frame = self.point_frame(from);
+        let message = if from == to {
+            "both ends of this element are the same point".to_string()
+        } else if frame == self.point_frame(to) {
+            let frame = frame?;
+            format!("both ends of this element are fixed in `{frame}`: {reason}")
+        } else {
+            return Some((from, to));
+        };
+        self.diagnostics.error(arguments.get("to")?.extent, message);
+        None
+    }
+}

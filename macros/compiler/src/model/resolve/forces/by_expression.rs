@@ -1,0 +1,65 @@
+//! Forces that are expressions of the motion. They cannot be evaluated before it is known, so that only their
+//! dimensions are checked here.
+
+use super::super::Resolver;
+use super::super::arguments::Arguments;
+use super::super::expected::Expected;
+use super::super::typed::Place;
+use crate::base::dimension::Dimension;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{CoordinateQuantity, ForceLaw};
+
+impl Resolver<'_> {
+    pub(super) fn generalized(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let target = self.free_coordinate("generalized force", arguments);
+        let law = arguments.get("value")?;
+        let (value, found) = self.scalar(law, Place::GeneralizedForce)?;
+        let (coordinate, quantity) = target?;
+        let expected = match quantity {
+            CoordinateQuantity::Angle => Expected::moment(),
+            CoordinateQuantity::Displacement => Dimension::FORCE.into(),
+        };
+        self.expect(found, expected, "this generalized force", law)?;
+        Some(ForceLaw::Generalized { coordinate, value })
+    }
+
+    /// An energy that no coordinate enters exerts no force.
+    pub(super) fn potential(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let value = arguments.get("energy")?;
+        let (energy, quantity) = self.scalar(value, Place::Energy)?;
+        self.expect(quantity, Expected::energy(), "a potential", value)?;
+        if !self.moves(&energy) {
+            self.diagnostics.error_with_help(
+                value.extent,
+                "this energy never changes, so it exerts no force",
+                "write it with coordinates, or with positions of points",
+            );
+            return None;
+        }
+        Some(ForceLaw::Potential { energy })
+    }
+
+    /// The value changes with the motion.
+    fn moves(&self, value: &Expr) -> bool {
+        match value {
+            Expr::Number(_) | Expr::Design(_) | Expr::Input(_) | Expr::Constant(_) => false,
+            Expr::Position(point, _) => self
+                .point_frame(*point)
+                .is_some_and(|frame| frame != "ground"),
+            Expr::Coordinate(_)
+            | Expr::Rate(_)
+            | Expr::Length
+            | Expr::LengthRate
+            | Expr::Reaction(..)
+            | Expr::KineticEnergy
+            | Expr::PotentialEnergy => true,
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.moves(a),
+            Expr::Add(a, b)
+            | Expr::Subtract(a, b)
+            | Expr::Multiply(a, b)
+            | Expr::Divide(a, b)
+            | Expr::Power(a, b)
+            | Expr::Atan2(a, b) => self.moves(a) || self.moves(b),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! Springs and dampers on a coordinate.
+
+use super::super::Resolver;
+use super::super::arguments::Arguments;
+use super::super::expected::Expected;
+use crate::base::dimension::Dimension;
+use crate::base::ids::CoordinateId;
+use crate::model::mechanism::{CoordinateQuantity, ForceLaw};
+
+impl Resolver<'_> {
+    pub(super) fn spring(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let target = self.free_coordinate("spring", arguments);
+        let pick = |angle: Expected, displacement: Dimension| {
+            Some(match target?.1 {
+                CoordinateQuantity::Angle => angle,
+                CoordinateQuantity::Displacement => displacement.into(),
+            })
+        };
+        let stiffness = pick(Expected::rotary_stiffness(), Dimension::STIFFNESS);
+        let stiffness = self.coefficient(arguments, "stiffness", stiffness);
+        let rest = pick(Expected::angle(), Dimension::LENGTH);
+        let rest = self.coefficient_or_zero(arguments, "rest", rest);
+        Some(ForceLaw::CoordinateSpring {
+            coordinate: target?.0,
+            stiffness: stiffness?,
+            rest: rest?,
+        })
+    }
+
+    pub(super) fn damper(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
+        let target = self.free_coordinate("damper", arguments);
+        let damping = target.map(|(_, quantity)| match quantity {
+            CoordinateQuantity::Angle => Expected::rotary_damping(),
+            CoordinateQuantity::Displacement => Dimension::DAMPING.into(),
+        });
+        let damping = self.coefficient(arguments, "damping", damping);
+        Some(ForceLaw::CoordinateDamper {
+            coordinate: target?.0,
+            damping: damping?,
+        })
+    }
+
+    /// A force on a driven coordinate changes no motion: the drive takes whatever force it needs.
+    pub(super) fn free_coordinate(
+        &mut self,
+        word: &str,
+        arguments: &Arguments,
+    ) -> Option<(CoordinateId, CoordinateQuantity)> {
+        let name = self.name_of(arguments.get("on")?, "coordinate")?;
+        let found = self.coordinate(name)?;
+        if self.coordinates.get(found.0.index())?.driven {
+            self.diagnostics.error_with_help(
+                name,
+                format!("`{name}` is driven; a {word} on it has no effect on the motion"),
+                format!("remove the {word}, or the drive"),
+            );
+            return None;
+        }
+        Some(found)
+    }
+}

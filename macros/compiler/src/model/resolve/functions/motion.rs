@@ -1,0 +1,106 @@
+//! Functions of where things are, how fast they move, and what that takes.
+
+use proc_macro2::Ident;
+
+use super::super::typed::{Place, Quantity, Typed};
+use super::super::{Resolver, coordinates};
+use crate::base::dimension::Dimension;
+use crate::model::expression::{Expr, Vector};
+use crate::model::simplify;
+use crate::syntax::ast::{ItemKind, Value, ValueKind};
+
+/// Force laws that do not tell how much energy they store.
+const WITHOUT_ENERGY: [&str; 3] = ["tension", "generalized", "bushing"];
+
+impl Resolver<'_> {
+    pub(super) fn of_motion(
+        &mut self,
+        name: &str,
+        function: &Ident,
+        arguments: &[Value],
+        place: Place,
+    ) -> Option<Typed> {
+        let length = Quantity::Of(Dimension::LENGTH);
+        let energy = Quantity::Of(Dimension::MOMENT);
+        Some(match (name, arguments) {
+            ("position", [point]) => Typed::Vector(self.position_of(point)?, length),
+            ("distance", [from, to]) => {
+                let (from, to) = (self.position_of(from), self.position_of(to));
+                let apart = simplify::componentwise(to?, from?, simplify::subtract);
+                Typed::Scalar(simplify::norm(&apart), length)
+            }
+            ("distance_from_axis", [point, axis]) => {
+                let (point, axis) = (self.position_of(point), self.direction(axis, place));
+                let arm = simplify::cross(&axis?, &point?);
+                Typed::Scalar(simplify::norm(&arm), length)
+            }
+            ("rate", [coordinate]) => {
+                let name = self.name_of(coordinate, "coordinate")?;
+                let (coordinate, quantity) = self.coordinate(name)?;
+                let rate = Quantity::Of(coordinates::rate_dimension(quantity));
+                Typed::Scalar(Expr::Rate(coordinate), rate)
+            }
+            ("reaction_force" | "reaction_moment", [joint]) => {
+                let name_of_joint = self.name_of(joint, "joint")?;
+                let joint = self.joint_named(name_of_joint)?;
+                let (first, quantity) = match name {
+                    "reaction_force" => (0, Quantity::Of(Dimension::FORCE)),
+                    _ => (3, Quantity::Of(Dimension::MOMENT)),
+                };
+                let vector = [0, 1, 2].map(|axis| Expr::Reaction(joint, first + axis));
+                Typed::Vector(vector, quantity)
+            }
+            ("kinetic_energy", []) => Typed::Scalar(Expr::KineticEnergy, energy),
+            ("potential_energy", []) => {
+                self.energy_is_known(function)?;
+                Typed::Scalar(Expr::PotentialEnergy, energy)
+            }
+            // The number of arguments has been checked.
+            _ => return None,
+        })
+    }
+
+    /// An expression of a force does not tell its potential.
+    fn energy_is_known(&mut self, function: &Ident) -> Option<()> {
+        let unknown = self.ast.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Force(force) => {
+                let word = force.law.word.to_string();
+                WITHOUT_ENERGY
+                    .contains(&word.as_str())
+                    .then_some((&force.name, word))
+            }
+            _ => None,
+        });
+        let Some((name, word)) = unknown else {
+            return Some(());
+        };
+        self.diagnostics.error_with_help(
+            function,
+            format!("the energy of `{name}` is unknown: a {word} gives its force only"),
+            "write the force as a `potential`, or leave out this output",
+        );
+        None
+    }
+
+    fn position_of(&mut self, point: &Value) -> Option<Vector> {
+        let name = self.name_of(point, "point")?;
+        let point = self.point_named(name)?;
+        Some([0, 1, 2].map(|axis| Expr::Position(point, axis)))
+    }
+
+    /// An argument that must be a name.
+    pub(in crate::model::resolve) fn name_of<'v>(
+        &mut self,
+        value: &'v Value,
+        kind: &str,
+    ) -> Option<&'v Ident> {
+        match &value.bare().kind {
+            ValueKind::Name(name) => Some(name),
+            _ => {
+                let message = format!("the name of a {kind} is expected here");
+                self.diagnostics.error(value.extent, message);
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Bodies: sums of shapes with named arguments.
+
+use proc_macro2::Delimiter;
+
+use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term};
+use super::super::tokens::{Parsed, Tokens};
+use super::item::{colon, declared_name};
+use super::placement::placement;
+use super::value::value;
+
+const SHAPE: &str = "a shape such as `rod` or `massless`";
+
+/// Reads a body after its keyword.
+pub(super) fn body(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let name = declared_name(tokens)?;
+    colon(tokens)?;
+    // A leading minus is a mistake that a rule explains.
+    let mut hole = tokens.sign('-').is_some();
+    let mut terms = Vec::new();
+    loop {
+        let shape = named_call(tokens, SHAPE)?;
+        let placement = placement(tokens)?;
+        terms.push(Term {
+            hole,
+            shape,
+            placement,
+        });
+        hole = if tokens.sign('+').is_some() {
+            false
+        } else if tokens.sign('-').is_some() {
+            true
+        } else {
+            return Ok(ItemKind::Body(Body { name, terms }));
+        };
+    }
+}
+
+/// Reads a word with named arguments.
+pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
+    // No name is declared here, so Rust's keyword `box` will do.
+    let Some(word) = tokens.ident() else {
+        return tokens.expected(what);
+    };
+    let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
+        return Ok(NamedCall {
+            word,
+            arguments: None,
+        });
+    };
+    let mut arguments = Vec::new();
+    while !content.is_empty() {
+        if !content.peek_named() {
+            return content.expected("a named argument such as `mass: 3 kg`");
+        }
+        let name = content.name("an argument")?;
+        colon(&mut content)?;
+        let value = value(&mut content)?;
+        arguments.push(Argument { name, value });
+        if !content.is_empty() {
+            content.expect_sign(',', "`,` or an operator")?;
+        }
+    }
+    Ok(NamedCall {
+        word,
+        arguments: Some(arguments),
+    })
+}

@@ -1,0 +1,87 @@
+//! Joints: a kind with its axes, two frames, placements and drives.
+
+use proc_macro2::Delimiter;
+
+use super::super::ast::{Drive, ItemKind, Joint, JointArgument, JointClause};
+use super::super::tokens::{Parsed, Tokens};
+use super::item::{colon, declared_name};
+use super::placement::placement;
+use super::value::value;
+
+/// Reads a joint after its keyword.
+pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let name = declared_name(tokens)?;
+    colon(tokens)?;
+    let kind = tokens.name("a joint such as `revolute(z)`")?;
+    let arguments = match tokens.group(Delimiter::Parenthesis) {
+        Some((_, mut content, _)) => Some(arguments(&mut content)?),
+        None => None,
+    };
+    tokens.expect_word("from")?;
+    let from = tokens.name("a body or `ground`")?;
+    tokens.expect_word("to")?;
+    let to = tokens.name("a body or `ground`")?;
+    let mut clauses = Vec::new();
+    loop {
+        let comma = tokens.sign(',').is_some();
+        match clause(tokens)? {
+            Some(clause) => clauses.push(clause),
+            None if comma => return tokens.expected("`at`, `rotated` or `driven`"),
+            None => break,
+        }
+    }
+    Ok(ItemKind::Joint(Joint {
+        name,
+        kind,
+        arguments,
+        from,
+        to,
+        clauses,
+    }))
+}
+
+/// Reads values, each with or without a name, to the end of a group.
+fn arguments(tokens: &mut Tokens) -> Parsed<Vec<JointArgument>> {
+    let mut arguments = Vec::new();
+    while !tokens.is_empty() {
+        let name = if tokens.peek_named() {
+            let name = declared_name(tokens)?;
+            colon(tokens)?;
+            Some(name)
+        } else {
+            None
+        };
+        let value = value(tokens)?;
+        arguments.push(JointArgument { name, value });
+        if !tokens.is_empty() {
+            tokens.expect_sign(',', "`,` or an operator")?;
+        }
+    }
+    Ok(arguments)
+}
+
+fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
+    if let Some(placement) = placement(tokens)? {
+        let on = match tokens.word("on") {
+            Some(_) => Some(tokens.name("a body or `ground`")?),
+            None => None,
+        };
+        return Ok(Some(JointClause::Placement { placement, on }));
+    }
+    let mut ahead = *tokens;
+    let is_named = ahead.ident().is_some() && ahead.peek_word("driven");
+    let coordinate = match is_named {
+        true => Some(tokens.name("a coordinate")?),
+        false => None,
+    };
+    let Some(keyword) = tokens.word("driven") else {
+        return Ok(None);
+    };
+    tokens.expect_word("at")?;
+    let speed = value(tokens)?;
+    Ok(Some(JointClause::Drive(Drive {
+        coordinate,
+        keyword,
+        speed,
+    })))
+}

@@ -1,0 +1,108 @@
+//! First-order spread of the values of an input at which something happens: critical speeds and resonances.
+
+use super::Tolerances;
+use crate::equilibrium::{CriticalState, Crossing};
+use crate::sensitivity::{critical_sensitivity, crossing_sensitivity};
+use crate::{Description, Error, Input, Mechanism};
+
+/// What happens at a value of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// The lowest mode loses its stiffness.
+    Critical,
+    /// The frequency of a mode equals `ratio` times the input.
+    Crossing {
+        /// Position of the mode, from 0.
+        mode: usize,
+        /// `k` in `omega_j = k u`.
+        ratio: f64,
+    },
+}
+
+/// A value of an input at which something happens, and how tolerances move it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventTolerance<const P: usize> {
+    /// What happens.
+    pub event: Event,
+    /// The input.
+    pub input: Input,
+    /// Its nominal value there, SI.
+    pub value: f64,
+    /// How the value moves, or why it has no derivative.
+    pub spread: Result<EventSpread<P>, Error>,
+    /// How many standard deviations a tolerance and a band hold.
+    pub sigma_level: f64,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const P: usize> EventTolerance<P> {
+    /// Standard deviation of the value, SI; `None` where it has no derivative.
+    pub fn sigma(&self) -> Option<f64> {
+        self.spread.as_ref().ok().map(|spread| spread.sigma)
+    }
+}
+
+/// First-order spread of the value at which something happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventSpread<const P: usize> {
+    /// `du/db`, SI unit of the input by that of the design variable.
+    pub by_design: [f64; P],
+    /// Standard deviation, SI.
+    pub sigma: f64,
+    /// Half-width that holds as many standard deviations as the tolerances do, SI.
+    pub band: f64,
+    /// Share of each design variable in the variance.
+    pub variance_shares: [f64; P],
+}
+
+/// Spread of a critical value ([`critical_sensitivity`]).
+pub fn critical_tolerance<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    critical: &CriticalState<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> EventTolerance<P>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    EventTolerance {
+        event: Event::Critical,
+        input: critical.input,
+        value: critical.value,
+        spread: critical_sensitivity(mechanism, critical).map(|slopes| spread(slopes, tolerances)),
+        sigma_level: tolerances.sigma_level(),
+        description: critical.equilibrium.description,
+    }
+}
+
+/// Spread of a crossing ([`crossing_sensitivity`]).
+pub fn crossing_tolerance<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    crossing: &Crossing<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> EventTolerance<P>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    EventTolerance {
+        event: Event::Crossing {
+            mode: crossing.mode,
+            ratio: crossing.ratio,
+        },
+        input: crossing.input,
+        value: crossing.value,
+        spread: crossing_sensitivity(mechanism, crossing).map(|slopes| spread(slopes, tolerances)),
+        sigma_level: tolerances.sigma_level(),
+        description: crossing.equilibrium.description,
+    }
+}
+
+fn spread<const P: usize>(by_design: [f64; P], tolerances: &Tolerances<P>) -> EventSpread<P> {
+    let (sigma, variance_shares) = tolerances.spread(&by_design);
+    EventSpread {
+        by_design,
+        sigma,
+        band: tolerances.sigma_level() * sigma,
+        variance_shares,
+    }
+}

@@ -1,0 +1,18 @@
+//! A mass where a length belongs.
+
+use eigentol::mechanism;
+
+mechanism! {
+    pub mechanism Pendulum {
+        input omega: rad/s;
+        design m = 3 kg;
+        design l = 1 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: m, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+fn main() {}

@@ -1,0 +1,20 @@
+//! Arrays have the size of the mechanism.
+
+use eigentol::{Mechanism, mechanism};
+
+mechanism! {
+    pub mechanism Pendulum {
+        input omega: rad/s;
+        design m = 3 kg;
+        design l = 1 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+fn main() {
+    let _ = Pendulum.residual(&[0.1, 0.2], &[5.0], &[3.0, 1.0]);
+}

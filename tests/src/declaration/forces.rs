@@ -1,0 +1,152 @@
+//! Force elements and their expressions.
+
+use super::quantities::Printer;
+use crate::model::{Coordinate, Expr, Force, ForceLaw, Motion, Unit};
+
+impl Printer<'_> {
+    fn motion(&self, coordinate: Coordinate) -> Motion {
+        self.model.step(coordinate).motion
+    }
+
+    fn name(&self, coordinate: Coordinate) -> &str {
+        &self.model.step(coordinate).name
+    }
+
+    fn end(&self, point: usize) -> &str {
+        &self.model.points[point].name
+    }
+
+    pub(super) fn force(&self, force: &Force) -> String {
+        format!("force {}: {};", force.name, self.law(&force.law))
+    }
+
+    fn law(&self, law: &ForceLaw) -> String {
+        match law {
+            ForceLaw::Spring {
+                coordinate,
+                stiffness,
+                rest,
+            } => {
+                let motion = self.motion(*coordinate);
+                format!(
+                    "spring(on: {}, stiffness: {}, rest: {})",
+                    self.name(*coordinate),
+                    self.value(*stiffness, motion.stiffness_unit()),
+                    self.value(*rest, motion.unit())
+                )
+            }
+            ForceLaw::Damper {
+                coordinate,
+                damping,
+            } => {
+                let unit = self.motion(*coordinate).damping_unit();
+                let (name, damping) = (self.name(*coordinate), self.value(*damping, unit));
+                format!("damper(on: {name}, damping: {damping})")
+            }
+            ForceLaw::SpringDamper {
+                from,
+                to,
+                stiffness,
+                damping,
+                length,
+            } => format!(
+                "spring_damper(from: {}, to: {}, stiffness: {}, damping: {}, length: {})",
+                self.end(*from),
+                self.end(*to),
+                self.value(*stiffness, Unit::NewtonPerMetre),
+                self.value(*damping, Unit::NewtonSecondPerMetre),
+                self.value(*length, Unit::Metre)
+            ),
+            ForceLaw::Tension { from, to, tension } => format!(
+                "tension(from: {}, to: {}, law: {})",
+                self.end(*from),
+                self.end(*to),
+                self.expression(tension)
+            ),
+            ForceLaw::Generalized { coordinate, value } => format!(
+                "generalized(on: {}, value: {})",
+                self.name(*coordinate),
+                self.expression(value)
+            ),
+            ForceLaw::Potential { energy } => {
+                format!("potential(energy: {})", self.expression(energy))
+            }
+            ForceLaw::Bushing {
+                from,
+                to,
+                stiffness,
+                damping,
+                turning_stiffness,
+                turning_damping,
+            } => format!(
+                "bushing(from: {}, to: {}, stiffness: {}, damping: {}, turning_stiffness: {}, turning_damping: {})",
+                self.end(*from),
+                self.end(*to),
+                self.vector(stiffness, Unit::NewtonPerMetre),
+                self.vector(damping, Unit::NewtonSecondPerMetre),
+                self.vector(turning_stiffness, Unit::NewtonMetrePerRadian),
+                self.vector(turning_damping, Unit::NewtonMetreSecondPerRadian)
+            ),
+            ForceLaw::Load {
+                point,
+                force,
+                moment,
+                following,
+            } => format!(
+                "{}(at: {}, force: {}, moment: {})",
+                if *following { "follower" } else { "load" },
+                self.end(*point),
+                self.vector(force, Unit::Newton),
+                self.vector(moment, Unit::NewtonMetre)
+            ),
+            ForceLaw::Drag {
+                point,
+                damping,
+                turning_damping,
+            } => format!(
+                "drag(at: {}, damping: {}, turning_damping: {})",
+                self.end(*point),
+                self.value(*damping, Unit::NewtonSecondPerMetre),
+                self.value(*turning_damping, Unit::NewtonMetreSecondPerRadian)
+            ),
+        }
+    }
+
+    /// A sum, without parentheses around it.
+    fn expression(&self, expr: &Expr) -> String {
+        match expr {
+            Expr::Sum(parts) => {
+                let parts: Vec<String> = parts.iter().map(|part| self.factor(part)).collect();
+                parts.join(" + ")
+            }
+            other => self.factor(other),
+        }
+    }
+
+    /// An operand: in parentheses where something could tear it apart.
+    fn factor(&self, expr: &Expr) -> String {
+        match expr {
+            Expr::Value(value, unit) => format!("({})", self.value(*value, *unit)),
+            Expr::Input(input) => self.model.inputs[*input].name.clone(),
+            Expr::Coordinate(coordinate) => self.name(*coordinate).to_owned(),
+            Expr::Rate(coordinate) => format!("rate({})", self.name(*coordinate)),
+            Expr::Position(point, axis) => {
+                let component = ["x", "y", "z"][*axis];
+                format!("position({}).{component}", self.end(*point))
+            }
+            Expr::Distance(from, to) => {
+                format!("distance({}, {})", self.end(*from), self.end(*to))
+            }
+            Expr::Length => "length".to_owned(),
+            Expr::LengthRate => "rate".to_owned(),
+            Expr::Sum(_) => format!("({})", self.expression(expr)),
+            Expr::Product(parts) => {
+                let parts: Vec<String> = parts.iter().map(|part| self.factor(part)).collect();
+                parts.join(" * ")
+            }
+            Expr::Power(base, exponent) => format!("({})^{exponent}", self.expression(base)),
+            Expr::Sine(angle) => format!("sin({})", self.expression(angle)),
+            Expr::Cosine(angle) => format!("cos({})", self.expression(angle)),
+        }
+    }
+}

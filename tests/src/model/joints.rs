@@ -1,0 +1,179 @@
+//! Joints and the coordinates they bring.
+
+use super::values::{Unit, Value};
+use super::{Frame, Placement};
+
+/// The word a joint is declared with; it says which motions follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Word {
+    /// No motion.
+    Fixed,
+    /// A turn.
+    Revolute,
+    /// A slide.
+    Prismatic,
+    /// A screw.
+    Screw,
+    /// A slide and a turn along the same axis.
+    Cylindrical,
+    /// Two turns.
+    Universal,
+    /// Two slides and a turn perpendicular to them.
+    Planar,
+    /// Three turns.
+    Spherical,
+    /// Three slides and three turns.
+    Free,
+}
+
+/// An elementary motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// Rotation about the axis by the coordinate.
+    Turn,
+    /// Translation along the axis by the coordinate.
+    Slide,
+    /// Rotation about the axis by the coordinate, and translation along it.
+    Screw {
+        /// Translation per radian.
+        lead: Value,
+    },
+}
+
+impl Motion {
+    /// Unit of the coordinate.
+    pub fn unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::Metre,
+            Self::Turn | Self::Screw { .. } => Unit::Radian,
+        }
+    }
+
+    /// Unit of the coordinate's speed.
+    pub fn rate_unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::MetrePerSecond,
+            Self::Turn | Self::Screw { .. } => Unit::RadianPerSecond,
+        }
+    }
+
+    /// Unit of a generalised force along the coordinate.
+    pub fn force_unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::Newton,
+            Self::Turn | Self::Screw { .. } => Unit::NewtonMetre,
+        }
+    }
+
+    /// Unit of a stiffness on the coordinate.
+    pub fn stiffness_unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::NewtonPerMetre,
+            Self::Turn | Self::Screw { .. } => Unit::NewtonMetrePerRadian,
+        }
+    }
+
+    /// Unit of a damping on the coordinate.
+    pub fn damping_unit(self) -> Unit {
+        match self {
+            Self::Slide => Unit::NewtonSecondPerMetre,
+            Self::Turn | Self::Screw { .. } => Unit::NewtonMetreSecondPerRadian,
+        }
+    }
+}
+
+/// A prescribed constant speed `factor * input`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Index of the input.
+    pub input: usize,
+    /// Pure number.
+    pub factor: f64,
+}
+
+/// One elementary motion of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Name of its coordinate: the joint's when the step is the only one.
+    pub name: String,
+    /// Its kind.
+    pub motion: Motion,
+    /// Axis in the frame that the steps before have left; not necessarily a unit vector.
+    pub axis: [f64; 3],
+    /// How it is driven, if it is.
+    pub drive: Option<Drive>,
+}
+
+impl Step {
+    /// A free step without a name.
+    pub fn new(motion: Motion, axis: [f64; 3]) -> Self {
+        Self {
+            name: String::new(),
+            motion,
+            axis,
+            drive: None,
+        }
+    }
+
+    /// The same step with a name.
+    pub fn named(self, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..self
+        }
+    }
+
+    /// The same step, driven at `factor * input`.
+    pub fn driven(self, input: usize, factor: f64) -> Self {
+        Self {
+            drive: Some(Drive { input, factor }),
+            ..self
+        }
+    }
+}
+
+/// A joint: its steps take its frame in `from` into its frame in `to`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Declared name.
+    pub name: String,
+    /// What it is called.
+    pub word: Word,
+    /// Its motions from `from` to `to`.
+    pub steps: Vec<Step>,
+    /// One side; not necessarily the one nearer to the ground.
+    pub from: Frame,
+    /// The other side.
+    pub to: Frame,
+    /// Joint frame in `from`.
+    pub from_placement: Placement,
+    /// Joint frame in `to`.
+    pub to_placement: Placement,
+}
+
+impl Joint {
+    /// A joint between the frames of two bodies. A single step takes the joint's name.
+    pub fn new(name: &str, word: Word, mut steps: Vec<Step>, from: Frame, to: Frame) -> Self {
+        if let [single] = &mut steps[..] {
+            name.clone_into(&mut single.name);
+        }
+        Self {
+            name: name.to_owned(),
+            word,
+            steps,
+            from,
+            to,
+            from_placement: Placement::NONE,
+            to_placement: Placement::NONE,
+        }
+    }
+}
+
+/// A coordinate: a step of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Coordinate {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Index of the step in it.
+    pub step: usize,
+}

@@ -1,0 +1,188 @@
+//! Applied forces `Q` on the bodies: for each a force and a moment about its centre of mass, in the ground frame; and
+//! forces along coordinates, which by definition do work on theirs alone.
+//!
+//! Velocities are the rates of positions: everything is placed a second time, in dual numbers along the motion.
+
+mod at_points;
+mod between_points;
+mod expressions;
+
+use num_dual::Dual;
+
+use super::bodies::{placement, value, vector};
+use super::kinematics::Configuration;
+use super::scalar::still;
+use super::space::{Matrix, Pose, Vector};
+use super::{Oracle, Scalar, State};
+use crate::model::{Coordinate, Force, ForceLaw, Frame, Value, Values};
+
+/// Where the bodies are and how fast they go.
+pub(crate) struct Moving<'a, D> {
+    pub(crate) at: &'a Configuration<D>,
+    /// The same with its rate of time.
+    pub(crate) moving: &'a Configuration<Dual<D>>,
+    /// Driven coordinates and their speeds.
+    pub(crate) driven: (&'a [D], &'a [D]),
+    pub(crate) state: &'a State<D>,
+}
+
+/// A sum of forces.
+struct Efforts<'a, D> {
+    at: &'a Configuration<D>,
+    /// `Q`, arranged as the rows of `B`.
+    bodies: Vec<D>,
+    /// Along the free coordinates.
+    free: Vec<D>,
+}
+
+impl<D: Scalar> Efforts<'_, D> {
+    /// Adds a force that acts at a point; on the ground it does nothing.
+    fn push(&mut self, frame: Frame, force: Vector<D>, point: Vector<D>) {
+        if let Frame::Body(body) = frame {
+            let rows = &mut self.bodies[6 * body..6 * body + 3];
+            for (sum, component) in rows.iter_mut().zip(force.0) {
+                *sum += component;
+            }
+            self.turn(frame, (point - self.at.centers[body]).cross(force));
+        }
+    }
+
+    /// Adds a moment; on the ground it does nothing.
+    fn turn(&mut self, frame: Frame, moment: Vector<D>) {
+        if let Frame::Body(body) = frame {
+            let rows = &mut self.bodies[6 * body + 3..6 * body + 6];
+            for (sum, component) in rows.iter_mut().zip(moment.0) {
+                *sum += component;
+            }
+        }
+    }
+}
+
+impl Oracle<'_> {
+    /// `Q`, arranged as the rows of `B`, and forces along the free coordinates.
+    pub(crate) fn applied_forces<D: Scalar>(
+        &self,
+        moving: &Moving<D>,
+        mass: &[D],
+    ) -> (Vec<D>, Vec<D>) {
+        let mut efforts = Efforts {
+            at: moving.at,
+            bodies: vec![D::zero(); 6 * mass.len()],
+            free: vec![D::zero(); self.free.len()],
+        };
+        let gravity = self.in_ground(vector(&self.model.gravity, &moving.state.design));
+        for (body, &mass) in mass.iter().enumerate() {
+            let (weight, center) = (gravity.scaled(mass), moving.at.centers[body]);
+            efforts.push(Frame::Body(body), weight, center);
+        }
+        for force in &self.model.forces {
+            self.element(&mut efforts, moving, force);
+        }
+        (efforts.bodies, efforts.free)
+    }
+
+    fn element<D: Scalar>(&self, efforts: &mut Efforts<D>, moving: &Moving<D>, force: &Force) {
+        let get = |v: Value| value(v, &moving.state.design);
+        let all = |v: &Values| vector(v, &moving.state.design);
+        match &force.law {
+            // Q = -k (q - q0)
+            &ForceLaw::Spring {
+                coordinate,
+                stiffness,
+                rest,
+            } => {
+                let position = self.position(moving, coordinate);
+                let effort = get(stiffness) * (get(rest) - position);
+                self.act(efforts, coordinate, effort);
+            }
+            // Q = -c qdot
+            &ForceLaw::Damper {
+                coordinate,
+                damping,
+            } => {
+                let speed = self.speed(moving, coordinate);
+                self.act(efforts, coordinate, -get(damping) * speed);
+            }
+            ForceLaw::Generalized { coordinate, value } => {
+                let effort = self.of_motion(moving, value);
+                self.act(efforts, *coordinate, effort);
+            }
+            ForceLaw::Potential { energy } => self.potential(efforts, moving, energy),
+            // tension = k (d - L) + c ddot
+            &ForceLaw::SpringDamper {
+                from,
+                to,
+                stiffness,
+                damping,
+                length,
+            } => self.tension(efforts, moving, [from, to], |distance, rate| {
+                get(stiffness) * (distance - get(length)) + get(damping) * rate
+            }),
+            ForceLaw::Tension { from, to, tension } => {
+                self.tension(efforts, moving, [*from, *to], |distance, rate| {
+                    self.of_length(moving, tension, distance, rate)
+                });
+            }
+            ForceLaw::Bushing {
+                from,
+                to,
+                stiffness,
+                damping,
+                turning_stiffness,
+                turning_damping,
+            } => {
+                let linear = [all(stiffness), all(damping)];
+                let turning = [all(turning_stiffness), all(turning_damping)];
+                self.bushing(efforts, moving, [*from, *to], linear, turning);
+            }
+            ForceLaw::Load {
+                point,
+                force,
+                moment,
+                following,
+            } => self.load(
+                efforts,
+                moving,
+                *point,
+                [all(force), all(moment)],
+                *following,
+            ),
+            &ForceLaw::Drag {
+                point,
+                damping,
+                turning_damping,
+            } => self.drag(efforts, moving, point, [get(damping), get(turning_damping)]),
+        }
+    }
+
+    /// A force along a coordinate. One that is driven goes its way whatever pulls at it.
+    fn act<D: Scalar>(&self, efforts: &mut Efforts<D>, coordinate: Coordinate, effort: D) {
+        if let Some(index) = self.free.iter().position(|&other| other == coordinate) {
+            efforts.free[index] += effort;
+        }
+    }
+
+    fn position<D: Scalar>(&self, moving: &Moving<D>, coordinate: Coordinate) -> D {
+        self.coordinate(coordinate, &moving.state.position, moving.driven.0)
+    }
+
+    fn speed<D: Scalar>(&self, moving: &Moving<D>, coordinate: Coordinate) -> D {
+        self.coordinate(coordinate, &moving.state.velocity, moving.driven.1)
+    }
+
+    /// Components along the axes of the declared ground, in the frame of computation.
+    fn in_ground<D: Scalar>(&self, components: Vector<D>) -> Vector<D> {
+        Matrix::constant(self.ground) * components
+    }
+
+    /// The frame of a point with its rate of time.
+    fn point<D: Scalar>(&self, moving: &Moving<D>, point: usize) -> Pose<Dual<D>> {
+        let point = &self.model.points[point];
+        let design = still(&moving.state.design);
+        moving.moving.pose(point.frame) * placement(&point.placement, &design)
+    }
+
+    fn frame_of(&self, point: usize) -> Frame {
+        self.model.points[point].frame
+    }
+}

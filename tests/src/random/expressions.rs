@@ -1,0 +1,159 @@
+//! Random expressions of force laws and energies, every term of the right dimension.
+
+use super::tree::Builder;
+use super::values::Source;
+use crate::model::{Coordinate, Expr, Unit};
+
+impl Source {
+    /// A factor in an interval, with either sign, that turns a product of such units into `whole`.
+    fn factor(&mut self, (low, high): (f64, f64), whole: Unit, others: &[Unit]) -> Expr {
+        let unit = whole.over(others);
+        let size = self.random.between(low, high);
+        let number = self.random.signed(size);
+        Expr::Value(self.value(number, unit), unit)
+    }
+
+    fn positive(&mut self, (low, high): (f64, f64), whole: Unit, others: &[Unit]) -> Expr {
+        let unit = whole.over(others);
+        Expr::Value(self.between(low, high, unit), unit)
+    }
+
+    /// `k (length - L) + k3 (length - L)^3 + c rate + c2 rate length`.
+    pub(super) fn tension(&mut self) -> Expr {
+        let (metre, speed) = (Unit::Metre, Unit::MetrePerSecond);
+        let free = Expr::Value(self.between(0.1, 0.8, metre), metre);
+        let stretch = Expr::Length.minus(free);
+        let cube = Expr::Power(Box::new(stretch.clone()), 3);
+        Expr::Sum(vec![
+            Expr::Product(vec![
+                self.positive((10.0, 100.0), Unit::Newton, &[metre]),
+                stretch,
+            ]),
+            Expr::Product(vec![
+                self.factor((1.0, 20.0), Unit::Newton, &[metre; 3]),
+                cube,
+            ]),
+            Expr::Product(vec![
+                self.positive((0.1, 2.0), Unit::Newton, &[speed]),
+                Expr::LengthRate,
+            ]),
+            Expr::Product(vec![
+                self.factor((0.1, 1.0), Unit::Newton, &[speed, metre]),
+                Expr::LengthRate,
+                Expr::Length,
+            ]),
+        ])
+    }
+}
+
+impl Builder {
+    fn units(&self, coordinate: Coordinate) -> [Unit; 3] {
+        let motion = self.joints[coordinate.joint].steps[coordinate.step].motion;
+        [motion.unit(), motion.rate_unit(), motion.force_unit()]
+    }
+
+    fn term(&mut self, range: (f64, f64), whole: Unit, parts: Vec<(Expr, Unit)>) -> Expr {
+        let units: Vec<Unit> = parts.iter().map(|part| part.1).collect();
+        let mut factors = vec![self.source.factor(range, whole, &units)];
+        factors.extend(parts.into_iter().map(|part| part.0));
+        Expr::Product(factors)
+    }
+
+    /// `-k q - k3 q^3 - c rate(q)`, and couplings with another free coordinate, with the speed of any coordinate, with an
+    /// input.
+    pub(super) fn generalized(
+        &mut self,
+        coordinate: Coordinate,
+        free: &[Coordinate],
+        all: &[Coordinate],
+    ) -> Expr {
+        let [unit, rate_unit, force] = self.units(coordinate);
+        let q = Expr::Coordinate(coordinate);
+        let stiffness = self.source.positive((5.0, 80.0), force, &[unit]);
+        let hardening = self.source.positive((1.0, 10.0), force, &[unit; 3]);
+        let damping = self.source.positive((0.1, 2.0), force, &[rate_unit]);
+        let cube = Expr::Power(Box::new(q.clone()), 3);
+        let mut terms = vec![
+            Expr::Product(vec![stiffness, q.clone()]).times(-1.0),
+            Expr::Product(vec![hardening, cube]).times(-1.0),
+            Expr::Product(vec![damping, Expr::Rate(coordinate)]).times(-1.0),
+        ];
+        let random = &mut self.source.random;
+        let (other, moving) = (free[random.below(free.len())], all[random.below(all.len())]);
+        let [other_unit, ..] = self.units(other);
+        let [_, moving_unit, _] = self.units(moving);
+        let input = (!self.inputs.is_empty()).then(|| self.source.random.below(self.inputs.len()));
+        if other != coordinate {
+            let other = (Expr::Coordinate(other), other_unit);
+            terms.push(self.term((1.0, 8.0), force, vec![other]));
+        }
+        if self.source.random.chance(0.4) {
+            let rate = (Expr::Rate(moving), moving_unit);
+            terms.push(self.term((0.1, 1.0), force, vec![rate]));
+        }
+        if let Some(input) = input.filter(|_| self.source.random.chance(0.5)) {
+            let input = (Expr::Input(input), self.inputs[input].unit);
+            terms.push(self.term((0.1, 1.0), force, vec![input, (q, unit)]));
+        }
+        Expr::Sum(terms)
+    }
+
+    /// `1/2 k (q1 - q2)^2` of like coordinates, `1/2 k q^2 + g q1 q2` of unlike ones, `-m cos q` of angles.
+    pub(super) fn energy_of_coordinates(
+        &mut self,
+        coordinate: Coordinate,
+        free: &[Coordinate],
+    ) -> Expr {
+        let energy = Unit::NewtonMetre;
+        let other = free[self.source.random.below(free.len())];
+        let ([unit, ..], [other_unit, ..]) = (self.units(coordinate), self.units(other));
+        let (q, p) = (Expr::Coordinate(coordinate), Expr::Coordinate(other));
+        let stiffness = self.source.positive((5.0, 80.0), energy, &[unit; 2]);
+        let half = |stretch: Expr, k: Expr| {
+            Expr::Product(vec![
+                Expr::number(0.5),
+                k,
+                Expr::Power(Box::new(stretch), 2),
+            ])
+        };
+        if unit == other_unit && other != coordinate && self.source.random.chance(0.6) {
+            return half(q.minus(p), stiffness);
+        }
+        let mut terms = vec![half(q.clone(), stiffness)];
+        if other != coordinate {
+            terms.push(self.term((0.5, 5.0), energy, vec![(q.clone(), unit), (p, other_unit)]));
+        }
+        if unit == Unit::Radian {
+            let wave = Expr::Cosine(Box::new(q.times(2.0)));
+            terms.push(self.term((0.5, 5.0), energy, vec![(wave, Unit::Radian)]));
+        }
+        Expr::Sum(terms)
+    }
+
+    /// `k distance(P, Q)`, or `1/2 k (distance(P, Q) - L)^2`.
+    pub(super) fn energy_of_distance(&mut self, from: usize, to: usize) -> Expr {
+        let distance = Expr::Distance(from, to);
+        let (metre, energy) = (Unit::Metre, Unit::NewtonMetre);
+        if self.source.random.chance(0.5) {
+            return self.term((5.0, 30.0), energy, vec![(distance, metre)]);
+        }
+        let length = Expr::Value(self.source.between(0.1, 0.8, metre), metre);
+        let stretch = Expr::Power(Box::new(distance.minus(length)), 2);
+        let stiffness = self.source.positive((10.0, 100.0), energy, &[metre; 2]);
+        Expr::Product(vec![Expr::number(0.5), stiffness, stretch])
+    }
+
+    /// `m g position(P).axis`; where the ground may be felt as well `1/2 k position(P).axis^2`.
+    pub(super) fn energy_of_position(&mut self, point: usize, axis: usize, bound: bool) -> Expr {
+        let height = Expr::Position(point, axis);
+        let (metre, energy) = (Unit::Metre, Unit::NewtonMetre);
+        let weight = self.term((1.0, 10.0), energy, vec![(height.clone(), metre)]);
+        if !bound {
+            return weight;
+        }
+        let stiffness = self.source.positive((5.0, 50.0), energy, &[metre; 2]);
+        let square = Expr::Power(Box::new(height), 2);
+        let spring = Expr::Product(vec![Expr::number(0.5), stiffness, square]);
+        Expr::Sum(vec![weight, spring])
+    }
+}

@@ -1,0 +1,156 @@
+//! No input whatever panics, and none is refused without a reason.
+
+use eigentol_compiler::base::diagnostics::Diagnostics;
+use eigentol_compiler::model::resolve::resolve;
+use eigentol_compiler::syntax::parse::parse;
+use eigentol_compiler::syntax::print::print;
+use eigentol_compiler::topology::build::build;
+use proc_macro2::{TokenStream, TokenTree};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::common::{DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, read, resolved};
+
+const FUZZED: [&str; 3] = [DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM];
+
+/// Runs the front half; counts what got how far.
+fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
+    let report = |errors: Diagnostics| assert!(!errors.into_compile_errors().is_empty());
+    let ast = match parse(tokens) {
+        Ok(ast) => ast,
+        Err(errors) => return report(errors),
+    };
+    stages[0] += 1;
+    let text = print(&ast);
+    assert_eq!(read(&text), ast, "{text}");
+    let mechanism = match resolve(&ast) {
+        Ok(mechanism) => mechanism,
+        Err(errors) => return survived(errors),
+    };
+    stages[1] += 1;
+    assert!(mechanism.to_string().starts_with("mechanism"));
+    match build(&mechanism) {
+        Ok(topology) => {
+            stages[2] += 1;
+            assert!(topology.describe(&mechanism).starts_with("ground"));
+        }
+        Err(errors) => survived(errors),
+    }
+}
+
+fn survived(errors: Diagnostics) {
+    for diagnostic in errors.iter() {
+        assert!(
+            !diagnostic.message.contains("bug of eigentol"),
+            "{diagnostic:?}"
+        );
+        assert!(
+            !diagnostic.text().contains("does not know why"),
+            "{diagnostic:?}"
+        );
+    }
+    assert!(!errors.into_compile_errors().is_empty());
+}
+
+/// Deletes, repeats and exchanges single tokens at any depth.
+fn mutate(tokens: TokenStream, random: &mut ChaCha8Rng, pool: &[TokenTree]) -> TokenStream {
+    let mut result = Vec::new();
+    for token in tokens {
+        let token = match token {
+            TokenTree::Group(group) => {
+                let mut inner = proc_macro2::Group::new(
+                    group.delimiter(),
+                    mutate(group.stream(), random, pool),
+                );
+                inner.set_span(group.span());
+                TokenTree::Group(inner)
+            }
+            other => other,
+        };
+        match random.next_u32() % 400 {
+            0 => {}
+            1 => result.extend([token.clone(), token]),
+            2 | 3 => result.push(pool[random.next_u32() as usize % pool.len()].clone()),
+            _ => result.push(token),
+        }
+    }
+    result.into_iter().collect()
+}
+
+fn flat(tokens: TokenStream, pool: &mut Vec<TokenTree>) {
+    for token in tokens {
+        if let TokenTree::Group(group) = &token {
+            flat(group.stream(), pool);
+        }
+        pool.push(token);
+    }
+}
+
+#[test]
+fn mutated_declarations_are_refused_or_compiled_but_never_panic() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut pool = Vec::new();
+    for source in FUZZED {
+        flat(source.parse().unwrap(), &mut pool);
+    }
+    let mut stages = [0; 3];
+    for round in 0..1500 {
+        let source = FUZZED[round % FUZZED.len()];
+        let tokens = mutate(source.parse().unwrap(), &mut random, &pool);
+        survive(tokens, &mut stages);
+    }
+    // Mutations that are all caught by the parser would test nothing behind it.
+    assert!(stages.iter().all(|&count| count > 20), "{stages:?}");
+}
+
+#[test]
+fn token_soup_is_refused() {
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    let mut pool = Vec::new();
+    for source in FUZZED {
+        flat(source.parse().unwrap(), &mut pool);
+    }
+    for _ in 0..500 {
+        let soup: TokenStream = (0..40)
+            .map(|_| pool[random.next_u32() as usize % pool.len()].clone())
+            .collect();
+        let inside = quote_mechanism(soup.clone());
+        survive(soup, &mut [0; 3]);
+        survive(inside, &mut [0; 3]);
+    }
+}
+
+fn quote_mechanism(items: TokenStream) -> TokenStream {
+    let mut tokens: TokenStream = "mechanism Soup".parse().expect("two words");
+    let braces = proc_macro2::Group::new(proc_macro2::Delimiter::Brace, items);
+    tokens.extend([TokenTree::Group(braces)]);
+    tokens
+}
+
+#[test]
+fn huge_expressions_are_refused_not_overflowed() {
+    let deep = format!("{}1{}", "(".repeat(300), ")".repeat(300));
+    let long = vec!["1"; 100_000].join(" + ");
+    let signs = format!("{}1", "-".repeat(5000));
+    let powers = vec!["1"; 5000].join(" ^ ");
+    let components = format!("a{}", ".x".repeat(5000));
+    let mixed = (0..60).fold("1".to_string(), |inner, _| {
+        format!("({inner}{})", " + 1".repeat(250))
+    });
+    for value in [deep, long, signs, powers, components, mixed] {
+        let source = format!("mechanism M {{ let a = {value}; }}");
+        let errors = parse(source.parse().unwrap()).expect_err("too large");
+        assert!(
+            errors
+                .iter()
+                .all(|error| error.message.contains("too large"))
+        );
+    }
+    let chain: String = (0..20_000)
+        .map(|index| format!("let a{index} = a{} + 1;", index + 1))
+        .collect();
+    let source = format!(
+        "mechanism M {{ {chain} let a20000 = 1; body b: massless; joint j: revolute(z) from ground to b; }}"
+    );
+    assert_eq!(resolved(&source).constants.len(), 20_001);
+}

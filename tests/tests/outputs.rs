@@ -1,0 +1,111 @@
+//! Outputs beyond coordinates and points, in closed form: what joints transmit, energies, and the distance from singular poses.
+
+use eigentol::{Mechanism, Study, mechanism};
+
+const G: f64 = 9.81;
+
+mechanism! {
+    /// A bar on a spinning shaft, with its hinge declared towards the shaft in the second of two equal copies.
+    pub mechanism Swing {
+        input omega: rad/s;
+        design m = 3 kg +/- 1%;
+        design l = 1 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        body twin: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+        joint phi: revolute(y) from twin to shaft;
+        force stay: spring(on: theta, stiffness: 2 N*m/rad);
+        output pull_x = reaction_force(theta).x;
+        output pull_z = reaction_force(theta).z;
+        output hinge = reaction_moment(theta).y;
+        output back_x = reaction_force(phi).x;
+        output back_z = reaction_force(phi).z;
+        output weight = reaction_force(spin).z;
+        output torque = reaction_moment(spin).z;
+        output kinetic = kinetic_energy();
+        output potential = potential_energy();
+    }
+}
+
+/// A bar at `theta` from the axis: its centre of mass goes round at `l/2 sin(theta)`.
+#[test]
+fn a_swinging_bar_on_a_turning_shaft() {
+    let (omega, m, l) = (4.0_f64, 3.0_f64, 1.0_f64);
+    let (theta, phi) = (0.7_f64, 0.3_f64);
+    let got = Swing.outputs(&[theta, phi], &[omega], &[m, l]);
+    // `theta` turns the bar about y, so its lower end goes to -x; the twin turns against `phi` and goes to +x.
+    let centripetal = |angle: f64| m * omega.powi(2) * 0.5 * l * angle.sin();
+    let moment_of_inertia = |angle: f64| m * l * l / 3.0 * angle.sin().powi(2);
+    let inertia_moment = moment_of_inertia(theta) * omega.powi(2) / theta.tan();
+    let weight_moment = m * G * 0.5 * l * theta.sin();
+    // What `twin` exerts on `shaft`, in the axes of `twin`.
+    let on_twin = [-centripetal(phi), m * G];
+    let in_twin = [
+        phi.cos() * on_twin[0] + phi.sin() * on_twin[1],
+        -phi.sin() * on_twin[0] + phi.cos() * on_twin[1],
+    ];
+    let spring = 0.5 * 2.0 * theta * theta;
+    let expected = [
+        centripetal(theta),
+        m * G,
+        weight_moment - inertia_moment,
+        -in_twin[0],
+        -in_twin[1],
+        2.0 * m * G,
+        0.0,
+        0.5 * omega.powi(2) * (moment_of_inertia(theta) + moment_of_inertia(phi)),
+        -m * G * 0.5 * l * (theta.cos() + phi.cos()) + spring,
+    ];
+    for (k, (x, y)) in got.iter().zip(expected).enumerate() {
+        assert!(
+            (x - y).abs() < 1e-12 * (1.0 + y.abs()),
+            "{}: {x} {y}",
+            Swing::DESCRIPTION.outputs[k].name
+        );
+    }
+}
+
+mechanism! {
+    /// A ball joint with its angles about z, y and x.
+    pub mechanism Bracket {
+        design side = 40 mm +/- 5 mm;
+        gravity 9.81 m/s^2 along -z;
+        body bob: point(mass: 1 kg, center: [side, 0, -0.5 m]) + sphere(mass: 1 kg, radius: 0.1 m);
+        joint ball: spherical(yaw: z, pitch: y, roll: x) from ground to bob;
+        force hold: spring(on: yaw, stiffness: 1 N*m/rad);
+        force aim: spring(on: pitch, stiffness: 500 N*m/rad, rest: 89 deg);
+        force twist: spring(on: roll, stiffness: 10 N*m/rad);
+    }
+}
+
+/// The axes z, y turned by yaw, and x turned by yaw and pitch span the volume `|cos(pitch)|`.
+#[test]
+fn near_singular_poses_are_reported() {
+    for pitch in [0.0, 0.5, -1.2, 1.57, 3.0] {
+        let pose = Bracket
+            .pose_margin(&[0.4, pitch, -0.8], &[], &[0.04])
+            .expect("a ball joint");
+        assert_eq!(pose.joint, "ball");
+        assert!((pose.margin - f64::cos(pitch).abs()).abs() < 1e-15);
+    }
+    assert!(
+        Swing
+            .pose_margin(&[0.1, 0.2], &[1.0], &[3.0, 1.0])
+            .is_none()
+    );
+
+    let state = Study::new(Bracket)
+        .start(Bracket::pitch, 1.5)
+        .equilibrium()
+        .expect("a position");
+    let pose = state.pose.expect("a ball joint");
+    assert!((pose.margin - state.coordinates[1].cos().abs()).abs() < 1e-15);
+    assert!(pose.margin < 0.1, "{}", pose.margin);
+    assert!(
+        state.to_string().contains("ball is near its singular pose"),
+        "{state}"
+    );
+}
