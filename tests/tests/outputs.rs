@@ -109,3 +109,32 @@ fn near_singular_poses_are_reported() {
         "{state}"
     );
 }
+
+mechanism! {
+    /// A bar whose tip is on the axis while it hangs.
+    pub mechanism Hanging {
+        input omega: rad/s;
+        design l = 1 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: 3 kg, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+        point tip: bar at [0, 0, -l];
+        output radius = distance_from_axis(tip, z);
+        output height = position(tip).z;
+    }
+}
+
+/// The distance from the axis has a kink on it: a value, no derivative, and the other output keeps both.
+#[test]
+fn an_output_without_a_derivative_keeps_its_value() {
+    let study = Study::new(Hanging).input(Hanging::omega, 2.0);
+    let outputs = study.outputs().expect("values");
+    assert_eq!(outputs.values, [0.0, -1.0]);
+    assert!(outputs.by_design[0].is_none());
+    assert_eq!(outputs.by_design[1], Some([-1.0]));
+    let spread = study.output_tolerances().expect("spreads");
+    assert_eq!((spread[0].mean, spread[0].sigma), (0.0, None));
+    assert!((spread[1].sigma.expect("a spread") - 0.01).abs() < 1e-15);
+}

@@ -120,7 +120,11 @@ impl<const U: usize, const P: usize, const O: usize> fmt::Display for OutputSens
             .collect();
         let table = derivatives(d, columns, |o, j| {
             let unit = d.outputs.get(o)?.unit;
-            Some(pick(self.by_input.get(o)?, self.by_design.get(o)?, j)? / unit.scale)
+            let (inputs, design) = (
+                self.by_input.get(o)?.as_ref()?,
+                self.by_design.get(o)?.as_ref()?,
+            );
+            Some(pick(inputs, design, j)? / unit.scale)
         });
         write!(f, "{table}")
     }

@@ -1,6 +1,7 @@
 //! Total derivatives of the declared outputs.
 
 use super::shift::{equilibrium_shift, outside_domain};
+use crate::array::all_finite;
 use crate::{Description, Equilibrium, Error, Mechanism};
 
 /// Outputs at an equilibrium and their total derivatives, SI.
@@ -8,10 +9,11 @@ use crate::{Description, Equilibrium, Error, Mechanism};
 pub struct OutputSensitivities<const U: usize, const P: usize, const O: usize> {
     /// Values.
     pub values: [f64; O],
-    /// `by_input[o][j]`: derivative of output `o` by input `j`.
-    pub by_input: [[f64; U]; O],
-    /// `by_design[o][j]`: derivative of output `o` by design variable `j`.
-    pub by_design: [[f64; P]; O],
+    /// `by_input[o][j]`: derivative of output `o` by input `j`; `None` where the output has a value but no derivative, as
+    /// the distance from an axis has none on it.
+    pub by_input: [Option<[f64; U]>; O],
+    /// `by_design[o][j]`: derivative of output `o` by design variable `j`; `None` likewise.
+    pub by_design: [Option<[f64; P]>; O],
     /// The mechanism they belong to.
     pub description: &'static Description,
 }
@@ -41,15 +43,13 @@ where
             }
         }
     }
-    let rates = by_input.iter().flatten().chain(by_design.iter().flatten());
-    if values.iter().chain(rates).all(|value| value.is_finite()) {
-        Ok(OutputSensitivities {
-            values,
-            by_input,
-            by_design,
-            description: at.description,
-        })
-    } else {
-        Err(outside_domain(at))
+    if !all_finite(&values) {
+        return Err(outside_domain(at));
     }
+    Ok(OutputSensitivities {
+        values,
+        by_input: by_input.map(|slopes| all_finite(&slopes).then_some(slopes)),
+        by_design: by_design.map(|slopes| all_finite(&slopes).then_some(slopes)),
+        description: at.description,
+    })
 }

@@ -72,12 +72,12 @@ impl<const N: usize, const P: usize> FirstOrder<N, P> {
 pub struct OutputTolerance<const P: usize> {
     /// Nominal value, SI.
     pub mean: f64,
-    /// Standard deviation, SI.
-    pub sigma: f64,
-    /// Half-width that holds as many standard deviations as the tolerances do, SI.
-    pub band: f64,
-    /// Share of each design variable in the variance.
-    pub variance_shares: [f64; P],
+    /// Standard deviation, SI; `None` where the output has no derivative.
+    pub sigma: Option<f64>,
+    /// Half-width that holds as many standard deviations as the tolerances do, SI; `None` likewise.
+    pub band: Option<f64>,
+    /// Share of each design variable in the variance; `None` likewise.
+    pub variance_shares: Option<[f64; P]>,
 }
 
 /// First-order spread of every mode.
@@ -127,13 +127,13 @@ pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
     tolerances: &Tolerances<P>,
 ) -> [OutputTolerance<P>; O] {
     core::array::from_fn(|o| {
-        let (sigma, variance_shares) = tolerances.spread(&outputs.by_design[o]);
-        let band = tolerances.sigma_level() * sigma;
+        let spread = outputs.by_design[o].map(|slopes| tolerances.spread(&slopes));
+        let sigma = spread.map(|(sigma, _)| sigma);
         OutputTolerance {
             mean: outputs.values[o],
             sigma,
-            band,
-            variance_shares,
+            band: sigma.map(|sigma| tolerances.sigma_level() * sigma),
+            variance_shares: spread.map(|(_, shares)| shares),
         }
     })
 }

@@ -120,10 +120,16 @@ pub(crate) fn assert_answers<M, const N: usize, const U: usize, const P: usize, 
     }
     if let Ok(outputs) = output_sensitivities(machine, at) {
         assert_numbers(outputs.values, "outputs");
-        assert_numbers(outputs.by_design.into_iter().flatten(), "outputs");
+        assert_numbers(outputs.by_design.into_iter().flatten().flatten(), "outputs");
         for spread in output_tolerances(&outputs, tolerances) {
-            assert_numbers([spread.sigma, spread.band], "spread of outputs");
-            assert_numbers(spread.variance_shares, "shares of outputs");
+            assert_numbers(
+                spread.sigma.into_iter().chain(spread.band),
+                "spread of outputs",
+            );
+            assert_numbers(
+                spread.variance_shares.into_iter().flatten(),
+                "shares of outputs",
+            );
         }
     }
     let Ok(found) = modes::modes(at) else {
