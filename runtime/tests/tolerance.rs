@@ -284,7 +284,7 @@ fn outputs_have_tolerances() {
     let study = pendulum(5.0, 0.03);
     let spread = study.output_tolerances().unwrap();
     let slope = study.outputs().unwrap().by_design[0].unwrap()[1];
-    close(spread[0].sigma.unwrap(), 0.01 * slope.abs(), 1e-12);
+    close(spread.outputs[0].sigma.unwrap(), 0.01 * slope.abs(), 1e-12);
     let direct = output_tolerances(&study.outputs().unwrap(), &study.tolerances().unwrap());
     assert_eq!(spread, direct);
 }

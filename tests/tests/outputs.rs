@@ -135,6 +135,14 @@ fn an_output_without_a_derivative_keeps_its_value() {
     assert!(outputs.by_design[0].is_none());
     assert_eq!(outputs.by_design[1], Some([-1.0]));
     let spread = study.output_tolerances().expect("spreads");
-    assert_eq!((spread[0].mean, spread[0].sigma), (0.0, None));
-    assert!((spread[1].sigma.expect("a spread") - 0.01).abs() < 1e-15);
+    assert_eq!(
+        (spread.outputs[0].mean, spread.outputs[0].sigma),
+        (0.0, None)
+    );
+    assert!((spread.outputs[1].sigma.expect("a spread") - 0.01).abs() < 1e-15);
+    let text = spread.to_string();
+    assert!(
+        text.contains("height [m]") && text.contains("100.0 %"),
+        "{text}"
+    );
 }

@@ -2,9 +2,41 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, in_unit, number, optional, per};
-use crate::tolerance::{Counts, Event, EventTolerance, Statistics, TRUSTED_DISTANCE};
+use super::table::{Table, cells, heading, in_unit, number, optional, per};
+use crate::tolerance::{
+    Counts, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
+};
 use crate::{FirstOrder, MonteCarlo};
+
+impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.description;
+        writeln!(f, "{}: first-order spread of the outputs", d.name)?;
+        let mut head = cells(["output", "mean", "sigma"]);
+        head.push(format!("{} sigma", self.sigma_level));
+        head.extend(
+            d.design
+                .iter()
+                .map(|info| format!("share of {}", info.name)),
+        );
+        let mut table = Table::new(head);
+        for (info, own) in d.outputs.iter().zip(&self.outputs) {
+            let scaled = |value: f64| value / info.unit.scale;
+            let mut row = vec![
+                heading(info.name, info.unit),
+                number(scaled(own.mean)),
+                optional(own.sigma.map(scaled)),
+                optional(own.band.map(scaled)),
+            ];
+            row.extend((0..P).map(|j| match own.variance_shares {
+                Some(shares) => format!("{:.1} %", 100.0 * shares[j]),
+                None => optional(None),
+            }));
+            table.row(row);
+        }
+        write!(f, "{table}")
+    }
+}
 
 impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -3,7 +3,7 @@
 use super::Study;
 use crate::equilibrium::{self, CriticalState, Crossing, Equilibrium, Range, Search, SweepPoint};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Sensitivities};
-use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerance, Sampling};
+use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerances, Sampling};
 use crate::{Error, Input, Mechanism, Modes, modes};
 
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
@@ -89,7 +89,7 @@ where
     ///
     /// # Errors
     /// Those of equilibrium, output sensitivities and tolerances.
-    pub fn output_tolerances(&self) -> Result<[OutputTolerance<P>; O], Error> {
+    pub fn output_tolerances(&self) -> Result<OutputTolerances<P, O>, Error> {
         Ok(tolerance::output_tolerances(
             &self.outputs()?,
             &self.tolerances()?,

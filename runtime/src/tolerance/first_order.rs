@@ -80,6 +80,17 @@ pub struct OutputTolerance<const P: usize> {
     pub variance_shares: Option<[f64; P]>,
 }
 
+/// First-order spread of every output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputTolerances<const P: usize, const O: usize> {
+    /// In the order of the declaration.
+    pub outputs: [OutputTolerance<P>; O],
+    /// Standard deviations that a tolerance holds.
+    pub sigma_level: f64,
+    /// The mechanism they belong to.
+    pub description: &'static Description,
+}
+
 /// First-order spread of every mode.
 pub fn first_order<const N: usize, const U: usize, const P: usize>(
     modes: &Modes<N>,
@@ -125,17 +136,23 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
 pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
     outputs: &OutputSensitivities<U, P, O>,
     tolerances: &Tolerances<P>,
-) -> [OutputTolerance<P>; O] {
-    core::array::from_fn(|o| {
+) -> OutputTolerances<P, O> {
+    let sigma_level = tolerances.sigma_level();
+    let spread = core::array::from_fn(|o| {
         let spread = outputs.by_design[o].map(|slopes| tolerances.spread(&slopes));
         let sigma = spread.map(|(sigma, _)| sigma);
         OutputTolerance {
             mean: outputs.values[o],
             sigma,
-            band: sigma.map(|sigma| tolerances.sigma_level() * sigma),
+            band: sigma.map(|sigma| sigma_level * sigma),
             variance_shares: spread.map(|(_, shares)| shares),
         }
-    })
+    });
+    OutputTolerances {
+        outputs: spread,
+        sigma_level,
+        description: outputs.description,
+    }
 }
 
 /// Least distance of mode `r` to another one, in standard deviations of their difference.

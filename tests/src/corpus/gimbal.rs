@@ -19,6 +19,7 @@ machine! {
         joint spin: revolute(z) from inner to wheel, driven at wheel_speed;
         force hold_outer: spring(on: outer_turn, stiffness: outer_spring, rest: 1 deg);
         force hold_inner: spring(on: inner_turn, stiffness: inner_spring);
+        output stored = potential_energy();
         output lean = acos(cos(outer_turn) * cos(inner_turn));
     }
 }

@@ -116,7 +116,10 @@ fn shares_of_a_huge_variance() {
             .tolerance(RotatingPendulum::l, width)
             .output_tolerances()
             .expect("a spread");
-        assert_numbers(outputs[0].variance_shares.into_iter().flatten(), "shares of an output");
+        assert_numbers(
+            outputs.outputs[0].variance_shares.into_iter().flatten(),
+            "shares of an output",
+        );
     }
 }
 

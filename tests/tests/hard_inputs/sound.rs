@@ -121,7 +121,7 @@ pub(crate) fn assert_answers<M, const N: usize, const U: usize, const P: usize, 
     if let Ok(outputs) = output_sensitivities(machine, at) {
         assert_numbers(outputs.values, "outputs");
         assert_numbers(outputs.by_design.into_iter().flatten().flatten(), "outputs");
-        for spread in output_tolerances(&outputs, tolerances) {
+        for spread in output_tolerances(&outputs, tolerances).outputs {
             assert_numbers(
                 spread.sigma.into_iter().chain(spread.band),
                 "spread of outputs",
