@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
+use crate::array::{largest, largest_element};
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub(crate) struct Pairs<const N: usize> {
 
 /// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
 const ACCEPTED: f64 = 1e-9;
+/// Residual relative to the matrices that rounding of the shape explains.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual beyond which a pair is improved by inverse iteration.
 const INACCURATE: f64 = 1e-13;
 
@@ -33,7 +36,10 @@ pub(crate) fn solve<const N: usize>(
 ) -> Result<Pairs<N>, Trouble> {
     let mut lambda = [0.0; N];
     let mut shapes = [[0.0; N]; N];
-    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
+    // The library's iteration loses matrices of tiny entries to underflow: it sees one of entries up to 1.
+    let scale = power_of_two(largest_element(stiffness));
+    let scaled = stiffness.map(|row| row.map(|entry| entry / scale));
+    let (k, m) = (scaled.as_flattened(), mass.as_flattened());
     let vectors = shapes.as_flattened_mut();
     match N {
         0 => {}
@@ -48,12 +54,18 @@ pub(crate) fn solve<const N: usize>(
         _ => large(N, k, m, &mut lambda, vectors)?,
     }
     let mut pairs = Pairs {
-        lambda,
+        lambda: lambda.map(|value| value * scale),
         shapes,
         residuals: [0.0; N],
     };
     finish(stiffness, mass, &mut pairs)?;
     Ok(pairs)
+}
+
+/// The power of two at or below `size`; 1 for what is zero or not finite.
+fn power_of_two(size: f64) -> f64 {
+    let power = f64::from_bits(size.to_bits() & !((1 << 52) - 1));
+    if power.is_normal() { power } else { 1.0 }
 }
 
 fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
@@ -248,7 +260,8 @@ fn fix_sign<const N: usize>(shape: &mut [f64; N]) {
     }
 }
 
-/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows. What the rounding of
+/// `phi` explains does not count: a shape that `K` takes to zero has nothing but rounding in the rows that act.
 fn relative_residual<const N: usize>(
     stiffness: &[[f64; N]; N],
     mass: &[[f64; N]; N],
@@ -269,5 +282,9 @@ fn relative_residual<const N: usize>(
         most = most.max(sum.abs());
         size = size.max(terms);
     }
-    if most == 0.0 { 0.0 } else { most / size }
+    let matrices = largest_element(stiffness) + lambda.abs() * largest_element(mass);
+    if most <= ROUNDING * matrices * largest(phi) {
+        return most.min(f64::EPSILON * size) / size.max(f64::MIN_POSITIVE);
+    }
+    most / size
 }
