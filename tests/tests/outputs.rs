@@ -146,3 +146,83 @@ fn an_output_without_a_derivative_keeps_its_value() {
         "{text}"
     );
 }
+
+/// Components of cross products share their parts; a tree of them would never be done.
+#[test]
+fn nested_vector_functions_are_translated_once() {
+    let nested = (0..40).fold("[l, 2 * l, 3 * l]".to_owned(), |v, _| {
+        format!("cross({v}, w)")
+    });
+    let declaration = format!(
+        "mechanism Deep {{ design l = 1 m; let w = [1, 2, l / (1 m)]; gravity 9.81 m/s^2 along -z;
+         body bar: rod(mass: 1 kg, length: l, along: -z); joint theta: revolute(y) from ground to bar;
+         output o = norm({nested}) / (1 m); }}"
+    );
+    eigentol_compiler::program(declaration.parse().expect("tokens"))
+        .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+}
+
+mod constants {
+    /// A constant of the user's module with the name of a design variable, and a mechanism named like one.
+    pub const G: f64 = 9.81;
+
+    eigentol::mechanism! {
+        pub mechanism L {
+            design L = 1 m;
+            design G = 9.81 m/s^2;
+            design least = 2 kg;
+            gravity G along -z;
+            body bar: rod(mass: least, length: L, along: -z);
+            joint theta: revolute(y) from ground to bar;
+            output tiny = 1e200 * (1e200 * (L / (1e300 m)));
+        }
+    }
+
+    macro_rules! doubled {
+        ($name:ident, $value:expr) => {
+            eigentol::mechanism! {
+                pub mechanism $name {
+                    design f = $value * 2;
+                    gravity 9.81 m/s^2 along -z;
+                    body bar: rod(mass: f * 1 kg, length: 1 m, along: -z);
+                    joint theta: revolute(y) from ground to bar;
+                }
+            }
+        };
+    }
+    doubled!(Doubled, 1.0 + 2.0);
+}
+
+#[test]
+fn names_of_the_users_module_are_no_patterns() {
+    let expected = 2.0 * constants::G * 0.5 * f64::sin(0.3);
+    let got = constants::L.residual(&[0.3], &[], &[1.0, 9.81, 2.0])[0];
+    assert!((got - expected).abs() < 1e-14);
+}
+
+#[test]
+fn a_fragment_of_macro_rules_belongs_together() {
+    assert_eq!(constants::Doubled::DESCRIPTION.design[0].nominal, 6.0);
+}
+
+mechanism! {
+    /// A coordinate driven at zero is locked: an anisotropic spring to the ground may act beyond it.
+    pub mechanism Locked {
+        gravity 9.81 m/s^2 along -z;
+        body bar: rod(mass: 3 kg, length: 1 m, along: -z);
+        joint swing: universal(turn: z, tilt: y) from ground to bar, turn driven at 0;
+        point tip: bar at [0, 0, -1 m];
+        point hook: ground at [1 m, 0, 0];
+        force side: spring_damper(from: tip, to: hook, stiffness: 10 N/m);
+        output pull = reaction_force(swing).z;
+    }
+}
+
+#[test]
+fn a_coordinate_driven_at_zero_is_locked() {
+    let state = Study::new(Locked)
+        .start(Locked::tilt, 0.1)
+        .equilibrium()
+        .expect("a position");
+    assert!(state.stability.holds());
+}

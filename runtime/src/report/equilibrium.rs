@@ -11,9 +11,10 @@ impl fmt::Display for Stability {
         match self {
             Self::Stable => write!(f, "stable"),
             Self::Neutral { zero } => write!(f, "neutral ({zero} free directions)"),
-            Self::Divergent { negative } => {
-                write!(f, "divergent (unstable in {negative} directions)")
-            }
+            Self::Divergent { negative } => match negative {
+                1 => write!(f, "divergent (unstable in one direction)"),
+                _ => write!(f, "divergent (unstable in {negative} directions)"),
+            },
             Self::Unverified(doubt) => write!(f, "not decided: {doubt}"),
         }
     }

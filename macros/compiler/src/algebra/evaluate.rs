@@ -68,6 +68,13 @@ pub fn evaluate_with_error(
 
 fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     let value = apply_unary(operator, a.value);
+    // What has vanished by underflow proves nothing.
+    if value == 0.0 && matches!(operator, Unary::Exp | Unary::PowerInteger(_)) && a.value != 0.0 {
+        return Evaluation {
+            value: f64::NAN,
+            error: f64::NAN,
+        };
+    }
     let slope = match operator {
         Unary::Negate => {
             return Evaluation {

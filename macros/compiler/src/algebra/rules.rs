@@ -113,10 +113,14 @@ const ADD: &[Rule] = &[
             _ => None,
         }
     }),
-    rule("c a + d a = (c + d) a for constants c, d", "", |g, a, b| {
-        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-        (x == y).then(|| g.scale(c + d, x))
-    }),
+    rule(
+        "c a + d a = (c + d) a for constants c, d",
+        "c + d is finite",
+        |g, a, b| {
+            let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+            (x == y && (c + d).is_finite()).then(|| g.scale(c + d, x))
+        },
+    ),
     rule("sin(x)^2 + cos(x)^2 = 1", "", |g, a, b| {
         match (square(g, a), square(g, b)) {
             (Some(Node::Unary(Unary::Sin, x)), Some(Node::Unary(Unary::Cos, y)))
@@ -154,10 +158,14 @@ const SUBTRACT: &[Rule] = &[
         Some((x, y)) if x == a => Some(y),
         _ => None,
     }),
-    rule("c a - d a = (c - d) a for constants c, d", "", |g, a, b| {
-        let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-        (x == y).then(|| g.scale(c - d, x))
-    }),
+    rule(
+        "c a - d a = (c - d) a for constants c, d",
+        "c - d is finite",
+        |g, a, b| {
+            let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
+            (x == y && (c - d).is_finite()).then(|| g.scale(c - d, x))
+        },
+    ),
     rule("a - b = -(b - a) where b - a is known", "", |g, a, b| {
         let known = g.find(Node::Binary(Operator::Subtract, b, a))?;
         Some(g.neg(known))
@@ -191,17 +199,21 @@ const MULTIPLY: &[Rule] = &[
             (None, None) => None,
         }
     }),
-    rule("c (d a) = (c d) a for constants c, d", "", |g, a, b| {
-        let (c, other) = match (g.constant_value(a), g.constant_value(b)) {
-            (Some(c), None) => (c, b),
-            (None, Some(c)) => (c, a),
-            _ => return None,
-        };
-        match scaled(g, other) {
-            (_, x) if x == other => None,
-            (d, x) => Some(g.scale(c * d, x)),
-        }
-    }),
+    rule(
+        "c (d a) = (c d) a for constants c, d",
+        "c d is finite",
+        |g, a, b| {
+            let (c, other) = match (g.constant_value(a), g.constant_value(b)) {
+                (Some(c), None) => (c, b),
+                (None, Some(c)) => (c, a),
+                _ => return None,
+            };
+            match scaled(g, other) {
+                (d, x) if x != other && (c * d).is_normal() => Some(g.scale(c * d, x)),
+                _ => None,
+            }
+        },
+    ),
     rule(
         "a (1 / a) = 1, a (b / a) = b",
         "a is not zero",
@@ -223,18 +235,18 @@ const MULTIPLY: &[Rule] = &[
 
 const DIVIDE: &[Rule] = &[
     rule("a / 1 = a", "", |g, a, b| g.is(b, 1.0).then_some(a)),
-    rule("0 / a = 0", "a is not zero", |g, a, _| {
-        g.is(a, 0.0).then(|| g.zero())
+    rule("0 / a = 0", "a is not zero", |g, a, b| {
+        (g.is(a, 0.0) && !g.is(b, 0.0)).then(|| g.zero())
     }),
     rule("a / a = 1", "a is not zero", |g, a, b| {
         (a == b).then(|| g.constant(1.0))
     }),
     rule(
         "a / c = (1 / c) a for a constant c",
-        "c is not zero",
+        "1 / c is finite",
         |g, a, b| {
-            let c = g.constant_value(b).filter(|&c| c != 0.0)?;
-            Some(g.scale(1.0 / c, a))
+            let reciprocal = 1.0 / g.constant_value(b)?;
+            reciprocal.is_normal().then(|| g.scale(reciprocal, a))
         },
     ),
     rule("(-a) / b = -(a / b)", "", |g, a, b| {
@@ -348,7 +360,7 @@ fn small_power(g: &mut Graph, a: ExprId, exponent: i32) -> Option<ExprId> {
     }
 }
 
-/// `x` when the node is `-x`, or the constant `-c` when it is a negative constant multiple `c x`.
+/// `x` when the node is `-x`, or `c` when it is the negative constant `-c`.
 fn negated(g: &mut Graph, a: ExprId) -> Option<ExprId> {
     match g.node(a) {
         Node::Unary(Unary::Negate, x) => Some(x),

@@ -15,6 +15,11 @@ const BLOCK: usize = 256;
 /// Operations that an unnamed value used once may have to be written where it is used.
 const INLINE: usize = 6;
 
+/// Names that the emitter writes itself around the statements.
+const RESERVED: [&str; 8] = [
+    "T", "self", "value", "volume", "margin", "smaller", "least", "known",
+];
+
 /// A method body: statements, and the text of every operand that results refer to.
 pub(super) struct Body<'a> {
     kernel: &'a Kernel,
@@ -31,13 +36,7 @@ struct Statement {
 impl<'a> Body<'a> {
     /// Writes the statements of a kernel.
     pub(super) fn new(kernel: &'a Kernel) -> Self {
-        let mut names = Names::new(
-            kernel
-                .parameters
-                .iter()
-                .map(|p| p.name)
-                .chain(["T", "self"]),
-        );
+        let mut names = Names::new(kernel.parameters.iter().map(|p| p.name).chain(RESERVED));
         let mut this = Self {
             kernel,
             texts: vec![None; kernel.instructions.len()],
@@ -58,7 +57,7 @@ impl<'a> Body<'a> {
             }
             Operand::Instruction(index) => self.texts[index]
                 .clone()
-                .unwrap_or_else(|| Text::constant(0.0)),
+                .expect("operands come before their users"),
         }
     }
 
@@ -164,8 +163,7 @@ impl<'a> Body<'a> {
                 });
                 let sine_first = matches!(instruction.operation, Operation::Unary(Unary::Sin, _));
                 let order = if sine_first { [0, 1] } else { [1, 0] };
-                let call = Text::unary(Unary::Sin, &self.text(angle)).text;
-                let value = format!("{}.sin_cos()", call.trim_end_matches(".sin()"));
+                let value = Text::sin_cos(&self.text(angle)).text;
                 self.statements.push(Statement {
                     names: order.map(|k| pair[k].clone()).to_vec(),
                     value,

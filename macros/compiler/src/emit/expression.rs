@@ -60,6 +60,11 @@ impl Text {
         }
     }
 
+    /// Sine and cosine at once.
+    pub(super) fn sin_cos(a: &Self) -> Self {
+        Self::atom(format!("{}.sin_cos()", a.within(Binding::Atom)))
+    }
+
     /// An operator of two operands. The order of evaluation is the graph's: the right operand keeps its parentheses.
     pub(super) fn binary(operator: Operator, a: &Self, b: &Self) -> Self {
         let infix = |sign, left, right, binding| Self {

@@ -76,16 +76,22 @@ pub fn emit(
         design,
         outputs,
     } = sizes;
+    let conditions: Vec<_> = attributes
+        .iter()
+        .filter(|attribute| attribute.path().is_ident("cfg"))
+        .collect();
     quote! {
         #(#attributes)*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         #visibility struct #name;
 
+        #(#conditions)*
         #[allow(non_upper_case_globals, dead_code)]
         impl #name {
             #handles
         }
 
+        #(#conditions)*
         #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
         impl ::eigentol::Mechanism<#coordinates, #inputs, #design, #outputs> for #name {
             #description

@@ -23,14 +23,15 @@ impl Names {
         Self { taken }
     }
 
-    /// `wanted`, with a number behind it when it is taken already.
+    /// `wanted`, with a number behind it when it is taken already. In lower case: a local spelt like a constant or a unit
+    /// struct of the user's module would be a pattern that means that item.
     pub(super) fn unique(&mut self, wanted: &str) -> String {
-        let wanted = wanted.trim_start_matches("r#");
-        let keyword = syn::parse_str::<syn::Ident>(wanted).is_err();
+        let wanted = wanted.trim_start_matches("r#").to_lowercase();
+        let keyword = syn::parse_str::<syn::Ident>(&wanted).is_err();
         let base = if keyword {
             format!("{wanted}_value")
         } else {
-            wanted.to_owned()
+            wanted
         };
         let count = self.taken.entry(base.clone()).or_insert(0);
         *count += 1;

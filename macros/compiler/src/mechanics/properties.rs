@@ -46,7 +46,8 @@ pub(super) fn check(
 ) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let name = |k: usize| &problem.mechanism.coordinates[problem.topology.free[k].index()].name;
-    if let Some(k) = coordinate_without_inertia(g, problem, jacobians) {
+    let without_inertia = coordinate_without_inertia(g, problem, jacobians);
+    if let Some(k) = without_inertia {
         diagnostics.error_with_help(
             name(k).span(),
             format!(
@@ -57,7 +58,8 @@ pub(super) fn check(
         );
     }
     for (k, column) in jacobians.stiffness.iter().enumerate() {
-        if vanish(g, problem, column).into_iter().all(|zero| zero) {
+        let free = vanish(g, problem, column).into_iter().all(|zero| zero);
+        if free && without_inertia != Some(k) {
             diagnostics.error_with_help(
                 name(k).span(),
                 format!(

@@ -6,7 +6,7 @@ use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
 
 use super::derive::Problem;
 use super::kinematics::Kinematics;
-use super::linearise::by_symbol;
+use super::linearise::{at_rest, by_symbol};
 use super::outputs::outputs;
 use super::properties::vanish;
 use super::sources::{Selection, Sources};
@@ -17,10 +17,21 @@ pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics>
     let kinematics = problem.kinematics(g, &problem.symbols.driven.values);
     let residual = problem.residual(g, &kinematics, Sources::ALL);
     let outputs = outputs(g, problem, &kinematics);
+    let outputs = at_rest(g, problem.symbols, &outputs);
     for (k, &symbol) in problem.symbols.driven.ids.iter().enumerate() {
+        let coordinate = problem.topology.driven[k];
+        // Driven at a speed of zero is locked: the equations hold where it stands.
+        if g.is(kinematics.coordinates[coordinate.index()].velocity, 0.0) {
+            continue;
+        }
         let name = &problem.mechanism.coordinates[problem.topology.driven[k].index()].name;
         if depends(g, problem, &residual, symbol) {
-            let causes = causes(g, problem, &kinematics, symbol);
+            let mut causes = causes(g, problem, &kinematics, symbol);
+            if causes.is_empty() {
+                causes.push(
+                    "at least, the contrary could not be shown near the nominal design".to_owned(),
+                );
+            }
             diagnostics.error_with_help(
                 name.span(),
                 format!(

@@ -1,5 +1,7 @@
 //! Values of the declaration as expressions of the graph.
 
+use rustc_hash::FxHashMap;
+
 use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
 use crate::base::ids::{ConstantId, ExprId};
 use crate::model::expression::{Expr, Function, Vector};
@@ -73,11 +75,28 @@ impl<'a> Values<'a> {
 
     /// A scalar that may depend on the position of the mechanism.
     pub(super) fn scalar_at(&self, g: &mut Graph, value: &Expr, state: &impl State) -> ExprId {
-        let mut binary = |operator, a: &Expr, b: &Expr| {
-            let (a, b) = (self.scalar_at(g, a, state), self.scalar_at(g, b, state));
+        self.shared(g, value, state, &mut FxHashMap::default())
+    }
+
+    /// Parts that occur several times, as the components of a cross product do, are translated once: `known` holds them
+    /// by address.
+    fn shared(
+        &self,
+        g: &mut Graph,
+        value: &Expr,
+        state: &impl State,
+        known: &mut FxHashMap<*const Expr, ExprId>,
+    ) -> ExprId {
+        let address = std::ptr::from_ref(value);
+        if let Some(&id) = known.get(&address) {
+            return id;
+        }
+        let mut part = |g: &mut Graph, part: &Expr| self.shared(g, part, state, known);
+        let mut binary = |g: &mut Graph, operator, a: &Expr, b: &Expr| {
+            let (a, b) = (part(g, a), part(g, b));
             g.binary(operator, a, b)
         };
-        match value {
+        let id = match value {
             Expr::Number(value) => g.constant(*value),
             Expr::Design(id) => self.symbols.b.values[id.index()],
             Expr::Input(id) => self.symbols.u.values[id.index()],
@@ -90,36 +109,43 @@ impl<'a> Values<'a> {
             | Expr::Reaction(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => state.leaf(value),
-            Expr::Add(a, b) => binary(Operator::Add, a, b),
-            Expr::Subtract(a, b) => binary(Operator::Subtract, a, b),
-            Expr::Multiply(a, b) => binary(Operator::Multiply, a, b),
-            Expr::Divide(a, b) => binary(Operator::Divide, a, b),
-            Expr::Power(a, b) => binary(Operator::Power, a, b),
-            Expr::Atan2(a, b) => binary(Operator::Atan2, a, b),
-            Expr::Negate(a) => self.unary(g, Unary::Negate, a, state),
-            Expr::PowerInteger(a, n) => self.unary(g, Unary::PowerInteger(*n), a, state),
-            Expr::Call(function, a) => {
-                let operator = match function {
-                    Function::Sqrt => Unary::Sqrt,
-                    Function::Sin => Unary::Sin,
-                    Function::Cos => Unary::Cos,
-                    Function::Tan => Unary::Tan,
-                    Function::Asin => Unary::Asin,
-                    Function::Acos => Unary::Acos,
-                    Function::Exp => Unary::Exp,
-                    Function::Ln => Unary::Ln,
-                };
-                self.unary(g, operator, a, state)
+            Expr::Add(a, b) => binary(g, Operator::Add, a, b),
+            Expr::Subtract(a, b) => binary(g, Operator::Subtract, a, b),
+            Expr::Multiply(a, b) => binary(g, Operator::Multiply, a, b),
+            Expr::Divide(a, b) => binary(g, Operator::Divide, a, b),
+            Expr::Power(a, b) => binary(g, Operator::Power, a, b),
+            Expr::Atan2(a, b) => binary(g, Operator::Atan2, a, b),
+            Expr::Negate(a) => {
+                let a = part(g, a);
+                g.unary(Unary::Negate, a)
             }
-        }
-    }
-
-    fn unary(&self, g: &mut Graph, operator: Unary, a: &Expr, state: &impl State) -> ExprId {
-        let a = self.scalar_at(g, a, state);
-        g.unary(operator, a)
+            Expr::PowerInteger(a, n) => {
+                let a = part(g, a);
+                g.unary(Unary::PowerInteger(*n), a)
+            }
+            Expr::Call(function, a) => {
+                let a = part(g, a);
+                g.unary(operator(*function), a)
+            }
+        };
+        known.insert(address, id);
+        id
     }
 
     fn constant(&self, id: ConstantId) -> ExprId {
         self.constants[id.index()]
+    }
+}
+
+fn operator(function: Function) -> Unary {
+    match function {
+        Function::Sqrt => Unary::Sqrt,
+        Function::Sin => Unary::Sin,
+        Function::Cos => Unary::Cos,
+        Function::Tan => Unary::Tan,
+        Function::Asin => Unary::Asin,
+        Function::Acos => Unary::Acos,
+        Function::Exp => Unary::Exp,
+        Function::Ln => Unary::Ln,
     }
 }

@@ -1,5 +1,7 @@
 //! Numbers for expressions: what a declaration comes to at given inputs and design variables.
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use super::expression::{Expr, Vector};
 use super::mechanism::{Constant, Mechanism};
 use super::simplify::apply;
@@ -29,8 +31,18 @@ impl<'a> Values<'a> {
 
     /// The value of an expression; NaN where it depends on the motion or leaves the domain of a function.
     pub fn of(&self, expr: &Expr) -> f64 {
+        self.shared(expr, &mut FxHashMap::default())
+    }
+
+    /// Parts that occur several times are computed once: `done` holds them by address.
+    fn shared(&self, expr: &Expr, done: &mut FxHashMap<*const Expr, f64>) -> f64 {
+        let address = std::ptr::from_ref(expr);
+        if let Some(&value) = done.get(&address) {
+            return value;
+        }
         let known = |table: &[f64], index: usize| table.get(index).copied().unwrap_or(f64::NAN);
-        match expr {
+        let mut part = |part: &Expr| self.shared(part, done);
+        let value = match expr {
             Expr::Number(value) => *value,
             Expr::Design(id) => known(self.design, id.index()),
             Expr::Input(id) => known(self.inputs, id.index()),
@@ -43,16 +55,18 @@ impl<'a> Values<'a> {
             | Expr::Reaction(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => f64::NAN,
-            Expr::Negate(a) => -self.of(a),
-            Expr::Add(a, b) => self.of(a) + self.of(b),
-            Expr::Subtract(a, b) => self.of(a) - self.of(b),
-            Expr::Multiply(a, b) => self.of(a) * self.of(b),
-            Expr::Divide(a, b) => self.of(a) / self.of(b),
-            Expr::PowerInteger(a, n) => self.of(a).powi(*n),
-            Expr::Power(a, b) => self.of(a).powf(self.of(b)),
-            Expr::Call(function, a) => apply(*function, self.of(a)),
-            Expr::Atan2(y, x) => self.of(y).atan2(self.of(x)),
-        }
+            Expr::Negate(a) => -part(a),
+            Expr::Add(a, b) => part(a) + part(b),
+            Expr::Subtract(a, b) => part(a) - part(b),
+            Expr::Multiply(a, b) => part(a) * part(b),
+            Expr::Divide(a, b) => part(a) / part(b),
+            Expr::PowerInteger(a, n) => part(a).powi(*n),
+            Expr::Power(a, b) => part(a).powf(part(b)),
+            Expr::Call(function, a) => apply(*function, part(a)),
+            Expr::Atan2(y, x) => part(y).atan2(part(x)),
+        };
+        done.insert(address, value);
+        value
     }
 }
 
@@ -87,26 +101,27 @@ impl InputDependence {
 
     /// The expression depends on an input, directly or through a constant.
     pub fn of(&self, expr: &Expr) -> bool {
+        self.shared(expr, &mut FxHashSet::default())
+    }
+
+    /// `visited` holds the parts already found independent, by address.
+    fn shared(&self, expr: &Expr, visited: &mut FxHashSet<*const Expr>) -> bool {
+        if !visited.insert(std::ptr::from_ref(expr)) {
+            return false;
+        }
         match expr {
             Expr::Input(_) => true,
             Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
-            Expr::Number(_)
-            | Expr::Design(_)
-            | Expr::Coordinate(_)
-            | Expr::Rate(_)
-            | Expr::Position(..)
-            | Expr::Length
-            | Expr::LengthRate
-            | Expr::Reaction(..)
-            | Expr::KineticEnergy
-            | Expr::PotentialEnergy => false,
-            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.of(a),
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => {
+                self.shared(a, visited)
+            }
             Expr::Add(a, b)
             | Expr::Subtract(a, b)
             | Expr::Multiply(a, b)
             | Expr::Divide(a, b)
             | Expr::Power(a, b)
-            | Expr::Atan2(a, b) => self.of(a) || self.of(b),
+            | Expr::Atan2(a, b) => self.shared(a, visited) || self.shared(b, visited),
+            _ => false,
         }
     }
 }

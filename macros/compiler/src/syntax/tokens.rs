@@ -160,6 +160,18 @@ impl<'a> Tokens<'a> {
         Some((span.open(), content, span.close()))
     }
 
+    /// What a `macro_rules!` fragment such as `$v:expr` has put in place of itself, when that is more than one token: it
+    /// belongs together although no parenthesis is seen.
+    pub(super) fn fragment(&mut self) -> Option<(Span, Tokens<'a>, Span)> {
+        let (content, ..) = self.cursor.group(Delimiter::None)?;
+        let (_, rest) = content.token_tree()?;
+        if rest.eof() {
+            None
+        } else {
+            self.group(Delimiter::None)
+        }
+    }
+
     pub(super) fn expect_sign(&mut self, sign: char, what: &str) -> Parsed<Extent> {
         match self.sign(sign) {
             Some(extent) => Ok(extent),

@@ -100,10 +100,14 @@ fn component(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
 
 fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     let start = tokens.span();
-    if let Some(literal) = tokens.literal() {
+    let grouped = tokens.fragment();
+    if grouped.is_none()
+        && let Some(literal) = tokens.literal()
+    {
         return number(&literal, tokens);
     }
-    if let Some((open, mut content, close)) = tokens.group(Delimiter::Parenthesis) {
+    let grouped = grouped.or_else(|| tokens.group(Delimiter::Parenthesis));
+    if let Some((open, mut content, close)) = grouped {
         let inner = nested(&mut content, depth, open.into(), sum)?;
         if !content.is_empty() {
             return content.expected("`)` or an operator");
