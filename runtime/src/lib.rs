@@ -1,7 +1,9 @@
 //! Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 //!
 //! Declare a mechanism with [`mechanism!`]; ask questions through `Study`, or call the functions of the modules
-//! directly: each takes the mechanism, plain arrays and the results of the step before.
+//! directly: each takes the mechanism, plain arrays and the results of the step before. Numbers of equations are those of
+//! S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in Dynamic
+//! Equilibrium State", completed where the paper is incomplete.
 //!
 //! ```
 //! # #[cfg(feature = "std")]

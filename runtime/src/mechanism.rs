@@ -11,7 +11,7 @@ use crate::Real;
 ///
 /// - `q`: free coordinates, `u`: inputs, `b`: design variables, in the order of [`Mechanism::DESCRIPTION`];
 /// - matrices are `[[T; N]; N]`, `matrix[i][j]` the derivative of residual `i` by coordinate `j`;
-/// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (THEORY eq. 12): equal to zero along a motion, positive
+/// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (eq. 12): equal to zero along a motion, positive
 ///   when inertia exceeds the applied forces.
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which

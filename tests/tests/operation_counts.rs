@@ -1,5 +1,5 @@
 //! What the generated code costs: additions and multiplications for a chain of `n` bars on a spinning shaft, with the
-//! length and the mass of every bar as design variables (THEORY section 5).
+//! length and the mass of every bar as design variables.
 
 use eigentol_compiler::algebra::{Cost, Function, cost};
 use eigentol_compiler::compile;
@@ -7,7 +7,7 @@ use eigentol_compiler::mechanics::{Functions, Limits};
 use eigentol_tests::declaration::declaration;
 use eigentol_tests::examples::chain;
 
-/// Bars, full adjoint gradient, all explicit partial matrices, as counted on a sketch in THEORY section 5.
+/// Bars, full adjoint gradient, all explicit partial matrices, as counted on a sketch.
 const SKETCH: [(usize, usize, Option<usize>); 5] = [
     (2, 280, Some(405)),
     (4, 702, Some(1650)),

@@ -1,4 +1,4 @@
-//! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would (THEORY section 2).
+//! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
 
 mod continuation;
 mod convergence;

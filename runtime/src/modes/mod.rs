@@ -1,4 +1,4 @@
-//! Natural modes of small vibrations about an equilibrium (THEORY section 4).
+//! Natural modes of small vibrations about an equilibrium.
 
 mod assurance;
 mod refine;

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, number, per};
+use super::table::{Table, cells, heading, number, per, undamped};
 use crate::Sensitivities;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities};
 use crate::{Description, Unit};
@@ -75,6 +75,7 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
             pick(&mode.omega_by_input?, &mode.omega_by_design?, j)
         });
         write!(f, "{table}")?;
+        undamped(f, self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {
                 writeln!(

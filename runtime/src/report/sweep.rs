@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::table::{Table, heading, in_unit, optional};
+use super::table::{Table, heading, in_unit, optional, undamped};
 use crate::equilibrium::SweepPoint;
 
 /// Points of a sweep, printed as one table.
@@ -51,7 +51,8 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable
             });
             table.row(row);
         }
-        write!(f, "{table}")
+        write!(f, "{table}")?;
+        undamped(f, d)
     }
 }
 

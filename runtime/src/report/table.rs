@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::Unit;
+use crate::{DampingKind, Description, Unit};
 
 /// A table: a head and rows of equal length; the first column is left-aligned, the others right.
 pub(super) struct Table {
@@ -96,4 +96,19 @@ pub(super) fn per(name: &str, unit: Unit) -> String {
 
 pub(super) fn cells<const C: usize>(texts: [&str; C]) -> Vec<String> {
     texts.map(str::to_owned).to_vec()
+}
+
+/// Says of results that rest on undamped modes what they leave out.
+pub(super) fn undamped(f: &mut fmt::Formatter<'_>, description: &Description) -> fmt::Result {
+    match description.damping {
+        DampingKind::Zero => Ok(()),
+        DampingKind::Gyroscopic => writeln!(
+            f,
+            "  Gyroscopic forces (Chat) of this mechanism are ignored: undamped modes."
+        ),
+        DampingKind::General => writeln!(
+            f,
+            "  Damping and gyroscopic forces (Chat) of this mechanism are ignored: undamped modes."
+        ),
+    }
 }

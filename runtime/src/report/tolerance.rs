@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, optional, per};
+use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
 use crate::tolerance::{
     Counts, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
 };
@@ -67,6 +67,13 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
             table.row(row);
         }
         write!(f, "{table}")?;
+        undamped(f, d)?;
+        if self.distance_to_critical <= 0.0 {
+            return writeln!(
+                f,
+                "  The equilibrium is not stable: a mode that does not oscillate has no frequency to spread."
+            );
+        }
         if self.distance_to_critical < TRUSTED_DISTANCE {
             writeln!(
                 f,
@@ -141,6 +148,7 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             ]);
         }
         write!(f, "{table}")?;
+        undamped(f, self.description)?;
         if self.left_nominal_branch > 0 {
             writeln!(
                 f,
@@ -194,6 +202,7 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
                 format!("{:.1} %", 100.0 * share),
             ]);
         }
-        write!(f, "{table}")
+        write!(f, "{table}")?;
+        undamped(f, d)
     }
 }

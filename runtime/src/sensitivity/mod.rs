@@ -1,5 +1,5 @@
 //! Total derivatives: how an equilibrium, its modes and the outputs move with inputs and design variables, the shift of
-//! the equilibrium included (THEORY section 5, eqs. 19-21 completed).
+//! the equilibrium included (eqs. 19-21 completed).
 
 mod adjoint;
 mod events;

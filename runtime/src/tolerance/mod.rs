@@ -1,4 +1,4 @@
-//! How tolerances of design variables spread frequencies and outputs (THEORY section 6, eqs. 26-27).
+//! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
 mod declared;
 mod events;

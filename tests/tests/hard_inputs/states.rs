@@ -194,7 +194,7 @@ fn exactly_at_the_critical_speed() {
                 let run = study.monte_carlo().expect("samples");
                 assert_eq!((run.counts.total(), run.counts.stable), (300, 300));
                 let found = run.modes[0].expect("values");
-                // THEORY section 6: the true deviation stays finite.
+                // The true deviation stays finite.
                 let sigma = found.standard_deviation.expect("many values");
                 assert!(sigma > 0.1 && sigma < 0.3);
             }

@@ -76,7 +76,7 @@ fn quadrature(omega: f64, sigma: f64) -> (f64, f64) {
     (mean, (second / weight - mean * mean).sqrt())
 }
 
-/// The very speed where first order fails: samples lie on both branches. THEORY section 6 has the deviations.
+/// The very speed where first order fails: samples lie on both branches.
 #[test]
 fn moments_across_the_critical_speed() {
     let critical = Truth::load("P1").get("Omega_critical").number();

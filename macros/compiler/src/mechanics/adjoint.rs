@@ -1,4 +1,4 @@
-//! Scalars whose gradients give every design derivative of a mode at once (THEORY section 5).
+//! Scalars whose gradients give every design derivative of a mode at once.
 
 use crate::algebra::{Array, Direction, Graph, derivatives_along, gradient};
 use crate::base::ids::{ExprId, SymbolId};
@@ -8,7 +8,7 @@ use super::linearise::at_rest;
 use super::symbols::Symbols;
 
 /// `phi^T (Khat - lambda Mhat) phi` without either matrix: the derivative of `phi^T g` along
-/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the `phi` in front held fixed (THEORY section 5).
+/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the `phi` in front held fixed.
 pub(super) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
     let power = weighted_sum(g, &s.phi.values, &e.without_velocity);
     let minus_lambda = g.neg(s.lambda.values[0]);

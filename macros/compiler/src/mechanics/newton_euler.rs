@@ -14,7 +14,7 @@ use super::sources::Sources;
 
 /// The equations of motion, and what the joints transmit.
 pub(super) struct Dynamics {
-    /// `g(qddot, qdot, q; u, b)` by coordinate id (THEORY eq. 12): inertia less applied forces along each coordinate.
+    /// `g(qddot, qdot, q; u, b)` by coordinate id (eq. 12): inertia less applied forces along each coordinate.
     pub(super) residual: Vec<ExprId>,
     /// By body id: what the parent exerts on the body and all it carries, about the body's origin.
     pub(super) transmitted: Vec<Wrench>,

@@ -1,4 +1,4 @@
-//! A steady state exists only if the equations do not change while the driven coordinates turn (THEORY section 1).
+//! A steady state exists only if the equations do not change while the driven coordinates turn.
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
