@@ -164,10 +164,10 @@ fn nested_vector_functions_are_translated_once() {
 
 mod constants {
     /// A constant of the user's module with the name of a design variable, and a mechanism named like one.
-    pub const G: f64 = 9.81;
+    pub(super) const G: f64 = 9.81;
 
     eigentol::mechanism! {
-        pub mechanism L {
+        pub(super) mechanism L {
             design L = 1 m;
             design G = 9.81 m/s^2;
             design least = 2 kg;
@@ -181,7 +181,7 @@ mod constants {
     macro_rules! doubled {
         ($name:ident, $value:expr) => {
             eigentol::mechanism! {
-                pub mechanism $name {
+                pub(super) mechanism $name {
                     design f = $value * 2;
                     gravity 9.81 m/s^2 along -z;
                     body bar: rod(mass: f * 1 kg, length: 1 m, along: -z);
