@@ -259,3 +259,42 @@ fn singular_mass_names_its_coordinate() {
         Err(Error::ModesNotFound { .. })
     ));
 }
+
+/// The symmetric part of a skew `Chat` is zero but for rounding: its eigenpairs have nothing but rounding to be judged by.
+#[test]
+fn a_matrix_of_rounding_errors_has_modes() {
+    let noise = 1.3234889800848443e-23;
+    let mut stiffness = [[0.0; 5]; 5];
+    stiffness[2][4] = -noise;
+    stiffness[4][2] = -noise;
+    let upper = [
+        [
+            1.9187994587294266,
+            0.7440131129819394,
+            -7.638034203205087e-7,
+            0.09375712284500543,
+            3.1215194881275135e-9,
+        ],
+        [
+            0.0,
+            0.36089343390111894,
+            -1.7297349814103477e-9,
+            0.049280050306295106,
+            -2.1347471029188987e-8,
+        ],
+        [
+            0.0,
+            0.0,
+            0.010052758516844843,
+            -3.9834955515877086e-10,
+            -0.00042152151664017135,
+        ],
+        [0.0, 0.0, 0.0, 0.009666666666667063, 4.0093340298414425e-10],
+        [0.0, 0.0, 0.0, 0.0, 0.0006966666666666667],
+    ];
+    let mass: [[f64; 5]; 5] =
+        std::array::from_fn(|i| std::array::from_fn(|j| upper[i.min(j)][i.max(j)]));
+    let found = modes_of(&pencil(stiffness, mass), &ANY).unwrap();
+    assert!(found.modes.iter().all(|mode| mode.lambda.abs() < 1e-20));
+    assert!(modes_of(&pencil([[0.0; 5]; 5], mass), &ANY).is_ok());
+}

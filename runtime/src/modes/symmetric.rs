@@ -36,10 +36,7 @@ pub(crate) fn solve<const N: usize>(
 ) -> Result<Pairs<N>, Trouble> {
     let mut lambda = [0.0; N];
     let mut shapes = [[0.0; N]; N];
-    // The library's iteration loses matrices of tiny entries to underflow: it sees one of entries up to 1.
-    let scale = power_of_two(largest_element(stiffness));
-    let scaled = stiffness.map(|row| row.map(|entry| entry / scale));
-    let (k, m) = (scaled.as_flattened(), mass.as_flattened());
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let vectors = shapes.as_flattened_mut();
     match N {
         0 => {}
@@ -54,18 +51,12 @@ pub(crate) fn solve<const N: usize>(
         _ => large(N, k, m, &mut lambda, vectors)?,
     }
     let mut pairs = Pairs {
-        lambda: lambda.map(|value| value * scale),
+        lambda,
         shapes,
         residuals: [0.0; N],
     };
     finish(stiffness, mass, &mut pairs)?;
     Ok(pairs)
-}
-
-/// The power of two at or below `size`; 1 for what is zero or not finite.
-fn power_of_two(size: f64) -> f64 {
-    let power = f64::from_bits(size.to_bits() & !((1 << 52) - 1));
-    if power.is_normal() { power } else { 1.0 }
 }
 
 fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
@@ -221,7 +212,9 @@ fn finish<const N: usize>(
             pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
             refined = true;
         }
-        if pairs.residuals[r].is_nan() || pairs.residuals[r] > ACCEPTED {
+        let accepted = pairs.residuals[r] <= ACCEPTED
+            || is_rounding(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]);
+        if !accepted {
             return Err(Trouble::Inaccurate {
                 mode: r,
                 residual: pairs.residuals[r],
@@ -260,14 +253,37 @@ fn fix_sign<const N: usize>(shape: &mut [f64; N]) {
     }
 }
 
-/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows. What the rounding of
-/// `phi` explains does not count: a shape that `K` takes to zero has nothing but rounding in the rows that act.
+/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
 fn relative_residual<const N: usize>(
     stiffness: &[[f64; N]; N],
     mass: &[[f64; N]; N],
     lambda: f64,
     phi: &[f64; N],
 ) -> f64 {
+    let (most, size) = residual_and_terms(stiffness, mass, lambda, phi);
+    if most == 0.0 { 0.0 } else { most / size }
+}
+
+/// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
+/// that act, and their terms are no measure.
+fn is_rounding<const N: usize>(
+    stiffness: &[[f64; N]; N],
+    mass: &[[f64; N]; N],
+    lambda: f64,
+    phi: &[f64; N],
+) -> bool {
+    let (most, _) = residual_and_terms(stiffness, mass, lambda, phi);
+    let matrices = largest_element(stiffness) + lambda.abs() * largest_element(mass);
+    most <= ROUNDING * matrices * largest(phi)
+}
+
+/// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
+fn residual_and_terms<const N: usize>(
+    stiffness: &[[f64; N]; N],
+    mass: &[[f64; N]; N],
+    lambda: f64,
+    phi: &[f64; N],
+) -> (f64, f64) {
     let (mut most, mut size) = (0.0_f64, 0.0_f64);
     for i in 0..N {
         let (mut sum, mut terms) = (0.0, 0.0);
@@ -277,14 +293,10 @@ fn relative_residual<const N: usize>(
             terms += k.abs() + m.abs();
         }
         if sum.is_nan() {
-            return f64::NAN;
+            return (f64::NAN, size);
         }
         most = most.max(sum.abs());
         size = size.max(terms);
     }
-    let matrices = largest_element(stiffness) + lambda.abs() * largest_element(mass);
-    if most <= ROUNDING * matrices * largest(phi) {
-        return most.min(f64::EPSILON * size) / size.max(f64::MIN_POSITIVE);
-    }
-    most / size
+    (most, size)
 }
