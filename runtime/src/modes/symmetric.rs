@@ -212,13 +212,15 @@ fn finish<const N: usize>(
             pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
             refined = true;
         }
-        let accepted = pairs.residuals[r] <= ACCEPTED
-            || is_rounding(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]);
-        if !accepted {
-            return Err(Trouble::Inaccurate {
-                mode: r,
-                residual: pairs.residuals[r],
-            });
+        if pairs.residuals[r].is_nan() || pairs.residuals[r] > ACCEPTED {
+            if !is_rounding(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]) {
+                return Err(Trouble::Inaccurate {
+                    mode: r,
+                    residual: pairs.residuals[r],
+                });
+            }
+            // Relative to the matrices instead of to terms that are rounding themselves.
+            pairs.residuals[r] = ROUNDING;
         }
     }
     if refined {
