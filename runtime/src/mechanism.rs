@@ -106,6 +106,25 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         lambda: T,
     ) -> Gradient<T, N, U, P>;
 
+    /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, the four vectors held fixed, by reverse
+    /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
+    ///
+    /// `psi^T (s^2 Mhat + s Chat + Khat) phi` of a damped mode, `s`, `psi` and `phi` complex, is linear in `left` and in
+    /// the other three together: its gradient takes four calls, real and imaginary part of `psi` against those of
+    /// (`s^2 phi`, `s phi`, `phi`). [`Mechanism::mode_gradient`] is the case `left` = `position` = `phi`, `acceleration`
+    /// = `-lambda phi`, `velocity` = 0.
+    #[allow(clippy::too_many_arguments)]
+    fn pencil_gradient<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        left: &[T; N],
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        position: &[T; N],
+    ) -> Gradient<T, N, U, P>;
+
     /// Gradient of `w^T g(0, 0, q; u, b)` with `w` held fixed.
     fn residual_gradient<T: Real>(
         &self,
@@ -129,6 +148,27 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         db: &[T; P],
         dphi: &[T; N],
         dlambda: T,
+    ) -> Gradient<T, N, U, P>;
+
+    /// Directional derivative of [`Mechanism::pencil_gradient`] along (`dq`, `du`, `db`, `dleft`, `dacceleration`,
+    /// `dvelocity`, `dposition`).
+    #[allow(clippy::too_many_arguments)]
+    fn pencil_gradient_along<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        left: &[T; N],
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        position: &[T; N],
+        dq: &[T; N],
+        du: &[T; U],
+        db: &[T; P],
+        dleft: &[T; N],
+        dacceleration: &[T; N],
+        dvelocity: &[T; N],
+        dposition: &[T; N],
     ) -> Gradient<T, N, U, P>;
 
     /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use crate::declaration::declaration;
-use crate::kernels::{At, Kernels};
+use crate::kernels::{At, Kernels, Pencil};
 use crate::model::Model;
 use crate::oracle::{Linear, Oracle};
 use crate::random::{Random, position};
@@ -34,6 +34,10 @@ pub struct Case {
     pub weight: Vec<f64>,
     /// `dw`.
     pub weight_along: Vec<f64>,
+    /// `left`, `acceleration`, `velocity`, `position`.
+    pub pencil: [Vec<f64>; 4],
+    /// `dleft`, `dacceleration`, `dvelocity`, `dposition`.
+    pub pencil_along: [Vec<f64>; 4],
 }
 
 impl Case {
@@ -57,6 +61,9 @@ impl Case {
             .iter()
             .map(|b| b.nominal * random.between(0.9, 1.1))
             .collect();
+        let mut vectors =
+            || std::array::from_fn(|_| (0..n).map(|_| random.between(-1.0, 1.0)).collect());
+        let (pencil, pencil_along) = (vectors(), vectors());
         let at = [q, u, b];
         Self {
             at,
@@ -67,6 +74,8 @@ impl Case {
             mode_along,
             weight,
             weight_along,
+            pencil,
+            pencil_along,
         }
     }
 }
@@ -103,6 +112,8 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
     let [n, inputs, design] = at.map(<[f64]>::len);
     let mode = (&case.mode.0[..], case.mode.1);
     let mode_along = (&case.mode_along.0[..], case.mode_along.1);
+    let pencil: Pencil = case.pencil.each_ref().map(Vec::as_slice);
+    let pencil_along: Pencil = case.pencil_along.each_ref().map(Vec::as_slice);
     let mut list = Vec::new();
     let mut add = |kernel, name, shape: &[usize], kind, values| {
         list.push(Array {
@@ -215,6 +226,7 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
 
     for (kernel, gradient) in [
         ("mode_gradient", kernels.mode_gradient(at, mode.0, mode.1)),
+        ("pencil_gradient", kernels.pencil_gradient(at, pencil)),
         (
             "residual_gradient",
             kernels.residual_gradient(at, &case.weight),
@@ -222,6 +234,10 @@ fn arrays(kernels: &dyn Kernels, case: &Case) -> Vec<Array> {
         (
             "mode_gradient_along",
             kernels.mode_gradient_along(at, mode, along, mode_along),
+        ),
+        (
+            "pencil_gradient_along",
+            kernels.pencil_gradient_along(at, pencil, along, pencil_along),
         ),
         (
             "residual_gradient_along",

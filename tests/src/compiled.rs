@@ -7,7 +7,7 @@ use eigentol_compiler::program::Program;
 use proc_macro2::TokenStream;
 
 use crate::declaration::declaration;
-use crate::kernels::{At, Gradient, Kernels};
+use crate::kernels::{At, Gradient, Kernels, Pencil};
 use crate::model::Model;
 use crate::oracle::{Linear, LinearPartials};
 
@@ -128,6 +128,10 @@ impl Kernels for Compiled {
         self.evaluate("mode_gradient", &[q, u, b, phi, &[lambda]])
     }
 
+    fn pencil_gradient(&self, at: At, pencil: Pencil) -> Gradient {
+        self.evaluate("pencil_gradient", &[&at[..], &pencil].concat())
+    }
+
     fn residual_gradient(&self, [q, u, b]: At, w: &[f64]) -> Gradient {
         self.evaluate("residual_gradient", &[q, u, b, w])
     }
@@ -142,6 +146,17 @@ impl Kernels for Compiled {
         let (lambda, dlambda) = ([lambda], [dlambda]);
         let arguments = [q, u, b, phi, &lambda, dq, du, db, dphi, &dlambda];
         self.evaluate("mode_gradient_along", &arguments)
+    }
+
+    fn pencil_gradient_along(
+        &self,
+        at: At,
+        pencil: Pencil,
+        along: At,
+        pencil_along: Pencil,
+    ) -> Gradient {
+        let arguments = [&at[..], &pencil, &along, &pencil_along].concat();
+        self.evaluate("pencil_gradient_along", &arguments)
     }
 
     fn residual_gradient_along(

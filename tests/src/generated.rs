@@ -55,6 +55,9 @@ where
         }
         "linear_along" => matrices(&[machine.linear_along(q(0), u(1), b(2), q(3), u(4), b(5))]),
         "mode_gradient" => gradient(machine.mode_gradient(q(0), u(1), b(2), q(3), scalar(4))),
+        "pencil_gradient" => {
+            gradient(machine.pencil_gradient(q(0), u(1), b(2), q(3), q(4), q(5), q(6)))
+        }
         "residual_gradient" => gradient(machine.residual_gradient(q(0), u(1), b(2), q(3))),
         "mode_gradient_along" => gradient(machine.mode_gradient_along(
             q(0),
@@ -67,6 +70,22 @@ where
             b(7),
             q(8),
             scalar(9),
+        )),
+        "pencil_gradient_along" => gradient(machine.pencil_gradient_along(
+            q(0),
+            u(1),
+            b(2),
+            q(3),
+            q(4),
+            q(5),
+            q(6),
+            q(7),
+            u(8),
+            b(9),
+            q(10),
+            q(11),
+            q(12),
+            q(13),
         )),
         "residual_gradient_along" => gradient(machine.residual_gradient_along(
             q(0),

@@ -4,7 +4,8 @@
 //! the outermost one.
 
 use crate::oracle::{
-    Along, Linear, LinearPartials, ModeFunctional, Oracle, ResidualFunctional, State,
+    Along, Linear, LinearPartials, ModeFunctional, Oracle, PencilFunctional, ResidualFunctional,
+    State,
 };
 
 /// Where a kernel is evaluated: `q`, `u`, `b`; or a direction there: `dq`, `du`, `db`.
@@ -12,6 +13,10 @@ pub type At<'a> = [&'a [f64]; 3];
 
 /// Partial derivatives of a scalar by coordinates, inputs and design variables.
 pub type Gradient = [Vec<f64>; 3];
+
+/// The vectors `left`, `acceleration`, `velocity`, `position` of the bilinear form of the linearised matrices, or their
+/// direction.
+pub type Pencil<'a> = [&'a [f64]; 4];
 
 /// The kernels of one mechanism.
 pub trait Kernels {
@@ -45,6 +50,9 @@ pub trait Kernels {
     /// Gradient of `phi^T (Khat - lambda Mhat) phi`.
     fn mode_gradient(&self, at: At, phi: &[f64], lambda: f64) -> Gradient;
 
+    /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`.
+    fn pencil_gradient(&self, at: At, pencil: Pencil) -> Gradient;
+
     /// Gradient of `w^T g` at rest.
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient;
 
@@ -55,6 +63,15 @@ pub trait Kernels {
         mode: (&[f64], f64),
         along: At,
         mode_along: (&[f64], f64),
+    ) -> Gradient;
+
+    /// Directional derivative of [`Kernels::pencil_gradient`].
+    fn pencil_gradient_along(
+        &self,
+        at: At,
+        pencil: Pencil,
+        along: At,
+        pencil_along: Pencil,
     ) -> Gradient;
 
     /// Directional derivative of [`Kernels::residual_gradient`].
@@ -123,6 +140,10 @@ impl Kernels for Oracle<'_> {
         self.gradient(&ModeFunctional, at, &[phi, &[lambda]].concat())
     }
 
+    fn pencil_gradient(&self, at: At, pencil: Pencil) -> Gradient {
+        self.gradient(&PencilFunctional, at, &pencil.concat())
+    }
+
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient {
         self.gradient(&ResidualFunctional, at, w)
     }
@@ -140,6 +161,20 @@ impl Kernels for Oracle<'_> {
             fixed: &[dphi, &[dlambda]].concat(),
         };
         self.gradient_along(&ModeFunctional, at, &fixed, direction)
+    }
+
+    fn pencil_gradient_along(
+        &self,
+        at: At,
+        pencil: Pencil,
+        along: At,
+        pencil_along: Pencil,
+    ) -> Gradient {
+        let direction = Along {
+            at: along,
+            fixed: &pencil_along.concat(),
+        };
+        self.gradient_along(&PencilFunctional, at, &pencil.concat(), direction)
     }
 
     fn residual_gradient_along(&self, at: At, w: &[f64], along: At, dw: &[f64]) -> Gradient {

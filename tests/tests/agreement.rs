@@ -5,7 +5,7 @@ use std::cell::Cell;
 use eigentol_tests::agreement::{Case, Reference, assert_agrees};
 use eigentol_tests::compiled::Compiled;
 use eigentol_tests::declaration::declaration;
-use eigentol_tests::kernels::{At, Gradient, Kernels};
+use eigentol_tests::kernels::{At, Gradient, Kernels, Pencil};
 use eigentol_tests::model::Model;
 use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::random::{Plan, Setting, on_plans};
@@ -159,6 +159,11 @@ impl Kernels for Faulty<'_> {
             .map(|part| self.spoil(part))
     }
 
+    fn pencil_gradient(&self, at: At, pencil: Pencil) -> Gradient {
+        let gradient = self.oracle.pencil_gradient(at, pencil);
+        gradient.map(|part| self.spoil(part))
+    }
+
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient {
         self.oracle
             .residual_gradient(at, w)
@@ -173,6 +178,18 @@ impl Kernels for Faulty<'_> {
         mode_along: (&[f64], f64),
     ) -> Gradient {
         let gradient = self.oracle.mode_gradient_along(at, mode, along, mode_along);
+        gradient.map(|part| self.spoil(part))
+    }
+
+    fn pencil_gradient_along(
+        &self,
+        at: At,
+        pencil: Pencil,
+        along: At,
+        pencil_along: Pencil,
+    ) -> Gradient {
+        let oracle = &self.oracle;
+        let gradient = oracle.pencil_gradient_along(at, pencil, along, pencil_along);
         gradient.map(|part| self.spoil(part))
     }
 

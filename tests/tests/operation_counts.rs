@@ -65,6 +65,8 @@ fn residual_and_adjoint_grow_linearly() {
         "mode_gradient",
         "residual_gradient",
         "mode_gradient_along",
+        "pencil_gradient",
+        "pencil_gradient_along",
         "residual_gradient_along",
     ] {
         let [four, eight, sixteen, thirty_two] =

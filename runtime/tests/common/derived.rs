@@ -219,6 +219,33 @@ where
         gradient!(q, u, b, functional)
     }
 
+    fn pencil_gradient<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        left: &[T; N],
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        position: &[T; N],
+    ) -> Gradient<T, N, U, P> {
+        let functional = |q: &[Dual<T>; N], u: &[Dual<T>; U], b: &[Dual<T>; P]| {
+            let linear = self.linear(q, u, b);
+            let terms = [
+                (linear.mass, acceleration),
+                (linear.damping, velocity),
+                (linear.stiffness, position),
+            ];
+            terms
+                .iter()
+                .fold(Dual::constant(0.0), |sum, (matrix, vector)| {
+                    let vector = fixed(vector);
+                    sum + product(&fixed(left), &matrix.map(|row| product(&row, &vector)))
+                })
+        };
+        gradient!(q, u, b, functional)
+    }
+
     fn residual_gradient<T: Real>(
         &self,
         q: &[T; N],
@@ -251,6 +278,34 @@ where
             &along(b, db),
             &along(phi, dphi),
             Dual::new(lambda, dlambda),
+        ))
+    }
+
+    fn pencil_gradient_along<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        left: &[T; N],
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        position: &[T; N],
+        dq: &[T; N],
+        du: &[T; U],
+        db: &[T; P],
+        dleft: &[T; N],
+        dacceleration: &[T; N],
+        dvelocity: &[T; N],
+        dposition: &[T; N],
+    ) -> Gradient<T, N, U, P> {
+        slopes_gradient(self.pencil_gradient(
+            &along(q, dq),
+            &along(u, du),
+            &along(b, db),
+            &along(left, dleft),
+            &along(acceleration, dacceleration),
+            &along(velocity, dvelocity),
+            &along(position, dposition),
         ))
     }
 

@@ -181,6 +181,27 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         }
     }
 
+    fn pencil_gradient<T: Real>(
+        &self,
+        q: &[T; 1],
+        u: &[T; 1],
+        b: &[T; 2],
+        left: &[T; 1],
+        acceleration: &[T; 1],
+        _: &[T; 1],
+        position: &[T; 1],
+    ) -> Gradient<T, 1, 1, 2> {
+        let p = self.linear_partials(q, u, b);
+        let value = |x: &Linear<T, 1>| {
+            left[0] * (x.mass[0][0] * acceleration[0] + x.stiffness[0][0] * position[0])
+        };
+        Gradient {
+            coordinates: [value(&p.by_coordinate[0])],
+            inputs: [value(&p.by_input[0])],
+            design: [value(&p.by_design[0]), value(&p.by_design[1])],
+        }
+    }
+
     fn residual_gradient<T: Real>(
         &self,
         q: &[T; 1],
@@ -220,6 +241,34 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
             &lift(b, db),
             &lift(phi, dphi),
             Dual::new(lambda, dlambda),
+        ))
+    }
+
+    fn pencil_gradient_along<T: Real>(
+        &self,
+        q: &[T; 1],
+        u: &[T; 1],
+        b: &[T; 2],
+        left: &[T; 1],
+        acceleration: &[T; 1],
+        velocity: &[T; 1],
+        position: &[T; 1],
+        dq: &[T; 1],
+        du: &[T; 1],
+        db: &[T; 2],
+        dleft: &[T; 1],
+        dacceleration: &[T; 1],
+        dvelocity: &[T; 1],
+        dposition: &[T; 1],
+    ) -> Gradient<T, 1, 1, 2> {
+        slopes(self.pencil_gradient(
+            &lift(q, dq),
+            &lift(u, du),
+            &lift(b, db),
+            &lift(left, dleft),
+            &lift(acceleration, dacceleration),
+            &lift(velocity, dvelocity),
+            &lift(position, dposition),
         ))
     }
 

@@ -35,6 +35,24 @@ impl Functional for ModeFunctional {
     }
 }
 
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)`; fixed: the four vectors one after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct PencilFunctional;
+
+impl Functional for PencilFunctional {
+    fn value<D: Scalar>(&self, oracle: &Oracle, [q, u, b]: [&[D]; 3], fixed: &[D]) -> D {
+        let n = q.len();
+        let vector = |k: usize| &fixed[k * n..(k + 1) * n];
+        let (left, linear) = (vector(0), oracle.linear(q, u, b));
+        let matrices = [&linear.mass, &linear.damping, &linear.stiffness];
+        let form = |(k, matrix): (usize, &Vec<D>)| -> D {
+            let entry = |ij: usize| left[ij / n] * matrix[ij] * vector(k + 1)[ij % n];
+            (0..n * n).map(entry).sum()
+        };
+        matrices.into_iter().enumerate().map(form).sum()
+    }
+}
+
 /// `w^T g(0, 0, q; u, b)`; fixed: `w`.
 #[derive(Clone, Copy, Debug)]
 pub struct ResidualFunctional;

@@ -13,7 +13,7 @@ mod motion;
 mod scalar;
 mod space;
 
-pub use gradient::{Along, Functional, ModeFunctional, ResidualFunctional};
+pub use gradient::{Along, Functional, ModeFunctional, PencilFunctional, ResidualFunctional};
 pub use linear::{Linear, LinearPartials};
 pub use motion::{Motion, State};
 pub use scalar::Scalar;

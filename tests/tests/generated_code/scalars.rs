@@ -118,10 +118,15 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// `x^T A x`, `A` row by row.
 fn form(matrix: &[f64], x: &[f64]) -> f64 {
+    bilinear(x, matrix, x)
+}
+
+/// `x^T A y`, `A` row by row.
+fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
     matrix
-        .chunks(x.len())
+        .chunks(y.len())
         .zip(x)
-        .map(|(row, x_i)| x_i * dot(row, x))
+        .map(|(row, x_i)| x_i * dot(row, y))
         .sum()
 }
 
@@ -247,6 +252,35 @@ impl Visitor for Duals {
                 TIGHT,
                 &format!("{name} mode_gradient_along"),
             );
+        }
+        let vectors: Vec<Vec<f64>> = (0..4).map(|_| numbers.list(N)).collect();
+        let pencil = [at.clone(), vectors.clone()].concat();
+        let gradients = value("pencil_gradient", &pencil);
+        // The explicit partial derivatives, contracted.
+        for (which, matrices) in explicit.chunks(3).enumerate() {
+            let found: Vec<f64> = (0..sizes[which])
+                .map(|entry| {
+                    let form = |(matrix, vector): (&Vec<f64>, &Vec<f64>)| {
+                        let matrix = &matrix[entry * N * N..(entry + 1) * N * N];
+                        bilinear(&vectors[0], matrix, vector)
+                    };
+                    matrices.iter().zip(&vectors[1..]).map(form).sum()
+                })
+                .collect();
+            assert_close_to(
+                &found,
+                &gradients[which],
+                TIGHT * largest(&gradients),
+                &format!("{name} pencil_gradient {which}"),
+            );
+        }
+        let vectors_along = (0..4).map(|_| numbers.list(N)).collect();
+        let pencil_along = [along.clone(), vectors_along].concat();
+        let found = slope(&machine, "pencil_gradient", &pencil, &pencil_along);
+        let expected = value("pencil_gradient_along", &[pencil, pencil_along].concat());
+        for (found, expected) in found.iter().zip(&expected) {
+            let what = format!("{name} pencil_gradient_along");
+            assert_close(found, expected, TIGHT, &what);
         }
         let residual = [at, vec![w]].concat();
         let residual_along = [along, vec![dw]].concat();

@@ -165,6 +165,22 @@ fn derivatives_are_slopes() {
             .concat();
         assert_close(&exact, &slope(mode), "mode_gradient_along");
 
+        let [pencil, pencil_along] =
+            [&case.pencil, &case.pencil_along].map(|list| list.each_ref().map(Vec::as_slice));
+        let moved_pencil = |h: f64| {
+            let vectors: [Vec<f64>; 4] = std::array::from_fn(|k| {
+                let pairs = pencil[k].iter().zip(pencil_along[k]);
+                pairs.map(|(x, dx)| x + h * dx).collect()
+            });
+            oracle
+                .pencil_gradient(view(&moved(h)), vectors.each_ref().map(Vec::as_slice))
+                .concat()
+        };
+        let exact = oracle
+            .pencil_gradient_along(at, pencil, along, pencil_along)
+            .concat();
+        assert_close(&exact, &slope(moved_pencil), "pencil_gradient_along");
+
         let weighted = |h: f64| {
             let w: Vec<f64> = case
                 .weight
@@ -208,6 +224,16 @@ fn gradients_are_contractions_of_partials() {
             assert!(
                 (one - other).abs() < 1e-11 * scale,
                 "{gradient:?} {contracted:?}"
+            );
+        }
+        // The special case of undamped modes, which the oracle evaluates without matrices.
+        let minus: Vec<f64> = phi.iter().map(|phi| -lambda * phi).collect();
+        let pencil = [phi, &minus, &vec![0.0; n], phi].map(Vec::as_slice);
+        let special = Kernels::pencil_gradient(&oracle, at, pencil).concat();
+        for (one, other) in gradient.iter().zip(&special) {
+            assert!(
+                (one - other).abs() < 1e-11 * scale,
+                "{gradient:?} {special:?}"
             );
         }
         // w^T dg: by coordinates it is w^T Khat.

@@ -40,8 +40,10 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
         "linear" | "linear_along" => Form::Record("Linear", |s| vec![s.coordinates]),
         "linear_partials" => Form::Partials,
         "mode_gradient"
+        | "pencil_gradient"
         | "residual_gradient"
         | "mode_gradient_along"
+        | "pencil_gradient_along"
         | "residual_gradient_along" => {
             Form::Record("Gradient", |s| vec![s.coordinates, s.inputs, s.design])
         }

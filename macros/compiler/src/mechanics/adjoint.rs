@@ -27,6 +27,21 @@ pub(super) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> Expr
     at_rest(g, s, &functional)[0]
 }
 
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without any matrix: the derivative of `left^T g` along
+/// (`qddot`, `qdot`, `q`), taken at rest. `Chat` holds products of a velocity and the drives, so the velocities go only
+/// after differentiating.
+pub(super) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
+    let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
+    let rates = s
+        .acceleration
+        .with(&s.pencil.acceleration.values)
+        .chain(s.velocity.with(&s.pencil.velocity.values))
+        .chain(s.q.with(&s.pencil.position.values))
+        .collect();
+    let functional = derivatives_along(g, &[power], &Direction::new("_pencil", rates));
+    at_rest(g, s, &functional)[0]
+}
+
 pub(super) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
     let terms: Vec<ExprId> = weights
         .iter()

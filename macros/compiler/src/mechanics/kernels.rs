@@ -3,11 +3,13 @@
 use crate::algebra::{Array, Direction, Function, Graph, Parameter, derivatives_along, substitute};
 use crate::base::ids::ExprId;
 
-use super::adjoint::{gradient_along, mode_functional, state_gradient, weighted_sum};
+use super::adjoint::{
+    gradient_along, mode_functional, pencil_functional, state_gradient, weighted_sum,
+};
 use super::derive::Equations;
 use super::functions::Limits;
 use super::linearise::{Linear, columns, linear_arrays};
-use super::symbols::{SymbolList, Symbols};
+use super::symbols::{Pencil, SymbolList, Symbols};
 
 /// All kernels, in the order of the runtime's contract.
 pub(super) fn kernels(
@@ -69,6 +71,23 @@ pub(super) fn kernels(
         ],
     );
     let mode_gradient_along = gradient_along(g, &mode_gradient, &mode_along);
+
+    let pencil_functional = pencil_functional(g, s, e);
+    let pencil_gradient = state_gradient(g, s, pencil_functional);
+    let (pencil, dpencil) = (&s.pencil, &s.dpencil);
+    let pencil_along = direction(
+        "_along",
+        [
+            (&s.q, &s.dq),
+            (&s.u, &s.du),
+            (&s.b, &s.db),
+            (&pencil.left, &dpencil.left),
+            (&pencil.acceleration, &dpencil.acceleration),
+            (&pencil.velocity, &dpencil.velocity),
+            (&pencil.position, &dpencil.position),
+        ],
+    );
+    let pencil_gradient_along = gradient_along(g, &pencil_gradient, &pencil_along);
 
     let weighted = weighted_sum(g, &s.w.values, &e.rest);
     let residual_gradient = state_gradient(g, s, weighted);
@@ -143,7 +162,13 @@ pub(super) fn kernels(
             directions(),
             linear_arrays(&linear_along, n),
         ),
-        function("mode_gradient", vec![], mode(), mode_gradient.clone()),
+        function("mode_gradient", vec![], mode(), mode_gradient),
+        function(
+            "pencil_gradient",
+            vec![],
+            vectors(pencil, ["left", "acceleration", "velocity", "position"]),
+            pencil_gradient,
+        ),
         function(
             "residual_gradient",
             vec![],
@@ -160,6 +185,20 @@ pub(super) fn kernels(
             ]
             .concat(),
             mode_gradient_along,
+        ),
+        function(
+            "pencil_gradient_along",
+            vec![],
+            [
+                vectors(pencil, ["left", "acceleration", "velocity", "position"]),
+                directions(),
+                vectors(
+                    dpencil,
+                    ["dleft", "dacceleration", "dvelocity", "dposition"],
+                ),
+            ]
+            .concat(),
+            pencil_gradient_along,
         ),
         function(
             "residual_gradient_along",
@@ -207,6 +246,20 @@ pub(super) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
         symbols: list.ids.clone(),
         scalar: false,
     }
+}
+
+fn vectors(pencil: &Pencil, names: [&'static str; 4]) -> Vec<Parameter> {
+    let lists = [
+        &pencil.left,
+        &pencil.acceleration,
+        &pencil.velocity,
+        &pencil.position,
+    ];
+    names
+        .into_iter()
+        .zip(lists)
+        .map(|(name, list)| parameter(name, list))
+        .collect()
 }
 
 fn scalar(name: &'static str, list: &SymbolList) -> Parameter {

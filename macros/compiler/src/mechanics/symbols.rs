@@ -29,6 +29,32 @@ impl SymbolList {
     }
 }
 
+/// The vectors of the bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`.
+#[derive(Clone, Debug)]
+pub(super) struct Pencil {
+    pub(super) left: SymbolList,
+    pub(super) acceleration: SymbolList,
+    pub(super) velocity: SymbolList,
+    pub(super) position: SymbolList,
+}
+
+impl Pencil {
+    fn new(g: &mut Graph, prefix: &str, coordinates: &[String]) -> Self {
+        let mut list = |vector: &str| {
+            let names = coordinates
+                .iter()
+                .map(|name| format!("{prefix}{vector}_{name}"));
+            SymbolList::new(g, Stage::Rate, names)
+        };
+        Self {
+            left: list("left"),
+            acceleration: list("acceleration"),
+            velocity: list("velocity"),
+            position: list("position"),
+        }
+    }
+}
+
 /// Every symbol of a mechanism's equations.
 #[derive(Clone, Debug)]
 pub(super) struct Symbols {
@@ -57,6 +83,10 @@ pub(super) struct Symbols {
     pub(super) dphi: SymbolList,
     pub(super) dlambda: SymbolList,
     pub(super) dw: SymbolList,
+    /// Vectors around the linearised matrices.
+    pub(super) pencil: Pencil,
+    /// Their direction.
+    pub(super) dpencil: Pencil,
 }
 
 impl Symbols {
@@ -101,6 +131,8 @@ impl Symbols {
             dphi: SymbolList::new(g, Stage::Rate, named("d_phi_", &free)),
             dlambda: SymbolList::new(g, Stage::Rate, one("d_lambda")),
             dw: SymbolList::new(g, Stage::Rate, named("d_w_", &free)),
+            pencil: Pencil::new(g, "", &free),
+            dpencil: Pencil::new(g, "d_", &free),
         }
     }
 }
