@@ -185,6 +185,35 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         dw: &[T; N],
     ) -> Gradient<T, N, U, P>;
 
+    /// Whether the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`, circles in the sense in which the bodies
+    /// spin: `[moment, size]`, `-size <= moment <= size` up to rounding.
+    ///
+    /// `moment / size` is one where every orbit is a circle in the sense of the spin (forward whirl), minus one where it is
+    /// a circle against it (backward whirl), zero on straight lines. Both are zero where nothing turns, or where nothing
+    /// that turns moves across its axis; so are they, exactly, for a mechanism in which no massive body is driven to turn.
+    ///
+    /// Sums over the bodies, `omega` the angular velocity in the state of rest, `r` and `s` the displacements of the centre
+    /// of mass along `real` and `imaginary`, `m` the mass:
+    ///
+    /// - `moment = -sum |omega| omega . m (r x s)`,
+    /// - `size = sum m (|omega x r|^2 + |omega x s|^2) / 2`,
+    ///
+    /// and the same of the small rotations with `integral |rho|^2 dm` about the centre of mass for `m`: kg m^2 rad^2/s^2
+    /// for displacements in metres and radians. A joint beyond a drive is seen from the turning side: coordinates of a
+    /// turning shaft tell the sense in which an orbit runs against the shaft.
+    ///
+    /// Meant for values, not to be differentiated: `|omega|` is a root, whose derivative fails at zero speed.
+    fn whirl<T: Real>(
+        &self,
+        _q: &[T; N],
+        _u: &[T; U],
+        _b: &[T; P],
+        _real: &[T; N],
+        _imaginary: &[T; N],
+    ) -> [T; 2] {
+        zeros()
+    }
+
     /// The first physical requirement that the inputs and design variables break: a mass or a length that is not
     /// positive, an inertia that no body can have. NaN breaks every requirement.
     fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>>;

@@ -136,6 +136,15 @@ impl Kernels for Compiled {
         self.evaluate("residual_gradient", &[q, u, b, w])
     }
 
+    fn whirl(&self, [q, u, b]: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
+        // As in the runtime: no kernel where nothing turns.
+        if self.program.kernel("whirl").is_none() {
+            return vec![0.0; 2];
+        }
+        let [whirl] = self.evaluate("whirl", &[q, u, b, real, imaginary]);
+        whirl
+    }
+
     fn mode_gradient_along(
         &self,
         [q, u, b]: At,

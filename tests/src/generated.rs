@@ -97,6 +97,7 @@ where
             b(6),
             q(7),
         )),
+        "whirl" => vec![machine.whirl(q(0), u(1), b(2), q(3), q(4)).to_vec()],
         "outputs" => vec![machine.outputs(q(0), u(1), b(2)).to_vec()],
         "output_partials" => {
             let (by_coordinate, by_input, by_design) = machine.output_partials(q(0), u(1), b(2));

@@ -56,6 +56,9 @@ pub trait Kernels {
     /// Gradient of `w^T g` at rest.
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient;
 
+    /// The moment of a vibration about the spin of the bodies, and its bound.
+    fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64>;
+
     /// Directional derivative of [`Kernels::mode_gradient`].
     fn mode_gradient_along(
         &self,
@@ -146,6 +149,10 @@ impl Kernels for Oracle<'_> {
 
     fn residual_gradient(&self, at: At, w: &[f64]) -> Gradient {
         self.gradient(&ResidualFunctional, at, w)
+    }
+
+    fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
+        Oracle::whirl(self, at, real, imaginary).to_vec()
     }
 
     fn mode_gradient_along(

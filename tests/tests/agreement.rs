@@ -170,6 +170,10 @@ impl Kernels for Faulty<'_> {
             .map(|part| self.spoil(part))
     }
 
+    fn whirl(&self, at: At, real: &[f64], imaginary: &[f64]) -> Vec<f64> {
+        self.spoil(Kernels::whirl(&self.oracle, at, real, imaginary))
+    }
+
     fn mode_gradient_along(
         &self,
         at: At,

@@ -91,6 +91,7 @@ fn kernels<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     black_box(machine.mode_gradient_along(q, u, b, q, 1.0, q, u, b, q, 1.0));
     black_box(machine.pencil_gradient_along(q, u, b, q, q, q, q, q, u, b, q, q, q, q));
     black_box(machine.residual_gradient_along(q, u, b, q, q, u, b, q));
+    black_box(machine.whirl(q, u, b, q, q));
     black_box(machine.outputs(q, u, b));
     black_box(machine.output_partials(q, u, b));
     black_box(machine.violation(u, b));

@@ -67,6 +67,7 @@ fn residual_and_adjoint_grow_linearly() {
         "mode_gradient_along",
         "pencil_gradient",
         "pencil_gradient_along",
+        "whirl",
         "residual_gradient_along",
     ] {
         let [four, eight, sixteen, thirty_two] =

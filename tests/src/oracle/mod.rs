@@ -12,6 +12,7 @@ mod linear;
 mod motion;
 mod scalar;
 mod space;
+mod whirl;
 
 pub use gradient::{Along, Functional, ModeFunctional, PencilFunctional, ResidualFunctional};
 pub use linear::{Linear, LinearPartials};

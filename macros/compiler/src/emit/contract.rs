@@ -32,7 +32,7 @@ pub(super) enum Form {
 /// The form of a kernel of the contract; `None` for the requirements, which have a method of their own kind.
 pub(super) fn form(kernel: &str) -> Option<Form> {
     Some(match kernel {
-        "residual" | "motion_residual" | "outputs" => Form::Single,
+        "residual" | "motion_residual" | "outputs" | "whirl" => Form::Single,
         "motion" | "residual_and_stiffness" | "residual_partials" | "output_partials" => {
             Form::Tuple
         }

@@ -19,6 +19,7 @@ use super::sources::Sources;
 use super::steady_state;
 use super::symbols::Symbols;
 use super::values::Values;
+use super::whirl::whirl;
 
 /// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
 /// where nothing resists one: what only the equations can tell about a declaration.
@@ -45,6 +46,7 @@ pub fn derive(
     let properties = properties::establish(g, &problem, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &problem.outward_order());
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
+    functions.extend(whirl(g, &problem).map(|values| whirl_of(values, &symbols)));
     let requirements = requirements(g, mechanism, &values);
     functions.push(check_of(&requirements, &symbols));
     let poses = poses(g, &problem);
@@ -86,6 +88,25 @@ fn margins_of(poses: &[Pose], symbols: &Symbols) -> Function {
             name: "volumes",
             shape: vec![values.len()],
             values,
+        }],
+    }
+}
+
+/// The function that tells the sense in which a vibration circles.
+fn whirl_of(moment_and_size: [ExprId; 2], symbols: &Symbols) -> Function {
+    Function {
+        name: "whirl",
+        parameters: vec![
+            parameter("q", &symbols.q),
+            parameter("u", &symbols.u),
+            parameter("b", &symbols.b),
+            parameter("real", &symbols.real),
+            parameter("imaginary", &symbols.imaginary),
+        ],
+        results: vec![Array {
+            name: "moment_and_size",
+            shape: vec![2],
+            values: moment_and_size.to_vec(),
         }],
     }
 }

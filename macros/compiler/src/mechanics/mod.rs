@@ -25,6 +25,7 @@ mod sources;
 mod steady_state;
 mod symbols;
 mod values;
+mod whirl;
 
 pub use derive::derive;
 pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement};

@@ -87,6 +87,9 @@ pub(super) struct Symbols {
     pub(super) pencil: Pencil,
     /// Their direction.
     pub(super) dpencil: Pencil,
+    /// Real and imaginary part of a vibration.
+    pub(super) real: SymbolList,
+    pub(super) imaginary: SymbolList,
 }
 
 impl Symbols {
@@ -133,6 +136,8 @@ impl Symbols {
             dw: SymbolList::new(g, Stage::Rate, named("d_w_", &free)),
             pencil: Pencil::new(g, "", &free),
             dpencil: Pencil::new(g, "d_", &free),
+            real: SymbolList::new(g, Stage::Rate, named("real_", &free)),
+            imaginary: SymbolList::new(g, Stage::Rate, named("imaginary_", &free)),
         }
     }
 }
