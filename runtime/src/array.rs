@@ -4,8 +4,30 @@
     reason = "index loops read as the formulas they are"
 )]
 
+use crate::Complex;
+
 /// A square matrix, `matrix[row][column]`.
 pub(crate) type Square<const N: usize> = [[f64; N]; N];
+
+/// `matrix x` for a complex vector.
+pub(crate) fn times_complex<const N: usize>(
+    matrix: &Square<N>,
+    x: &[Complex; N],
+) -> [Complex; N] {
+    core::array::from_fn(|i| {
+        matrix[i]
+            .iter()
+            .zip(x)
+            .fold(Complex::ZERO, |sum, (a, b)| sum + b * a)
+    })
+}
+
+/// `x^T y`, without conjugation.
+pub(crate) fn dot_complex<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
+    x.iter()
+        .zip(y)
+        .fold(Complex::ZERO, |sum, (a, b)| sum + a * b)
+}
 
 pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     let mut sum = 0.0;
@@ -112,26 +134,58 @@ impl<const N: usize> Cholesky<N> {
     }
 }
 
+/// What a linear system is solved in: real or complex numbers.
+pub(crate) trait Field:
+    Copy
+    + PartialEq
+    + core::ops::Add<Output = Self>
+    + core::ops::Sub<Output = Self>
+    + core::ops::Mul<Output = Self>
+    + core::ops::Div<Output = Self>
+{
+    const ZERO: Self;
+    /// A magnitude within a factor of two of the absolute value.
+    fn size(self) -> f64;
+}
+
+impl Field for f64 {
+    const ZERO: Self = 0.0;
+    fn size(self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Field for Complex {
+    const ZERO: Self = Self::new(0.0, 0.0);
+    fn size(self) -> f64 {
+        self.l1_norm()
+    }
+}
+
 /// Triangular factors of a general matrix with row exchanges.
-pub(crate) struct Lu<const N: usize> {
-    factors: Square<N>,
+pub(crate) struct Lu<T, const N: usize> {
+    factors: [[T; N]; N],
     order: [usize; N],
     odd: bool,
 }
 
-impl<const N: usize> Lu<N> {
+impl<T: Field, const N: usize> Lu<T, N> {
     /// Factors `matrix`; `None` when a pivot does not rise above the rounding of its own row.
-    pub(crate) fn new(matrix: &Square<N>) -> Option<Self> {
+    pub(crate) fn new(matrix: &[[T; N]; N]) -> Option<Self> {
         let threshold = 8.0 * N as f64 * f64::EPSILON;
         let mut factors = *matrix;
         let mut order: [usize; N] = core::array::from_fn(|i| i);
-        let mut size: [f64; N] = core::array::from_fn(|i| largest(&matrix[i]));
+        let mut size: [f64; N] = core::array::from_fn(|i| {
+            matrix[i]
+                .iter()
+                .fold(0.0, |most: f64, value| most.max(value.size()))
+        });
         let mut odd = false;
         for k in 0..N {
             let mut best = k;
             let mut most = -1.0;
             for i in k..N {
-                let relative = factors[i][k].abs() / size[i];
+                let relative = factors[i][k].size() / size[i];
                 if relative > most {
                     best = i;
                     most = relative;
@@ -150,7 +204,7 @@ impl<const N: usize> Lu<N> {
                 let factor = factors[i][k] / factors[k][k];
                 factors[i][k] = factor;
                 for j in k + 1..N {
-                    factors[i][j] -= factor * factors[k][j];
+                    factors[i][j] = factors[i][j] - factor * factors[k][j];
                 }
             }
         }
@@ -161,27 +215,36 @@ impl<const N: usize> Lu<N> {
         })
     }
 
-    pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
-        let mut x: [f64; N] = core::array::from_fn(|i| right[self.order[i]]);
+    pub(crate) fn solve(&self, right: &[T; N]) -> [T; N] {
+        let mut x: [T; N] = core::array::from_fn(|i| right[self.order[i]]);
         for i in 0..N {
             for k in 0..i {
-                x[i] -= self.factors[i][k] * x[k];
+                x[i] = x[i] - self.factors[i][k] * x[k];
             }
         }
         for i in (0..N).rev() {
             for k in i + 1..N {
-                x[i] -= self.factors[i][k] * x[k];
+                x[i] = x[i] - self.factors[i][k] * x[k];
             }
-            x[i] /= self.factors[i][i];
+            x[i] = x[i] / self.factors[i][i];
         }
         x
     }
+}
 
+impl<const N: usize> Lu<f64, N> {
     /// Whether the determinant is negative.
     pub(crate) fn negative_determinant(&self) -> bool {
         (0..N).fold(self.odd, |negative, i| {
             negative != (self.factors[i][i] < 0.0)
         })
+    }
+
+    /// Solves for the real and the imaginary part.
+    pub(crate) fn solve_complex(&self, right: &[Complex; N]) -> [Complex; N] {
+        let re = self.solve(&right.map(|value| value.re));
+        let im = self.solve(&right.map(|value| value.im));
+        core::array::from_fn(|i| Complex::new(re[i], im[i]))
     }
 }
 

@@ -71,8 +71,7 @@ pub enum Error {
     CriticalState,
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
     #[error(
-        "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): this mechanism needs \
-         general modes, which this version does not have"
+        "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes"
     )]
     NonsymmetricStiffness {
         /// Greatest difference of mirrored elements relative to the greatest element.
@@ -93,6 +92,14 @@ pub enum Error {
         mode: usize,
         /// Its eigenvalue, 1/s^2.
         lambda: f64,
+    },
+    /// A mode was asked for that does not exist.
+    #[error("there is no mode number {mode} (counted from 0): there are {count}")]
+    NoSuchMode {
+        /// The position asked for.
+        mode: usize,
+        /// How many modes there are.
+        count: usize,
     },
     /// A mode is one of a cluster of nearly equal eigenvalues: it has no derivative of its own.
     #[error(

@@ -74,9 +74,12 @@ pub use equilibrium::{Equilibrium, Policy, Stability};
 #[cfg(feature = "std")]
 pub use error::Error;
 #[cfg(feature = "std")]
-pub use modes::{Behaviour, Mode, Modes};
+pub use modes::{Behaviour, Family, Mode, Modes};
+/// A complex number.
 #[cfg(feature = "std")]
-pub use sensitivity::Sensitivities;
+pub use num_complex::Complex64 as Complex;
+#[cfg(feature = "std")]
+pub use sensitivity::{Quantity, Sensitivities};
 #[cfg(feature = "std")]
 pub use study::Study;
 #[cfg(feature = "std")]

@@ -1,24 +1,10 @@
-//! Values of an input where something happens on a branch of equilibria: stiffness vanishes (critical speed), or a
-//! frequency meets a multiple of the input (resonance).
+//! Values of an input where stiffness vanishes on a branch of equilibria: critical speeds.
 
-use super::continuation::{check_input, follow};
+use super::range::Range;
 use super::root::{Bracket, refine};
 use super::{Policy, equilibrium};
-use crate::modes::modes;
+use crate::modes::undamped_modes;
 use crate::{Equilibrium, Error, Input, Mechanism, Modes};
-
-/// Where to look: `steps` equal steps of one input from `low` to `high`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// The input that varies.
-    pub input: Input,
-    /// Where the search starts, SI.
-    pub low: f64,
-    /// Where it ends, SI.
-    pub high: f64,
-    /// Number of steps; two events within one step are not told apart.
-    pub steps: usize,
-}
 
 /// A state where the lowest `lambda` is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,23 +16,6 @@ pub struct CriticalState<const N: usize, const U: usize, const P: usize> {
     /// The equilibrium there, on the branch that is stable below.
     pub equilibrium: Equilibrium<N, U, P>,
     /// The modes there, ascending: the first is the critical one.
-    pub modes: Modes<N>,
-}
-
-/// A state where `omega_j = ratio * input`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing<const N: usize, const U: usize, const P: usize> {
-    /// The input that was varied.
-    pub input: Input,
-    /// Its value at the crossing, SI.
-    pub value: f64,
-    /// `k` in `omega_j = k u`.
-    pub ratio: f64,
-    /// Position of the mode in `modes`.
-    pub mode: usize,
-    /// The equilibrium there.
-    pub equilibrium: Equilibrium<N, U, P>,
-    /// The modes there, in the order they have at the start of the range.
     pub modes: Modes<N>,
 }
 
@@ -69,18 +38,18 @@ pub fn critical_state<M, const N: usize, const U: usize, const P: usize, const O
 where
     M: Mechanism<N, U, P, O>,
 {
-    check_range::<U>(&range, M::DESCRIPTION.name)?;
+    range.check::<U>(M::DESCRIPTION.name)?;
     let solve = |value: f64, from: &[f64; N], policy: Policy| -> Result<State<N, U, P>, Error> {
         let mut inputs = *u;
         inputs[range.input.0] = value;
         let state = equilibrium(mechanism, &inputs, b, from, policy)?;
-        let found = modes(&state)?;
+        let found = undamped_modes(&state)?;
         Ok((state, found))
     };
     let lowest = |state: &State<N, U, P>| state.1.modes.first().map_or(0.0, |mode| mode.lambda);
     let mut last = solve(range.low, start, Policy::Stable)?;
     let mut last_value = range.low;
-    for value in steps(&range) {
+    for value in range.steps() {
         let next = solve(value, &last.0.coordinates, Policy::Nearest);
         let at_next = match &next {
             Ok(state) => lowest(state),
@@ -100,7 +69,7 @@ where
                 if lowest(&state) > 0.0 {
                     from = state.0.coordinates;
                 }
-                Some(lowest(&state))
+                Some((lowest(&state), None))
             });
             let (state, found) = solve(critical, &from, Policy::Nearest).unwrap_or(last);
             let value = state.inputs[range.input.0];
@@ -119,101 +88,6 @@ where
         M::DESCRIPTION.inputs,
         &range,
     ))
-}
-
-/// Finds every value of an input in a range at which a frequency equals `ratio` times the input, on the branch that
-/// `policy` follows; modes keep their identity along the range. Points without an equilibrium or without modes are
-/// passed over.
-///
-/// # Errors
-/// [`Error::UnknownHandle`], [`Error::Setting`], and those of the first point.
-pub fn crossings<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
-    policy: Policy,
-    range: Range,
-    ratio: f64,
-) -> Result<Vec<Crossing<N, U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    check_range::<U>(&range, M::DESCRIPTION.name)?;
-    let solve = |value: f64,
-                 from: &[f64; N],
-                 reference: &mut Option<Modes<N>>|
-     -> Result<State<N, U, P>, Error> {
-        let mut inputs = *u;
-        inputs[range.input.0] = value;
-        let state = equilibrium(mechanism, &inputs, b, from, policy)?;
-        let found = modes(&state)?;
-        let found = follow(reference, found, &state);
-        Ok((state, found))
-    };
-    let excess = |state: &State<N, U, P>, mode: usize| {
-        let omega = state.1.modes[mode].frequency()?;
-        Some(omega - ratio * state.0.inputs[range.input.0])
-    };
-    let mut reference = None;
-    let mut last = solve(range.low, start, &mut reference)?;
-    let mut found = Vec::new();
-    for value in steps(&range) {
-        let Ok(next) = solve(value, &last.0.coordinates, &mut reference) else {
-            continue;
-        };
-        for mode in 0..N {
-            let (Some(at_low), Some(at_high)) = (excess(&last, mode), excess(&next, mode)) else {
-                continue;
-            };
-            if (at_low > 0.0) == (at_high > 0.0) {
-                continue;
-            }
-            let bracket = Bracket {
-                low: last.0.inputs[range.input.0],
-                high: value,
-                at_low,
-                at_high,
-            };
-            let from = last.0.coordinates;
-            let evaluate = |trial: f64| solve(trial, &from, &mut Some(last.1)).ok();
-            let root = refine(bracket, |trial| excess(&evaluate(trial)?, mode));
-            if let Some((state, modes)) = evaluate(root) {
-                found.push(Crossing {
-                    input: range.input,
-                    value: root,
-                    ratio,
-                    mode,
-                    equilibrium: state,
-                    modes,
-                });
-            }
-        }
-        last = next;
-    }
-    Ok(found)
-}
-
-fn steps(range: &Range) -> impl Iterator<Item = f64> + use<> {
-    let (low, high, count) = (range.low, range.high, range.steps);
-    (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
-}
-
-fn check_range<const U: usize>(range: &Range, mechanism: &'static str) -> Result<(), Error> {
-    check_input::<U>(range.input, mechanism)?;
-    let refused = if !(range.low.is_finite() && range.high.is_finite()) {
-        "its ends must be finite"
-    } else if range.low == range.high {
-        "its ends must differ"
-    } else if range.steps == 0 {
-        "it needs at least one step"
-    } else {
-        return Ok(());
-    };
-    Err(Error::Setting {
-        setting: "range",
-        reason: refused.to_owned(),
-    })
 }
 
 fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {

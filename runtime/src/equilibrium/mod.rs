@@ -1,19 +1,27 @@
 //! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
 
-mod continuation;
 mod convergence;
 mod critical;
+mod crossing;
 mod descent;
 mod multistart;
 mod newton;
 mod problem;
+mod range;
 mod root;
 mod stability;
+mod sweep;
+mod track;
 
-pub use continuation::{SweepPoint, sweep};
-pub use critical::{CriticalState, Crossing, Range, critical_state, crossings};
+pub use critical::{CriticalState, critical_state};
+pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
+pub use range::Range;
 pub use multistart::{Search, find_equilibria};
-pub use stability::{Doubt, Stability};
+pub use stability::Stability;
+pub use sweep::{SweepPoint, sweep};
+pub use track::Following;
+pub(crate) use track::{Tracked, Tracker};
+pub(crate) use crossing::between;
 
 pub(crate) use problem::{Failure, Problem};
 
@@ -153,7 +161,7 @@ where
             relative,
         });
     }
-    let stability = stability::judge(&M::DESCRIPTION, &linear)?;
+    let stability = stability::judge(problem.description(), &linear)?;
     Ok(Equilibrium {
         coordinates: found.coordinates,
         inputs: *problem.inputs,

@@ -1,15 +1,22 @@
-//! What the linearised mechanism says about the stability of an equilibrium, and where it says nothing.
+//! What the linearised mechanism says about the stability of an equilibrium.
 
 use super::problem::Failure;
 use crate::array::{Cholesky, Lu, Square, asymmetry};
-use crate::modes::{neutral_threshold, symmetric};
-use crate::{DampingKind, Description, Linear};
+use crate::modes::{Family, SYMMETRIC, neutral_threshold, solve_modes, symmetric};
+use crate::{Behaviour, DampingKind, Description, Linear};
 
 /// Stability of an equilibrium against small disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stability {
-    /// Stable: `Khat` symmetric and positive definite, and `Chat` feeds in no energy.
+    /// Stable: no small disturbance grows.
     Stable,
+    /// Stable by gyroscopic forces alone, which hold directions without stiffness; the least dissipation destroys it.
+    GyroscopicallyStabilised {
+        /// Number of directions with negative stiffness.
+        negative: usize,
+    },
+    /// Some oscillation neither grows nor decays to working accuracy, and no theorem says that it does not grow.
+    Marginal,
     /// Not unstable, but this many directions have no stiffness: the mechanism rests anywhere along them.
     Neutral {
         /// Number of eigenvalues that are zero to working accuracy.
@@ -17,47 +24,45 @@ pub enum Stability {
     },
     /// A disturbance grows without oscillation (static instability).
     Divergent {
-        /// Number of negative eigenvalues `lambda`; at least one when `Khat` is not symmetric.
+        /// Number of negative eigenvalues `lambda`, or of growing real eigenvalues `s`.
         negative: usize,
     },
-    /// The undamped symmetric problem does not decide it.
-    Unverified(Doubt),
-}
-
-/// Why stability was not decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
-    /// `Khat` is not symmetric: flutter is possible.
-    NonsymmetricStiffness,
-    /// An even number of negative eigenvalues that gyroscopic forces may stabilise, or not.
-    GyroscopicStabilisation {
-        /// How many.
-        negative: usize,
+    /// A disturbance grows in an oscillation (dynamic instability).
+    Flutter {
+        /// Number of growing oscillations.
+        growing: usize,
     },
-    /// `Chat` has a part that feeds in energy.
-    NegativeDamping,
+    /// The general eigenvalues, which would decide it, were not found to working accuracy.
+    Undecided,
 }
 
 impl Stability {
-    /// Whether small disturbances stay small, neutral directions included.
+    /// Whether small disturbances stay small as far as the linearised mechanism tells, neutral directions included.
     pub fn holds(self) -> bool {
-        matches!(self, Self::Stable | Self::Neutral { .. })
+        matches!(
+            self,
+            Self::Stable
+                | Self::GyroscopicallyStabilised { .. }
+                | Self::Marginal
+                | Self::Neutral { .. }
+        )
     }
 }
 
-/// Judges by theorems only: positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is stable
-/// (Kelvin, Tait, Chetaev); `det Khat < 0` has a growing real solution whatever `Chat` is.
+/// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
+/// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise by the general
+/// eigenvalues.
 pub(super) fn judge<const N: usize>(
-    description: &Description,
+    description: &'static Description,
     linear: &Linear<f64, N>,
 ) -> Result<Stability, Failure<N>> {
-    if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > 1e-11 {
+    if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
         return Ok(if negative {
             Stability::Divergent { negative: 1 }
         } else {
-            Stability::Unverified(Doubt::NonsymmetricStiffness)
+            by_eigenvalues(description, linear, 0)
         });
     }
     if let Err(row) = Cholesky::new(&linear.mass) {
@@ -77,15 +82,47 @@ pub(super) fn judge<const N: usize>(
         && linear.damping.iter().flatten().any(|&value| value != 0.0);
     Ok(if negative % 2 == 1 || (negative > 0 && !damped) {
         Stability::Divergent { negative }
-    } else if negative > 0 {
-        Stability::Unverified(Doubt::GyroscopicStabilisation { negative })
-    } else if damped && feeds_energy(linear)? {
-        Stability::Unverified(Doubt::NegativeDamping)
+    } else if negative > 0 || (damped && feeds_energy(linear)?) {
+        by_eigenvalues(description, linear, negative)
     } else if zero > 0 {
         Stability::Neutral { zero }
     } else {
         Stability::Stable
     })
+}
+
+/// What the general eigenvalues say.
+fn by_eigenvalues<const N: usize>(
+    description: &'static Description,
+    linear: &Linear<f64, N>,
+    negative: usize,
+) -> Stability {
+    let Ok(found) = solve_modes(linear, Family::General, description) else {
+        return Stability::Undecided;
+    };
+    let count = |wanted: fn(Behaviour) -> bool| {
+        let behaviours = found.modes.iter().map(|mode| mode.behaviour);
+        behaviours.filter(|&behaviour| wanted(behaviour)).count()
+    };
+    let divergent = count(|behaviour| matches!(behaviour, Behaviour::Divergent(_)));
+    let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
+    let zero = count(|behaviour| matches!(behaviour, Behaviour::Neutral));
+    let constant = count(|behaviour| matches!(behaviour, Behaviour::Oscillating(_)));
+    if divergent > 0 {
+        Stability::Divergent {
+            negative: divergent,
+        }
+    } else if growing > 0 {
+        Stability::Flutter { growing }
+    } else if zero > 0 {
+        Stability::Neutral { zero }
+    } else if constant == 0 {
+        Stability::Stable
+    } else if negative > 0 && description.damping == DampingKind::Gyroscopic {
+        Stability::GyroscopicallyStabilised { negative }
+    } else {
+        Stability::Marginal
+    }
 }
 
 /// Whether the symmetric part of `Chat` has a negative eigenvalue beyond rounding.

@@ -1,78 +1,166 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
-use crate::Modes;
-use crate::array::{Square, form, times};
+use super::{Family, Mode, PerMode};
+use crate::array::all_finite;
+use crate::{Complex, Modes};
 
-/// Modal assurance criterion weighted with a mass matrix: `matrix[i][j]` is the squared cosine between shape `i` of
-/// `from` and shape `j` of `to` (1: same shape, 0: orthogonal).
+/// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
+const EIGENVALUE_SHARE: f64 = 0.05;
+/// Beyond this assurance a mode is recognised without looking at the others of its set.
+const CERTAIN: f64 = 0.6;
+
+/// How much mode `j` of `to` is the same motion as mode `i` of `from`, from 0 to 1: `table[i][j]`.
+///
+/// For undamped modes the modal assurance criterion: the squared cosine between the shapes, weighted with a mass matrix.
+/// General modes are motions of positions and velocities: the phase of the eigenvalue counts as well, and of modes with
+/// equal shapes the one with the nearer eigenvalue has up to 5 % more.
 pub fn assurance<const N: usize>(
     from: &Modes<N>,
     to: &Modes<N>,
     mass: &[[f64; N]; N],
-) -> [[f64; N]; N] {
-    let weighted: Square<N> = core::array::from_fn(|j| times(mass, &to.modes[j].shape));
-    let to_size: [f64; N] =
-        core::array::from_fn(|j| crate::array::dot(&weighted[j], &to.modes[j].shape));
-    core::array::from_fn(|i| {
-        let shape = &from.modes[i].shape;
-        let size = form(shape, mass, shape);
-        core::array::from_fn(|j| {
-            let product = crate::array::dot(shape, &weighted[j]);
-            let scale = size * to_size[j];
-            if scale > 0.0 {
-                product * product / scale
+) -> PerMode<PerMode<f64, N>, N> {
+    let general = from.family == Family::General || to.family == Family::General;
+    let weighted = to.modes.map(|mode| weigh(mass, &mode.shape));
+    let size = |mode: &Mode<N>| product(&mode.shape, &weigh(mass, &mode.shape)).norm();
+    let to_size = to.modes.map(size);
+    from.modes.map(|own| {
+        let own_size = size(own);
+        PerMode::from_fn(to.modes.len(), |j| {
+            let scale = own_size * to_size[j];
+            let cosine = product(&own.shape, &weighted[j]).norm_sqr();
+            let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
+            if general {
+                shapes * same_eigenvalue(own.s, to.modes[j].s)
             } else {
-                0.0
+                shapes
             }
         })
     })
 }
 
-/// For each mode of `from` the position of the mode of `to` that is the same motion: `order[i]`.
+/// `(1 + cos of the phase difference) / 2`, less a little for the distance.
+fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
+    let sizes = a.norm() * b.norm();
+    let phase = if sizes > 0.0 {
+        0.5 + 0.5 * (a.conj() * b).re / sizes
+    } else {
+        1.0
+    };
+    let sum = a.norm() + b.norm();
+    let distance = if sum > 0.0 { (a - b).norm() / sum } else { 0.0 };
+    phase * (1.0 - EIGENVALUE_SHARE * distance)
+}
+
+fn weigh<const N: usize>(mass: &[[f64; N]; N], shape: &[Complex; N]) -> [Complex; N] {
+    core::array::from_fn(|i| {
+        mass[i]
+            .iter()
+            .zip(shape)
+            .fold(Complex::default(), |sum, (m, x)| sum + x * m)
+    })
+}
+
+/// `x^H y`.
+fn product<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
+    x.iter()
+        .zip(y)
+        .fold(Complex::default(), |sum, (a, b)| sum + a.conj() * b)
+}
+
+/// For each mode of `from` the position of the mode of `to` that is the same motion; `None` where `to` has fewer.
 ///
-/// Pairs are taken in descending order of assurance, ties by position, so the answer is a permutation and is the same
-/// every time.
+/// Pairs are taken in descending order of assurance, ties by position, so that no position occurs twice and the answer is
+/// the same every time.
 pub fn match_modes<const N: usize>(
     from: &Modes<N>,
     to: &Modes<N>,
     mass: &[[f64; N]; N],
-) -> [usize; N] {
-    if N < 2 {
-        return [0; N];
+) -> PerMode<Option<usize>, N> {
+    match_with_assurance(from, to, mass).map(|found| found.map(|(position, _)| position))
+}
+
+/// As [`match_modes`], with the assurance of each pair.
+pub(crate) fn match_with_assurance<const N: usize>(
+    from: &Modes<N>,
+    to: &Modes<N>,
+    mass: &[[f64; N]; N],
+) -> PerMode<Option<(usize, f64)>, N> {
+    let (here, there) = (from.modes.len(), to.modes.len());
+    if here < 2 && there < 2 {
+        return from.modes.map(|_| Some((0, 1.0)));
     }
     let table = assurance(from, to, mass);
-    // The shapes of one set are orthogonal, so a row has at most one element above one half.
-    if (0..N).all(|i| table[i][i] > 0.6) {
-        return core::array::from_fn(|i| i);
+    // Shapes of one undamped set are orthogonal, so a row has at most one element above one half.
+    let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
+    if undamped && (0..here).all(|i| table[i][i] > CERTAIN) {
+        return PerMode::from_fn(here, |i| Some((i, table[i][i])));
     }
-    let mut order = [0; N];
-    let (mut from_used, mut to_used) = ([false; N], [false; N]);
-    for _ in 0..N {
+    let mut found = from.modes.map(|_| None);
+    let mut used = to.modes.map(|_| false);
+    for _ in 0..here.min(there) {
         let mut best = None;
-        for i in (0..N).filter(|&i| !from_used[i]) {
-            for j in (0..N).filter(|&j| !to_used[j]) {
+        for i in (0..here).filter(|&i| found[i].is_none()) {
+            for j in (0..there).filter(|&j| !used[j]) {
                 if best.is_none_or(|(_, _, most)| table[i][j] > most) {
                     best = Some((i, j, table[i][j]));
                 }
             }
         }
-        if let Some((i, j, _)) = best {
-            order[i] = j;
-            from_used[i] = true;
-            to_used[j] = true;
+        if let Some((i, j, most)) = best {
+            found[i] = Some((j, most));
+            used[j] = true;
         }
     }
-    order
+    found
 }
 
-/// Marks the modes whose eigenvalue lies within `gap` of another one, relative to the larger of the two: they share a
-/// cluster and have no derivative of their own.
-pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> [bool; N] {
-    core::array::from_fn(|i| {
-        let own = modes.modes[i].lambda;
-        (0..N).any(|j| {
-            let other = modes.modes[j].lambda;
-            i != j && (own - other).abs() <= gap * own.abs().max(other.abs())
-        })
+impl<const N: usize> Modes<N> {
+    /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
+    /// come last, under new labels.
+    pub(crate) fn continuing(&self, before: &Self, mass: &[[f64; N]; N]) -> Self {
+        self.arranged(before, &match_modes(before, self, mass))
+    }
+
+    pub(crate) fn arranged(&self, before: &Self, order: &PerMode<Option<usize>, N>) -> Self {
+        let mut next = before
+            .modes
+            .iter()
+            .fold(0, |most, mode| most.max(mode.label + 1));
+        let continued = order
+            .iter()
+            .zip(&before.modes)
+            .filter_map(|(place, mode)| place.map(|place| (place, Some(mode.label))));
+        let new = (0..self.modes.len())
+            .filter(|place| !order.contains(&Some(*place)))
+            .map(|place| (place, None));
+        let mut all = continued.chain(new);
+        let modes = PerMode::from_fn(self.modes.len(), |r| {
+            let (place, label) = all.next().unwrap_or((r, None));
+            let label = label.unwrap_or_else(|| {
+                next += 1;
+                next - 1
+            });
+            Mode {
+                label,
+                ..self.modes[place]
+            }
+        });
+        Self { modes, ..*self }
+    }
+}
+
+/// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
+/// relative to the larger of the two: they share a cluster and have no derivative of their own.
+pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> {
+    let near = |a: &Mode<N>, b: &Mode<N>| match modes.family {
+        Family::Undamped => (a.lambda - b.lambda).abs() <= gap * a.lambda.abs().max(b.lambda.abs()),
+        Family::General => (a.s - b.s).norm() <= gap * a.s.norm().max(b.s.norm()),
+    };
+    PerMode::from_fn(modes.modes.len(), |i| {
+        let own = &modes.modes[i];
+        let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
+        let mut others = others.map(|(_, other)| other);
+        let merges = modes.family == Family::General && !all_finite(&[own.condition]);
+        merges || others.any(|other| near(own, other))
     })
 }

@@ -1,54 +1,138 @@
 //! Natural modes of small vibrations about an equilibrium.
+//!
+//! Undamped modes solve `Khat phi = lambda Mhat phi`; they are complete where `Chat` is zero and `Khat` symmetric.
+//! Everything else has general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
+//! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. Both are described by one type: an undamped mode is one with `s^2 = -lambda`.
 
 mod assurance;
+mod general;
+mod per_mode;
 mod refine;
 pub(crate) mod symmetric;
+mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
+pub(crate) use assurance::match_with_assurance;
+pub use per_mode::PerMode;
+pub use whirl::{Sense, Whirl, whirls};
 
 use crate::array::asymmetry;
-use crate::{DampingKind, Description, Equilibrium, Error, Linear};
+use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
 use symmetric::Trouble;
 
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Behaviour {
-    /// It oscillates: `lambda = omega^2 > 0`; angular frequency, rad/s.
+    /// It oscillates and keeps its amplitude, to working accuracy; angular frequency, rad/s.
     Oscillating(f64),
-    /// Nothing resists it: `lambda` is zero to working accuracy.
+    /// It oscillates and decays; angular frequency, rad/s.
+    Damped(f64),
+    /// It oscillates and grows (dynamic instability); angular frequency, rad/s.
+    Flutter(f64),
+    /// It decays without oscillation (overdamped); rate, 1/s.
+    Decaying(f64),
+    /// Nothing resists it: its eigenvalue is zero to working accuracy.
     Neutral,
-    /// It grows (static instability): `lambda = -rate^2 < 0`; rate, 1/s.
+    /// It grows without oscillation (static instability); rate, 1/s.
     Divergent(f64),
 }
 
-/// One undamped mode: `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode<const N: usize> {
-    /// Eigenvalue, 1/s^2: the square of the frequency, negative for divergence.
-    pub lambda: f64,
-    /// `phi`, by coordinate, normalised by the mass matrix; its largest component is positive.
-    pub shape: [f64; N],
-    /// What `lambda` means.
-    pub behaviour: Behaviour,
-    /// Greatest component of `Khat phi - lambda Mhat phi` relative to the terms in it.
-    pub residual: f64,
-}
+impl Behaviour {
+    /// Whether a small disturbance grows.
+    pub fn grows(self) -> bool {
+        matches!(self, Self::Flutter(_) | Self::Divergent(_))
+    }
 
-impl<const N: usize> Mode<N> {
-    /// Natural angular frequency, rad/s; `None` for a mode that does not oscillate.
-    pub fn frequency(&self) -> Option<f64> {
-        match self.behaviour {
-            Behaviour::Oscillating(omega) => Some(omega),
-            Behaviour::Neutral | Behaviour::Divergent(_) => None,
+    /// Angular frequency of the oscillation, rad/s; `None` without one.
+    pub fn frequency(self) -> Option<f64> {
+        match self {
+            Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
+            Self::Decaying(_) | Self::Neutral | Self::Divergent(_) => None,
         }
     }
 }
 
-/// All modes at one equilibrium, ascending in `lambda` unless they follow another set.
+/// One mode.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode<const N: usize> {
+    /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
+    /// undamped divergent mode the growing one.
+    pub s: Complex,
+    /// `-Re s^2`, 1/s^2. Of an undamped mode the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the frequency,
+    /// negative for divergence.
+    pub lambda: f64,
+    /// Right vector `phi`, by coordinate: `phi^H Mhat phi = 1`, its largest component real and positive. Real for an
+    /// undamped mode.
+    pub shape: [Complex; N],
+    /// Left vector `psi`, normalised alike; of an undamped mode the same as `shape`.
+    pub left: [Complex; N],
+    /// What `s` means.
+    pub behaviour: Behaviour,
+    /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
+    pub residual: f64,
+    /// Estimated absolute error of `s`, 1/s.
+    pub error: f64,
+    /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, great where
+    /// eigenvalues and their vectors are about to merge, infinite where they have.
+    pub condition: f64,
+    /// Number of the motion: modes with one number along a sweep are one motion. Without a sweep, the position.
+    pub label: usize,
+}
+
+impl<const N: usize> Mode<N> {
+    /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
+    pub fn frequency(&self) -> Option<f64> {
+        self.behaviour.frequency()
+    }
+
+    /// Natural angular frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
+    pub fn natural_frequency(&self) -> Option<f64> {
+        self.frequency().map(|_| self.s.norm())
+    }
+
+    /// Damping ratio `-Re s / |s|`; negative for a mode that grows, `None` for a neutral one.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        match self.behaviour {
+            Behaviour::Oscillating(_) => Some(0.0),
+            Behaviour::Neutral => None,
+            _ => Some(-self.s.re / self.s.norm()),
+        }
+    }
+
+    /// Real parts of the shape: all of it for an undamped mode.
+    pub(crate) fn real_shape(&self) -> [f64; N] {
+        self.shape.map(|value| value.re)
+    }
+}
+
+/// Which equation modes solve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// `Khat phi = lambda Mhat phi`, `Khat` symmetric.
+    Undamped,
+    /// `(s^2 Mhat + s Chat + Khat) phi = 0`.
+    General,
+}
+
+impl Family {
+    /// The family that leaves nothing out: undamped where the compiler proved `Chat` zero and `Khat` symmetric.
+    pub fn of(description: &Description) -> Self {
+        if description.damping == DampingKind::Zero && description.symmetric_stiffness {
+            Self::Undamped
+        } else {
+            Self::General
+        }
+    }
+}
+
+/// All modes at one equilibrium: undamped ones ascending in `lambda`, general ones in `|s|`, unless they follow another
+/// set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modes<const N: usize> {
     /// The modes.
-    pub modes: [Mode<N>; N],
+    pub modes: PerMode<Mode<N>, N>,
+    /// Which equation they solve.
+    pub family: Family,
     /// `Chat` is not zero here and was left out: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
     /// The mechanism they belong to.
@@ -57,37 +141,55 @@ pub struct Modes<const N: usize> {
 
 impl<const N: usize> Modes<N> {
     /// Frequencies of the modes in their order, rad/s.
-    pub fn frequencies(&self) -> [Option<f64>; N] {
-        self.modes.map(|mode| mode.frequency())
+    pub fn frequencies(&self) -> PerMode<Option<f64>, N> {
+        self.modes.map(Mode::frequency)
     }
 
-    /// The same modes reordered: position `i` of the result is position `order[i]` of these.
-    pub(crate) fn reordered(&self, order: &[usize; N]) -> Self {
-        let modes = core::array::from_fn(|i| self.modes[order[i].min(N.saturating_sub(1))]);
-        Self { modes, ..*self }
+    /// Whether every small disturbance stays small.
+    pub fn stable(&self) -> bool {
+        !self.modes.iter().any(|mode| mode.behaviour.grows())
     }
 }
 
-/// Undamped modes about an equilibrium.
+/// The modes about an equilibrium, of the family that leaves nothing out ([`Family::of`]).
 ///
 /// # Errors
-/// [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, [`Error::SingularMass`] when a coordinate moves no
-/// mass, [`Error::ModesNotFound`] when a pair fails its residual check.
+/// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
+/// check.
 pub fn modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
-    modes_of(&equilibrium.linear, equilibrium.description)
+    modes_of(
+        &equilibrium.linear,
+        Family::of(equilibrium.description),
+        equilibrium.description,
+    )
 }
 
-/// Undamped modes of given matrices, which belong to the mechanism that `description` describes.
+/// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
 ///
 /// # Errors
-/// As [`modes`].
+/// As [`modes`], and [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric.
+pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
+    equilibrium: &Equilibrium<N, U, P>,
+) -> Result<Modes<N>, Error> {
+    modes_of(
+        &equilibrium.linear,
+        Family::Undamped,
+        equilibrium.description,
+    )
+}
+
+/// Modes of given matrices, which belong to the mechanism that `description` describes.
+///
+/// # Errors
+/// As [`undamped_modes`].
 pub fn modes_of<const N: usize>(
     linear: &Linear<f64, N>,
+    family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, Error> {
-    solve_modes(linear, description).map_err(|trouble| trouble.explain(description))
+    solve_modes(linear, family, description).map_err(|trouble| trouble.explain(description))
 }
 
 /// A failure that owns nothing.
@@ -114,12 +216,32 @@ impl ModesFailure {
 }
 
 /// `Khat` counts as symmetric up to this relative difference.
-const SYMMETRIC: f64 = 1e-11;
+pub(crate) const SYMMETRIC: f64 = 1e-11;
 
 pub(crate) fn solve_modes<const N: usize>(
     linear: &Linear<f64, N>,
+    family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, ModesFailure> {
+    let modes = match family {
+        Family::Undamped => undamped(linear, description)?,
+        Family::General => damped(linear, description).map_err(ModesFailure::Pencil)?,
+    };
+    let damping_ignored = family == Family::Undamped
+        && description.damping != DampingKind::Zero
+        && linear.damping.iter().flatten().any(|&value| value != 0.0);
+    Ok(Modes {
+        modes,
+        family,
+        damping_ignored,
+        description,
+    })
+}
+
+fn undamped<const N: usize>(
+    linear: &Linear<f64, N>,
+    description: &'static Description,
+) -> Result<PerMode<Mode<N>, N>, ModesFailure> {
     if !description.symmetric_stiffness {
         let asymmetry = asymmetry(&linear.stiffness);
         if asymmetry.is_nan() || asymmetry > SYMMETRIC {
@@ -128,29 +250,74 @@ pub(crate) fn solve_modes<const N: usize>(
     }
     let pairs = symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
     let threshold = neutral_threshold(&pairs.lambda);
-    let modes = core::array::from_fn(|r| {
+    Ok(PerMode::from_fn(N, |r| {
         let lambda = pairs.lambda[r];
-        let behaviour = if lambda > threshold {
-            Behaviour::Oscillating(lambda.sqrt())
+        let rate = lambda.abs().sqrt();
+        let (s, behaviour) = if lambda > threshold {
+            (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
         } else if lambda < -threshold {
-            Behaviour::Divergent((-lambda).sqrt())
+            (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
         } else {
-            Behaviour::Neutral
+            (Complex::new(0.0, 0.0), Behaviour::Neutral)
         };
+        let shape = pairs.shapes[r].map(Complex::from);
         Mode {
+            s,
             lambda,
-            shape: pairs.shapes[r],
+            shape,
+            left: shape,
             behaviour,
             residual: pairs.residuals[r],
+            error: if rate > 0.0 {
+                (threshold / rate).min(threshold.sqrt())
+            } else {
+                threshold.sqrt()
+            },
+            condition: 1.0,
+            label: r,
         }
-    });
-    let damping_ignored = description.damping != DampingKind::Zero
-        && linear.damping.iter().flatten().any(|&value| value != 0.0);
-    Ok(Modes {
-        modes,
-        damping_ignored,
-        description,
-    })
+    }))
+}
+
+fn damped<const N: usize>(
+    linear: &Linear<f64, N>,
+    description: &'static Description,
+) -> Result<PerMode<Mode<N>, N>, Trouble> {
+    let roots = general::solve(linear)?;
+    let roots = roots.as_slice();
+    // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
+    let conservative =
+        description.symmetric_stiffness && description.damping != DampingKind::General;
+    Ok(PerMode::from_fn(roots.len(), |r| {
+        let root = &roots[r];
+        let mut s = root.s;
+        let zero = s.norm() <= root.error;
+        let keeps_amplitude = s.re.abs() <= root.error;
+        if zero {
+            s = Complex::new(0.0, 0.0);
+        } else if s.im > 0.0 && keeps_amplitude && conservative {
+            s.re = 0.0;
+        }
+        let behaviour = match (zero, s.im > 0.0, s.re > 0.0) {
+            (true, ..) => Behaviour::Neutral,
+            (_, true, _) if keeps_amplitude => Behaviour::Oscillating(s.im),
+            (_, true, false) => Behaviour::Damped(s.im),
+            (_, true, true) => Behaviour::Flutter(s.im),
+            (_, false, false) => Behaviour::Decaying(-s.re),
+            (_, false, true) => Behaviour::Divergent(s.re),
+        };
+        Mode {
+            s,
+            lambda: -(s * s).re,
+            shape: root.right,
+            left: root.left,
+            behaviour,
+            residual: root.residual,
+            error: root.error,
+            condition: root.condition,
+            label: r,
+        }
+    }))
 }
 
 /// Below this size an eigenvalue cannot be told from zero: the rounding of the greatest one.

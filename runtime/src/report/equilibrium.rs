@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number};
-use crate::equilibrium::{CriticalState, Crossing, Doubt};
+use crate::equilibrium::{Condition, CriticalState, Crossing};
 use crate::{Equilibrium, Stability};
 
 impl fmt::Display for Stability {
@@ -15,23 +15,32 @@ impl fmt::Display for Stability {
                 1 => write!(f, "divergent (unstable in one direction)"),
                 _ => write!(f, "divergent (unstable in {negative} directions)"),
             },
-            Self::Unverified(doubt) => write!(f, "not decided: {doubt}"),
+            Self::GyroscopicallyStabilised { negative } => write!(
+                f,
+                "stable by gyroscopic forces alone ({negative} directions without stiffness)"
+            ),
+            Self::Marginal => write!(f, "marginal (an oscillation neither grows nor decays)"),
+            Self::Flutter { growing } => match growing {
+                1 => write!(f, "flutter (one growing oscillation)"),
+                _ => write!(f, "flutter ({growing} growing oscillations)"),
+            },
+            Self::Undecided => write!(f, "not decided: its eigenvalues were not found"),
         }
     }
 }
 
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NonsymmetricStiffness => write!(f, "the stiffness is not symmetric"),
-            Self::GyroscopicStabilisation { negative } => {
-                write!(
-                    f,
-                    "{negative} directions without stiffness may be held by gyroscopic forces"
-                )
-            }
-            Self::NegativeDamping => write!(f, "the damping feeds in energy"),
+/// What mode number `mode` does at a value of the input called `name`.
+pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
+    let mode = mode + 1;
+    match condition {
+        Condition::Line(line) if line.offset == 0.0 => {
+            format!("frequency {mode} is {} times {name}", line.ratio)
         }
+        Condition::Line(line) => format!(
+            "frequency {mode} is {} times {name} plus {} rad/s",
+            line.ratio, line.offset
+        ),
+        Condition::FlutterOnset => format!("onset of flutter of mode {mode}"),
     }
 }
 
@@ -103,15 +112,9 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Crossing<N
         let d = self.equilibrium.description;
         if let Some(info) = d.inputs.get(self.input.0) {
             let value = in_unit(self.value, info.unit);
-            writeln!(
-                f,
-                "{}: frequency {} is {} times {} at {value} {}",
-                d.name,
-                self.mode + 1,
-                self.ratio,
-                info.name,
-                info.unit.symbol
-            )?;
+            let what = meeting(self.mode, self.condition, info.name);
+            let symbol = info.unit.symbol;
+            writeln!(f, "{}: {what} at {} = {value} {symbol}", d.name, info.name)?;
         }
         write!(f, "{}{}", self.equilibrium, self.modes)
     }

@@ -3,42 +3,68 @@
 use core::f64::consts::TAU;
 use core::fmt;
 
-use super::table::{Table, number};
-use crate::{Behaviour, Modes};
+use super::table::{Table, cells, number, optional};
+use crate::modes::{Family, Sense, Whirl};
+use crate::{Behaviour, Complex, Modes};
 
 impl fmt::Display for Behaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Oscillating(_) => write!(f, "oscillates"),
+            Self::Damped(_) => write!(f, "decays"),
+            Self::Flutter(_) => write!(f, "grows (flutter)"),
+            Self::Decaying(rate) => write!(f, "creeps back, rate {} 1/s", number(*rate)),
             Self::Neutral => write!(f, "free"),
             Self::Divergent(rate) => write!(f, "diverges, rate {} 1/s", number(*rate)),
         }
     }
 }
 
+impl fmt::Display for Sense {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Forward => "forward",
+            Self::Backward => "backward",
+            Self::Planar => "planar",
+        })
+    }
+}
+
+impl fmt::Display for Whirl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({:+.2})", self.sense(), self.ratio)
+    }
+}
+
 impl<const N: usize> fmt::Display for Modes<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let general = self.family == Family::General;
         writeln!(f, "{}: natural modes", self.description.name)?;
-        let mut head: Vec<String> = ["mode", "omega [rad/s]", "f [Hz]", "lambda [1/s^2]"]
-            .map(str::to_owned)
-            .to_vec();
-        head.extend(
-            self.description
-                .coordinates
-                .iter()
-                .map(|info| info.name.to_owned()),
-        );
+        let mut head = cells(["mode", "omega [rad/s]", "f [Hz]"]);
+        head.extend(if general {
+            cells(["|s| [rad/s]", "Re s [1/s]", "damping ratio"])
+        } else {
+            cells(["lambda [1/s^2]"])
+        });
+        let names = self.description.coordinates.iter();
+        head.extend(names.map(|info| info.name.to_owned()));
         head.push("motion".to_owned());
         let mut table = Table::new(head);
-        for (r, mode) in self.modes.iter().enumerate() {
+        for mode in &self.modes {
             let omega = mode.frequency();
             let mut row = vec![
-                (r + 1).to_string(),
-                super::table::optional(omega),
-                super::table::optional(omega.map(|omega| omega / TAU)),
-                number(mode.lambda),
+                (mode.label + 1).to_string(),
+                optional(omega),
+                optional(omega.map(|omega| omega / TAU)),
             ];
-            row.extend(mode.shape.iter().map(|&value| number(value)));
+            if general {
+                row.push(optional(mode.natural_frequency()));
+                row.push(number(mode.s.re));
+                row.push(optional(mode.damping_ratio().filter(|_| omega.is_some())));
+            } else {
+                row.push(number(mode.lambda));
+            }
+            row.extend(mode.shape.iter().map(|&value| component(value)));
             row.push(mode.behaviour.to_string());
             table.row(row);
         }
@@ -50,5 +76,18 @@ impl<const N: usize> fmt::Display for Modes<N> {
             )?;
         }
         Ok(())
+    }
+}
+
+/// A component of a shape: real, or amplitude and phase in degrees.
+fn component(value: Complex) -> String {
+    if value.im.abs() <= 1e-12 * value.re.abs() {
+        number(value.re)
+    } else {
+        format!(
+            "{} @ {:.1} deg",
+            number(value.norm()),
+            value.arg().to_degrees()
+        )
     }
 }

@@ -4,7 +4,8 @@ use core::fmt;
 
 use super::table::{Table, cells, heading, number, per, undamped};
 use crate::Sensitivities;
-use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities};
+use crate::modes::Family;
+use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
 use crate::{Description, Unit};
 
 /// Names and units of all variables, inputs first.
@@ -69,13 +70,22 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
             "{}: sensitivities of the frequencies, {}",
             self.description.name, self.method
         )?;
-        let columns = (1..=N).map(|r| format!("omega{r} [rad/s]")).collect();
-        let table = derivatives(self.description, columns, |r, j| {
-            let mode = &self.modes[r];
-            pick(&mode.omega_by_input?, &mode.omega_by_design?, j)
+        let numbers = 1..=self.modes.len();
+        let mut columns: Vec<String> = numbers.clone().map(|r| format!("omega{r} [rad/s]")).collect();
+        if self.family == Family::General {
+            columns.extend(numbers.map(|r| format!("damping ratio {r}")));
+        }
+        let count = self.modes.len();
+        let table = derivatives(self.description, columns, |column, j| {
+            let quantity = match column < count {
+                true => Quantity::Frequency,
+                false => Quantity::DampingRatio,
+            };
+            let slopes = self.modes[column % count.max(1)].of(quantity)?;
+            pick(&slopes.by_input, &slopes.by_design, j)
         });
         write!(f, "{table}")?;
-        undamped(f, self.description)?;
+        undamped(f, self.family, self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {
                 writeln!(

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, heading, in_unit, optional, undamped};
+use crate::Mode;
 use crate::equilibrium::SweepPoint;
 
 /// Points of a sweep, printed as one table.
@@ -26,7 +27,10 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable
                 .iter()
                 .map(|info| heading(info.name, info.unit)),
         );
-        head.extend((1..=N).map(|r| format!("omega{r} [rad/s]")));
+        let found = || self.0.iter().filter_map(|point| point.modes.as_ref().ok());
+        let all = || found().flat_map(|modes| modes.modes.iter());
+        let labels = all().fold(0, |most, mode| most.max(mode.label + 1));
+        head.extend((1..=labels).map(|r| format!("omega{r} [rad/s]")));
         head.push("state".to_owned());
         let mut table = Table::new(head);
         for point in self.0 {
@@ -41,9 +45,10 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable
                     |(s, unit)| in_unit(s.coordinates[i], unit),
                 )
             }));
-            row.extend((0..N).map(|r| {
-                let modes = point.modes.as_ref().ok();
-                optional(modes.and_then(|modes| modes.modes[r].frequency()))
+            row.extend((0..labels).map(|label| {
+                let modes = point.modes.iter().flat_map(|modes| modes.modes.iter());
+                let mode = modes.into_iter().find(|mode| mode.label == label);
+                optional(mode.and_then(Mode::frequency))
             }));
             row.push(match (&point.equilibrium, &point.modes) {
                 (Err(error), _) | (_, Err(error)) => error.to_string(),
@@ -52,7 +57,10 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable
             table.row(row);
         }
         write!(f, "{table}")?;
-        undamped(f, d)
+        match found().next() {
+            Some(modes) => undamped(f, modes.family, d),
+            None => Ok(()),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::modes::Family;
 use crate::{DampingKind, Description, Unit};
 
 /// A table: a head and rows of equal length; the first column is left-aligned, the others right.
@@ -99,16 +100,18 @@ pub(super) fn cells<const C: usize>(texts: [&str; C]) -> Vec<String> {
 }
 
 /// Says of results that rest on undamped modes what they leave out.
-pub(super) fn undamped(f: &mut fmt::Formatter<'_>, description: &Description) -> fmt::Result {
-    match description.damping {
-        DampingKind::Zero => Ok(()),
-        DampingKind::Gyroscopic => writeln!(
-            f,
-            "  Gyroscopic forces (Chat) of this mechanism are ignored: undamped modes."
-        ),
-        DampingKind::General => writeln!(
-            f,
-            "  Damping and gyroscopic forces (Chat) of this mechanism are ignored: undamped modes."
-        ),
-    }
+pub(super) fn undamped(
+    f: &mut fmt::Formatter<'_>,
+    family: Family,
+    description: &Description,
+) -> fmt::Result {
+    let what = match (family, description.damping) {
+        (Family::General, _) | (_, DampingKind::Zero) => return Ok(()),
+        (Family::Undamped, DampingKind::Gyroscopic) => "Gyroscopic forces (Chat)",
+        (Family::Undamped, DampingKind::General) => "Damping and gyroscopic forces (Chat)",
+    };
+    writeln!(
+        f,
+        "  {what} of this mechanism are ignored: undamped modes."
+    )
 }

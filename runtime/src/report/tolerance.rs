@@ -2,10 +2,12 @@
 
 use core::fmt;
 
+use super::equilibrium::meeting;
 use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
 use crate::tolerance::{
     Counts, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
 };
+use crate::modes::Family;
 use crate::{FirstOrder, MonteCarlo};
 
 impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {
@@ -42,8 +44,12 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = self.description;
         writeln!(f, "{}: first-order spread of the frequencies", d.name)?;
+        let general = self.family == Family::General;
         let mut head = cells(["mode", "mean [rad/s]", "sigma [rad/s]"]);
         head.push(format!("{} sigma [rad/s]", self.sigma_level));
+        if general {
+            head.extend(cells(["damping ratio", "sigma", "to instability [sigma]"]));
+        }
         head.push("to critical [sigma]".to_owned());
         head.extend(
             d.design
@@ -57,8 +63,13 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
                 optional(mode.mean),
                 optional(mode.sigma),
                 optional(mode.band),
-                number(mode.distance_to_critical),
             ];
+            if general {
+                row.push(optional(mode.damping_ratio.map(|spread| spread.mean)));
+                row.push(optional(mode.damping_ratio.map(|spread| spread.sigma)));
+                row.push(number(mode.distance_to_instability));
+            }
+            row.push(number(mode.distance_to_critical));
             row.extend(
                 mode.variance_shares
                     .iter()
@@ -67,7 +78,7 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
             table.row(row);
         }
         write!(f, "{table}")?;
-        undamped(f, d)?;
+        undamped(f, self.family, d)?;
         if self.distance_to_critical <= 0.0 {
             return writeln!(
                 f,
@@ -105,6 +116,7 @@ impl fmt::Display for Counts {
         write!(f, "{} stable", self.stable)?;
         for (number, name) in [
             (self.divergent, "divergent"),
+            (self.flutter, "in flutter"),
             (self.undecided, "of undecided stability"),
             (self.no_equilibrium, "without equilibrium"),
             (self.unphysical, "unphysical"),
@@ -148,7 +160,7 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             ]);
         }
         write!(f, "{table}")?;
-        undamped(f, self.description)?;
+        undamped(f, self.family, self.description)?;
         if self.left_nominal_branch > 0 {
             writeln!(
                 f,
@@ -169,13 +181,9 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
         let (name, unit) = (info.name, info.unit);
         match self.event {
             Event::Critical => write!(f, "{}: critical at {name}", d.name)?,
-            Event::Crossing { mode, ratio } => {
-                write!(
-                    f,
-                    "{}: frequency {} is {ratio} times {name} at {name}",
-                    d.name,
-                    mode + 1
-                )?;
+            Event::Crossing { mode, condition } => {
+                let what = meeting(mode, condition, name);
+                write!(f, "{}: {what} at {name}", d.name)?;
             }
         }
         let (value, symbol) = (in_unit(self.value, unit), unit.symbol);
@@ -203,6 +211,6 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
             ]);
         }
         write!(f, "{table}")?;
-        undamped(f, d)
+        undamped(f, self.family, d)
     }
 }

@@ -1,18 +1,18 @@
 //! How a critical speed or a resonance moves with the design: `du_c/db`.
 
 use super::shift::outside_domain;
-use super::{mode_gradient, sensitivities};
+use super::sensitivities;
 use crate::array::{Lu, Square, add_scaled, all_finite, dot, largest, times, transpose};
 use crate::equilibrium::{CriticalState, Crossing};
 use crate::modes::clusters;
 use crate::{Equilibrium, Error, Mechanism};
 
-/// `du_c/db` of a crossing `omega_j = k u`: `-(domega/db) / (domega/du - k)`; SI units of the input by those of the
-/// design variable.
+/// `du_c/db` of a crossing: of `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, of an onset of flutter
+/// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable.
 ///
 /// # Errors
-/// [`Error::ClusteredMode`] where the mode has no derivative of its own, [`Error::NoSensitivity`] where frequency and
-/// line touch without crossing; otherwise as [`sensitivities`].
+/// [`Error::ClusteredMode`] where the mode has no derivative of its own, [`Error::NoSensitivity`] where the two sides of
+/// the condition touch without crossing; otherwise as [`sensitivities`].
 pub fn crossing_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     crossing: &Crossing<N, U, P>,
@@ -21,30 +21,32 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
-    let (mode, input) = (crossing.mode, crossing.input.0);
-    let Some(own) = all.modes.get(mode) else {
-        return Err(Error::NoSensitivity {
-            reason: "there is no such mode",
-        });
+    let mode = crossing.mode;
+    let (Some(own), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode)) else {
+        let count = all.modes.len();
+        return Err(Error::NoSuchMode { mode, count });
     };
     if own.clustered {
         return Err(Error::ClusteredMode { mode });
     }
-    let (Some(by_input), Some(by_design)) = (own.omega_by_input, own.omega_by_design) else {
-        let lambda = crossing.modes.modes[mode].lambda;
+    let (quantity, other) = crossing.condition.sides();
+    let Some(slopes) = own.of(quantity).filter(|_| there.frequency().is_some()) else {
+        let lambda = there.lambda;
         return Err(Error::NotOscillating { mode, lambda });
     };
-    let Some(rate) = by_input.get(input).map(|rate| rate - crossing.ratio) else {
+    let Some(&by_input) = slopes.by_input.get(crossing.input.0) else {
         return Err(Error::NoSensitivity {
             reason: "there is no such input",
         });
     };
-    if rate.abs() <= 1e-12 * crossing.ratio.abs() {
+    let rate = by_input - other;
+    if rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
         return Err(Error::NoSensitivity {
-            reason: "frequency and line touch without crossing",
+            reason: "the two sides touch without crossing",
         });
     }
-    finite(by_design.map(|value| -value / rate), &crossing.equilibrium)
+    let slopes = slopes.by_design.map(|value| -value / rate);
+    finite(slopes, &crossing.equilibrium)
 }
 
 fn finite<const N: usize, const U: usize, const P: usize>(
@@ -93,10 +95,11 @@ where
     if clusters(&critical.modes, 1e-6)[0] {
         return Err(Error::ClusteredMode { mode: 0 });
     }
-    let direct = mode_gradient(mechanism, at, &critical.modes, 0);
+    let phi = &mode.real_shape();
+    let direct =
+        mechanism.mode_gradient(&at.coordinates, &at.inputs, &at.design, phi, mode.lambda);
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
-    let phi = &mode.shape;
     let weighted = times(&at.linear.mass, phi);
     let deflated = Deflated::new(&critical.modes, &at.linear.stiffness, &weighted)?;
     let force_input: [f64; N] = by_input.map(|row| row[critical.input.0]);
@@ -132,7 +135,7 @@ where
 
 /// `Khat` with the critical mode stiffened, so that it can be inverted in the complement of that mode.
 struct Deflated<const N: usize> {
-    factors: Lu<N>,
+    factors: Lu<f64, N>,
 }
 
 impl<const N: usize> Deflated<N> {

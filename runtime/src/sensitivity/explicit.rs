@@ -1,10 +1,13 @@
-//! Derivatives of all modes from the explicit partial matrices: the second way, which checks the adjoint, and the way
-//! that forgets the shift of the equilibrium.
+//! Derivatives of all modes from explicit partial derivatives of the matrices: the way of eqs. 19-21, which checks the
+//! adjoint, and the way that forgets the shift of the equilibrium.
 
+use super::adjoint::normaliser;
+use super::pencil::pencil_times;
 use super::shift::equilibrium_shift;
-use super::{Method, Sensitivities, assemble};
-use crate::array::form;
-use crate::{Equilibrium, Error, Linear, LinearPartials, Mechanism, Mode, Modes};
+use super::{Method, Sensitivities, Slopes, assemble};
+use crate::array::{dot_complex, form};
+use crate::modes::Family;
+use crate::{Complex, Equilibrium, Error, Linear, LinearPartials, Mechanism, Mode, Modes};
 
 /// Total derivatives of every mode, from explicit partials and the shift (eqs. 19-21 completed).
 ///
@@ -20,22 +23,19 @@ where
 {
     let shift = equilibrium_shift(mechanism, at)?;
     let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
-    assemble(at, modes, Method::Explicit, |r| {
-        let mode = &modes.modes[r];
-        let by_coordinate = partials
-            .by_coordinate
-            .each_ref()
-            .map(|matrix| slope(mode, matrix));
-        let (mut by_input, mut by_design) = direct(mode, &partials);
-        for (i, &rate) in by_coordinate.iter().enumerate() {
-            for (total, moved) in by_input.iter_mut().zip(&shift.by_input[i]) {
-                *total += rate * moved;
+    assemble(at, modes, Method::Explicit, |mode| {
+        let rate = rate_of(at, modes.family, mode);
+        let by_coordinate = partials.by_coordinate.each_ref().map(&rate);
+        let mut slopes = direct(&partials, &rate);
+        for (i, &moved) in by_coordinate.iter().enumerate() {
+            for (total, by) in slopes.by_input.iter_mut().zip(&shift.by_input[i]) {
+                *total += moved * by;
             }
-            for (total, moved) in by_design.iter_mut().zip(&shift.by_design[i]) {
-                *total += rate * moved;
+            for (total, by) in slopes.by_design.iter_mut().zip(&shift.by_design[i]) {
+                *total += moved * by;
             }
         }
-        (by_input, by_design)
+        slopes
     })
 }
 
@@ -59,29 +59,38 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
-    assemble(at, modes, Method::FrozenEquilibrium, |r| {
-        direct(&modes.modes[r], &partials)
+    assemble(at, modes, Method::FrozenEquilibrium, |mode| {
+        direct(&partials, rate_of(at, modes.family, mode))
     })
 }
 
 fn direct<const N: usize, const U: usize, const P: usize>(
-    mode: &Mode<N>,
     partials: &LinearPartials<f64, N, U, P>,
-) -> ([f64; U], [f64; P]) {
-    (
-        partials
-            .by_input
-            .each_ref()
-            .map(|matrix| slope(mode, matrix)),
-        partials
-            .by_design
-            .each_ref()
-            .map(|matrix| slope(mode, matrix)),
-    )
+    rate: impl Fn(&Linear<f64, N>) -> Complex,
+) -> Slopes<Complex, U, P> {
+    Slopes {
+        by_input: partials.by_input.each_ref().map(&rate),
+        by_design: partials.by_design.each_ref().map(&rate),
+    }
+}
+
+/// How the eigenvalue of a mode moves with its matrices: of an undamped mode `lambda`, of a general one `s`.
+pub(super) fn rate_of<'a, const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
+    family: Family,
+    mode: &'a Mode<N>,
+) -> impl Fn(&Linear<f64, N>) -> Complex + use<'a, N, U, P> {
+    let scale = normaliser(at, mode);
+    move |change| match family {
+        Family::Undamped => slope(mode, change).into(),
+        Family::General => {
+            -dot_complex(&mode.left, &pencil_times(change, mode.s, &mode.shape)) / scale
+        }
+    }
 }
 
 /// `phi^T (dK - lambda dM) phi` (eq. 20).
-pub(super) fn slope<const N: usize>(mode: &Mode<N>, change: &Linear<f64, N>) -> f64 {
-    let phi = &mode.shape;
+fn slope<const N: usize>(mode: &Mode<N>, change: &Linear<f64, N>) -> f64 {
+    let phi = &mode.real_shape();
     form(phi, &change.stiffness, phi) - mode.lambda * form(phi, &change.mass, phi)
 }

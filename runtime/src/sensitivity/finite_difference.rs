@@ -1,8 +1,8 @@
-//! The paper's own way: central differences of `Mhat` and `Khat` at re-solved equilibria, then eqs. 20-21. A reference
+//! The paper's own way: central differences of the matrices at re-solved equilibria, then eqs. 20-21. A reference
 //! for the exact derivatives.
 
-use super::explicit::slope;
-use super::{Method, Sensitivities, assemble};
+use super::explicit::rate_of;
+use super::{Method, Sensitivities, Slopes, assemble};
 use crate::array::Square;
 use crate::{Equilibrium, Error, Linear, Mechanism, Modes, Policy, equilibrium::equilibrium};
 
@@ -36,30 +36,31 @@ where
     let solve = |u: &[f64; U], b: &[f64; P]| {
         equilibrium(mechanism, u, b, &at.coordinates, Policy::Nearest).map(|state| state.linear)
     };
-    let mut lambda = [([0.0; U], [0.0; P]); N];
+    let mut by_input = Vec::with_capacity(U);
     for j in 0..U {
         let half = half_step(at.inputs[j], step);
         let (mut up, mut down) = (at.inputs, at.inputs);
         up[j] += half;
         down[j] -= half;
         let (above, below) = (solve(&up, &at.design)?, solve(&down, &at.design)?);
-        let change = difference(&above, &below, up[j] - down[j]);
-        for (r, (by_input, _)) in lambda.iter_mut().enumerate() {
-            by_input[j] = slope(&modes.modes[r], &change);
-        }
+        by_input.push(difference(&above, &below, up[j] - down[j]));
     }
+    let mut by_design = Vec::with_capacity(P);
     for j in 0..P {
         let half = half_step(at.design[j], step);
         let (mut up, mut down) = (at.design, at.design);
         up[j] += half;
         down[j] -= half;
         let (above, below) = (solve(&at.inputs, &up)?, solve(&at.inputs, &down)?);
-        let change = difference(&above, &below, up[j] - down[j]);
-        for (r, (_, by_design)) in lambda.iter_mut().enumerate() {
-            by_design[j] = slope(&modes.modes[r], &change);
-        }
+        by_design.push(difference(&above, &below, up[j] - down[j]));
     }
-    assemble(at, modes, Method::FiniteDifference, |r| lambda[r])
+    assemble(at, modes, Method::FiniteDifference, |mode| {
+        let rate = rate_of(at, modes.family, mode);
+        Slopes {
+            by_input: core::array::from_fn(|j| rate(&by_input[j])),
+            by_design: core::array::from_fn(|j| rate(&by_design[j])),
+        }
+    })
 }
 
 fn half_step(value: f64, step: f64) -> f64 {

@@ -2,22 +2,32 @@
 //! the equilibrium included (eqs. 19-21 completed).
 
 mod adjoint;
+mod clusters;
 mod events;
 mod explicit;
 mod finite_difference;
 mod outputs;
+mod pencil;
+mod quantity;
+mod second;
+mod shapes;
 mod shift;
 
 pub use adjoint::sensitivities;
+pub use clusters::{ModalCouplings, modal_couplings};
 pub use events::{critical_sensitivity, crossing_sensitivity};
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
 pub use outputs::{OutputSensitivities, output_sensitivities};
+pub use quantity::Quantity;
+pub use second::{ModeCurvature, SecondDerivatives, mode_curvature};
+pub use shapes::{ShapeSensitivity, shape_sensitivity};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 
 use crate::array::all_finite;
-use crate::modes::clusters;
-use crate::{Description, Equilibrium, Error, Mechanism, Modes};
+use crate::modes::{Family, PerMode, clusters as clustered_modes};
+use crate::{Complex, Description, Equilibrium, Error, Mode, Modes};
+use quantity::eigenvalue_slope;
 
 /// How derivatives were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,30 +42,108 @@ pub enum Method {
     FiniteDifference,
 }
 
+/// First derivatives of one number by every input and design variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slopes<T, const U: usize, const P: usize> {
+    /// By each input, per SI unit.
+    pub by_input: [T; U],
+    /// By each design variable, per SI unit.
+    pub by_design: [T; P],
+}
+
+impl<T: Copy, const U: usize, const P: usize> Slopes<T, U, P> {
+    fn map<R>(&self, f: impl Fn(T) -> R) -> Slopes<R, U, P> {
+        Slopes {
+            by_input: self.by_input.map(&f),
+            by_design: self.by_design.map(&f),
+        }
+    }
+}
+
+impl<const U: usize, const P: usize> Slopes<f64, U, P> {
+    fn finite(&self) -> bool {
+        all_finite(&self.by_input) && all_finite(&self.by_design)
+    }
+}
+
 /// Total derivatives of one mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeSensitivity<const U: usize, const P: usize> {
-    /// `dlambda/du`, 1/s^2 by SI unit of the input.
+    /// `dlambda/du`, 1/s^2 by SI unit of the input; `lambda = -Re s^2`.
     pub lambda_by_input: [f64; U],
     /// `dlambda/db`, 1/s^2 by SI unit of the design variable.
     pub lambda_by_design: [f64; P],
-    /// `domega/du`, rad/s by SI unit (eq. 21); `None` for a mode that does not oscillate.
+    /// `ds`, 1/s by SI unit; `None` where the eigenvalue has no derivative: an undamped neutral mode, a general one that
+    /// has merged with another.
+    pub s: Option<Slopes<Complex, U, P>>,
+    /// `domega/du`, rad/s by SI unit (eq. 21), `omega = Im s`; `None` for a mode that does not oscillate.
     pub omega_by_input: Option<[f64; U]>,
     /// `domega/db`, rad/s by SI unit (eq. 21); `None` for a mode that does not oscillate.
     pub omega_by_design: Option<[f64; P]>,
     /// The mode is one of several with nearly equal eigenvalues: these numbers belong to the computed basis of the
     /// cluster, a single-mode derivative does not exist.
     pub clustered: bool,
+    /// The eigenvalue they belong to.
+    value: Complex,
 }
 
 impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
+    /// Total derivatives of a quantity of the mode; `None` where it has none.
+    pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64, U, P>> {
+        let oscillates = self.omega_by_design.is_some();
+        if !oscillates && quantity != Quantity::Growth {
+            return None;
+        }
+        Some(self.s?.map(|ds| quantity.slope(self.value, ds)))
+    }
+
+    fn from_lambda<const N: usize>(
+        mode: &Mode<N>,
+        lambda: Slopes<f64, U, P>,
+        clustered: bool,
+    ) -> Self {
+        let moves = mode.s != Complex::new(0.0, 0.0);
+        let s = moves.then(|| lambda.map(|dlambda| eigenvalue_slope(mode.s, dlambda)));
+        Self::new(mode, lambda, s, clustered)
+    }
+
+    fn from_eigenvalue<const N: usize>(
+        mode: &Mode<N>,
+        s: Slopes<Complex, U, P>,
+        clustered: bool,
+    ) -> Self {
+        let lambda = s.map(|ds| -2.0 * (mode.s * ds).re);
+        let finite = lambda.finite() && s.map(|ds| ds.l1_norm()).finite();
+        if finite {
+            Self::new(mode, lambda, Some(s), clustered)
+        } else {
+            Self::new(mode, lambda.map(|_| 0.0), None, true)
+        }
+    }
+
+    fn new<const N: usize>(
+        mode: &Mode<N>,
+        lambda: Slopes<f64, U, P>,
+        s: Option<Slopes<Complex, U, P>>,
+        clustered: bool,
+    ) -> Self {
+        let omega = s.filter(|_| mode.frequency().is_some());
+        Self {
+            lambda_by_input: lambda.by_input,
+            lambda_by_design: lambda.by_design,
+            s,
+            omega_by_input: omega.map(|s| s.by_input.map(|ds| ds.im)),
+            omega_by_design: omega.map(|s| s.by_design.map(|ds| ds.im)),
+            clustered,
+            value: mode.s,
+        }
+    }
+
     fn finite(&self) -> bool {
-        let omega_by_input = self.omega_by_input.as_ref();
-        let omega_by_design = self.omega_by_design.as_ref();
+        let parts = |s: Slopes<Complex, U, P>| s.map(|ds| ds.l1_norm()).finite();
         all_finite(&self.lambda_by_input)
             && all_finite(&self.lambda_by_design)
-            && omega_by_input.is_none_or(all_finite)
-            && omega_by_design.is_none_or(all_finite)
+            && self.s.is_none_or(parts)
     }
 }
 
@@ -63,33 +151,36 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensitivities<const N: usize, const U: usize, const P: usize> {
     /// One entry for each mode.
-    pub modes: [ModeSensitivity<U, P>; N],
+    pub modes: PerMode<ModeSensitivity<U, P>, N>,
     /// How they were found.
     pub method: Method,
+    /// Which modes they belong to.
+    pub family: Family,
     /// The mechanism they belong to.
     pub description: &'static Description,
 }
 
-/// Eigenvalues closer than this, relative to the larger, form a cluster.
-const CLUSTER_GAP: f64 = 1e-6;
+/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
+/// shapes.
+pub(crate) const CLUSTER_GAP: f64 = 1e-6;
 
-/// Puts the derivatives of `lambda` together with those of the frequencies; refuses what is not finite.
+/// The derivatives of every mode from those of its eigenvalue: of `lambda` (real part) for undamped modes, of `s` for
+/// general ones. Refuses what is not finite.
 fn assemble<const N: usize, const U: usize, const P: usize>(
     at: &Equilibrium<N, U, P>,
     modes: &Modes<N>,
     method: Method,
-    lambda: impl Fn(usize) -> ([f64; U], [f64; P]),
+    mut eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
 ) -> Result<Sensitivities<N, U, P>, Error> {
-    let clustered = clusters(modes, CLUSTER_GAP);
-    let sensitivities: [ModeSensitivity<U, P>; N] = core::array::from_fn(|r| {
-        let (by_input, by_design) = lambda(r);
-        let omega = modes.modes[r].frequency();
-        ModeSensitivity {
-            lambda_by_input: by_input,
-            lambda_by_design: by_design,
-            omega_by_input: omega.map(|omega| by_input.map(|rate| rate / (2.0 * omega))),
-            omega_by_design: omega.map(|omega| by_design.map(|rate| rate / (2.0 * omega))),
-            clustered: clustered[r],
+    let clustered = clustered_modes(modes, CLUSTER_GAP);
+    let mut clustered = clustered.iter().copied();
+    let sensitivities = modes.modes.map(|mode| {
+        let (slopes, clustered) = (eigenvalue(mode), clustered.next().unwrap_or(true));
+        match modes.family {
+            Family::Undamped => {
+                ModeSensitivity::from_lambda(mode, slopes.map(|value| value.re), clustered)
+            }
+            Family::General => ModeSensitivity::from_eigenvalue(mode, slopes, clustered),
         }
     });
     if !sensitivities.iter().all(ModeSensitivity::finite) {
@@ -98,26 +189,7 @@ fn assemble<const N: usize, const U: usize, const P: usize>(
     Ok(Sensitivities {
         modes: sensitivities,
         method,
+        family: modes.family,
         description: modes.description,
     })
-}
-
-/// The gradient of `phi^T (Khat - lambda Mhat) phi` for one mode.
-fn mode_gradient<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    r: usize,
-) -> crate::Gradient<f64, N, U, P>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let mode = &modes.modes[r];
-    mechanism.mode_gradient(
-        &at.coordinates,
-        &at.inputs,
-        &at.design,
-        &mode.shape,
-        mode.lambda,
-    )
 }

@@ -1,5 +1,6 @@
 //! How the equilibrium itself moves: `Khat dq* = -dg` for every input and design variable with one factorisation.
 
+use super::pencil::Direction;
 use crate::array::{Lu, transpose};
 use crate::{Description, Equilibrium, Error, Mechanism};
 
@@ -45,8 +46,35 @@ where
     }
 }
 
+/// The directions in which a state moves with each input and each design variable, the equilibrium included.
+pub(super) fn directions<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+) -> Result<impl Iterator<Item = Direction<N, U, P>> + use<M, N, U, P, O>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let shift = equilibrium_shift(mechanism, at)?;
+    let (by_input, by_design) = (transpose(&shift.by_input), transpose(&shift.by_design));
+    let inputs = (0..U).map(move |k| Direction {
+        coordinates: by_input[k],
+        inputs: unit(k),
+        design: [0.0; P],
+    });
+    let design = (0..P).map(move |k| Direction {
+        coordinates: by_design[k],
+        inputs: [0.0; U],
+        design: unit(k),
+    });
+    Ok(inputs.chain(design))
+}
+
+fn unit<const K: usize>(k: usize) -> [f64; K] {
+    core::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })
+}
+
 fn solve_columns<const N: usize, const C: usize>(
-    factors: &Lu<N>,
+    factors: &Lu<f64, N>,
     partials: &[[f64; C]; N],
 ) -> [[f64; C]; N] {
     let columns = transpose(partials);

@@ -2,7 +2,8 @@
 
 mod questions;
 
-use crate::equilibrium::Policy;
+use crate::equilibrium::{Following, Policy};
+use crate::modes::Family;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};
 
@@ -26,6 +27,7 @@ pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usi
     design: [f64; P],
     start: [f64; N],
     policy: Policy,
+    family: Option<Family>,
     half_widths: [Width; P],
     sigma_level: f64,
     correlation: Option<[[f64; P]; P]>,
@@ -51,6 +53,7 @@ where
             design: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.nominal)),
             start: [0.0; N],
             policy: Policy::Stable,
+            family: None,
             half_widths: core::array::from_fn(|j| {
                 Width::Absolute(design.get(j).map_or(0.0, |info| info.tolerance))
             }),
@@ -138,6 +141,14 @@ where
         self
     }
 
+    /// Chooses which modes are wanted; unless set, those that leave nothing out: undamped where `Chat` is zero and `Khat`
+    /// symmetric, general ones otherwise ([`Family::of`]).
+    #[must_use]
+    pub fn family(mut self, family: Family) -> Self {
+        self.family = Some(family);
+        self
+    }
+
     /// Sets the number of Monte Carlo samples (3000 unless set).
     #[must_use]
     pub fn samples(mut self, samples: usize) -> Self {
@@ -179,6 +190,13 @@ where
     pub fn steps(mut self, steps: usize) -> Self {
         self.steps = steps;
         self
+    }
+
+    fn following(&self) -> Following {
+        Following {
+            policy: self.policy,
+            family: self.family,
+        }
     }
 
     fn refuse(&mut self, kind: &'static str, index: usize, count: usize) {

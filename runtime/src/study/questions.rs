@@ -1,7 +1,10 @@
 //! What a study can be asked: each question runs the chain of functions that answers it.
 
 use super::Study;
-use crate::equilibrium::{self, CriticalState, Crossing, Equilibrium, Range, Search, SweepPoint};
+use crate::equilibrium::{
+    self, CriticalState, Crossing, Equilibrium, Line, Range, Search, SweepPoint,
+};
+use crate::modes::Family;
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Sensitivities};
 use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerances, Sampling};
 use crate::{Error, Input, Mechanism, Modes, modes};
@@ -45,7 +48,12 @@ where
     /// # Errors
     /// Those of the equilibrium and of the function.
     pub fn modes(&self) -> Result<Modes<N>, Error> {
-        modes::modes(&self.equilibrium()?)
+        self.modes_at(&self.equilibrium()?)
+    }
+
+    fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
+        let family = self.family.unwrap_or(Family::of(state.description));
+        modes::modes_of(&state.linear, family, state.description)
     }
 
     /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
@@ -62,7 +70,7 @@ where
     /// Those of the equilibrium, the modes and the function.
     pub fn sensitivities(&self) -> Result<Sensitivities<N, U, P>, Error> {
         let state = self.equilibrium()?;
-        sensitivity::sensitivities(&self.mechanism, &state, &modes::modes(&state)?)
+        sensitivity::sensitivities(&self.mechanism, &state, &self.modes_at(&state)?)
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
@@ -80,7 +88,7 @@ where
     pub fn first_order(&self) -> Result<FirstOrder<N, P>, Error> {
         let tolerances = self.tolerances()?;
         let state = self.equilibrium()?;
-        let found = modes::modes(&state)?;
+        let found = self.modes_at(&state)?;
         let slopes = sensitivity::sensitivities(&self.mechanism, &state, &found)?;
         Ok(tolerance::first_order(&found, &slopes, &tolerances))
     }
@@ -118,7 +126,7 @@ where
     fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo<N, P>, Error> {
         let tolerances = self.tolerances()?;
         let state = self.equilibrium()?;
-        let found = modes::modes(&state)?;
+        let found = self.modes_at(&state)?;
         let sampling = Sampling {
             samples: self.samples,
             seed: self.seed,
@@ -141,7 +149,7 @@ where
             &self.inputs,
             &self.design,
             &self.start,
-            self.policy,
+            self.following(),
             input,
             values,
         )
@@ -172,7 +180,8 @@ where
         )
     }
 
-    /// Values of an input between `low` and `high`, SI, where a frequency is `ratio` times the input
+    /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
+    /// `k u`, or a [`Line`]
     /// ([`equilibrium::crossings`]).
     ///
     /// # Errors
@@ -182,7 +191,7 @@ where
         input: Input,
         low: f64,
         high: f64,
-        ratio: f64,
+        line: impl Into<Line>,
     ) -> Result<Vec<Crossing<N, U, P>>, Error> {
         self.ready()?;
         equilibrium::crossings(
@@ -190,14 +199,14 @@ where
             &self.inputs,
             &self.design,
             &self.start,
-            self.policy,
+            self.following(),
             Range {
                 input,
                 low,
                 high,
                 steps: self.steps,
             },
-            ratio,
+            line,
         )
     }
 
@@ -229,10 +238,10 @@ where
         input: Input,
         low: f64,
         high: f64,
-        ratio: f64,
+        line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance<P>>, Error> {
         let tolerances = self.tolerances()?;
-        let found = self.crossings(input, low, high, ratio)?;
+        let found = self.crossings(input, low, high, line)?;
         let spread =
             |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
         Ok(found.iter().map(spread).collect())

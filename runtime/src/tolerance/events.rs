@@ -1,7 +1,8 @@
 //! First-order spread of the values of an input at which something happens: critical speeds and resonances.
 
 use super::Tolerances;
-use crate::equilibrium::{CriticalState, Crossing};
+use crate::equilibrium::{Condition, CriticalState, Crossing};
+use crate::modes::Family;
 use crate::sensitivity::{critical_sensitivity, crossing_sensitivity};
 use crate::{Description, Error, Input, Mechanism};
 
@@ -10,12 +11,12 @@ use crate::{Description, Error, Input, Mechanism};
 pub enum Event {
     /// The lowest mode loses its stiffness.
     Critical,
-    /// The frequency of a mode equals `ratio` times the input.
+    /// A mode meets a condition.
     Crossing {
         /// Position of the mode, from 0.
         mode: usize,
-        /// `k` in `omega_j = k u`.
-        ratio: f64,
+        /// What it meets.
+        condition: Condition,
     },
 }
 
@@ -32,6 +33,8 @@ pub struct EventTolerance<const P: usize> {
     pub spread: Result<EventSpread<P>, Error>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
+    /// Which modes it was found with.
+    pub family: Family,
     /// The mechanism it belongs to.
     pub description: &'static Description,
 }
@@ -71,6 +74,7 @@ where
         value: critical.value,
         spread: critical_sensitivity(mechanism, critical).map(|slopes| spread(slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
+        family: Family::General,
         description: critical.equilibrium.description,
     }
 }
@@ -87,12 +91,13 @@ where
     EventTolerance {
         event: Event::Crossing {
             mode: crossing.mode,
-            ratio: crossing.ratio,
+            condition: crossing.condition,
         },
         input: crossing.input,
         value: crossing.value,
         spread: crossing_sensitivity(mechanism, crossing).map(|slopes| spread(slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
+        family: crossing.modes.family,
         description: crossing.equilibrium.description,
     }
 }

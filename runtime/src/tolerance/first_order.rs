@@ -1,8 +1,9 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
 
 use super::Tolerances;
-use crate::sensitivity::OutputSensitivities;
-use crate::{Description, Modes, Sensitivities};
+use crate::modes::{Family, PerMode};
+use crate::sensitivity::{ModeSensitivity, OutputSensitivities, Quantity};
+use crate::{Behaviour, Description, Mode, Modes, Sensitivities};
 
 /// Nearer to the critical state, or to another mode, than this many standard deviations, first order is not to be
 /// trusted: its error grows without bound.
@@ -13,26 +14,62 @@ use crate::{Description, Modes, Sensitivities};
 /// frequency itself, which a distance to the critical state does not show.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
+/// First-order spread of one quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread<const P: usize> {
+    /// Nominal value, SI, which at first order is the mean.
+    pub mean: f64,
+    /// Standard deviation, SI.
+    pub sigma: f64,
+    /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
+    pub band: f64,
+    /// Share of each design variable in the variance; they sum to 1, or are all zero when nothing varies. Correlated
+    /// variables can have negative shares.
+    pub variance_shares: [f64; P],
+}
+
+impl<const P: usize> Spread<P> {
+    /// The spread of a quantity from its value and its derivatives.
+    pub fn new(mean: f64, slopes: &[f64; P], tolerances: &Tolerances<P>) -> Self {
+        let (sigma, variance_shares) = tolerances.spread(slopes);
+        Self {
+            mean,
+            sigma,
+            band: tolerances.sigma_level() * sigma,
+            variance_shares,
+        }
+    }
+}
+
 /// First-order spread of one mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeTolerance<const P: usize> {
-    /// Nominal eigenvalue, 1/s^2, which at first order is the mean.
+    /// Nominal `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue.
     pub lambda: f64,
     /// Standard deviation of `lambda`, 1/s^2.
     pub lambda_sigma: f64,
-    /// Nominal frequency, rad/s, which at first order is the mean; `None` for a mode that does not oscillate.
+    /// Nominal frequency `Im s`, rad/s, which at first order is the mean; `None` for a mode that does not oscillate.
     pub mean: Option<f64>,
     /// Standard deviation of the frequency, rad/s.
     pub sigma: Option<f64>,
     /// Half-width of the band that holds as many standard deviations as the tolerances do, rad/s.
     pub band: Option<f64>,
-    /// Share of each design variable in the variance of `lambda` (the same for the frequency); they sum to 1, or are
-    /// all zero when nothing varies. Correlated variables can have negative shares.
+    /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode that does not oscillate;
+    /// they sum to 1, or are all zero when nothing varies. Correlated variables can have negative shares.
     pub variance_shares: [f64; P],
-    /// `lambda / lambda_sigma`: standard deviations between this mode and the state where its stiffness vanishes;
-    /// infinite when nothing moves the mode.
+    /// The natural frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
+    pub natural_frequency: Option<Spread<P>>,
+    /// The damping ratio; `None` for a mode that does not oscillate.
+    pub damping_ratio: Option<Spread<P>>,
+    /// The growth `Re s`, 1/s; `None` where the eigenvalue has no derivative.
+    pub growth: Option<Spread<P>>,
+    /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda / lambda_sigma`, with
+    /// `|s|^2` for `lambda` of a general mode; not positive when the mode diverges, infinite when nothing moves it.
     pub distance_to_critical: f64,
-    /// Standard deviations of the difference between this mode's `lambda` and the nearest one: where it is small, samples
+    /// Standard deviations between the growth of this mode and zero; not positive when it grows. Infinite when nothing
+    /// moves the growth, as for undamped modes.
+    pub distance_to_instability: f64,
+    /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
     pub distance_to_neighbour: f64,
     /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it.
@@ -50,12 +87,14 @@ impl<const P: usize> ModeTolerance<P> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstOrder<const N: usize, const P: usize> {
     /// One entry for each mode.
-    pub modes: [ModeTolerance<P>; N],
+    pub modes: PerMode<ModeTolerance<P>, N>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
     /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
     /// branch, which bends every mode, so the nearest mode limits the trust in all.
     pub distance_to_critical: f64,
+    /// Which modes they belong to.
+    pub family: Family,
     /// The mechanism it belongs to.
     pub description: &'static Description,
 }
@@ -97,38 +136,86 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
     sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> FirstOrder<N, P> {
-    let level = tolerances.sigma_level();
-    let spread: [ModeTolerance<P>; N] = core::array::from_fn(|r| {
-        let (mode, own) = (&modes.modes[r], &sensitivities.modes[r]);
-        let (lambda_sigma, variance_shares) = tolerances.spread(&own.lambda_by_design);
-        let mean = mode.frequency();
-        let sigma = mean.map(|omega| lambda_sigma / (2.0 * omega));
-        ModeTolerance {
-            lambda: mode.lambda,
-            lambda_sigma,
-            mean,
-            sigma,
-            band: sigma.map(|sigma| level * sigma),
-            variance_shares,
-            distance_to_critical: if lambda_sigma > 0.0 {
-                mode.lambda / lambda_sigma
-            } else if mode.lambda > 0.0 {
-                f64::INFINITY
-            } else {
-                0.0
-            },
-            distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
-            clustered: own.clustered,
-        }
+    let mut position = 0..;
+    let spread = sensitivities.modes.map(|own| {
+        let r = position.next().unwrap_or(0);
+        mode_tolerance(r, own, modes, sensitivities, tolerances)
     });
     let distance_to_critical = spread.iter().fold(f64::INFINITY, |least, mode| {
         least.min(mode.distance_to_critical)
     });
     FirstOrder {
         modes: spread,
-        sigma_level: level,
+        sigma_level: tolerances.sigma_level(),
         distance_to_critical,
+        family: modes.family,
         description: modes.description,
+    }
+}
+
+fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
+    r: usize,
+    own: &ModeSensitivity<U, P>,
+    modes: &Modes<N>,
+    sensitivities: &Sensitivities<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> ModeTolerance<P> {
+    let mode = &modes.modes[r];
+    let of = |quantity: Quantity| {
+        let slopes = own.of(quantity)?;
+        Some(Spread::new(
+            quantity.of(mode)?,
+            &slopes.by_design,
+            tolerances,
+        ))
+    };
+    let (lambda_sigma, lambda_shares) = tolerances.spread(&own.lambda_by_design);
+    let (frequency, natural_frequency) = (of(Quantity::Frequency), of(Quantity::NaturalFrequency));
+    let growth = of(Quantity::Growth);
+    ModeTolerance {
+        lambda: mode.lambda,
+        lambda_sigma,
+        mean: mode.frequency(),
+        sigma: frequency.map(|spread| spread.sigma),
+        band: frequency.map(|spread| spread.band),
+        variance_shares: frequency.map_or(lambda_shares, |spread| spread.variance_shares),
+        natural_frequency,
+        damping_ratio: of(Quantity::DampingRatio),
+        growth,
+        distance_to_critical: match modes.family {
+            Family::Undamped => in_sigmas(mode.lambda, lambda_sigma),
+            Family::General => distance_to_zero(mode, natural_frequency, growth),
+        },
+        distance_to_instability: growth
+            .filter(|_| modes.family == Family::General)
+            .map_or(f64::INFINITY, |spread| in_sigmas(-spread.mean, spread.sigma)),
+        distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
+        clustered: own.clustered,
+    }
+}
+
+/// Distance of a general mode to `s = 0`: that of `|s|^2` for an oscillation, that of `s` otherwise.
+fn distance_to_zero<const N: usize, const P: usize>(
+    mode: &Mode<N>,
+    natural: Option<Spread<P>>,
+    growth: Option<Spread<P>>,
+) -> f64 {
+    match (mode.behaviour, natural, growth) {
+        (Behaviour::Neutral, ..) => 0.0,
+        (_, Some(natural), _) => in_sigmas(0.5 * natural.mean, natural.sigma),
+        (_, None, Some(growth)) => in_sigmas(-growth.mean, growth.sigma),
+        (_, None, None) => 0.0,
+    }
+}
+
+/// A positive value in standard deviations; infinite when nothing moves it.
+fn in_sigmas(value: f64, sigma: f64) -> f64 {
+    if sigma > 0.0 {
+        value / sigma
+    } else if value > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
     }
 }
 
@@ -162,19 +249,34 @@ fn distance_to_neighbour<const N: usize, const U: usize, const P: usize>(
     sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> f64 {
-    let own = &sensitivities.modes[r].lambda_by_design;
-    (0..N)
-        .filter(|&other| other != r)
-        .fold(f64::INFINITY, |least, other| {
-            // Halves, because a difference may exceed the range of a double.
-            let neighbour = &sensitivities.modes[other].lambda_by_design;
-            let slope = core::array::from_fn(|j| 0.5 * own[j] - 0.5 * neighbour[j]);
-            let sigma = tolerances.sigma(&slope);
-            let gap = (0.5 * modes.modes[r].lambda - 0.5 * modes.modes[other].lambda).abs();
-            if sigma > 0.0 {
-                least.min(gap / sigma)
-            } else {
-                least
+    let others = (0..modes.modes.len()).filter(|&other| other != r);
+    others.fold(f64::INFINITY, |least, other| {
+        let (a, b) = (&modes.modes[r], &modes.modes[other]);
+        let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
+        // Halves, because a difference may exceed the range of a double.
+        let (gap, sigma) = match (modes.family, da.s, db.s) {
+            (Family::Undamped, ..) => {
+                let (da, db) = (&da.lambda_by_design, &db.lambda_by_design);
+                let slopes = core::array::from_fn(|j| 0.5 * da[j] - 0.5 * db[j]);
+                let gap = (0.5 * a.lambda - 0.5 * b.lambda).abs();
+                (gap, tolerances.sigma(&slopes))
             }
-        })
+            (Family::General, Some(da), Some(db)) => {
+                let part = |pick: fn(crate::Complex) -> f64| {
+                    let (da, db) = (da.by_design, db.by_design);
+                    tolerances.sigma(&core::array::from_fn(|j| {
+                        0.5 * pick(da[j]) - 0.5 * pick(db[j])
+                    }))
+                };
+                let gap = 0.5 * (a.s - b.s).norm();
+                (gap, part(|value| value.re).hypot(part(|value| value.im)))
+            }
+            (Family::General, ..) => (0.0, 1.0),
+        };
+        if sigma > 0.0 {
+            least.min(gap / sigma)
+        } else {
+            least
+        }
+    })
 }

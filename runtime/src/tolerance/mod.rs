@@ -11,7 +11,7 @@ mod statistics;
 pub use declared::Tolerances;
 pub use events::{Event, EventSpread, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use first_order::{
-    FirstOrder, ModeTolerance, OutputTolerance, OutputTolerances, TRUSTED_DISTANCE, first_order,
+    FirstOrder, ModeTolerance, OutputTolerance, OutputTolerances, Spread, TRUSTED_DISTANCE, first_order,
     output_tolerances,
 };
 pub use monte_carlo::{Counts, MonteCarlo, Outcome, Sample, Sampling, monte_carlo};

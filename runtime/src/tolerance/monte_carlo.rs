@@ -7,8 +7,8 @@ use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
-use crate::modes::{match_modes, solve_modes};
-use crate::{Behaviour, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
+use crate::modes::{Family, PerMode, match_modes, solve_modes};
+use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
 
 /// Samples worked on by one thread at a time; fixed, so that sums are formed in the same order on any machine.
 const CHUNK: usize = 256;
@@ -50,7 +50,9 @@ pub enum Outcome {
     Stable,
     /// Its equilibrium is unstable without oscillation.
     Divergent,
-    /// Its equilibrium has a stability that undamped modes do not decide.
+    /// Its equilibrium is unstable in a growing oscillation.
+    Flutter,
+    /// The stability of its equilibrium could not be decided.
     Undecided,
     /// No equilibrium was found.
     NoEquilibrium,
@@ -67,6 +69,8 @@ pub struct Counts {
     pub stable: usize,
     /// [`Outcome::Divergent`].
     pub divergent: usize,
+    /// [`Outcome::Flutter`].
+    pub flutter: usize,
     /// [`Outcome::Undecided`].
     pub undecided: usize,
     /// [`Outcome::NoEquilibrium`].
@@ -82,6 +86,7 @@ impl Counts {
     pub fn total(&self) -> usize {
         self.stable
             + self.divergent
+            + self.flutter
             + self.undecided
             + self.no_equilibrium
             + self.unphysical
@@ -92,6 +97,7 @@ impl Counts {
         *match outcome {
             Outcome::Stable => &mut self.stable,
             Outcome::Divergent => &mut self.divergent,
+            Outcome::Flutter => &mut self.flutter,
             Outcome::Undecided => &mut self.undecided,
             Outcome::NoEquilibrium => &mut self.no_equilibrium,
             Outcome::Unphysical => &mut self.unphysical,
@@ -102,6 +108,7 @@ impl Counts {
     fn merge(&mut self, other: &Self) {
         self.stable += other.stable;
         self.divergent += other.divergent;
+        self.flutter += other.flutter;
         self.undecided += other.undecided;
         self.no_equilibrium += other.no_equilibrium;
         self.unphysical += other.unphysical;
@@ -118,10 +125,13 @@ pub struct Sample<const N: usize, const P: usize> {
     pub outcome: Outcome,
     /// Its equilibrium, when it has one.
     pub coordinates: Option<[f64; N]>,
-    /// Eigenvalues in the order of the nominal modes, 1/s^2, when they were found.
-    pub lambda: Option<[f64; N]>,
+    /// Eigenvalues `s` in the order of the nominal modes, 1/s; `None` where they were not found, or where the sample has no
+    /// such mode.
+    pub eigenvalues: PerMode<Option<Complex>, N>,
     /// Frequencies in the order of the nominal modes, rad/s; `None` for a mode that does not oscillate.
-    pub frequencies: [Option<f64>; N],
+    pub frequencies: PerMode<Option<f64>, N>,
+    /// Damping ratios in the order of the nominal modes; `None` where there is none.
+    pub damping_ratios: PerMode<Option<f64>, N>,
 }
 
 /// Result of a Monte Carlo run.
@@ -133,10 +143,15 @@ pub struct MonteCarlo<const N: usize, const P: usize> {
     pub counts: Counts,
     /// Stable samples for which the nominal position itself is unstable: they settled on another branch.
     pub left_nominal_branch: usize,
-    /// Statistics over the stable samples, by nominal mode; `None` without any value.
-    pub modes: [Option<Statistics>; N],
+    /// Statistics of the frequency over the stable samples where the mode oscillates, rad/s, by nominal mode; `None`
+    /// without any value.
+    pub modes: PerMode<Option<Statistics>, N>,
+    /// Statistics of the damping ratio over the same samples.
+    pub damping_ratios: PerMode<Option<Statistics>, N>,
     /// Every sample in order, when asked for.
     pub all: Option<Vec<Sample<N, P>>>,
+    /// Which modes they belong to.
+    pub family: Family,
     /// The mechanism they belong to.
     pub description: &'static Description,
 }
@@ -164,7 +179,8 @@ where
         threads => pool::of(threads)?.install(|| chunks.into_par_iter().map(chunk).collect()),
     };
     let mut counts = Counts::default();
-    let mut moments = [Moments::EMPTY; N];
+    let empty = modes.modes.map(|_| Moments::EMPTY);
+    let (mut frequencies, mut damping_ratios) = (empty, empty);
     let mut left_nominal_branch = 0;
     let mut all = sampling
         .keep_samples
@@ -172,7 +188,10 @@ where
     for piece in pieces {
         counts.merge(&piece.counts);
         left_nominal_branch += piece.left_nominal_branch;
-        for (sum, part) in moments.iter_mut().zip(&piece.moments) {
+        for (sum, part) in frequencies.iter_mut().zip(&piece.frequencies) {
+            sum.merge(part);
+        }
+        for (sum, part) in damping_ratios.iter_mut().zip(&piece.damping_ratios) {
             sum.merge(part);
         }
         if let Some(all) = &mut all {
@@ -183,8 +202,10 @@ where
         samples: sampling.samples,
         counts,
         left_nominal_branch,
-        modes: moments.each_ref().map(Moments::statistics),
+        modes: frequencies.map(Moments::statistics),
+        damping_ratios: damping_ratios.map(Moments::statistics),
         all,
+        family: modes.family,
         description: nominal.description,
     })
 }
@@ -192,7 +213,8 @@ where
 struct Piece<const N: usize, const P: usize> {
     counts: Counts,
     left_nominal_branch: usize,
-    moments: [Moments; N],
+    frequencies: PerMode<Moments, N>,
+    damping_ratios: PerMode<Moments, N>,
     samples: Vec<Sample<N, P>>,
 }
 
@@ -215,10 +237,12 @@ where
         &nominal.design,
         tolerances,
     );
+    let empty = modes.modes.map(|_| Moments::EMPTY);
     let mut piece = Piece {
         counts: Counts::default(),
         left_nominal_branch: 0,
-        moments: [Moments::EMPTY; N],
+        frequencies: empty,
+        damping_ratios: empty,
         samples: Vec::with_capacity(if sampling.keep_samples { number } else { 0 }),
     };
     for _ in 0..number {
@@ -226,9 +250,10 @@ where
         piece.counts.add(sample.outcome, 1);
         if sample.outcome == Outcome::Stable {
             piece.left_nominal_branch += usize::from(left);
-            for (moments, omega) in piece.moments.iter_mut().zip(sample.frequencies) {
+            for (r, omega) in sample.frequencies.iter().enumerate() {
                 if let Some(omega) = omega {
-                    moments.add(omega);
+                    piece.frequencies[r].add(*omega);
+                    piece.damping_ratios[r].add(sample.damping_ratios[r].unwrap_or(0.0));
                 }
             }
         }
@@ -256,8 +281,9 @@ where
         design,
         outcome,
         coordinates,
-        lambda: None,
-        frequencies: [None; N],
+        eigenvalues: modes.modes.map(|_| None),
+        frequencies: modes.modes.map(|_| None),
+        damping_ratios: modes.modes.map(|_| None),
     };
     if mechanism.violation(&nominal.inputs, &design).is_some() {
         return (sample(Outcome::Unphysical, None), false);
@@ -272,20 +298,20 @@ where
         Err(Failure::Mode { .. }) => return (sample(Outcome::NoModes, None), false),
     };
     let outcome = match state.stability {
-        Stability::Stable | Stability::Neutral { .. } => Outcome::Stable,
         Stability::Divergent { .. } => Outcome::Divergent,
-        Stability::Unverified(_) => Outcome::Undecided,
+        Stability::Flutter { .. } => Outcome::Flutter,
+        Stability::Undecided => Outcome::Undecided,
+        _ => Outcome::Stable,
     };
-    let Ok(found) = solve_modes(&state.linear, state.description) else {
+    let Ok(found) = solve_modes(&state.linear, modes.family, state.description) else {
         return (sample(Outcome::NoModes, Some(state.coordinates)), false);
     };
-    let found = found.reordered(&match_modes(modes, &found, &state.linear.mass));
+    let order = match_modes(modes, &found, &state.linear.mass);
+    let own = order.map(|position| position.and_then(|position| found.modes.get(position)));
     let solved = Sample {
-        lambda: Some(found.modes.each_ref().map(|mode| mode.lambda)),
-        frequencies: found.modes.each_ref().map(|mode| match mode.behaviour {
-            Behaviour::Oscillating(omega) => Some(omega),
-            Behaviour::Neutral | Behaviour::Divergent(_) => None,
-        }),
+        eigenvalues: own.map(|mode| mode.map(|mode| mode.s)),
+        frequencies: own.map(|mode| mode.and_then(|mode| mode.frequency())),
+        damping_ratios: own.map(|mode| mode.and_then(|mode| mode.damping_ratio())),
         ..sample(outcome, Some(state.coordinates))
     };
     (solved, state.left_unstable_region)

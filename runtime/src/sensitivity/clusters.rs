@@ -1,0 +1,109 @@
+//! How design variables couple modes: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
+//! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
+
+use super::adjoint::normaliser;
+use super::pencil::pencil_times;
+use super::shift::directions;
+use crate::array::{dot_complex, times_complex};
+use crate::modes::Family;
+use crate::{Complex, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
+
+/// First-order motion of several modes together: along a change `db` their eigenvalues are those of
+/// `diag(eigenvalues) + sum_k db_k by_design[k]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalCouplings {
+    /// Positions of the modes.
+    pub modes: Vec<usize>,
+    /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    pub family: Family,
+    /// Their eigenvalues.
+    pub eigenvalues: Vec<Complex>,
+    /// For each input one square matrix, row by row: in its diagonal the derivatives of the eigenvalues as if each mode
+    /// stood alone, beside it how the variable mixes the modes. Per SI unit.
+    pub by_input: Vec<Vec<Complex>>,
+    /// For each design variable one such matrix.
+    pub by_design: Vec<Vec<Complex>>,
+}
+
+impl ModalCouplings {
+    /// Total derivatives of the mean of the eigenvalues by the design variables: it has them whatever the modes do.
+    pub fn mean_by_design(&self) -> Vec<Complex> {
+        let count = self.modes.len();
+        let trace = |matrix: &Vec<Complex>| {
+            let diagonal = (0..count).map(|i| matrix[i * count + i]);
+            diagonal.sum::<Complex>() / count.max(1) as f64
+        };
+        self.by_design.iter().map(trace).collect()
+    }
+}
+
+/// The couplings among the modes at `positions`, the shift of the equilibrium included.
+///
+/// # Errors
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::NoSuchMode`].
+pub fn modal_couplings<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    positions: &[usize],
+) -> Result<ModalCouplings, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let count = modes.modes.len();
+    if let Some(&mode) = positions.iter().find(|&&mode| mode >= count) {
+        return Err(Error::NoSuchMode { mode, count });
+    }
+    let members: Vec<&Mode<N>> = positions.iter().map(|&r| &modes.modes[r]).collect();
+    let mut matrices = directions(mechanism, at)?.map(|along| {
+        let change = along.linear(mechanism, at);
+        match modes.family {
+            Family::Undamped => undamped(&members, &change),
+            Family::General => general(at, &members, &change),
+        }
+    });
+    let by_input: Vec<_> = matrices.by_ref().take(U).collect();
+    let by_design: Vec<_> = matrices.collect();
+    let eigenvalue = |mode: &&Mode<N>| match modes.family {
+        Family::Undamped => mode.lambda.into(),
+        Family::General => mode.s,
+    };
+    Ok(ModalCouplings {
+        modes: positions.to_vec(),
+        family: modes.family,
+        eigenvalues: members.iter().map(eigenvalue).collect(),
+        by_input,
+        by_design,
+    })
+}
+
+/// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
+fn undamped<const N: usize>(members: &[&Mode<N>], change: &Linear<f64, N>) -> Vec<Complex> {
+    let mut matrix = Vec::with_capacity(members.len() * members.len());
+    for a in members {
+        for b in members {
+            let lambda = 0.5 * (a.lambda + b.lambda);
+            let k = dot_complex(&a.left, &times_complex(&change.stiffness, &b.shape));
+            let m = dot_complex(&a.left, &times_complex(&change.mass, &b.shape));
+            matrix.push(k - lambda * m);
+        }
+    }
+    matrix
+}
+
+/// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
+/// its left and right vectors.
+fn general<const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
+    members: &[&Mode<N>],
+    change: &Linear<f64, N>,
+) -> Vec<Complex> {
+    let mut matrix = Vec::with_capacity(members.len() * members.len());
+    for a in members {
+        let scale = normaliser(at, a);
+        for b in members {
+            matrix.push(-dot_complex(&a.left, &pencil_times(change, b.s, &b.shape)) / scale);
+        }
+    }
+    matrix
+}

@@ -1,0 +1,79 @@
+//! What is asked of a mode: its frequency, its damping ratio; values and derivatives from those of its eigenvalue.
+
+use crate::{Complex, Mode};
+
+/// A real number that describes a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Angular frequency of the oscillation `Im s`, rad/s.
+    Frequency,
+    /// Natural angular frequency `|s|`, rad/s.
+    NaturalFrequency,
+    /// Damping ratio `-Re s / |s|`.
+    DampingRatio,
+    /// Rate of growth `Re s`, 1/s.
+    Growth,
+}
+
+impl Quantity {
+    /// All quantities.
+    pub const ALL: [Self; 4] = [
+        Self::Frequency,
+        Self::NaturalFrequency,
+        Self::DampingRatio,
+        Self::Growth,
+    ];
+
+    /// The value for a mode; `None` where the mode has none: a frequency without oscillation, a damping ratio of a neutral
+    /// mode.
+    pub fn of<const N: usize>(self, mode: &Mode<N>) -> Option<f64> {
+        match self {
+            Self::Frequency => mode.frequency(),
+            Self::NaturalFrequency => mode.natural_frequency(),
+            Self::DampingRatio => mode.damping_ratio(),
+            Self::Growth => Some(mode.s.re),
+        }
+    }
+
+    /// First derivative along a direction in which `s` moves at the rate `ds`.
+    pub(crate) fn slope(self, s: Complex, ds: Complex) -> f64 {
+        let size = s.norm();
+        match self {
+            Self::Frequency => ds.im,
+            Self::Growth => ds.re,
+            Self::NaturalFrequency => (s.conj() * ds).re / size,
+            // -Im s Im(conj(s) ds) / |s|^3, negated: exact where s is imaginary.
+            Self::DampingRatio => s.im * (s.conj() * ds).im / (size * size * size),
+        }
+    }
+
+    /// Second derivative along two directions in which `s` moves at the rates `a` and `b` and by `ab` along both.
+    pub(crate) fn curvature(self, s: Complex, a: Complex, b: Complex, ab: Complex) -> f64 {
+        let size = s.norm();
+        match self {
+            Self::Frequency => ab.im,
+            Self::Growth => ab.re,
+            Self::NaturalFrequency => {
+                let slopes = Self::NaturalFrequency.slope(s, a) * Self::NaturalFrequency.slope(s, b);
+                ((a.conj() * b + s.conj() * ab).re - slopes) / size
+            }
+            Self::DampingRatio => {
+                // -Re (s / |s|) by the logarithms of s: s/|s| = exp(i arg s), arg = Im ln s.
+                let (la, lb) = (a / s, b / s);
+                let lab = ab / s - la * lb;
+                let (cos, sin) = (s.re / size, s.im / size);
+                cos * la.im * lb.im + sin * lab.im
+            }
+        }
+    }
+}
+
+/// Of undamped modes: derivatives of `s` from those of `lambda = -s^2`.
+pub(super) fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
+    -dlambda / (2.0 * s)
+}
+
+/// Second derivative of `s` from the first ones and the second derivative of `lambda = -s^2`.
+pub(super) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
+    -(0.5 * ddlambda + a * b) / s
+}
