@@ -10,10 +10,7 @@ use crate::Complex;
 pub(crate) type Square<const N: usize> = [[f64; N]; N];
 
 /// `matrix x` for a complex vector.
-pub(crate) fn times_complex<const N: usize>(
-    matrix: &Square<N>,
-    x: &[Complex; N],
-) -> [Complex; N] {
+pub(crate) fn times_complex<const N: usize>(matrix: &Square<N>, x: &[Complex; N]) -> [Complex; N] {
     core::array::from_fn(|i| {
         matrix[i]
             .iter()

@@ -9,8 +9,8 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Follower, Plate, Spring};
 use common::pendulum::{Pendulum, W};
-use eigentol::equilibrium::{Doubt, Search, equilibrium, find_equilibria};
-use eigentol::{Error, Policy, Stability};
+use eigentol::equilibrium::{Search, equilibrium, find_equilibria};
+use eigentol::{Behaviour, Error, Policy, Stability};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 const BARS: [f64; 4] = [1.0, 1.0, 3.0, 3.0];
@@ -155,8 +155,9 @@ fn linear_divergence_is_a_result() {
     )
     .unwrap();
     close(state.coordinates[0], 4.0 / (40.0 - 200.0), 1e-14);
-    let doubt = Doubt::GyroscopicStabilisation { negative: 2 };
-    assert_eq!(state.stability, Stability::Unverified(doubt));
+    // In the frame at rest it is a mass on turning springs: stable again above both critical speeds.
+    let held = Stability::GyroscopicallyStabilised { negative: 2 };
+    assert_eq!(state.stability, held);
     let one = equilibrium(
         &Derived(Plate),
         &[10.0],
@@ -184,10 +185,7 @@ fn linear_divergence_is_a_result() {
         &[0.0; 2],
         Policy::Stable,
     );
-    assert_eq!(
-        fed.unwrap().stability,
-        Stability::Unverified(Doubt::NegativeDamping)
-    );
+    assert_eq!(fed.unwrap().stability, Stability::Flutter { growing: 2 });
 }
 
 #[test]
@@ -207,23 +205,31 @@ fn no_stiffness_and_no_equilibrium() {
     assert_eq!(divergent.stability, Stability::Divergent { negative: 1 });
 }
 
+/// Ziegler's column: `2 lambda^2 + (2 p - 7) lambda + 1 = 0`, so it flutters from `p = (7 - sqrt 8) / 2` on and diverges
+/// beyond `(7 + sqrt 8) / 2`.
 #[test]
-fn nonsymmetric_stiffness_is_not_judged() {
-    let state = equilibrium(
-        &Derived(Follower),
-        &[1.0],
-        &[1.0],
-        &[0.2, 0.3],
-        Policy::Stable,
-    )
-    .unwrap();
-    assert_eq!(
-        state.stability,
-        Stability::Unverified(Doubt::NonsymmetricStiffness)
-    );
-    assert!(state.coordinates.iter().all(|q| q.abs() < 1e-12));
+fn a_follower_load_leads_to_flutter_then_to_divergence() {
+    let at = |load: f64| {
+        let start = [0.02, 0.03];
+        equilibrium(&Derived(Follower), &[load], &[1.0], &start, Policy::Stable).unwrap()
+    };
+    let stability = |load: f64| at(load).stability;
+    assert_eq!(stability(1.0), Stability::Marginal);
+    assert_eq!(stability(2.08), Stability::Marginal);
+    assert_eq!(stability(2.09), Stability::Flutter { growing: 1 });
+    assert_eq!(stability(6.0), Stability::Divergent { negative: 2 });
+    assert!(at(1.0).coordinates.iter().all(|q| q.abs() < 1e-12));
+    let root = |load: f64, sign: f64| {
+        let p: f64 = 7.0 - 2.0 * load;
+        (0.25 * (p + sign * (p * p - 8.0).sqrt())).sqrt()
+    };
+    let found = eigentol::modes::modes(&at(1.0)).unwrap();
+    for (mode, sign) in found.modes.iter().zip([-1.0, 1.0]) {
+        close(mode.frequency().unwrap(), root(1.0, sign), 1e-14);
+        assert!(matches!(mode.behaviour, Behaviour::Oscillating(_)));
+    }
     assert!(matches!(
-        eigentol::modes::modes(&state),
+        eigentol::modes::undamped_modes(&at(1.0)),
         Err(Error::NonsymmetricStiffness { .. })
     ));
 }

@@ -10,8 +10,8 @@ use common::derived::{Derived, Model};
 use common::models::{Plate, Spring};
 use common::pendulum::Pendulum;
 use eigentol::equilibrium::equilibrium;
-use eigentol::modes::{clusters, match_modes, modes, modes_of};
-use eigentol::{Behaviour, DampingKind, Description, Error, Linear, Policy};
+use eigentol::modes::{clusters, match_modes, modes, undamped_modes};
+use eigentol::{Behaviour, DampingKind, Description, Error, Family, Linear, Mode, Modes, Policy};
 use proptest::prelude::*;
 
 static ANY: Description = Description {
@@ -31,6 +31,18 @@ fn pencil<const N: usize>(stiffness: [[f64; N]; N], mass: [[f64; N]; N]) -> Line
         damping: [[0.0; N]; N],
         stiffness,
     }
+}
+
+fn modes_of<const N: usize>(
+    linear: &Linear<f64, N>,
+    description: &'static Description,
+) -> Result<Modes<N>, Error> {
+    eigentol::modes::modes_of(linear, Family::Undamped, description)
+}
+
+fn real<const N: usize>(mode: &Mode<N>) -> [f64; N] {
+    assert!(mode.shape.iter().all(|value| value.im == 0.0));
+    mode.shape.map(|value| value.re)
 }
 
 fn form<const N: usize>(x: &[f64; N], matrix: &[[f64; N]; N], y: &[f64; N]) -> f64 {
@@ -71,20 +83,19 @@ fn check<const N: usize>(stiffness: &[f64], mass: &[f64], duplicate: bool) {
     let found = modes_of(&pencil(k, m), &ANY).unwrap();
     for (r, mode) in found.modes.iter().enumerate() {
         assert!(mode.residual < 1e-11, "residual {:e}", mode.residual);
-        let lead = mode
-            .shape
+        let shape = real(mode);
+        let lead = shape
             .iter()
             .copied()
             .max_by(|a, b| a.abs().total_cmp(&b.abs()))
             .unwrap();
         assert!(
-            lead > 0.0 || mode.shape.iter().any(|x| (x + lead).abs() < 1e-8),
-            "{:?}",
-            mode.shape
+            lead > 0.0 || shape.iter().any(|x| (x + lead).abs() < 1e-8),
+            "{shape:?}"
         );
         for (s, other) in found.modes.iter().enumerate() {
             let expected = if r == s { 1.0 } else { 0.0 };
-            let product = form(&mode.shape, &m, &other.shape);
+            let product = form(&shape, &m, &real(other));
             assert!((product - expected).abs() < 1e-11, "{r} {s}: {product}");
         }
         if r > 0 {
@@ -147,7 +158,7 @@ proptest! {
             prop_assert!(mode.residual < 1e-12, "residual {:e}", mode.residual);
             prop_assert!(mode.lambda > 0.0, "lambda {:e}", mode.lambda);
             for other in &found.modes[..r] {
-                let product = form(&mode.shape, &linear.mass, &other.shape);
+                let product = form(&real(mode), &linear.mass, &real(other));
                 prop_assert!(product.abs() < 1e-6, "{product:e}");
             }
         }
@@ -190,7 +201,7 @@ fn frequencies_match_references() {
         let state = equilibrium(&DOUBLE, &[omega], &design, &[1.0, 1.0], Policy::Stable).unwrap();
         let found = modes(&state).unwrap();
         assert!(!found.damping_ignored);
-        for (actual, expected) in found.frequencies().into_iter().zip(expected) {
+        for (actual, expected) in found.frequencies().iter().zip(expected) {
             close(actual.unwrap(), expected, 1e-12);
         }
     }
@@ -206,7 +217,7 @@ fn gyroscopic_terms_are_named_as_ignored() {
         Policy::Stable,
     )
     .unwrap();
-    let found = modes(&state).unwrap();
+    let found = undamped_modes(&state).unwrap();
     assert!(found.damping_ignored);
     close(found.modes[0].lambda, 64.0, 1e-14);
     close(found.modes[1].lambda, 104.0, 1e-14);
@@ -218,7 +229,7 @@ fn gyroscopic_terms_are_named_as_ignored() {
         &[0.1, 0.0],
         Policy::Stable,
     );
-    assert!(!modes(&still.unwrap()).unwrap().damping_ignored);
+    assert!(!undamped_modes(&still.unwrap()).unwrap().damping_ignored);
 }
 
 #[test]
@@ -250,9 +261,9 @@ fn matching_follows_shapes_and_is_a_permutation() {
         .unwrap()
     };
     let order = match_modes(&diagonal(1.0, 2.0, 3.0), &diagonal(5.0, 4.0, 3.0), &mass);
-    assert_eq!(order, [2, 1, 0]);
+    assert_eq!(*order, [Some(2), Some(1), Some(0)]);
     let near = diagonal(1.0, 1.0 + 1e-9, 3.0);
-    assert_eq!(clusters(&near, 1e-6), [true, true, false]);
+    assert_eq!(*clusters(&near, 1e-6), [true, true, false]);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod common;
 
 use common::close;
 use common::pendulum::Pendulum;
+use eigentol::equilibrium::Condition;
 use eigentol::tolerance::{Event, Tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Input, Study};
 
@@ -103,7 +104,13 @@ fn a_resonance_has_a_spread() {
         panic!("{found:?}")
     };
     let ratio = 1.0;
-    assert_eq!(crossing.event, Event::Crossing { mode: 0, ratio });
+    assert_eq!(
+        crossing.event,
+        Event::Crossing {
+            mode: 0,
+            condition: Condition::Line(ratio.into())
+        }
+    );
     let l = study.design_values()[LENGTH.0];
     close(crossing.value, (0.75 * 9.81 / l).sqrt(), 1e-12);
     close(crossing.sigma().unwrap(), 0.5 * crossing.value * 0.01, 1e-9);

@@ -14,14 +14,14 @@ mod sweep;
 mod track;
 
 pub use critical::{CriticalState, critical_state};
+pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
-pub use range::Range;
 pub use multistart::{Search, find_equilibria};
+pub use range::Range;
 pub use stability::Stability;
 pub use sweep::{SweepPoint, sweep};
 pub use track::Following;
 pub(crate) use track::{Tracked, Tracker};
-pub(crate) use crossing::between;
 
 pub(crate) use problem::{Failure, Problem};
 

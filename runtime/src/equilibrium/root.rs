@@ -30,9 +30,8 @@ pub(super) fn refine(
         let (a, b) = (bracket.at_low * weight_low, bracket.at_high * weight_high);
         let secant = bracket.low + width * a / (a - b);
         let middle = bracket.low + 0.5 * width;
-        let inside = |trial: &f64| {
-            trial.is_finite() && (trial - bracket.low) * (trial - bracket.high) < 0.0
-        };
+        let inside =
+            |trial: &f64| trial.is_finite() && (trial - bracket.low) * (trial - bracket.high) < 0.0;
         let trial = if round % 4 == 3 {
             middle
         } else {

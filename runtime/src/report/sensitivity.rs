@@ -71,7 +71,10 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
             self.description.name, self.method
         )?;
         let numbers = 1..=self.modes.len();
-        let mut columns: Vec<String> = numbers.clone().map(|r| format!("omega{r} [rad/s]")).collect();
+        let mut columns: Vec<String> = numbers
+            .clone()
+            .map(|r| format!("omega{r} [rad/s]"))
+            .collect();
         if self.family == Family::General {
             columns.extend(numbers.map(|r| format!("damping ratio {r}")));
         }

@@ -110,8 +110,5 @@ pub(super) fn undamped(
         (Family::Undamped, DampingKind::Gyroscopic) => "Gyroscopic forces (Chat)",
         (Family::Undamped, DampingKind::General) => "Damping and gyroscopic forces (Chat)",
     };
-    writeln!(
-        f,
-        "  {what} of this mechanism are ignored: undamped modes."
-    )
+    writeln!(f, "  {what} of this mechanism are ignored: undamped modes.")
 }

@@ -4,10 +4,10 @@ use core::fmt;
 
 use super::equilibrium::meeting;
 use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
+use crate::modes::Family;
 use crate::tolerance::{
     Counts, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
 };
-use crate::modes::Family;
 use crate::{FirstOrder, MonteCarlo};
 
 impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {

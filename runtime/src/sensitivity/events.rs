@@ -1,7 +1,7 @@
 //! How a critical speed or a resonance moves with the design: `du_c/db`.
 
-use super::shift::outside_domain;
 use super::sensitivities;
+use super::shift::outside_domain;
 use crate::array::{Lu, Square, add_scaled, all_finite, dot, largest, times, transpose};
 use crate::equilibrium::{CriticalState, Crossing};
 use crate::modes::clusters;
@@ -96,8 +96,7 @@ where
         return Err(Error::ClusteredMode { mode: 0 });
     }
     let phi = &mode.real_shape();
-    let direct =
-        mechanism.mode_gradient(&at.coordinates, &at.inputs, &at.design, phi, mode.lambda);
+    let direct = mechanism.mode_gradient(&at.coordinates, &at.inputs, &at.design, phi, mode.lambda);
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     let weighted = times(&at.linear.mass, phi);

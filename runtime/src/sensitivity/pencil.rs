@@ -195,13 +195,7 @@ fn parts<const N: usize, const U: usize, const P: usize>(
 }
 
 /// Gradient of `w^T g` at rest.
-pub(super) fn residual_gradient<
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
+pub(super) fn residual_gradient<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
     w: &[Complex; N],

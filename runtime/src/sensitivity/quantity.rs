@@ -54,7 +54,8 @@ impl Quantity {
             Self::Frequency => ab.im,
             Self::Growth => ab.re,
             Self::NaturalFrequency => {
-                let slopes = Self::NaturalFrequency.slope(s, a) * Self::NaturalFrequency.slope(s, b);
+                let slopes =
+                    Self::NaturalFrequency.slope(s, a) * Self::NaturalFrequency.slope(s, b);
                 ((a.conj() * b + s.conj() * ab).re - slopes) / size
             }
             Self::DampingRatio => {

@@ -68,9 +68,7 @@ impl<T: Copy, const U: usize, const P: usize> SecondDerivatives<T, U, P> {
             columns: &[F; B],
             f: impl Fn(F, F, T) -> R,
         ) -> [[R; B]; A] {
-            core::array::from_fn(|i| {
-                core::array::from_fn(|j| f(rows[i], columns[j], matrix[i][j]))
-            })
+            core::array::from_fn(|i| core::array::from_fn(|j| f(rows[i], columns[j], matrix[i][j])))
         }
         let (inputs, design) = (&first.by_input, &first.by_design);
         SecondDerivatives {
@@ -233,9 +231,9 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Undamped<'a, M, N, U
             dphi,
             dlambda,
         );
-        let still =
-            self.mechanism
-                .residual_gradient_along(q, u, b, &self.w, dq, du, db, &[0.0; N]);
+        let still = self
+            .mechanism
+            .residual_gradient_along(q, u, b, &self.w, dq, du, db, &[0.0; N]);
         let dw = self.factors.solve(&core::array::from_fn(|i| {
             direct.coordinates[i] - still.coordinates[i]
         }));
@@ -375,8 +373,5 @@ fn symmetric<const U: usize, const P: usize>(
         by_input_and_design: core::array::from_fn(|i| core::array::from_fn(|j| mean(i, U + j))),
         by_design: core::array::from_fn(|i| core::array::from_fn(|j| mean(U + i, U + j))),
     };
-    (
-        second,
-        if most > 0.0 { difference / most } else { 0.0 },
-    )
+    (second, if most > 0.0 { difference / most } else { 0.0 })
 }

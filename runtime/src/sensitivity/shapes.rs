@@ -97,9 +97,9 @@ impl<'a, const N: usize> Shapes<'a, N, ()> {
         let right = Side::new(linear, family, mode, &mode.shape).ok_or(clustered.clone())?;
         let left = match family {
             Family::Undamped => None,
-            Family::General => Some(
-                Side::new(&transposed(linear), family, mode, &mode.left).ok_or(clustered)?,
-            ),
+            Family::General => {
+                Some(Side::new(&transposed(linear), family, mode, &mode.left).ok_or(clustered)?)
+            }
         };
         Ok(Shapes {
             linear,
@@ -198,7 +198,8 @@ impl<const N: usize> Side<N> {
                 .fold(0.0, |most: f64, value| most.max(value.norm()))
         };
         let scale = largest_element(&linear.stiffness)
-            + s.norm() * (largest_element(&linear.damping) + s.norm() * largest_element(&linear.mass));
+            + s.norm()
+                * (largest_element(&linear.damping) + s.norm() * largest_element(&linear.mass));
         let added = if scale > 0.0 { scale } else { 1.0 } / (size(&slope) * size(&weighted));
         let deflated = core::array::from_fn(|i| {
             core::array::from_fn(|j| pencil[i][j] + added * slope[i] * weighted[j].conj())

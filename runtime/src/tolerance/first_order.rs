@@ -188,7 +188,9 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
         },
         distance_to_instability: growth
             .filter(|_| modes.family == Family::General)
-            .map_or(f64::INFINITY, |spread| in_sigmas(-spread.mean, spread.sigma)),
+            .map_or(f64::INFINITY, |spread| {
+                in_sigmas(-spread.mean, spread.sigma)
+            }),
         distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
         clustered: own.clustered,
     }
