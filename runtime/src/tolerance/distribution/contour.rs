@@ -72,29 +72,31 @@ impl Ray {
             end: start,
             largest: f64::NEG_INFINITY,
         };
-        let mut modulus = f64::INFINITY;
-        while modulus >= NOTHING {
+        // The ray may run to infinity on the side where the integrand vanishes.
+        let towards = 0.5 * PI - angle;
+        let vanishes = terms.normal > 0.0 || (y - terms.vertex()) * towards >= 0.0;
+        loop {
             ray.end += STRIDE;
-            modulus = exponent(terms, y, angle, ray.end).0.re;
+            let modulus = exponent(terms, y, angle, ray.end).0.re;
             ray.largest = ray.largest.max(modulus);
             if modulus.is_nan() || ray.largest > LARGEST || ray.end > FARTHEST {
                 return None;
             }
+            if modulus < NOTHING && (vanishes || ray.can_return(terms, y)) {
+                return Some(ray);
+            }
         }
-        ray.allowed(terms, y).then_some(ray)
     }
 
-    /// Whether the rest of the path may be left out: the ray runs to infinity on a side where the integrand vanishes, or
-    /// the arc back to the imaginary axis, along which the modulus only falls, adds nothing either.
-    fn allowed(&self, terms: &Terms, y: f64) -> bool {
+    /// Whether the path from the end of the ray back to the imaginary axis, along which the modulus only falls, adds
+    /// nothing.
+    fn can_return(&self, terms: &Terms, y: f64) -> bool {
         const POINTS: usize = 8;
-        let towards = 0.5 * PI - self.angle;
-        let vanishes = terms.normal > 0.0 || (y - terms.vertex()) * towards >= 0.0;
-        vanishes
-            || (1..=POINTS).all(|k| {
-                let angle = self.angle + towards * k as f64 / POINTS as f64;
-                exponent(terms, y, angle, self.end).0.re < NOTHING + 4.0
-            })
+        (0..POINTS).all(|k| {
+            let part = k as f64 / POINTS as f64;
+            let angle = 0.5 * PI * (1.0 - part) + self.angle * part;
+            exponent(terms, y, angle, self.end).0.re < NOTHING + 4.0
+        })
     }
 
     /// Halves the step until the sum stays.
