@@ -1,10 +1,12 @@
 //! Results as text: every result type prints itself as an aligned table with names and units.
 
 mod equilibrium;
+mod margin;
 mod modes;
 mod sensitivity;
 mod sweep;
 mod table;
 mod tolerance;
 
+pub use margin::MarginTable;
 pub use sweep::SweepTable;

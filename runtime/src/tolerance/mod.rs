@@ -1,18 +1,29 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
+mod cluster_sampling;
 mod declared;
+mod distribution;
 mod events;
 mod first_order;
+mod margin;
 mod monte_carlo;
 mod pool;
+mod probability;
+mod quadratic;
 mod sampling;
 mod statistics;
+mod trust;
 
+pub use cluster_sampling::{Cluster, ClusterSampling, ClusterSpread, MemberSpread, sample_cluster};
 pub use declared::Tolerances;
 pub use events::{Event, EventSpread, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use first_order::{
     FirstOrder, ModeTolerance, OutputTolerance, OutputTolerances, Spread, TRUSTED_DISTANCE,
     first_order, output_tolerances,
 };
+pub use margin::{Margin, MarginDerivatives, margin};
 pub use monte_carlo::{Counts, MonteCarlo, Outcome, Sample, Sampling, monte_carlo};
+pub use probability::Probability;
+pub use quadratic::{ModelMoments, Quadratic};
 pub use statistics::Statistics;
+pub use trust::Nonlinearity;

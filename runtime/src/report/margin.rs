@@ -1,0 +1,65 @@
+//! Safety margins as text.
+
+use core::fmt;
+
+use super::table::{Table, cells, heading, in_unit, number, per};
+use crate::tolerance::Margin;
+use crate::{Description, Unit};
+
+/// A margin, printed with the name and the unit of its quantity and the names of the design variables.
+#[derive(Clone, Copy, Debug)]
+pub struct MarginTable<'a, const P: usize> {
+    /// The margin, as [`margin`](crate::tolerance::margin) returns it.
+    pub margin: &'a Margin<P>,
+    /// What the quantity is, for example `frequency 1`.
+    pub quantity: &'a str,
+    /// Its unit, for example rad/s.
+    pub unit: Unit,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const P: usize> fmt::Display for MarginTable<'_, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (margin, unit, d) = (self.margin, self.unit, self.description);
+        let (low, high) = margin.band;
+        writeln!(
+            f,
+            "{}: margin of {} against the band {} to {} {}",
+            d.name,
+            self.quantity,
+            in_unit(low, unit),
+            in_unit(high, unit),
+            unit.symbol
+        )?;
+        let mut table = Table::new(vec![
+            heading("nominal", unit),
+            heading("sigma", unit),
+            "to band [sigma]".to_owned(),
+            "first order".to_owned(),
+            "corrected".to_owned(),
+            "error below".to_owned(),
+        ]);
+        table.row(vec![
+            in_unit(margin.value, unit),
+            in_unit(margin.sigma, unit),
+            number(margin.distance),
+            number(margin.first_order),
+            number(margin.corrected.value),
+            format!("{:.0e}", margin.corrected.error),
+        ]);
+        write!(f, "{table}")?;
+        let Some(slopes) = &margin.derivatives else {
+            return writeln!(f, "  Without derivatives: nothing varies at first order.");
+        };
+        let mut table = Table::new(cells(["probability by", "nominal value", "half-width"]));
+        for (k, info) in d.design.iter().enumerate().take(P) {
+            table.row(vec![
+                per(info.name, info.unit),
+                number(slopes.by_design[k] * info.unit.scale),
+                number(slopes.by_half_width[k] * info.unit.scale),
+            ]);
+        }
+        write!(f, "{table}")
+    }
+}
