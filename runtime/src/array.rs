@@ -15,7 +15,7 @@ pub(crate) fn times_complex<const N: usize>(matrix: &Square<N>, x: &[Complex; N]
         matrix[i]
             .iter()
             .zip(x)
-            .fold(Complex::ZERO, |sum, (a, b)| sum + b * a)
+            .fold(Complex::default(), |sum, (a, b)| sum + b * a)
     })
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn times_complex<const N: usize>(matrix: &Square<N>, x: &[Complex; N]
 pub(crate) fn dot_complex<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
     x.iter()
         .zip(y)
-        .fold(Complex::ZERO, |sum, (a, b)| sum + a * b)
+        .fold(Complex::default(), |sum, (a, b)| sum + a * b)
 }
 
 pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
@@ -140,20 +140,17 @@ pub(crate) trait Field:
     + core::ops::Mul<Output = Self>
     + core::ops::Div<Output = Self>
 {
-    const ZERO: Self;
     /// A magnitude within a factor of two of the absolute value.
     fn size(self) -> f64;
 }
 
 impl Field for f64 {
-    const ZERO: Self = 0.0;
     fn size(self) -> f64 {
         self.abs()
     }
 }
 
 impl Field for Complex {
-    const ZERO: Self = Self::new(0.0, 0.0);
     fn size(self) -> f64 {
         self.l1_norm()
     }

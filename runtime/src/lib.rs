@@ -45,6 +45,8 @@ mod real;
 #[cfg(feature = "std")]
 mod array;
 #[cfg(feature = "std")]
+pub mod campbell;
+#[cfg(feature = "std")]
 pub mod equilibrium;
 #[cfg(feature = "std")]
 mod error;
@@ -69,6 +71,8 @@ pub use mechanism::{
 };
 pub use real::Real;
 
+#[cfg(feature = "std")]
+pub use campbell::Campbell;
 #[cfg(feature = "std")]
 pub use equilibrium::{Equilibrium, Policy, Stability};
 #[cfg(feature = "std")]

@@ -18,10 +18,11 @@ pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
 pub use multistart::{Search, find_equilibria};
 pub use range::Range;
+pub(crate) use range::check_input;
 pub use stability::Stability;
 pub use sweep::{SweepPoint, sweep};
 pub use track::Following;
-pub(crate) use track::{Tracked, Tracker};
+pub(crate) use track::Tracker;
 
 pub(crate) use problem::{Failure, Problem};
 

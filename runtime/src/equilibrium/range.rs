@@ -40,7 +40,7 @@ impl Range {
     }
 }
 
-pub(super) fn check_input<const U: usize>(
+pub(crate) fn check_input<const U: usize>(
     input: Input,
     mechanism: &'static str,
 ) -> Result<(), Error> {

@@ -73,8 +73,13 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         }
     }
 
+    /// Which modes are followed.
+    pub(crate) fn family(&self) -> Family {
+        self.family
+    }
+
     /// The equilibrium at a value of the input, from `from`.
-    pub(crate) fn equilibrium<const O: usize>(
+    fn equilibrium<const O: usize>(
         &self,
         value: f64,
         from: &[f64; N],

@@ -1,8 +1,10 @@
 //! Results as text: every result type prints itself as an aligned table with names and units.
 
+mod campbell;
 mod equilibrium;
 mod margin;
 mod modes;
+mod second_order;
 mod sensitivity;
 mod sweep;
 mod table;

@@ -35,6 +35,16 @@ impl Quantity {
         }
     }
 
+    /// The value for an eigenvalue that is not zero.
+    pub(crate) fn value(self, s: Complex) -> f64 {
+        match self {
+            Self::Frequency => s.im,
+            Self::NaturalFrequency => s.norm(),
+            Self::DampingRatio => -s.re / s.norm(),
+            Self::Growth => s.re,
+        }
+    }
+
     /// First derivative along a direction in which `s` moves at the rate `ds`.
     pub(crate) fn slope(self, s: Complex, ds: Complex) -> f64 {
         let size = s.norm();

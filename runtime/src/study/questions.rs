@@ -1,12 +1,18 @@
 //! What a study can be asked: each question runs the chain of functions that answers it.
 
 use super::Study;
+use crate::campbell::{self, Campbell};
 use crate::equilibrium::{
     self, CriticalState, Crossing, Equilibrium, Line, Range, Search, SweepPoint,
 };
-use crate::modes::Family;
-use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Sensitivities};
-use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerances, Sampling};
+use crate::modes::{Family, PerMode, Whirl};
+use crate::sensitivity::{
+    self, EquilibriumShift, ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity,
+};
+use crate::tolerance::{
+    self, Band, EventTolerance, FirstOrder, FrequencyMargin, MonteCarlo, OutputTolerances,
+    Sampling, SecondOrder,
+};
 use crate::{Error, Input, Mechanism, Modes, modes};
 
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
@@ -136,6 +142,115 @@ where
             progress,
         };
         tolerance::monte_carlo(&self.mechanism, &state, &found, &tolerances, &sampling)
+    }
+
+    /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes and the function.
+    pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity<N, U, P>, Error> {
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        sensitivity::shape_sensitivity(&self.mechanism, &state, &found, mode)
+    }
+
+    /// First and second derivatives of one mode, counted from 0 ([`sensitivity::mode_curvature`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes and the function.
+    pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature<U, P>, Error> {
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        sensitivity::mode_curvature(&self.mechanism, &state, &found, mode)
+    }
+
+    /// Spread of every mode to second order ([`tolerance::second_order`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
+    pub fn second_order(&self) -> Result<SecondOrder<P>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        Ok(tolerance::second_order(
+            &self.mechanism,
+            &state,
+            &found,
+            &tolerances,
+        ))
+    }
+
+    /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
+    /// ([`tolerance::frequency_margin`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes, tolerances and the function.
+    pub fn margin(&self, mode: usize, band: Band) -> Result<FrequencyMargin<U, P>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        tolerance::frequency_margin(&self.mechanism, &state, &found, mode, &tolerances, band)
+    }
+
+    /// How each mode whirls ([`modes::whirls`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium and modes.
+    pub fn whirls(&self) -> Result<PerMode<Option<Whirl>, N>, Error> {
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        Ok(modes::whirls(&self.mechanism, &state, &found))
+    }
+
+    /// Campbell diagram along one input, with the crossings of engine orders ([`campbell::campbell`]).
+    ///
+    /// # Errors
+    /// Those of the tolerances, [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn campbell(
+        &self,
+        input: Input,
+        values: &[f64],
+        orders: &[f64],
+    ) -> Result<Campbell<N, U, P>, Error> {
+        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        campbell::campbell(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            input,
+            values,
+            &orders,
+            &self.tolerances()?,
+        )
+    }
+
+    /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
+    /// ([`equilibrium::flutter_onsets`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn flutter_onsets(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<Crossing<N, U, P>>, Error> {
+        self.ready()?;
+        equilibrium::flutter_onsets(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            Range {
+                input,
+                low,
+                high,
+                steps: self.steps,
+            },
+        )
     }
 
     /// Equilibria and modes at each value of one input ([`equilibrium::sweep`]).

@@ -110,6 +110,18 @@ impl<const P: usize> Tolerances<P> {
         self.spread(slopes).0
     }
 
+    /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`.
+    pub fn covariance(&self, a: &[f64; P], b: &[f64; P]) -> f64 {
+        let deviations = self.standard_deviations();
+        let scaled =
+            |slopes: &[f64; P]| -> [f64; P] { core::array::from_fn(|j| slopes[j] * deviations[j]) };
+        let (a, b) = (scaled(a), scaled(b));
+        match &self.correlation {
+            None => dot(&a, &b),
+            Some(matrix) => dot(&a, &times(matrix, &b)),
+        }
+    }
+
     /// The standard deviation, and the share of each variable in the variance. Both are formed from numbers about 1, so
     /// that a variance beyond the range of a double does no harm.
     pub(crate) fn spread(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {

@@ -40,6 +40,14 @@ pub struct EventTolerance<const P: usize> {
 }
 
 impl<const P: usize> EventTolerance<P> {
+    /// The same with another number for the mode of a crossing.
+    pub(crate) fn with_mode(mut self, number: usize) -> Self {
+        if let Event::Crossing { mode, .. } = &mut self.event {
+            *mode = number;
+        }
+        self
+    }
+
     /// Standard deviation of the value, SI; `None` where it has no derivative.
     pub fn sigma(&self) -> Option<f64> {
         self.spread.as_ref().ok().map(|spread| spread.sigma)

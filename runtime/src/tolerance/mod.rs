@@ -1,5 +1,6 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
+mod band;
 mod cluster_sampling;
 mod declared;
 mod distribution;
@@ -11,9 +12,11 @@ mod pool;
 mod probability;
 mod quadratic;
 mod sampling;
+mod second_order;
 mod statistics;
 mod trust;
 
+pub use band::{Band, FrequencyMargin, frequency_margin};
 pub use cluster_sampling::{Cluster, ClusterSampling, ClusterSpread, MemberSpread, sample_cluster};
 pub use declared::Tolerances;
 pub use events::{Event, EventSpread, EventTolerance, critical_tolerance, crossing_tolerance};
@@ -25,5 +28,6 @@ pub use margin::{Margin, MarginDerivatives, margin};
 pub use monte_carlo::{Counts, MonteCarlo, Outcome, Sample, Sampling, monte_carlo};
 pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
+pub use second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};
 pub use statistics::Statistics;
 pub use trust::Nonlinearity;

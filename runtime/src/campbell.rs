@@ -1,0 +1,194 @@
+//! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
+
+use crate::equilibrium::{Condition, Crossing, Following, Line, Tracker, between, check_input};
+use crate::modes::{Family, Mode, Modes, Whirl, whirls};
+use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
+use crate::tolerance::{EventTolerance, Spread, Tolerances, crossing_tolerance};
+use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Mechanism};
+
+/// One mode at one value of the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CampbellMode<const P: usize> {
+    /// Number of the motion along the diagram.
+    pub label: usize,
+    /// Eigenvalue, 1/s.
+    pub s: Complex,
+    /// What it means.
+    pub behaviour: Behaviour,
+    /// Frequency `Im s` and its spread, rad/s; `None` for a mode that does not oscillate, or has no derivative.
+    pub frequency: Option<Spread<P>>,
+    /// Damping ratio and its spread; `None` likewise.
+    pub damping_ratio: Option<Spread<P>>,
+    /// Whirl; `None` where it does not apply.
+    pub whirl: Option<Whirl>,
+    /// Its eigenvalue is nearly that of another mode: spreads of its own do not exist there.
+    pub clustered: bool,
+}
+
+/// All modes at one value of the input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CampbellPoint<const N: usize, const U: usize, const P: usize> {
+    /// The value, SI.
+    pub value: f64,
+    /// The equilibrium there, or why there is none.
+    pub equilibrium: Result<Equilibrium<N, U, P>, Error>,
+    /// Its modes, or why there are none.
+    pub modes: Result<Vec<CampbellMode<P>>, Error>,
+}
+
+/// A Campbell diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campbell<const N: usize, const U: usize, const P: usize> {
+    /// The input along which it is drawn.
+    pub input: Input,
+    /// One point for each value.
+    pub points: Vec<CampbellPoint<N, U, P>>,
+    /// The lines that crossings were looked for with.
+    pub orders: Vec<Line>,
+    /// Where a frequency meets a line: value of the input, sensitivity and spread; in the order of discovery. The number of
+    /// the mode is its label.
+    pub crossings: Vec<EventTolerance<P>>,
+    /// Where an oscillation begins or ceases to grow.
+    pub flutter_onsets: Vec<EventTolerance<P>>,
+    /// Standard deviations that a tolerance holds.
+    pub sigma_level: f64,
+    /// Which modes it shows.
+    pub family: Family,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const N: usize, const U: usize, const P: usize> Campbell<N, U, P> {
+    /// The modes that occur: their labels, ascending.
+    pub fn labels(&self) -> Vec<usize> {
+        let modes = self
+            .points
+            .iter()
+            .filter_map(|point| point.modes.as_ref().ok());
+        let mut labels: Vec<usize> = modes.flatten().map(|mode| mode.label).collect();
+        labels.sort_unstable();
+        labels.dedup();
+        labels
+    }
+
+    /// One branch of the diagram: the values of the input at which the mode of this label was found, and the mode there.
+    pub fn branch(&self, label: usize) -> impl Iterator<Item = (f64, &CampbellMode<P>)> {
+        self.points.iter().filter_map(move |point| {
+            let modes = point.modes.as_ref().ok()?;
+            let mode = modes.iter().find(|mode| mode.label == label)?;
+            Some((point.value, mode))
+        })
+    }
+}
+
+/// Draws a Campbell diagram: solves equilibrium and modes at each of `values` of one input, follows every mode, and locates
+/// the crossings with `orders` and the onsets of flutter between neighbouring values.
+///
+/// Arguments as for [`sweep`](crate::equilibrium::sweep).
+///
+/// # Errors
+/// [`Error::UnknownHandle`]; a point that fails carries its own error.
+#[allow(clippy::too_many_arguments)]
+pub fn campbell<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    u: &[f64; U],
+    b: &[f64; P],
+    start: &[f64; N],
+    following: impl Into<Following>,
+    input: Input,
+    values: &[f64],
+    orders: &[Line],
+    tolerances: &Tolerances<P>,
+) -> Result<Campbell<N, U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    check_input::<U>(input, M::DESCRIPTION.name)?;
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
+    let conditions = orders.iter().map(|&line| Condition::Line(line));
+    let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
+    let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
+    let mut points = Vec::with_capacity(values.len());
+    for &value in values {
+        let before = tracker.last;
+        let (equilibrium, modes) = match tracker.advance(value) {
+            Ok((state, modes)) => (Ok(state), modes),
+            Err(error) => (Err(error.clone()), Err(error)),
+        };
+        if let (Some(before), Some(after), true) = (before, tracker.last, modes.is_ok()) {
+            for &condition in &conditions {
+                let mut found = Vec::new();
+                between(&tracker, &before, &after, condition, &mut found);
+                let list = match condition {
+                    Condition::Line(_) => &mut crossings,
+                    Condition::FlutterOnset => &mut flutter_onsets,
+                };
+                list.extend(found.iter().map(|crossing| {
+                    labelled(
+                        crossing,
+                        crossing_tolerance(mechanism, crossing, tolerances),
+                    )
+                }));
+            }
+        }
+        let modes = match (&equilibrium, modes) {
+            (Ok(state), Ok(modes)) => Ok(describe(mechanism, state, &modes, tolerances)),
+            (_, Err(error)) => Err(error),
+            (Err(error), Ok(_)) => Err(error.clone()),
+        };
+        points.push(CampbellPoint {
+            value,
+            equilibrium,
+            modes,
+        });
+    }
+    Ok(Campbell {
+        input,
+        points,
+        orders: orders.to_vec(),
+        crossings,
+        flutter_onsets,
+        sigma_level: tolerances.sigma_level(),
+        family: tracker.family(),
+        description: const { &M::DESCRIPTION },
+    })
+}
+
+/// The spread of a crossing under the label of its mode.
+fn labelled<const N: usize, const U: usize, const P: usize>(
+    crossing: &Crossing<N, U, P>,
+    spread: EventTolerance<P>,
+) -> EventTolerance<P> {
+    let mode = crossing.modes.modes.get(crossing.mode);
+    spread.with_mode(mode.map_or(crossing.mode, |mode| mode.label))
+}
+
+fn describe<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    state: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    tolerances: &Tolerances<P>,
+) -> Vec<CampbellMode<P>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let slopes: Option<Sensitivities<N, U, P>> = sensitivities(mechanism, state, modes).ok();
+    let whirls = whirls(mechanism, state, modes);
+    let one = |(r, mode): (usize, &Mode<N>)| {
+        let own = slopes.as_ref().map(|slopes| &slopes.modes[r]);
+        let spread = |quantity: Quantity| {
+            let by_design = own?.of(quantity)?.by_design;
+            Some(Spread::new(quantity.of(mode)?, &by_design, tolerances))
+        };
+        CampbellMode {
+            label: mode.label,
+            s: mode.s,
+            behaviour: mode.behaviour,
+            frequency: spread(Quantity::Frequency),
+            damping_ratio: spread(Quantity::DampingRatio),
+            whirl: whirls[r],
+            clustered: own.is_some_and(|own| own.clustered),
+        }
+    };
+    modes.modes.iter().enumerate().map(one).collect()
+}

@@ -1,0 +1,73 @@
+//! Second-order spreads and margins of modes as text.
+
+use core::fmt;
+
+use super::margin::MarginTable;
+use super::table::{Table, cells, number};
+use crate::Unit;
+use crate::tolerance::{FrequencyMargin, SecondOrder};
+
+impl<const P: usize> fmt::Display for SecondOrder<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{}: spread of the frequencies to second order",
+            self.description.name
+        )?;
+        let mut table = Table::new(cells([
+            "mode",
+            "nominal [rad/s]",
+            "mean [rad/s]",
+            "sigma, first order",
+            "sigma [rad/s]",
+            "skewness",
+            "damping ratio, mean",
+            "sigma",
+        ]));
+        for (r, mode) in self.modes.iter().enumerate() {
+            let Ok(mode) = mode else { continue };
+            let (frequency, damping) = (&mode.frequency, &mode.damping_ratio);
+            table.row(vec![
+                (r + 1).to_string(),
+                number(frequency.model.value),
+                number(frequency.moments.mean),
+                number(frequency.moments.first_order_sigma),
+                number(frequency.moments.sigma),
+                number(frequency.moments.skewness),
+                number(damping.moments.mean),
+                number(damping.moments.sigma),
+            ]);
+        }
+        write!(f, "{table}")?;
+        for (r, mode) in self.modes.iter().enumerate() {
+            if let Err(error) = mode {
+                writeln!(f, "  Mode {}: {error}.", r + 1)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<const U: usize, const P: usize> fmt::Display for FrequencyMargin<U, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let table = MarginTable {
+            margin: &self.margin,
+            quantity: &format!("frequency {}", self.mode + 1),
+            unit: Unit {
+                symbol: "rad/s",
+                scale: 1.0,
+            },
+            description: self.description,
+        };
+        write!(f, "{table}")?;
+        let Some(by_input) = self.by_input else {
+            return Ok(());
+        };
+        for (info, slope) in self.description.inputs.iter().zip(by_input) {
+            let slope = number(slope * info.unit.scale);
+            let symbol = info.unit.symbol;
+            writeln!(f, "  probability by {} [{symbol}]: {slope}", info.name)?;
+        }
+        Ok(())
+    }
+}
