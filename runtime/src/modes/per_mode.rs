@@ -30,7 +30,7 @@ impl<T: Copy, const N: usize> PerMode<T, N> {
     }
 
     /// A list of equal length made from each entry.
-    pub(crate) fn map<R: Copy>(&self, mut entry: impl FnMut(&T) -> R) -> PerMode<R, N> {
+    pub fn map<R: Copy>(&self, mut entry: impl FnMut(&T) -> R) -> PerMode<R, N> {
         PerMode::from_fn(self.count, |r| entry(&self.entries.as_flattened()[r]))
     }
 }
