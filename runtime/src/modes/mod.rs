@@ -1,6 +1,8 @@
 //! Natural modes of small vibrations about an equilibrium.
 
 mod assurance;
+#[allow(dead_code)]
+mod general;
 mod refine;
 pub(crate) mod symmetric;
 
