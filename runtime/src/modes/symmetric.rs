@@ -141,7 +141,8 @@ fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
     Ok(lower)
 }
 
-fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
+/// Lower Cholesky factor of a mass matrix, row by row; what is above the diagonal of `lower` stays as it is.
+pub(super) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
     let threshold = 8.0 * n as f64 * f64::EPSILON;
     for i in 0..n {
         for j in 0..=i {

@@ -1,0 +1,114 @@
+//! The second method: Ehrlich and Aberth's simultaneous iteration on `det Q(s)` (Bini and Noferini 2013). It works on the
+//! pencil itself, so that small eigenvalues do not take the rounding of the great ones; the linearisation is quicker.
+
+use num_complex::Complex64;
+
+use super::lu::Lu;
+use super::pencil::Pencil;
+
+const SWEEPS: usize = 60;
+
+/// Improves those of all the eigenvalues that are `open`, and closes them as they settle. `work` takes `4 n` numbers.
+pub(super) fn improve(
+    pencil: &Pencil,
+    values: &mut [Complex64],
+    open: &mut [bool],
+    q: &mut [Complex64],
+    order: &mut [usize],
+    work: &mut [Complex64],
+) {
+    for _ in 0..SWEEPS {
+        let mut settled = true;
+        for i in 0..values.len() {
+            if !open[i] {
+                continue;
+            }
+            let s = values[i];
+            let trace = logarithmic_derivative(pencil, s, q, order, work);
+            let repulsion: Complex64 = values
+                .iter()
+                .filter(|&&other| other != s)
+                .map(|other| (s - other).inv())
+                .sum();
+            let step = (trace - repulsion).inv();
+            let new = s - step;
+            if !(new.re.is_finite() && new.im.is_finite()) {
+                open[i] = false;
+                continue;
+            }
+            values[i] = new;
+            if step.norm() <= 4.0 * f64::EPSILON * new.norm() {
+                open[i] = false;
+            } else {
+                settled = false;
+            }
+        }
+        if settled {
+            break;
+        }
+    }
+}
+
+/// `d/ds ln det Q(s) = tr(Q^-1 (2 s M + C))`.
+fn logarithmic_derivative(
+    pencil: &Pencil,
+    s: Complex64,
+    q: &mut [Complex64],
+    order: &mut [usize],
+    work: &mut [Complex64],
+) -> Complex64 {
+    let n = pencil.n;
+    let (column, work) = work.split_at_mut(n);
+    let (x, work) = work.split_at_mut(n);
+    pencil.at(s, q);
+    let lu = Lu::new(n, q, order);
+    let mut trace = Complex64::ZERO;
+    for j in 0..n {
+        for i in 0..n {
+            column[i] = 2.0 * s * pencil.mass[i * n + j] + pencil.damping[i * n + j];
+        }
+        lu.solve(column, x, &mut work[..n]);
+        trace += x[j];
+    }
+    trace
+}
+
+/// Makes the marked values symmetric to the real axis again: each is paired with the value nearest to its conjugate, or
+/// is real when that is itself. They move to the end, conjugates as neighbours.
+pub(super) fn symmetrise(values: &mut [Complex64], marked: &mut [bool]) {
+    let count = values.len();
+    let mut start = 0;
+    for i in 0..count {
+        if !marked[i] {
+            values[start..=i].rotate_right(1);
+            marked[start..=i].rotate_right(1);
+            start += 1;
+        }
+    }
+    while start < count {
+        let mut first = start;
+        for i in start..count {
+            if values[i].im.abs() > values[first].im.abs() {
+                first = i;
+            }
+        }
+        values.swap(start, first);
+        let wanted = values[start].conj();
+        let mut partner = start;
+        for i in start..count {
+            if (values[i] - wanted).norm() < (values[partner] - wanted).norm() {
+                partner = i;
+            }
+        }
+        if partner == start {
+            values[start].im = 0.0;
+            start += 1;
+        } else {
+            values.swap(start + 1, partner);
+            let mean = (wanted + values[start + 1]) * 0.5;
+            let upper = Complex64::new(mean.re, mean.im.abs());
+            (values[start], values[start + 1]) = (upper, upper.conj());
+            start += 2;
+        }
+    }
+}

@@ -1,0 +1,405 @@
+//! The recipe, on slices of any size: up to eight coordinates on the stack, more on the heap.
+
+use num_complex::Complex64;
+
+use super::cluster::Found;
+use super::linearisation::Linearisation;
+use super::pair::{Pair, ROUNDING, Solver};
+use super::pencil::{Pencil, Products};
+use super::scaling::{largest, scale};
+use super::{aberth, accuracy, cluster, schur};
+use crate::Linear;
+use crate::modes::symmetric::Trouble;
+
+/// The three matrices, row by row.
+#[derive(Clone, Copy)]
+pub(super) struct Matrices<'a> {
+    n: usize,
+    mass: &'a [f64],
+    damping: &'a [f64],
+    stiffness: &'a [f64],
+}
+
+impl<'a> Matrices<'a> {
+    pub(super) fn of<const N: usize>(linear: &'a Linear<f64, N>) -> Self {
+        Self {
+            n: N,
+            mass: linear.mass.as_flattened(),
+            damping: linear.damping.as_flattened(),
+            stiffness: linear.stiffness.as_flattened(),
+        }
+    }
+}
+
+/// What is known of a root besides its vectors.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers {
+    pub(super) s: Complex64,
+    pub(super) residual: f64,
+    pub(super) error: f64,
+    pub(super) condition: f64,
+}
+
+impl Numbers {
+    pub(super) const NONE: Self = Self {
+        s: Complex64::ZERO,
+        residual: 0.0,
+        error: 0.0,
+        condition: 1.0,
+    };
+}
+
+/// Accepted residual of a pair relative to the terms in it.
+const ACCEPTED: f64 = 1e-9;
+/// Sizes of eigenvalues that differ by less count as equal in the order.
+const EQUAL: f64 = 1e-12;
+
+struct Work<'a> {
+    real: &'a mut [f64],
+    complex: &'a mut [Complex64],
+    indices: &'a mut [usize],
+    flags: &'a mut [bool],
+    pairs: &'a mut [Pair],
+}
+
+/// Numbers of each kind that a problem of size `n` needs, in units of `n` times `n`.
+const REALS: usize = 24;
+const COMPLEXES: usize = 17;
+
+fn on_stack<const N: usize, T>(job: impl FnOnce(&mut Work) -> T) -> T {
+    job(&mut Work {
+        real: [[[0.0; N]; N]; REALS].as_flattened_mut().as_flattened_mut(),
+        complex: [[[Complex64::ZERO; N]; N]; COMPLEXES]
+            .as_flattened_mut()
+            .as_flattened_mut(),
+        indices: [[0; N]; 6].as_flattened_mut(),
+        flags: [[false; N]; 4].as_flattened_mut(),
+        pairs: [[Pair::NONE; N]; 2].as_flattened_mut(),
+    })
+}
+
+fn with_work<T>(n: usize, job: impl FnOnce(&mut Work) -> T) -> T {
+    match n {
+        0..=2 => on_stack::<2, T>(job),
+        3..=4 => on_stack::<4, T>(job),
+        5..=8 => on_stack::<8, T>(job),
+        _ => job(&mut Work {
+            real: &mut vec![0.0; REALS * n * n],
+            complex: &mut vec![Complex64::ZERO; COMPLEXES * n * n],
+            indices: &mut vec![0; 6 * n],
+            flags: &mut vec![false; 4 * n],
+            pairs: &mut vec![Pair::NONE; 2 * n],
+        }),
+    }
+}
+
+fn not_found() -> Trouble {
+    Trouble::Inaccurate {
+        mode: 0,
+        residual: f64::INFINITY,
+    }
+}
+
+/// Takes the next `count` numbers of a store.
+fn take<'a, T>(store: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (taken, rest) = std::mem::take(store).split_at_mut(count);
+    *store = rest;
+    taken
+}
+
+/// Scaled pencil, `D`, unit of the eigenvalues.
+fn scaled<'a>(
+    matrices: Matrices,
+    store: &mut &'a mut [f64],
+) -> Result<(Pencil<'a>, &'a mut [f64], f64), Trouble> {
+    let n = matrices.n;
+    let mass = take(store, n * n);
+    let damping = take(store, n * n);
+    let stiffness = take(store, n * n);
+    let units = take(store, n);
+    mass.copy_from_slice(matrices.mass);
+    damping.copy_from_slice(matrices.damping);
+    stiffness.copy_from_slice(matrices.stiffness);
+    for i in 0..n {
+        let diagonal = mass[i * n + i];
+        if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
+            return Err(Trouble::SingularMass(i));
+        }
+    }
+    let rate = scale(n, mass, damping, stiffness, units);
+    if [&*mass, damping, stiffness]
+        .iter()
+        .any(|matrix| largest(matrix).is_infinite())
+    {
+        return Err(not_found());
+    }
+    let pencil = Pencil {
+        n,
+        mass,
+        damping,
+        stiffness,
+    };
+    Ok((pencil, units, rate))
+}
+
+/// All eigenvalues of the linearisation of a scaled pencil; by the second method where QR does not converge.
+fn linear_values(
+    pencil: &Pencil,
+    companion: &mut [f64],
+    vector: &mut [f64],
+    complex: &mut [Complex64],
+    order: &mut [usize],
+    open: &mut [bool],
+    values: &mut [Complex64],
+) {
+    let n = pencil.n;
+    schur::hessenberg(2 * n, companion, vector);
+    if schur::eigenvalues(2 * n, companion, values) {
+        return;
+    }
+    for (i, value) in values.iter_mut().enumerate() {
+        *value = Complex64::from_polar(1.0, 0.4 + i as f64 * std::f64::consts::PI / n as f64);
+    }
+    open.fill(true);
+    let (q, work) = complex.split_at_mut(n * n);
+    aberth::improve(pencil, values, open, q, order, work);
+    open.fill(true);
+    aberth::symmetrise(values, open);
+}
+
+/// All `2 n` eigenvalues, in order.
+pub(super) fn eigenvalues(matrices: Matrices, values: &mut [Complex64]) -> Result<(), Trouble> {
+    let n = matrices.n;
+    if n == 0 {
+        return Ok(());
+    }
+    with_work(n, |work| {
+        let mut real = std::mem::take(&mut work.real);
+        let (pencil, _, rate) = scaled(matrices, &mut real)?;
+        let companion = take(&mut real, 4 * n * n);
+        let vector = take(&mut real, 2 * n);
+        Linearisation::new(&pencil, companion, take(&mut real, 3 * n * n + 2 * n))?;
+        let order = &mut work.indices[..2 * n];
+        let open = &mut work.flags[..2 * n];
+        linear_values(
+            &pencil,
+            companion,
+            vector,
+            work.complex,
+            order,
+            open,
+            values,
+        );
+        for value in values.iter_mut() {
+            *value *= rate;
+            if !(value.re.is_finite() && value.im.is_finite()) {
+                return Err(not_found());
+            }
+        }
+        sort(values, |value| *value);
+        Ok(())
+    })
+}
+
+/// Roots with `Im s >= 0`, their vectors as rows; returns their number.
+pub(super) fn solve(
+    matrices: Matrices,
+    numbers: &mut [Numbers],
+    right: &mut [Complex64],
+    left: &mut [Complex64],
+) -> Result<usize, Trouble> {
+    if matrices.n == 0 {
+        return Ok(0);
+    }
+    with_work(matrices.n, |work| {
+        solve_with(work, matrices, numbers, right, left)
+    })
+}
+
+fn solve_with(
+    work: &mut Work,
+    matrices: Matrices,
+    numbers: &mut [Numbers],
+    right: &mut [Complex64],
+    left: &mut [Complex64],
+) -> Result<usize, Trouble> {
+    let n = matrices.n;
+    let mut real = std::mem::take(&mut work.real);
+    let mut complex = std::mem::take(&mut work.complex);
+    let mut indices = std::mem::take(&mut work.indices);
+    let mut flags = std::mem::take(&mut work.flags);
+    let (pencil, units, rate) = scaled(matrices, &mut real)?;
+    let companion = take(&mut real, 4 * n * n);
+    let vector = take(&mut real, 2 * n);
+    let linearisation = Linearisation::new(&pencil, companion, take(&mut real, 3 * n * n + 2 * n))?;
+    let values = take(&mut complex, 2 * n);
+    let q = take(&mut complex, n * n);
+    let spare = take(&mut complex, 4 * n * n);
+    let order = take(&mut indices, 2 * n);
+    let label = take(&mut indices, 2 * n);
+    let open = take(&mut flags, 2 * n);
+    let marked = take(&mut flags, 2 * n);
+    linear_values(&pencil, companion, vector, spare, order, open, values);
+    let mut solver = Solver {
+        of_right: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 3 * n)),
+        of_left: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 3 * n)),
+        basis_right: take(&mut complex, n * n),
+        basis_left: take(&mut complex, n * n),
+        cross: take(&mut complex, n * n),
+        pencil,
+        linearisation,
+        q,
+        order,
+    };
+    let mut found = Found {
+        count: 0,
+        pairs: std::mem::take(&mut work.pairs),
+        right: take(&mut complex, 2 * n * n),
+        left: take(&mut complex, 2 * n * n),
+    };
+    let troubles = find(&mut solver, &mut found, values, label);
+    if troubles > 0 {
+        let second = take(&mut complex, 2 * n);
+        second_values(&mut solver, &found, second, spare, open, marked);
+        if find(&mut solver, &mut found, second, label) > troubles {
+            find(&mut solver, &mut found, values, label);
+        }
+    }
+    accuracy::estimate(&mut solver, &mut found);
+    let places = &mut label[..found.count];
+    for (i, place) in places.iter_mut().enumerate() {
+        *place = i;
+    }
+    sort(places, |&i| found.pairs[i].s);
+    for (mode, &i) in places.iter().enumerate() {
+        let pair = &found.pairs[i];
+        let vectors = i * n..(i + 1) * n;
+        let (phi, psi) = (&found.right[vectors.clone()], &found.left[vectors]);
+        let mut residual = pair.residual;
+        if residual > ACCEPTED {
+            if !solver.is_rounding(pair.s, phi, psi) {
+                return Err(Trouble::Inaccurate { mode, residual });
+            }
+            // Relative to the matrices instead of to terms that are rounding themselves.
+            residual = ROUNDING;
+        }
+        numbers[mode] = Numbers {
+            s: pair.s * rate,
+            residual,
+            error: pair.error * rate,
+            condition: pair.condition,
+        };
+        finish(phi, units, &mut right[mode * n..(mode + 1) * n]);
+        finish(psi, units, &mut left[mode * n..(mode + 1) * n]);
+    }
+    Ok(found.count)
+}
+
+/// Finds all pairs that start from `values`; returns the number of those that went wrong.
+fn find(
+    solver: &mut Solver,
+    found: &mut Found,
+    values: &[Complex64],
+    label: &mut [usize],
+) -> usize {
+    let n = solver.pencil.n;
+    found.count = 0;
+    for (i, &s) in values.iter().enumerate() {
+        if s.im < 0.0 {
+            continue;
+        }
+        let mut gap = f64::INFINITY;
+        for (j, other) in values.iter().enumerate() {
+            if j != i {
+                gap = gap.min((s - other).norm_sqr());
+            }
+        }
+        let place = found.count * n..(found.count + 1) * n;
+        found.pairs[found.count] = solver.pair(
+            s,
+            gap.sqrt(),
+            &mut found.right[place.clone()],
+            &mut found.left[place],
+        );
+        found.count += 1;
+    }
+    let collapsed = cluster::merge(solver, found, label);
+    let pairs = &found.pairs[..found.count];
+    pairs
+        .iter()
+        .filter(|pair| accuracy::in_trouble(pair))
+        .count()
+        + usize::from(collapsed)
+}
+
+/// The eigenvalues by the second method, which starts from those of the first and holds the good ones fast.
+#[cold]
+fn second_values(
+    solver: &mut Solver,
+    found: &Found,
+    second: &mut [Complex64],
+    spare: &mut [Complex64],
+    open: &mut [bool],
+    marked: &mut [bool],
+) {
+    let mut filled = 0;
+    for (i, pair) in found.pairs[..found.count].iter().enumerate() {
+        let crowded = found.pairs[..found.count]
+            .iter()
+            .enumerate()
+            .any(|(j, other)| i != j && !pair.merged && pair.reaches((pair.s - other.s).norm()));
+        let bad = crowded || accuracy::in_trouble(pair);
+        let reach = pair.newton.norm().max(f64::EPSILON * pair.s.norm());
+        let reach = if reach.is_finite() { reach } else { 1.0 };
+        for s in [Some(pair.s), pair.conjugate.then_some(pair.s.conj())]
+            .into_iter()
+            .flatten()
+        {
+            open[filled] = bad;
+            second[filled] = s;
+            if bad {
+                second[filled] += Complex64::from_polar(0.5 * reach, 1.0 + 2.4 * filled as f64);
+            }
+            filled += 1;
+        }
+    }
+    marked.copy_from_slice(open);
+    let (pencil, q, order) = (&solver.pencil, &mut *solver.q, &mut *solver.order);
+    aberth::improve(pencil, second, open, q, order, spare);
+    aberth::symmetrise(second, marked);
+}
+
+/// A vector in its own units, largest component real and positive; a margin keeps the choice when two are equal but for
+/// rounding.
+fn finish(vector: &[Complex64], units: &[f64], into: &mut [Complex64]) {
+    let mut lead = 0;
+    for i in 0..vector.len() {
+        into[i] = vector[i] * units[i];
+        if into[i].norm_sqr() > into[lead].norm_sqr() * (1.0 + 2e-9) {
+            lead = i;
+        }
+    }
+    let size = into[lead].norm();
+    if size > 0.0 && !(into[lead].im == 0.0 && into[lead].re > 0.0) {
+        let turn = into[lead].conj() / size;
+        into.iter_mut().for_each(|x| *x *= turn);
+        into[lead] = Complex64::new(size, 0.0);
+    }
+}
+
+/// Ascending in size; those of equal size by imaginary, then by real part.
+fn sort<T>(items: &mut [T], value: impl Fn(&T) -> Complex64) {
+    let size = |item: &T| value(item).norm();
+    items.sort_unstable_by(|a, b| size(a).total_cmp(&size(b)));
+    let mut start = 0;
+    while start < items.len() {
+        let limit = size(&items[start]) * (1.0 + EQUAL);
+        let run = items[start..].iter().take_while(|item| size(item) <= limit);
+        let end = start + run.count().max(1);
+        items[start..end].sort_unstable_by(|a, b| {
+            let (a, b) = (value(a), value(b));
+            a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re))
+        });
+        start = end;
+    }
+}

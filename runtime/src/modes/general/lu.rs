@@ -1,0 +1,169 @@
+//! Triangular factors of a small complex matrix with complete pivoting, which reveal its rank: the vectors that a singular
+//! matrix takes to zero come from the last rows and columns.
+
+use num_complex::Complex64;
+
+use super::pencil::bound;
+
+pub(super) struct Lu<'a> {
+    n: usize,
+    /// `L` below the diagonal (ones on it), `U` above, rows and columns exchanged.
+    factors: &'a [Complex64],
+    /// Position `i` holds this row, this column of the matrix.
+    rows: &'a [usize],
+    columns: &'a [usize],
+    /// The matrix was divided by this.
+    pub(super) unit: f64,
+}
+
+impl<'a> Lu<'a> {
+    /// Factors `matrix` in place; `order` takes `2 n` indices.
+    pub(super) fn new(n: usize, matrix: &'a mut [Complex64], order: &'a mut [usize]) -> Self {
+        let (rows, columns) = order.split_at_mut(n);
+        for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
+            (*row, *column) = (i, i);
+        }
+        let mut unit = 0.0;
+        for k in 0..n {
+            let (mut most, mut i_most, mut j_most) = (-1.0, k, k);
+            for i in k..n {
+                for j in k..n {
+                    let size = bound(matrix[i * n + j]);
+                    if size > most {
+                        (most, i_most, j_most) = (size, i, j);
+                    }
+                }
+            }
+            if k == 0 {
+                unit = if most > 0.0 { most } else { 1.0 };
+                matrix.iter_mut().for_each(|x| *x /= unit);
+            }
+            if i_most != k {
+                rows.swap(k, i_most);
+                for j in 0..n {
+                    matrix.swap(k * n + j, i_most * n + j);
+                }
+            }
+            if j_most != k {
+                columns.swap(k, j_most);
+                for i in 0..n {
+                    matrix.swap(i * n + k, i * n + j_most);
+                }
+            }
+            if k + 1 == n {
+                break;
+            }
+            let inverse = 1.0 / pivot(matrix[k * n + k]);
+            for i in k + 1..n {
+                let factor = matrix[i * n + k] * inverse;
+                matrix[i * n + k] = factor;
+                if factor != Complex64::ZERO {
+                    for j in k + 1..n {
+                        let product = factor * matrix[k * n + j];
+                        matrix[i * n + j] -= product;
+                    }
+                }
+            }
+        }
+        Self {
+            n,
+            factors: matrix,
+            rows,
+            columns,
+            unit,
+        }
+    }
+
+    /// Size of pivot `k` relative to the greatest element of the matrix.
+    pub(super) fn pivot(&self, k: usize) -> f64 {
+        bound(self.factors[k * self.n + k])
+    }
+
+    /// Number of last pivots that do not rise above `threshold`, at least one.
+    pub(super) fn nullity(&self, threshold: f64) -> usize {
+        let regular = (0..self.n).take_while(|&k| self.pivot(k) > threshold);
+        (self.n - regular.count()).max(1)
+    }
+
+    /// Vector `k` of the `nullity` that the matrix takes to zero but for its last pivots.
+    pub(super) fn null_right(&self, nullity: usize, k: usize, x: &mut [Complex64]) {
+        let (n, rank) = (self.n, self.n - nullity);
+        x.fill(Complex64::ZERO);
+        x[self.columns[rank + k]] = Complex64::ONE;
+        for i in (0..rank).rev() {
+            let mut sum = -self.factors[i * n + rank + k];
+            for j in i + 1..rank {
+                sum -= self.factors[i * n + j] * x[self.columns[j]];
+            }
+            x[self.columns[i]] = sum / pivot(self.factors[i * n + i]);
+        }
+    }
+
+    /// Vector `k` of the `nullity` with `x^T matrix` zero but for the last pivots.
+    pub(super) fn null_left(&self, nullity: usize, k: usize, x: &mut [Complex64]) {
+        let (n, rank) = (self.n, self.n - nullity);
+        x.fill(Complex64::ZERO);
+        x[self.rows[rank + k]] = Complex64::ONE;
+        for i in (0..rank).rev() {
+            let mut sum = -self.factors[(rank + k) * n + i];
+            for j in i + 1..rank {
+                sum -= self.factors[j * n + i] * x[self.rows[j]];
+            }
+            x[self.rows[i]] = sum;
+        }
+    }
+
+    /// Solves `matrix x = b`; pivots that are zero are replaced by something tiny. `work` takes `n` numbers.
+    pub(super) fn solve(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
+        let n = self.n;
+        for i in 0..n {
+            let mut sum = b[self.rows[i]] / self.unit;
+            for j in 0..i {
+                sum -= self.factors[i * n + j] * work[j];
+            }
+            work[i] = sum;
+        }
+        for i in (0..n).rev() {
+            let mut sum = work[i];
+            for j in i + 1..n {
+                sum -= self.factors[i * n + j] * x[self.columns[j]];
+            }
+            x[self.columns[i]] = sum / pivot(self.factors[i * n + i]);
+        }
+    }
+
+    /// Solves `matrix^T x = b` likewise.
+    pub(super) fn solve_transposed(
+        &self,
+        b: &[Complex64],
+        x: &mut [Complex64],
+        work: &mut [Complex64],
+    ) {
+        let n = self.n;
+        for i in 0..n {
+            let mut sum = b[self.columns[i]] / self.unit;
+            for j in 0..i {
+                sum -= self.factors[j * n + i] * work[j];
+            }
+            work[i] = sum / pivot(self.factors[i * n + i]);
+        }
+        for i in (0..n).rev() {
+            let mut sum = work[i];
+            for j in i + 1..n {
+                sum -= self.factors[j * n + i] * x[self.rows[j]];
+            }
+            x[self.rows[i]] = sum;
+        }
+    }
+}
+
+/// Stands in for a pivot that is nothing: its square is still a number, and so is the square of its inverse.
+const TINY: f64 = 1e-100;
+
+fn pivot(z: Complex64) -> Complex64 {
+    if bound(z) < TINY {
+        Complex64::new(TINY, 0.0)
+    } else {
+        z
+    }
+}

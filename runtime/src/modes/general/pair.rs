@@ -1,0 +1,305 @@
+//! One eigenvalue and its two vectors, found from the pencil itself: a singular matrix shows its null vectors in its
+//! triangular factors, and Newton's method on the Rayleigh functional takes out what the eigenvalue has of the rounding of
+//! the whole linearisation.
+
+use num_complex::Complex64;
+
+use super::linearisation::Linearisation;
+use super::lu::Lu;
+use super::pencil::{Pencil, Products, bound, dot};
+
+/// An eigenvalue with what its vectors say about it.
+#[derive(Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) s: Complex64,
+    /// It stands for itself and its conjugate.
+    pub(super) conjugate: bool,
+    /// Step that Newton's method would take from `s`.
+    pub(super) newton: Complex64,
+    /// `psi^T (2 s M + C) phi`.
+    pub(super) slope: Complex64,
+    /// Sums of the absolute terms in `psi^T (2 s M + C) phi` and in `psi^T M phi`.
+    pub(super) slope_terms: f64,
+    pub(super) mass_terms: f64,
+    /// Bound on the rounding in `psi^T Q(s) phi`.
+    pub(super) rounding: f64,
+    /// Error of second order, from the residuals of both vectors.
+    pub(super) second: f64,
+    /// Greatest relative residual of the two vectors.
+    pub(super) residual: f64,
+    /// It stands for a cluster, which has told its error.
+    pub(super) merged: bool,
+    pub(super) condition: f64,
+    pub(super) error: f64,
+}
+
+impl Pair {
+    pub(super) const NONE: Self = Self {
+        s: Complex64::ZERO,
+        conjugate: false,
+        newton: Complex64::ZERO,
+        slope: Complex64::ZERO,
+        slope_terms: 0.0,
+        mass_terms: 0.0,
+        rounding: 0.0,
+        second: 0.0,
+        residual: 0.0,
+        merged: false,
+        condition: 1.0,
+        error: 0.0,
+    };
+
+    /// Error of `s` that the rounding of the pencil's elements causes, to first order.
+    pub(super) fn doubt(&self) -> f64 {
+        if self.rounding == 0.0 {
+            0.0
+        } else {
+            self.rounding / self.slope.norm()
+        }
+    }
+
+    /// Whether `Q` is the same at a distance from `s`, but for rounding.
+    pub(super) fn reaches(&self, distance: f64) -> bool {
+        distance * self.slope_terms <= 16.0 * self.rounding
+    }
+}
+
+/// Everything that finding pairs needs, in slices.
+pub(super) struct Solver<'a> {
+    pub(super) pencil: Pencil<'a>,
+    pub(super) linearisation: Linearisation<'a>,
+    pub(super) q: &'a mut [Complex64],
+    pub(super) order: &'a mut [usize],
+    pub(super) of_right: Products<'a>,
+    pub(super) of_left: Products<'a>,
+    /// `n^2` numbers each, for clusters and solves.
+    pub(super) basis_right: &'a mut [Complex64],
+    pub(super) basis_left: &'a mut [Complex64],
+    pub(super) cross: &'a mut [Complex64],
+}
+
+/// Improvements of one pair.
+const STEPS: usize = 8;
+/// Residual beyond which the vectors are improved.
+const INACCURATE: f64 = 1e-13;
+/// Residual relative to the matrices that rounding of a vector explains.
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl Solver<'_> {
+    /// Rounding error of an eigenvalue of the linearisation with this condition number.
+    pub(super) fn noise(&self, condition: f64) -> f64 {
+        4.0 * f64::EPSILON * self.linearisation.size * condition
+    }
+
+    /// The pair that starts from `s`, `gap` away from the next eigenvalue.
+    pub(super) fn pair(
+        &mut self,
+        start: Complex64,
+        gap: f64,
+        right: &mut [Complex64],
+        left: &mut [Complex64],
+    ) -> Pair {
+        let n = self.pencil.n;
+        let mut s = start;
+        let mut pair = Pair::NONE;
+        for _ in 0..STEPS {
+            self.pencil.at(s, self.q);
+            let lu = Lu::new(n, self.q, self.order);
+            lu.null_right(1, 0, right);
+            lu.null_left(1, 0, left);
+            let neighbour = if n < 2 {
+                0.0
+            } else {
+                lu.pivot(n - 2) * lu.unit
+            };
+            pair = self.examine(s, right, left);
+            pair.second = self.second_order(&pair, neighbour);
+            let step = pair.newton.norm();
+            if !step.is_finite() {
+                break;
+            }
+            let doubt = pair.doubt();
+            if step <= doubt && doubt > 1e-3 * gap {
+                // Almost multiple: the step is rounding, and the mean of the linearisation is better.
+                break;
+            }
+            if step > 0.25 * gap {
+                pair.condition = self.condition(&pair, right, left);
+                if step > self.noise(pair.condition) || doubt > 0.125 * step {
+                    break;
+                }
+            }
+            s -= pair.newton;
+            let settled = step * pair.slope_terms <= 4.0 * pair.rounding;
+            pair = Pair {
+                second: pair.second,
+                ..self.measure(s, left)
+            };
+            if settled {
+                break;
+            }
+        }
+        if pair.residual > INACCURATE {
+            pair = self.inverse_iteration(pair, right, left);
+        }
+        if start.im > 0.0 {
+            pair.conjugate = true;
+            pair.s.im = pair.s.im.abs();
+        }
+        pair.condition = self.condition(&pair, right, left);
+        pair
+    }
+
+    /// One step of inverse iteration for both vectors; keeps what is better.
+    #[cold]
+    fn inverse_iteration(
+        &mut self,
+        pair: Pair,
+        right: &mut [Complex64],
+        left: &mut [Complex64],
+    ) -> Pair {
+        let n = self.pencil.n;
+        self.examine(pair.s, right, left);
+        self.pencil.at(pair.s, self.q);
+        let lu = Lu::new(n, self.q, self.order);
+        let (new_right, new_left) = (&mut self.basis_right[..n], &mut self.basis_left[..n]);
+        lu.solve(self.of_right.mass, new_right, &mut self.cross[..n]);
+        lu.solve_transposed(self.of_left.mass, new_left, &mut self.cross[..n]);
+        self.pencil.multiply(new_right, false, &mut self.of_right);
+        normalise(new_right, &mut self.of_right);
+        self.pencil.multiply(new_left, true, &mut self.of_left);
+        normalise(new_left, &mut self.of_left);
+        let improved = self.measure(pair.s, &self.basis_left[..n]);
+        if improved.residual < pair.residual {
+            right.copy_from_slice(&self.basis_right[..n]);
+            left.copy_from_slice(&self.basis_left[..n]);
+            Pair {
+                second: pair.second,
+                ..improved
+            }
+        } else {
+            pair
+        }
+    }
+
+    /// Normalises both vectors and measures them with `s`.
+    pub(super) fn examine(
+        &mut self,
+        s: Complex64,
+        right: &mut [Complex64],
+        left: &mut [Complex64],
+    ) -> Pair {
+        self.pencil.multiply(right, false, &mut self.of_right);
+        normalise(right, &mut self.of_right);
+        self.pencil.multiply(left, true, &mut self.of_left);
+        normalise(left, &mut self.of_left);
+        self.measure(s, left)
+    }
+
+    /// Measures `s` with vectors whose products are known.
+    pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
+        let n = self.pencil.n;
+        let (of_right, of_left) = (&self.of_right, &self.of_left);
+        let value = dot(left, (0..n).map(|i| of_right.value(s, i)));
+        let slope = dot(left, (0..n).map(|i| of_right.slope(s, i)));
+        let (mut terms, mut slope_terms, mut mass_terms) = (0.0, 0.0, 0.0);
+        for (i, &x) in left.iter().enumerate() {
+            let size = bound(x);
+            terms += size * of_right.terms(s, i);
+            slope_terms += size * of_right.slope_terms(s, i);
+            mass_terms += size * of_right.mass_terms(i);
+        }
+        let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
+        Pair {
+            s,
+            newton: if value == Complex64::ZERO {
+                value
+            } else {
+                value / slope
+            },
+            slope,
+            slope_terms,
+            mass_terms,
+            rounding: (n as f64 + 4.0) * f64::EPSILON * terms,
+            residual,
+            ..Pair::NONE
+        }
+    }
+
+    pub(super) fn condition(
+        &mut self,
+        pair: &Pair,
+        right: &[Complex64],
+        left: &[Complex64],
+    ) -> f64 {
+        self.linearisation
+            .condition(pair.s, right, left, pair.slope, self.cross)
+    }
+
+    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
+    /// one that vanishes.
+    fn second_order(&self, pair: &Pair, neighbour: f64) -> f64 {
+        let size = |products: &Products| {
+            (0..self.pencil.n)
+                .map(|i| bound(products.value(pair.s, i)))
+                .sum::<f64>()
+        };
+        let product = size(&self.of_right) * size(&self.of_left);
+        if product == 0.0 || self.pencil.n < 2 {
+            0.0
+        } else {
+            product / (neighbour * pair.slope.norm())
+        }
+    }
+
+    /// Whether rounding of the vectors explains the residual: a vector that `K` takes to zero has nothing but rounding in
+    /// the rows that act, and their terms are no measure.
+    pub(super) fn is_rounding(
+        &mut self,
+        s: Complex64,
+        right: &[Complex64],
+        left: &[Complex64],
+    ) -> bool {
+        let allowed = ROUNDING * self.pencil.size(s);
+        self.pencil.multiply(right, false, &mut self.of_right);
+        self.pencil.multiply(left, true, &mut self.of_left);
+        let most = |products: &Products| {
+            (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
+        };
+        let largest = |x: &[Complex64]| x.iter().fold(0.0_f64, |most, x| most.max(bound(*x)));
+        most(&self.of_right) <= allowed * largest(right)
+            && most(&self.of_left) <= allowed * largest(left)
+    }
+}
+
+/// Scales `x` to `x^H M x = 1`, and its products with it.
+pub(super) fn normalise(x: &mut [Complex64], products: &mut Products) {
+    let square: f64 = x
+        .iter()
+        .zip(products.mass.iter())
+        .map(|(x, mass)| x.re * mass.re + x.im * mass.im)
+        .sum();
+    let factor = 1.0 / square.sqrt();
+    x.iter_mut().for_each(|x| *x *= factor);
+    products.scale(factor);
+}
+
+/// Greatest component of `Q(s) x` relative to the greatest sum of absolute terms in a row.
+fn relative_residual(products: &Products, s: Complex64, n: usize) -> f64 {
+    let (mut most, mut size) = (0.0_f64, 0.0_f64);
+    for i in 0..n {
+        let value = bound(products.value(s, i));
+        if value.is_nan() {
+            return f64::INFINITY;
+        }
+        most = most.max(value);
+        size = size.max(products.terms(s, i));
+    }
+    if most == 0.0 {
+        0.0
+    } else if size.is_finite() {
+        most / size
+    } else {
+        f64::INFINITY
+    }
+}

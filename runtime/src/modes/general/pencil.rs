@@ -1,0 +1,134 @@
+//! A scaled quadratic pencil `Q(s) = s^2 M + s C + K` and what one pair of vectors says about it.
+
+use num_complex::Complex64;
+
+/// `Q(s) = s^2 M + s C + K`, matrices row by row.
+pub(super) struct Pencil<'a> {
+    pub(super) n: usize,
+    pub(super) mass: &'a [f64],
+    pub(super) damping: &'a [f64],
+    pub(super) stiffness: &'a [f64],
+}
+
+/// Products of the three matrices with one vector, and the sums of the absolute terms in them.
+pub(super) struct Products<'a> {
+    pub(super) mass: &'a mut [Complex64],
+    pub(super) damping: &'a mut [Complex64],
+    pub(super) stiffness: &'a mut [Complex64],
+    mass_terms: &'a mut [f64],
+    damping_terms: &'a mut [f64],
+    stiffness_terms: &'a mut [f64],
+}
+
+/// A cheap bound on `|z|`, exact for real numbers and at most `sqrt(2) |z|`.
+pub(super) fn bound(z: Complex64) -> f64 {
+    z.re.abs() + z.im.abs()
+}
+
+impl Pencil<'_> {
+    /// `Q(s)` into `q`.
+    pub(super) fn at(&self, s: Complex64, q: &mut [Complex64]) {
+        let square = s * s;
+        for (i, q) in q.iter_mut().enumerate() {
+            let (m, c) = (self.mass[i], self.damping[i]);
+            *q = Complex64::new(
+                square.re * m + (s.re * c + self.stiffness[i]),
+                square.im * m + s.im * c,
+            );
+        }
+    }
+
+    /// Products with `x` from the right, or with `x^T` from the left.
+    pub(super) fn multiply(&self, x: &[Complex64], transposed: bool, into: &mut Products) {
+        let n = self.n;
+        let (across, along) = if transposed { (1, n) } else { (n, 1) };
+        for i in 0..n {
+            let mut sums = [Complex64::ZERO; 3];
+            let mut terms = [0.0; 3];
+            for (j, &x) in x.iter().enumerate() {
+                let at = i * across + j * along;
+                let size = bound(x);
+                let elements = [self.mass[at], self.damping[at], self.stiffness[at]];
+                for (k, element) in elements.into_iter().enumerate() {
+                    sums[k] += x * element;
+                    terms[k] += size * element.abs();
+                }
+            }
+            [into.mass[i], into.damping[i], into.stiffness[i]] = sums;
+            [
+                into.mass_terms[i],
+                into.damping_terms[i],
+                into.stiffness_terms[i],
+            ] = terms;
+        }
+    }
+
+    /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.
+    pub(super) fn size(&self, s: Complex64) -> f64 {
+        let size = bound(s);
+        let most = |matrix: &[f64]| matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        size * size * most(self.mass) + size * most(self.damping) + most(self.stiffness)
+    }
+}
+
+impl<'a> Products<'a> {
+    /// Takes `3 n` complex and `3 n` real numbers.
+    pub(super) fn new(n: usize, complex: &'a mut [Complex64], real: &'a mut [f64]) -> Self {
+        let (mass, complex) = complex.split_at_mut(n);
+        let (damping, stiffness) = complex.split_at_mut(n);
+        let (mass_terms, real) = real.split_at_mut(n);
+        let (damping_terms, stiffness_terms) = real.split_at_mut(n);
+        Self {
+            mass,
+            damping,
+            stiffness,
+            mass_terms,
+            damping_terms,
+            stiffness_terms,
+        }
+    }
+
+    pub(super) fn scale(&mut self, factor: f64) {
+        for products in [&mut *self.mass, self.damping, self.stiffness] {
+            products.iter_mut().for_each(|x| *x *= factor);
+        }
+        for terms in [
+            &mut *self.mass_terms,
+            self.damping_terms,
+            self.stiffness_terms,
+        ] {
+            terms.iter_mut().for_each(|x| *x *= factor);
+        }
+    }
+
+    /// Component `i` of `Q(s) x`.
+    pub(super) fn value(&self, s: Complex64, i: usize) -> Complex64 {
+        s * (s * self.mass[i] + self.damping[i]) + self.stiffness[i]
+    }
+
+    /// Component `i` of `(2 s M + C) x`.
+    pub(super) fn slope(&self, s: Complex64, i: usize) -> Complex64 {
+        s * self.mass[i] * 2.0 + self.damping[i]
+    }
+
+    /// Sum of the absolute terms in component `i` of `Q(s) x`.
+    pub(super) fn terms(&self, s: Complex64, i: usize) -> f64 {
+        let size = bound(s);
+        size * (size * self.mass_terms[i] + self.damping_terms[i]) + self.stiffness_terms[i]
+    }
+
+    /// Sum of the absolute terms in component `i` of `(2 s M + C) x`.
+    pub(super) fn slope_terms(&self, s: Complex64, i: usize) -> f64 {
+        2.0 * bound(s) * self.mass_terms[i] + self.damping_terms[i]
+    }
+
+    /// Sum of the absolute terms in component `i` of `M x`.
+    pub(super) fn mass_terms(&self, i: usize) -> f64 {
+        self.mass_terms[i]
+    }
+}
+
+/// `x^T y`.
+pub(super) fn dot(x: &[Complex64], y: impl Iterator<Item = Complex64>) -> Complex64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}

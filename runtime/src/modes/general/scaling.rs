@@ -1,0 +1,55 @@
+//! Units in which the elements of the pencil are of order one: powers of two, so that nothing is rounded.
+
+/// Binary exponent: `2^exponent <= |x| < 2^(exponent + 1)` for normal numbers.
+pub(super) fn exponent(x: f64) -> i32 {
+    ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
+}
+
+/// `2^exponent`, within the range of normal numbers.
+pub(super) fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
+}
+
+/// Greatest absolute value; infinite when one is not finite.
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most: f64, value| {
+        if value.is_finite() {
+            most.max(value.abs())
+        } else {
+            f64::INFINITY
+        }
+    })
+}
+
+/// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2` with masses of order one on the diagonal and
+/// nothing much greater than one in damping and stiffness. `units` takes the diagonal of `D`; returns `rate`.
+pub(super) fn scale(
+    n: usize,
+    mass: &mut [f64],
+    damping: &mut [f64],
+    stiffness: &mut [f64],
+    units: &mut [f64],
+) -> f64 {
+    for i in 0..n {
+        units[i] = power_of_two(-(exponent(mass[i * n + i]).div_euclid(2)));
+    }
+    for matrix in [&mut *mass, damping, stiffness] {
+        for i in 0..n {
+            for j in 0..n {
+                matrix[i * n + j] *= units[i] * units[j];
+            }
+        }
+    }
+    let (c, k) = (largest(damping), largest(stiffness));
+    let size = c.max(k.sqrt());
+    let rate = if size > 0.0 {
+        power_of_two(exponent(size))
+    } else {
+        1.0
+    };
+    damping.iter_mut().for_each(|value| *value /= rate);
+    stiffness
+        .iter_mut()
+        .for_each(|value| *value = *value / rate / rate);
+    rate
+}
