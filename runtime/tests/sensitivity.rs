@@ -10,7 +10,7 @@ use common::derived::Derived;
 use common::models::{Plate, Spring};
 use common::pendulum::{Pendulum, W};
 use eigentol::equilibrium::{Range, critical_state, crossings, equilibrium};
-use eigentol::modes::modes;
+use eigentol::modes::{modes, undamped_modes};
 use eigentol::motion::accelerations;
 use eigentol::sensitivity::{
     critical_sensitivity, crossing_sensitivity, equilibrium_shift, output_sensitivities,
@@ -32,7 +32,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let state = equilibrium(mechanism, &u, &b, &start, Policy::Stable).unwrap();
-    let found = modes(&state).unwrap();
+    let found = undamped_modes(&state).unwrap();
     let adjoint = sensitivities(mechanism, &state, &found).unwrap();
     let explicit = sensitivities_explicit(mechanism, &state, &found).unwrap();
     let numeric = sensitivities_by_finite_difference(mechanism, &state, &found, 5e-6).unwrap();
@@ -244,7 +244,7 @@ fn clustered_modes_are_flagged() {
         Policy::Stable,
     )
     .unwrap();
-    let found = modes(&state).unwrap();
+    let found = undamped_modes(&state).unwrap();
     let rates = sensitivities(&Derived(Plate), &state, &found).unwrap();
     assert!(rates.modes.iter().all(|mode| mode.clustered));
     assert!(rates.to_string().contains("does not exist"));

@@ -118,11 +118,17 @@ fn by_eigenvalues<const N: usize>(
         Stability::Neutral { zero }
     } else if constant == 0 {
         Stability::Stable
-    } else if negative > 0 && description.damping == DampingKind::Gyroscopic {
+    } else if negative > 0 && skew(&linear.damping) {
         Stability::GyroscopicallyStabilised { negative }
     } else {
         Stability::Marginal
     }
+}
+
+/// Whether a matrix is skew-symmetric to rounding.
+fn skew<const N: usize>(matrix: &Square<N>) -> bool {
+    let threshold = SYMMETRIC * crate::array::largest_element(matrix);
+    (0..N).all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
 }
 
 /// Whether the symmetric part of `Chat` has a negative eigenvalue beyond rounding.
