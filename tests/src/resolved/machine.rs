@@ -86,8 +86,9 @@ impl Machine {
                 .solve(&DVector::from_column_slice(&arrays[0]))
                 .expect("an equilibrium that is not critical");
             let length = step.amax();
+            let relative = length / (1e-3 + q.amax());
             // Rounding: the steps shrink no more.
-            if length <= 1e-10 * (1e-3 + q.amax()) && length >= last {
+            if relative <= 1e-15 || relative <= 1e-10 && length >= last {
                 return (q.as_slice().to_vec(), stiffness);
             }
             q -= step;

@@ -2,11 +2,11 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use super::Derived;
 use super::complex::HyperComplex;
 use super::machine::{Solution, State};
 use super::pair::Pair;
 use super::spectrum::eigenvalues;
-use super::Derived;
 use crate::hyper::Hyper;
 use eigentol::Real;
 
@@ -139,7 +139,12 @@ impl State {
         let values = self.values(&Self::general(&self.solutions[0]));
         let mut all = eigenvalues(&values);
         let most = all.iter().map(|s| s.norm()).fold(0.0, f64::max);
-        let trace = values[2].clone().lu().solve(&values[1]).expect("a mass").trace();
+        let trace = values[2]
+            .clone()
+            .lu()
+            .solve(&values[1])
+            .expect("a mass")
+            .trace();
         let sum: Complex<f64> = all.iter().sum();
         assert!((sum + trace).norm() <= 1e-6 * most, "{all:?} and {trace}");
         for s in &mut all {
@@ -156,9 +161,7 @@ impl State {
     /// All undamped modes, ascending in `lambda`; `None` for one that is repeated and has no derivative of its own.
     pub fn undamped_modes(&self) -> Vec<Option<UndampedMode>> {
         let all = self.undamped_eigenvalues();
-        let mode = |s: &Complex<f64>| {
-            separate(*s, &all).then(|| self.undamped_mode(s.re))?
-        };
+        let mode = |s: &Complex<f64>| separate(*s, &all).then(|| self.undamped_mode(s.re))?;
         all.iter().map(mode).collect()
     }
 
@@ -180,9 +183,8 @@ impl State {
     /// derivative of its own.
     pub fn general_modes(&self) -> Vec<Option<GeneralMode>> {
         let all = self.eigenvalues();
-        let mode = |s: &Complex<f64>| {
-            separate(*s, &all).then(|| self.general_mode(*s, [None; 2]))?
-        };
+        let mode =
+            |s: &Complex<f64>| separate(*s, &all).then(|| self.general_mode(*s, [None; 2]))?;
         all.iter().map(mode).collect()
     }
 
@@ -190,11 +192,7 @@ impl State {
     ///
     /// # Panics
     /// When right and left pair, solved one without the other, disagree about the eigenvalue.
-    pub fn general_mode(
-        &self,
-        s: Complex<f64>,
-        leads: [Option<usize>; 2],
-    ) -> Option<GeneralMode> {
+    pub fn general_mode(&self, s: Complex<f64>, leads: [Option<usize>; 2]) -> Option<GeneralMode> {
         let n = self.order();
         let adjoint = |solution: &Solution| {
             let general = Self::general(solution);

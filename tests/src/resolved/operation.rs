@@ -26,17 +26,16 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
     };
     let rpm = 2.0 * std::f64::consts::PI / 60.0;
     match name {
-        "rotating_pendulum" => vec![point(&[2.0], &[0.1]), point(&[5.0], &[0.9])],
-        "rotating_double_pendulum" => vec![point(&[1.5], &[0.1; 2]), point(&[4.0], &[0.9, 0.1])],
+        "rotating_pendulum" => vec![point(&[2.0], &[0.0]), point(&[5.0], &[0.9])],
+        "rotating_double_pendulum" => vec![point(&[1.5], &[0.0; 2]), point(&[4.0], &[0.9, 0.1])],
         "sliders_on_plate" => vec![point(&[4.0], &[0.1, 0.02])],
         "chain_of_four" => vec![point(&[3.0], &[0.9, 0.1, 0.1, 0.1])],
-        "chain_of_eight" => vec![point(
-            &[2.5],
-            &[0.9, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1],
-        )],
+        "chain_of_eight" => vec![point(&[2.5], &[0.9, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1])],
         "governor" => vec![point(&[110.0 * rpm, 0.09], &[0.4])],
         "turntable_slider" => vec![point(&[4.0], &[0.25, 0.3])],
-        "rotor" => vec![point(&[1500.0 * rpm], &[0.0; 2])],
+        "rotor" => [600.0, 1500.0]
+            .map(|speed| point(&[speed * rpm], &[0.0; 2]))
+            .to_vec(),
         "gimbal" => vec![point(&[3000.0 * rpm], &[0.0; 2])],
         "carousel" => vec![point(&[9.0 * rpm], &[0.4, 0.0])],
         "rotor_blade" => vec![point(&[30.0], &[0.05, 0.0])],
@@ -45,7 +44,9 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "bucket_chain" => vec![point(&[5.0], &[0.1; 14])],
         "flap_lag_blade" => vec![point(&[20.0], &[0.0; 2])],
         "bearing_rotor" => vec![point(&[3000.0 * rpm], &[0.0; 5])],
-        "steady_top" => vec![point(&[12.0, 2000.0 * rpm], &[0.6])],
+        "steady_top" => [(25.0, 0.0), (12.0, 1000.0)]
+            .map(|(precession, spin)| point(&[precession, spin * rpm], &[0.6]))
+            .to_vec(),
         "screw_press" => vec![point(&[], &[0.0; 9])],
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
@@ -88,7 +89,10 @@ impl<C: Comparison> Visitor for Every<'_, C> {
                 .unwrap_or_else(|error| panic!("{what}: {error}"));
             let state = resolved.at(&u, &b, &at.coordinates);
             for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
-                assert!((one - other).abs() <= 1e-9 * (1.0 + one.abs()), "{what}: {one}, {other}");
+                assert!(
+                    (one - other).abs() <= 1e-9 * (1.0 + one.abs()),
+                    "{what}: {one}, {other}"
+                );
             }
             self.0.compare(&what, &machine, &at, &state);
         }

@@ -85,8 +85,13 @@ impl Pair {
             if length.is_nan() {
                 return None;
             }
-            if length <= 1e-9 && length >= last {
-                return Some(Self { s, shape, lead, factors });
+            if length <= 1e-14 || length <= 1e-9 && length >= last {
+                return Some(Self {
+                    s,
+                    shape,
+                    lead,
+                    factors,
+                });
             }
             s -= step[n];
             shape -= step.rows(0, n);
@@ -114,11 +119,12 @@ impl Pair {
             residual[n] = shape[self.lead] - HyperComplex::constant(Complex::from(1.0));
             let steps: [DVector<Complex<f64>>; Hyper::PARTS] = std::array::from_fn(|part| {
                 let column = DVector::from_fn(n + 1, |i, _| residual[i].parts()[part]);
-                self.factors.solve(&column).expect("factors of a Newton step")
+                self.factors
+                    .solve(&column)
+                    .expect("factors of a Newton step")
             });
-            let step = |i: usize| {
-                HyperComplex::from_parts(std::array::from_fn(|part| steps[part][i]))
-            };
+            let step =
+                |i: usize| HyperComplex::from_parts(std::array::from_fn(|part| steps[part][i]));
             for (i, component) in shape.iter_mut().enumerate() {
                 *component = *component - step(i);
             }
