@@ -11,5 +11,9 @@ mod conditions;
 mod corpus;
 #[path = "resolved/differences.rs"]
 mod differences;
+#[path = "resolved/instability.rs"]
+mod instability;
 #[path = "resolved/scalar.rs"]
 mod scalar;
+#[path = "resolved/whirl.rs"]
+mod whirl;

@@ -4,8 +4,9 @@ use eigentol::Real;
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::{Kernel, Program};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
+use super::spectrum::upper_half;
 use super::{Derived, pairs};
 use crate::hyper::Hyper;
 use crate::interpreter::interpret;
@@ -69,6 +70,16 @@ impl Machine {
         self.program
             .kernel(name)
             .unwrap_or_else(|| panic!("there is a kernel {name}"))
+    }
+
+    /// Eigenvalues of the whole pencil at given coordinates, equilibrium or not, as [`State::eigenvalues`]: also where
+    /// `Khat` is singular and there is no [`State`].
+    pub fn eigenvalues(&self, u: &[f64], b: &[f64], q: &[f64]) -> Vec<Complex<f64>> {
+        let n = self.coordinates;
+        let mut linear = interpret(self.kernel("linear"), &[q, u, b]).into_iter();
+        let mut next = || DMatrix::from_row_slice(n, n, &linear.next().expect("three matrices"));
+        let (mass, damping, stiffness) = (next(), next(), next());
+        upper_half(&[stiffness, damping, mass].map(|matrix| matrix.map(Complex::from)))
     }
 
     /// Newton's method in doubles: coordinates and the last Jacobian.

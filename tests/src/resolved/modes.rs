@@ -6,7 +6,7 @@ use super::Derived;
 use super::complex::HyperComplex;
 use super::machine::{Solution, State};
 use super::pair::Pair;
-use super::spectrum::eigenvalues;
+use super::spectrum::{eigenvalues, upper_half};
 use crate::hyper::Hyper;
 use eigentol::Real;
 
@@ -136,26 +136,7 @@ impl State {
     /// # Panics
     /// When the sum is another.
     pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
-        let values = self.values(&Self::general(&self.solutions[0]));
-        let mut all = eigenvalues(&values);
-        let most = all.iter().map(|s| s.norm()).fold(0.0, f64::max);
-        let trace = values[2]
-            .clone()
-            .lu()
-            .solve(&values[1])
-            .expect("a mass")
-            .trace();
-        let sum: Complex<f64> = all.iter().sum();
-        assert!((sum + trace).norm() <= 1e-6 * most, "{all:?} and {trace}");
-        for s in &mut all {
-            // A real one, or no more than rounding from the imaginary axis: of an undamped machine.
-            if s.im.abs() <= 1e-10 * s.norm() {
-                s.im = 0.0;
-            }
-        }
-        all.retain(|s| s.im >= 0.0);
-        all.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
-        all
+        upper_half(&self.values(&Self::general(&self.solutions[0])))
     }
 
     /// All undamped modes, ascending in `lambda`; `None` for one that is repeated and has no derivative of its own.

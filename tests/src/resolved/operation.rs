@@ -1,10 +1,11 @@
-//! The corpus in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
+//! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
 
 use eigentol::equilibrium::{Equilibrium, equilibrium};
 use eigentol::{Mechanism, Policy};
 
 use super::{Machine, State};
-use crate::corpus::{Visitor, visit};
+use crate::corpus::{self, Visitor};
+use crate::machines;
 
 /// One way of running a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]
@@ -13,9 +14,11 @@ pub struct Operation {
     pub inputs: Vec<f64>,
     /// Start values of the coordinates, rad or m.
     pub start: Vec<f64>,
+    /// Which equilibrium.
+    pub policy: Policy,
 }
 
-/// How the machines of the corpus are run: away from critical states and, where a machine can bend, bent.
+/// How the machines of the corpus and those of [`machines`] are run: away from critical states and, where a machine can bend, bent.
 ///
 /// # Panics
 /// For an unknown name.
@@ -23,6 +26,12 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
     let point = |inputs: &[f64], start: &[f64]| Operation {
         inputs: inputs.to_vec(),
         start: start.to_vec(),
+        policy: Policy::Stable,
+    };
+    // Held by its spin in a position that descent would leave.
+    let nearest = |inputs: &[f64]| Operation {
+        policy: Policy::Nearest,
+        ..point(inputs, &[0.0; 2])
     };
     let rpm = 2.0 * std::f64::consts::PI / 60.0;
     match name {
@@ -48,6 +57,12 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
             .map(|(precession, spin)| point(&[precession, spin * rpm], &[0.6]))
             .to_vec(),
         "screw_press" => vec![point(&[], &[0.0; 9])],
+        "jeffcott_rotor" => vec![point(&[50.0], &[0.0; 2]), point(&[300.0], &[0.0; 2])],
+        "overhung_rotor" => vec![point(&[200.0], &[0.0; 2])],
+        "sleeping_top" => vec![nearest(&[150.0])],
+        "sliding_pair" => vec![point(&[], &[0.0; 2])],
+        "spherical_pendulum" => vec![point(&[1.0], &[0.0; 2]), nearest(&[5.0])],
+        "ziegler_column" => vec![point(&[100.0], &[0.0; 2])],
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
     }
@@ -55,7 +70,7 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
 
 /// Something that is compared between the product and the solution in hyper-dual numbers.
 pub trait Comparison {
-    /// Called for each machine of the corpus at each of its operating points, design variables nominal. `state` is the
+    /// Called for each machine at each of its operating points, design variables nominal. `state` is the
     /// same equilibrium as `at`.
     fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         &mut self,
@@ -81,11 +96,16 @@ impl<C: Comparison> Visitor for Every<'_, C> {
         let resolved = Machine::new(declaration);
         let b: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
         assert_eq!(resolved.nominal(), b, "{name}");
-        for Operation { inputs, start } in operating_points(name) {
+        for operation in operating_points(name) {
+            let Operation {
+                inputs,
+                start,
+                policy,
+            } = operation;
             let what = format!("{name} at {inputs:?}");
             let u: [f64; U] = inputs[..].try_into().expect("one value per input");
             let start: [f64; N] = start[..].try_into().expect("one value per coordinate");
-            let at = equilibrium(&machine, &u, &b, &start, Policy::Stable)
+            let at = equilibrium(&machine, &u, &b, &start, policy)
                 .unwrap_or_else(|error| panic!("{what}: {error}"));
             let state = resolved.at(&u, &b, &at.coordinates);
             for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
@@ -99,7 +119,8 @@ impl<C: Comparison> Visitor for Every<'_, C> {
     }
 }
 
-/// Compares every machine of the corpus at every operating point.
+/// Compares every machine of the corpus and every one with a closed form at every operating point.
 pub fn every_machine(comparison: &mut impl Comparison) {
-    visit(&mut Every(comparison));
+    corpus::visit(&mut Every(comparison));
+    machines::visit(&mut Every(comparison));
 }

@@ -53,6 +53,29 @@ pub(super) fn eigenvalues(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex
     found
 }
 
+/// Those of a real quadratic pencil with `Im s >= 0`, by magnitude. All of them are checked by their sum, which is
+/// `-tr(M^-1 C)`.
+///
+/// # Panics
+/// When the sum is another.
+pub(super) fn upper_half(coefficients: &[DMatrix<Complex<f64>>]) -> Vec<Complex<f64>> {
+    let mut all = eigenvalues(coefficients);
+    let most = all.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    let ratio = coefficients[2].clone().lu().solve(&coefficients[1]);
+    let trace = ratio.expect("a regular mass matrix").trace();
+    let sum: Complex<f64> = all.iter().sum();
+    assert!((sum + trace).norm() <= 1e-6 * most, "{all:?} and {trace}");
+    for s in &mut all {
+        // Real up to rounding.
+        if s.im.abs() <= 1e-10 * s.norm() {
+            s.im = 0.0;
+        }
+    }
+    all.retain(|s| s.im >= 0.0);
+    all.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    all
+}
+
 /// `p / p'` of `p = det A`, from `p' / p = tr(A^-1 A')`; nothing where `A` is singular.
 fn newton_step(coefficients: &[DMatrix<Complex<f64>>], s: Complex<f64>) -> Option<Complex<f64>> {
     let [value, slope] = evaluate(coefficients, s);
