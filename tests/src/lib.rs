@@ -5,11 +5,12 @@
 //! thought of, [`examples`] holds the ones with known answers ([`truth`]). [`agreement`] compares anything that offers
 //! the [`kernels`] of generated code with the oracle.
 //!
-//! [`corpus`] holds machines declared with the macro, [`generated`] calls their kernels by name, [`dual`] differentiates
-//! them.
+//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms; [`generated`] calls their
+//! kernels by name, [`dual`] and [`hyper`] differentiate them, [`interpreter`] runs them without rustc. [`resolved`] solves a
+//! whole problem again in hyper-dual numbers: total derivatives of equilibria, eigenvalues and mode shapes.
 //!
 //! Invariant: the oracle and what it stands on use neither the compiler nor the runtime; `compiled`, [`corpus`],
-//! [`generated`] and [`dual`] do.
+//! [`machines`] and all that runs them do.
 
 pub mod agreement;
 pub mod compiled;
@@ -20,9 +21,13 @@ pub mod energy;
 pub mod examples;
 pub mod fixed;
 pub mod generated;
+pub mod hyper;
+pub mod interpreter;
 pub mod kernels;
+pub mod machines;
 pub mod model;
 pub mod oracle;
 pub mod random;
+pub mod resolved;
 pub mod truth;
 pub mod unheld;

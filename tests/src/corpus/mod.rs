@@ -12,6 +12,8 @@ macro_rules! machine {
     };
 }
 
+pub(crate) use machine;
+
 /// Does something to every machine of the corpus, whatever its size.
 pub trait Visitor {
     /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.

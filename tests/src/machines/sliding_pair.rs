@@ -1,0 +1,22 @@
+//! Two sliders that drift as one body once their anchor is gone.
+//!
+//! Frequencies `w` with `m1 m2 w^4 - (m1 kc + m2 (ka + kc)) w^2 + ka kc = 0`; with `ka = 0` they are
+//! 0, of a rigid motion whose eigenvalue `s = 0` is double and defective, and `sqrt(kc (m1 + m2) / (m1 m2))`.
+
+use crate::corpus::machine;
+
+machine! {
+    /// A slider on an anchor spring that may be removed, and a second one coupled to it.
+    pub mechanism SlidingPair {
+        design m1 = 2 kg +/- 1%;
+        design m2 = 3 kg +/- 1%;
+        design anchor = 10 N/m;
+        design coupling = 400 N/m +/- 2%;
+        body first: point(mass: m1);
+        body second: point(mass: m2);
+        joint slide: prismatic(x) from ground to first;
+        joint stretch: prismatic(x) from first to second;
+        force hold: spring(on: slide, stiffness: anchor);
+        force couple: spring(on: stretch, stiffness: coupling, rest: 50 mm);
+    }
+}

@@ -1,0 +1,126 @@
+//! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
+
+use eigentol::equilibrium::{Equilibrium, equilibrium};
+use eigentol::{Mechanism, Policy};
+
+use super::{Machine, State};
+use crate::corpus::{self, Visitor};
+use crate::machines;
+
+/// One way of running a machine: inputs in SI, and where to look for the equilibrium.
+#[derive(Clone, Debug)]
+pub struct Operation {
+    /// Inputs, SI.
+    pub inputs: Vec<f64>,
+    /// Start values of the coordinates, rad or m.
+    pub start: Vec<f64>,
+    /// Which equilibrium.
+    pub policy: Policy,
+}
+
+/// How the machines of the corpus and those of [`machines`] are run: away from critical states and, where a machine can bend, bent.
+///
+/// # Panics
+/// For an unknown name.
+pub fn operating_points(name: &str) -> Vec<Operation> {
+    let point = |inputs: &[f64], start: &[f64]| Operation {
+        inputs: inputs.to_vec(),
+        start: start.to_vec(),
+        policy: Policy::Stable,
+    };
+    // Held by its spin in a position that descent would leave.
+    let nearest = |inputs: &[f64]| Operation {
+        policy: Policy::Nearest,
+        ..point(inputs, &[0.0; 2])
+    };
+    let rpm = 2.0 * std::f64::consts::PI / 60.0;
+    match name {
+        "rotating_pendulum" => vec![point(&[2.0], &[0.0]), point(&[5.0], &[0.9])],
+        "rotating_double_pendulum" => vec![point(&[1.5], &[0.0; 2]), point(&[4.0], &[0.9, 0.1])],
+        "sliders_on_plate" => vec![point(&[4.0], &[0.1, 0.02])],
+        "chain_of_four" => vec![point(&[3.0], &[0.9, 0.1, 0.1, 0.1])],
+        "chain_of_eight" => vec![point(&[2.5], &[0.9, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1])],
+        "governor" => vec![point(&[110.0 * rpm, 0.09], &[0.4])],
+        "turntable_slider" => vec![point(&[4.0], &[0.25, 0.3])],
+        "rotor" => [600.0, 1500.0]
+            .map(|speed| point(&[speed * rpm], &[0.0; 2]))
+            .to_vec(),
+        "gimbal" => vec![point(&[3000.0 * rpm], &[0.0; 2])],
+        "carousel" => vec![point(&[9.0 * rpm], &[0.4, 0.0])],
+        "rotor_blade" => vec![point(&[30.0], &[0.05, 0.0])],
+        "centrifuge" => vec![point(&[12.0, 1.0], &[1.0])],
+        "hoist" => vec![point(&[0.3, 0.2], &[0.5, 0.0, 0.0])],
+        "bucket_chain" => vec![point(&[5.0], &[0.1; 14])],
+        "flap_lag_blade" => vec![point(&[20.0], &[0.0; 2])],
+        "bearing_rotor" => vec![point(&[3000.0 * rpm], &[0.0; 5])],
+        "steady_top" => [(25.0, 0.0), (12.0, 1000.0)]
+            .map(|(precession, spin)| point(&[precession, spin * rpm], &[0.6]))
+            .to_vec(),
+        "screw_press" => vec![point(&[], &[0.0; 9])],
+        "jeffcott_rotor" => vec![point(&[50.0], &[0.0; 2]), point(&[300.0], &[0.0; 2])],
+        "overhung_rotor" => vec![point(&[200.0], &[0.0; 2])],
+        "sleeping_top" => vec![nearest(&[150.0])],
+        "sliding_pair" => vec![point(&[], &[0.0; 2])],
+        "spherical_pendulum" => vec![point(&[1.0], &[0.0; 2]), nearest(&[5.0])],
+        "ziegler_column" => vec![point(&[100.0], &[0.0; 2])],
+        "robot_arm" => vec![point(&[], &[0.1; 7])],
+        _ => panic!("nobody has said how {name} is run"),
+    }
+}
+
+/// Something that is compared between the product and the solution in hyper-dual numbers.
+pub trait Comparison {
+    /// Called for each machine at each of its operating points, design variables nominal. `state` is the
+    /// same equilibrium as `at`.
+    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        what: &str,
+        machine: &M,
+        at: &Equilibrium<N, U, P>,
+        state: &State,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy;
+}
+
+struct Every<'a, C>(&'a mut C);
+
+impl<C: Comparison> Visitor for Every<'_, C> {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let resolved = Machine::new(declaration);
+        let b: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
+        assert_eq!(resolved.nominal(), b, "{name}");
+        for operation in operating_points(name) {
+            let Operation {
+                inputs,
+                start,
+                policy,
+            } = operation;
+            let what = format!("{name} at {inputs:?}");
+            let u: [f64; U] = inputs[..].try_into().expect("one value per input");
+            let start: [f64; N] = start[..].try_into().expect("one value per coordinate");
+            let at = equilibrium(&machine, &u, &b, &start, policy)
+                .unwrap_or_else(|error| panic!("{what}: {error}"));
+            let state = resolved.at(&u, &b, &at.coordinates);
+            for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
+                assert!(
+                    (one - other).abs() <= 1e-9 * (1.0 + one.abs()),
+                    "{what}: {one}, {other}"
+                );
+            }
+            self.0.compare(&what, &machine, &at, &state);
+        }
+    }
+}
+
+/// Compares every machine of the corpus and every one with a closed form at every operating point.
+pub fn every_machine(comparison: &mut impl Comparison) {
+    corpus::visit(&mut Every(comparison));
+    machines::visit(&mut Every(comparison));
+}

@@ -1,0 +1,19 @@
+//! The problem solved again in hyper-dual numbers: proven by stored numbers, differences and closed forms, then held against
+//! the product's derivatives.
+
+#[path = "resolved/chains.rs"]
+mod chains;
+#[path = "resolved/common.rs"]
+mod common;
+#[path = "resolved/conditions.rs"]
+mod conditions;
+#[path = "resolved/corpus.rs"]
+mod corpus;
+#[path = "resolved/differences.rs"]
+mod differences;
+#[path = "resolved/instability.rs"]
+mod instability;
+#[path = "resolved/scalar.rs"]
+mod scalar;
+#[path = "resolved/whirl.rs"]
+mod whirl;

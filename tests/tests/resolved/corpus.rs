@@ -1,0 +1,218 @@
+//! Every machine: derivatives by the product and by solving again.
+
+use eigentol::equilibrium::Equilibrium;
+use eigentol::modes::modes;
+use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
+use eigentol::{Error, Mechanism};
+use eigentol_tests::corpus::corpus;
+use eigentol_tests::resolved::{
+    Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine,
+};
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::common::assert_within;
+
+/// First derivatives agree to this.
+const TIGHT: f64 = 1e-9;
+
+/// A derivative by a variable of value `b` counts from a hundredth of `value / b` on: below that it is the rounding of
+/// terms that cancel.
+#[track_caller]
+fn assert_gradient(found: &[f64], expected: &Derived, variables: &[f64], what: &str) {
+    assert_eq!(found.len(), variables.len(), "{what}");
+    for (k, (found, b)) in found.iter().zip(variables).enumerate() {
+        let size = if *b == 0.0 { 1.0 } else { b.abs() };
+        let scale = 1e-2 * expected.value.abs() / size;
+        let what = format!("{what} by variable {k}");
+        assert_within(TIGHT, &[*found], &[expected.gradient[k]], scale, &what);
+    }
+}
+
+#[derive(Default)]
+struct Gradients {
+    points: usize,
+    modes: usize,
+    /// Derivatives of equilibria that are not zero.
+    shifts: usize,
+    nonsymmetric: usize,
+    repeated: usize,
+}
+
+impl Comparison for Gradients {
+    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        what: &str,
+        machine: &M,
+        at: &Equilibrium<N, U, P>,
+        state: &State,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        self.points += 1;
+        let variables = [&at.design[..], &at.inputs].concat();
+
+        let shift = equilibrium_shift(machine, at).expect("a shift");
+        for (i, q) in state.equilibrium().into_iter().enumerate() {
+            let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
+            // An angle or a displacement may be zero and move.
+            let q = Derived {
+                value: q.value.abs() + 1e-3,
+                ..q
+            };
+            assert_gradient(&found, &q, &variables, &format!("{what} coordinate {i}"));
+            self.shifts += q.gradient.iter().filter(|x| x.abs() > 1e-6).count();
+        }
+
+        let outputs = output_sensitivities(machine, at).expect("outputs");
+        for (k, output) in state.outputs().iter().enumerate() {
+            let (by_design, by_input) = (outputs.by_design[k], outputs.by_input[k]);
+            if let (Some(by_design), Some(by_input)) = (by_design, by_input) {
+                let found = [&by_design[..], &by_input].concat();
+                assert_gradient(&found, output, &variables, &format!("{what} output {k}"));
+            }
+        }
+
+        let found = match modes(at) {
+            Ok(found) => found,
+            Err(Error::NonsymmetricStiffness { .. }) => {
+                self.nonsymmetric += 1;
+                return;
+            }
+            Err(error) => panic!("{what}: {error}"),
+        };
+        let all = sensitivities(machine, at, &found).expect("derivatives");
+        for (r, mode) in state.undamped_modes().into_iter().enumerate() {
+            let what = format!("{what} mode {r}");
+            let Some(mode) = mode else {
+                assert!(all.modes[r].clustered, "{what} is repeated");
+                self.repeated += 1;
+                continue;
+            };
+            let (own, product) = (&all.modes[r], &found.modes[r]);
+            assert_within(TIGHT, &[product.lambda], &[mode.lambda.value], 0.0, &what);
+            let by = [&own.lambda_by_design[..], &own.lambda_by_input].concat();
+            assert_gradient(&by, &mode.lambda, &variables, &what);
+            assert_eq!(
+                own.omega_by_design.is_some(),
+                mode.omega.is_some(),
+                "{what}"
+            );
+            if let Some(omega) = mode.omega {
+                let by_design = own.omega_by_design.expect("checked");
+                let by_input = own.omega_by_input.expect("checked");
+                let by = [&by_design[..], &by_input].concat();
+                assert_gradient(&by, &omega, &variables, &what);
+            }
+            let shape: Vec<f64> = mode.shape.iter().map(|x| x.value).collect();
+            let scale = 1e-3 * shape[mode.lead];
+            assert_within(1e-8, &product.shape, &shape, scale, &what);
+            self.modes += 1;
+        }
+    }
+}
+
+#[test]
+fn first_derivatives_of_equilibria_outputs_and_undamped_modes() {
+    let mut gradients = Gradients::default();
+    every_machine(&mut gradients);
+    assert!(gradients.points >= corpus().len());
+    // Of the corpus, the bearing's rotor and the press; Jeffcott's rotor twice, and the column.
+    assert_eq!(gradients.nonsymmetric, 5);
+    // Four isotropic states, two modes each.
+    assert_eq!(gradients.repeated, 8);
+    assert!(gradients.modes > 55, "{}", gradients.modes);
+    assert!(gradients.shifts > 150, "{}", gradients.shifts);
+}
+
+/// Every machine has modes of the whole pencil that can be differentiated, gyroscopic and damped ones among them.
+#[derive(Default)]
+struct Pencils {
+    modes: usize,
+    damped: usize,
+    /// Left shapes that are not the right ones.
+    one_sided: usize,
+}
+
+impl Comparison for Pencils {
+    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        what: &str,
+        _: &M,
+        _: &Equilibrium<N, U, P>,
+        state: &State,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let matrices = state
+            .matrices()
+            .map(|matrix| DMatrix::from_row_iterator(N, N, matrix.iter().map(complex)));
+        for (r, mode) in state.general_modes().into_iter().enumerate() {
+            let mode = mode.unwrap_or_else(|| panic!("{what} mode {r} is repeated"));
+            let numbers = [&mode.s.re, &mode.s.im, &mode.magnitude, &mode.damping_ratio];
+            let shapes = mode.right.iter().chain(&mode.left);
+            for number in numbers
+                .into_iter()
+                .chain(shapes.flat_map(|x| [&x.re, &x.im]))
+            {
+                let derivatives = number.hessian.iter().flatten().chain(&number.gradient);
+                assert!(
+                    derivatives.chain([&number.value]).all(|x| x.is_finite()),
+                    "{what} {r}"
+                );
+            }
+            assert_pair(&mode, &matrices, what);
+            self.modes += 1;
+            self.damped += usize::from(mode.damping_ratio.value.abs() > 1e-6);
+            let apart = |(x, y): (&_, &_)| distance(x, y) > 1e-6;
+            self.one_sided += usize::from(mode.right.iter().zip(&mode.left).any(apart));
+        }
+    }
+}
+
+fn complex(real: &Derived) -> Complex<f64> {
+    Complex::from(real.value)
+}
+
+fn value(x: &ComplexDerived) -> Complex<f64> {
+    Complex::new(x.re.value, x.im.value)
+}
+
+fn distance(x: &ComplexDerived, y: &ComplexDerived) -> f64 {
+    (value(x) - value(y)).norm()
+}
+
+/// Both equations hold, and both normalisations.
+fn assert_pair(mode: &GeneralMode, [m, c, k]: &[DMatrix<Complex<f64>>; 3], what: &str) {
+    let s = value(&mode.s);
+    let pencil = m * (s * s) + c * s + k;
+    let terms = [m.camax() * s.norm_sqr(), c.camax() * s.norm(), k.camax()];
+    let scale = 1e-10 * terms.into_iter().sum::<f64>();
+    let sides = [
+        (&mode.right, pencil.clone()),
+        (&mode.left, pencil.transpose()),
+    ];
+    for ((shape, pencil), lead) in sides.into_iter().zip(mode.leads) {
+        let shape = DVector::from_iterator(shape.len(), shape.iter().map(value));
+        assert!(
+            (pencil * &shape).camax() <= scale * shape.camax(),
+            "{what}: {shape}"
+        );
+        assert!(
+            (shape.dotc(&(m * &shape)) - 1.0).norm() < 1e-12,
+            "{what}: {shape}"
+        );
+        let leading = shape[lead];
+        let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        assert!(leading.re >= most * (1.0 - 1e-8), "{what}: {shape}");
+        assert!(leading.im.abs() <= 1e-14 * leading.re, "{what}: {shape}");
+    }
+}
+
+#[test]
+fn every_machine_has_modes_of_the_whole_pencil() {
+    let mut pencils = Pencils::default();
+    every_machine(&mut pencils);
+    assert!(pencils.modes >= 70, "{}", pencils.modes);
+    assert!(pencils.damped > 30, "{}", pencils.damped);
+    assert!(pencils.one_sided > 10, "{}", pencils.one_sided);
+}
