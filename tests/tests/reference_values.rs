@@ -8,5 +8,7 @@ mod common;
 mod conditions;
 #[path = "reference_values/events.rs"]
 mod events;
+#[path = "reference_values/general.rs"]
+mod general;
 #[path = "reference_values/moments.rs"]
 mod moments;

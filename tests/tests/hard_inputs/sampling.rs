@@ -128,7 +128,7 @@ fn no_samples_and_one_sample() {
         .monte_carlo()
         .expect("nothing to do");
     assert_eq!((none.counts.total(), none.samples), (0, 0));
-    assert_eq!(none.modes, [None, None]);
+    assert_eq!(*none.modes, [None, None]);
     assert_eq!(none.all.as_deref(), Some(&[][..]));
     let one = study.samples(1).monte_carlo().expect("one sample");
     let found = one.modes[0].expect("one value");

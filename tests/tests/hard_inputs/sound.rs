@@ -84,9 +84,14 @@ fn assert_settled<M, const N: usize, const U: usize, const P: usize, const O: us
 pub(crate) fn assert_modes<const N: usize>(modes: &Modes<N>) {
     for mode in &modes.modes {
         assert_numbers([mode.lambda, mode.residual], "mode");
-        assert_numbers(mode.shape, "shape");
+        let parts = mode.shape.iter().chain(&mode.left).chain([&mode.s]);
+        assert_numbers(parts.flat_map(|x| [x.re, x.im]), "shape");
+        assert_numbers([mode.error], "error");
         match mode.behaviour {
             Behaviour::Oscillating(omega) => assert!(omega > 0.0 && mode.lambda > 0.0),
+            Behaviour::Damped(omega) => assert!(omega > 0.0 && mode.s.re < 0.0),
+            Behaviour::Flutter(omega) => assert!(omega > 0.0 && mode.s.re > 0.0),
+            Behaviour::Decaying(rate) => assert!(rate > 0.0 && mode.s.re == -rate),
             Behaviour::Divergent(rate) => assert!(rate > 0.0 && mode.lambda < 0.0),
             Behaviour::Neutral => {}
         }
@@ -140,7 +145,7 @@ pub(crate) fn assert_answers<M, const N: usize, const U: usize, const P: usize, 
         assert_sensitivities(&all, "adjoint");
         let spread = first_order(&found, &all, tolerances);
         assert_numbers([spread.distance_to_critical], "distance");
-        for own in spread.modes {
+        for own in &spread.modes {
             assert_numbers(
                 [own.lambda_sigma, own.distance_to_critical],
                 "spread of lambda",

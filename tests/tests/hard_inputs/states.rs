@@ -43,7 +43,7 @@ fn a_spring_too_weak_for_the_speed() {
         assert!(spread.distance_to_critical < 0.0);
         let run = beyond.monte_carlo().expect("counts");
         assert_eq!((run.counts.divergent, run.counts.total()), (3000, 3000));
-        assert_eq!(run.modes, [None]);
+        assert_eq!(*run.modes, [None]);
     }
     // Without a rest length every place will do at the critical speed.
     let anywhere = study(10.0)

@@ -73,10 +73,11 @@ fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         assert_eq!(run.counts.total(), 8);
         for sample in run.all.iter().flatten() {
             assert_numbers(sample.coordinates.into_iter().flatten(), "sample");
-            assert_numbers(sample.lambda.into_iter().flatten(), "sample");
-            assert_numbers(sample.frequencies.into_iter().flatten(), "sample");
+            let s = sample.eigenvalues.iter().flatten();
+            assert_numbers(s.flat_map(|s| [s.re, s.im]), "sample");
+            assert_numbers(sample.frequencies.iter().flatten().copied(), "sample");
         }
-        for found in run.modes.into_iter().flatten() {
+        for found in run.modes.iter().flatten() {
             let spread = [found.standard_deviation, found.standard_error];
             assert_numbers(spread.into_iter().flatten().chain([found.mean]), "moments");
         }

@@ -1,0 +1,226 @@
+//! `P1`, `P2`, `P3`: general modes with their first and second derivatives, Hessians of the frequencies, second-order
+//! moments.
+
+use eigentol::sensitivity::{
+    ModeCurvature, Quantity, SecondDerivatives, mode_curvature, sensitivities,
+    sensitivities_explicit,
+};
+use eigentol::{Complex, DesignVariable, Family, Mechanism, Study};
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
+use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
+use eigentol_tests::truth::Truth;
+
+use super::common::{By, assert_close};
+use super::conditions::study;
+
+/// What a name of the file is in the machine.
+fn by(names: &[&str], name: &str) -> By {
+    let design = names.iter().position(|other| *other == name);
+    design.map_or(By::Input(0), By::Design)
+}
+
+fn second<T: Copy, const U: usize, const P: usize>(
+    all: &SecondDerivatives<T, U, P>,
+    pair: (By, By),
+) -> T {
+    match pair {
+        (By::Input(i), By::Input(j)) => all.by_input[i][j],
+        (By::Input(i), By::Design(j)) | (By::Design(j), By::Input(i)) => {
+            all.by_input_and_design[i][j]
+        }
+        (By::Design(i), By::Design(j)) => all.by_design[i][j],
+    }
+}
+
+fn complex(value: &Truth) -> Complex {
+    let parts = value.numbers();
+    Complex::new(parts[0], parts[1])
+}
+
+#[track_caller]
+fn assert_complex(found: Complex, expected: Complex, scale: f64, what: &str) {
+    let off = (found - expected).norm();
+    assert!(
+        off <= 1e-9 * expected.norm().max(scale),
+        "{what}: {found}, not {expected}"
+    );
+}
+
+/// Compares a Hessian with the file's, entry by entry, relative to its greatest entry.
+fn assert_hessian<const U: usize, const P: usize>(
+    found: &SecondDerivatives<f64, U, P>,
+    expected: &Truth,
+    order: &[By],
+    what: &str,
+) {
+    let rows: Vec<Vec<f64>> = expected.list().iter().map(Truth::numbers).collect();
+    let scale = rows
+        .iter()
+        .flatten()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    for (row, &a) in rows.iter().zip(order) {
+        for (&value, &b) in row.iter().zip(order) {
+            assert_close(&[second(found, (a, b))], &[value], scale, what);
+        }
+    }
+}
+
+/// Hessians and second-order moments of the undamped modes of every condition; the moments where the file's design holds
+/// no input.
+fn undamped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: M,
+    file: &str,
+    names: [&str; P],
+) where
+    M: Mechanism<N, U, P, O> + Copy,
+{
+    let mut moments = 0;
+    for condition in Truth::load(file).get("conditions").list() {
+        let label = condition.get("label").text();
+        let study: Study<M, N, U, P, O> =
+            study(machine, &condition, &names).family(Family::Undamped);
+        let design = condition.get("design").list();
+        let order: Vec<By> = design
+            .iter()
+            .map(|variable| by(&names, &variable.get("name").text()))
+            .collect();
+        for (r, truth) in condition.get("undamped_modes").list().iter().enumerate() {
+            let what = format!("{file} {label} mode {r}");
+            let curvature = study.mode_curvature(r).expect("second derivatives");
+            assert!(
+                curvature.asymmetry < 1e-10,
+                "{what}: {}",
+                curvature.asymmetry
+            );
+            let found = curvature.of(Quantity::Frequency).expect("it oscillates");
+            assert_hessian(&found, &truth.get("d2omega_db2"), &order, &what);
+
+            if order.iter().all(|by| matches!(by, By::Design(_))) {
+                let spread = study.second_order().expect("a spread");
+                let own = spread.modes[r].as_ref().expect("a mode").frequency;
+                let (shift, sigma) = (own.moments.mean_shift, own.moments.sigma);
+                let omega = truth.get("omega").number();
+                let scale = 1e-3 * omega;
+                assert_close(&[shift], &[truth.get("mean_shift2").number()], scale, &what);
+                assert_close(&[sigma], &[truth.get("sigma2").number()], 0.0, &what);
+                moments += 1;
+            }
+        }
+    }
+    assert!(moments > 0 || file == "P3", "{file}");
+}
+
+#[test]
+fn hessians_of_the_pendulums() {
+    undamped(RotatingPendulum, "P1", ["L", "m"]);
+    undamped(RotatingDoublePendulum, "P2", ["L1", "L2", "m1", "m2"]);
+}
+
+const PLATE: [&str; 7] = ["m", "kx", "ky", "x0", "y0", "cx", "cy"];
+
+#[test]
+fn hessians_of_the_sliders() {
+    undamped(SlidersOnPlate, "P3", PLATE);
+}
+
+#[test]
+fn general_modes_of_the_sliders() {
+    let mut modes = 0;
+    for condition in Truth::load("P3").get("conditions").list() {
+        let label = condition.get("label").text();
+        let study = study(SlidersOnPlate, &condition, &PLATE);
+        let at = study.equilibrium().expect("an equilibrium");
+        let found = study.modes().expect("modes");
+        assert_eq!(found.family, Family::General);
+        assert!(!found.damping_ignored);
+        let adjoint = sensitivities(&SlidersOnPlate, &at, &found).expect("derivatives");
+        let explicit = sensitivities_explicit(&SlidersOnPlate, &at, &found).expect("derivatives");
+        let truths = condition.get("quadratic_modes").list();
+        assert_eq!(truths.len(), found.modes.len(), "{label}");
+        let names: Vec<String> = condition
+            .get("design")
+            .list()
+            .iter()
+            .map(|variable| variable.get("name").text())
+            .collect();
+        for (r, truth) in truths.iter().enumerate() {
+            let what = format!("P3 {label} general mode {r}");
+            let mode = &found.modes[r];
+            assert_complex(mode.s, complex(&truth.get("s")), 0.0, &what);
+            let number = |field: &str| truth.get(field).number();
+            assert_close(
+                &[mode.natural_frequency().expect("one")],
+                &[number("omega_n")],
+                0.0,
+                &what,
+            );
+            assert_close(
+                &[mode.frequency().expect("one")],
+                &[number("omega_d")],
+                0.0,
+                &what,
+            );
+            let zeta = mode.damping_ratio().expect("one");
+            assert_close(&[zeta], &[number("zeta")], 1e-3, &what);
+            for name in &names {
+                let what = format!("{what} by {name}");
+                let expected = complex(&truth.get("ds_db").get(name));
+                for all in [&adjoint, &explicit] {
+                    let own = &all.modes[r];
+                    let ds = own.s.expect("a derivative");
+                    let natural = own.of(Quantity::NaturalFrequency).expect("a derivative");
+                    let (ds, natural) = match by(&PLATE, name) {
+                        By::Input(k) => (ds.by_input[k], natural.by_input[k]),
+                        By::Design(k) => (ds.by_design[k], natural.by_design[k]),
+                    };
+                    assert_complex(ds, expected, 1e-3, &what);
+                    let expected = truth.get("domega_n_db").get(name).number();
+                    assert_close(&[natural], &[expected], 1e-3, &what);
+                }
+            }
+            let curvature: ModeCurvature<1, 7> =
+                mode_curvature(&SlidersOnPlate, &at, &found, r).expect("second derivatives");
+            assert!(
+                curvature.asymmetry < 1e-11,
+                "{what}: {}",
+                curvature.asymmetry
+            );
+            let second_s = curvature.eigenvalue.expect("it oscillates");
+            let scale = 1e-3 * complex(&truth.get("d2s_db2").list()[0].list()[0]).norm();
+            for (i, row) in truth.get("d2s_db2").list().iter().enumerate() {
+                for (j, value) in row.list().iter().enumerate() {
+                    let pair = (by(&PLATE, &names[i]), by(&PLATE, &names[j]));
+                    let what = format!("{what} by {} and {}", names[i], names[j]);
+                    assert_complex(second(&second_s, pair), complex(value), scale, &what);
+                }
+            }
+            modes += 1;
+        }
+    }
+    assert!(modes >= 4);
+}
+
+/// The damping ratio's own derivatives, where damping is a design variable, against those of `s` by hand.
+#[test]
+fn damping_ratios_follow_the_eigenvalue() {
+    let study = Study::new(SlidersOnPlate)
+        .input(SlidersOnPlate::omega, 4.0)
+        .design(DesignVariable(5), 0.3)
+        .design(DesignVariable(6), 0.1);
+    let found = study.modes().expect("modes");
+    let curvature = study.mode_curvature(0).expect("second derivatives");
+    let slopes = curvature.first.of(Quantity::DampingRatio).expect("damped");
+    let second = curvature.of(Quantity::DampingRatio).expect("damped");
+    let ratio = |cx: f64| {
+        let study = study.clone().design(DesignVariable(5), cx);
+        let mode = study.modes().expect("modes").modes[0];
+        mode.damping_ratio().expect("damped")
+    };
+    let zeta = found.modes[0].damping_ratio().expect("damped");
+    let step = 1e-3;
+    let (up, down) = (ratio(0.3 + step), ratio(0.3 - step));
+    assert!(((up - down) / (2.0 * step) - slopes.by_design[5]).abs() < 1e-7);
+    let curve = (up + down - 2.0 * zeta) / (step * step);
+    assert!((curve - second.by_design[5][5]).abs() < 1e-6, "{curve}");
+}
