@@ -118,3 +118,52 @@ fn exact(value: f64) -> Estimate {
         error: 4.0 * f64::EPSILON * value,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Standard deviation 1, five or more variables of every sign: both inversions apply, and share no formula but the
+    /// terms.
+    #[test]
+    fn both_inversions_agree() {
+        for (normal, count, c, nu) in [
+            (0.0, 5, 0.8, 0.7),
+            (0.3, 4, 0.5, -1.2),
+            (0.05, 6, 0.1, 1.0),
+            (1.0, 3, 0.4, 0.05),
+            (0.0, 9, 0.0, 1.0),
+        ] {
+            let squares = (0..count).map(|j| Square {
+                c: c * (1.0 + f64::from(j)).sin(),
+                nu: nu * (2.0 + 1.7 * f64::from(j)).cos(),
+            });
+            let mut terms = Terms {
+                unit: 1.0,
+                normal,
+                squares: squares.collect(),
+            };
+            let parts = terms.squares.iter();
+            let variance: f64 = parts.map(|t| t.c * t.c + 0.5 * t.nu * t.nu).sum();
+            let sigma = (variance + normal * normal).sqrt();
+            terms.normal /= sigma;
+            for square in &mut terms.squares {
+                square.c /= sigma;
+                square.nu /= sigma;
+            }
+            let rule = davies::Rule::new(&terms);
+            let mut compared = 0;
+            for k in -12..=12 {
+                let y = 0.5 * f64::from(k);
+                let axis = rule.between(&terms, y, f64::INFINITY);
+                let Some(ray) = contour::between(&terms, y, f64::INFINITY) else {
+                    panic!("a ray at {y}")
+                };
+                let apart = (axis.value - ray.value).abs();
+                assert!(apart <= axis.error + ray.error, "{y}: {axis:?} {ray:?}");
+                compared += usize::from(axis.error + ray.error < 1e-9);
+            }
+            assert_eq!(compared, 25);
+        }
+    }
+}
