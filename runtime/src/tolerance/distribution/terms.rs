@@ -63,12 +63,24 @@ impl Terms {
     /// `P(from < X < to)`, by a closed form where there is one.
     pub(in crate::tolerance) fn between(&self, from: f64, to: f64) -> Estimate {
         if from >= to {
-            return exact(0.0);
+            return Estimate {
+                value: 0.0,
+                error: 0.0,
+            };
         }
         match self.squares[..] {
-            [] => exact(normal::between(from / self.normal, to / self.normal)),
-            [square] if self.normal == 0.0 => exact(single::between(square, from, to)),
+            [] => self.straight(from, to),
+            [square] if self.normal == 0.0 => single::between(square, from, to),
             _ => self.inverted(from, to),
+        }
+    }
+
+    /// Without any square: the normal distribution.
+    fn straight(&self, from: f64, to: f64) -> Estimate {
+        let (from, to) = (from / self.normal, to / self.normal);
+        Estimate {
+            value: normal::between(from, to).clamp(0.0, 1.0),
+            error: normal::end_error(from, 0.0) + normal::end_error(to, 0.0),
         }
     }
 
@@ -109,13 +121,6 @@ impl Terms {
     pub(super) fn vertex(&self) -> f64 {
         let terms = self.squares.iter();
         -terms.map(|t| 0.5 * t.c * t.c / t.nu).sum::<f64>()
-    }
-}
-
-fn exact(value: f64) -> Estimate {
-    Estimate {
-        value: value.clamp(0.0, 1.0),
-        error: 4.0 * f64::EPSILON * value,
     }
 }
 
