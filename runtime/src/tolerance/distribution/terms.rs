@@ -116,12 +116,6 @@ impl Terms {
         }
         (sum, size)
     }
-
-    /// Where a sum of squares without normal term has its stationary value.
-    pub(super) fn vertex(&self) -> f64 {
-        let terms = self.squares.iter();
-        -terms.map(|t| 0.5 * t.c * t.c / t.nu).sum::<f64>()
-    }
 }
 
 #[cfg(test)]
