@@ -1,6 +1,9 @@
 //! Statistics of a quantity known to second order: against quadrature, closed forms, sampling and reference numbers.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod cluster;
 mod margin;
 mod moments;

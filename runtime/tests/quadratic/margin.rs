@@ -1,8 +1,10 @@
 //! Margins: closed forms, and derivatives against differences.
 
+use eigentol::report::MarginTable;
 use eigentol::tolerance::{Margin, Quadratic, margin};
-use eigentol::{Error, Tolerances};
+use eigentol::{Error, Mechanism, Tolerances};
 
+use super::common::{SPEED, pendulum::Pendulum};
 use super::{close, coupled, independent, within};
 
 fn of<const P: usize>(
@@ -36,7 +38,8 @@ fn one_variable_has_closed_forms() {
     close(slopes.by_sigma, (2.0 * at_2 - 4.0 * at_4) / 0.5, 1e-13);
     close(slopes.by_design[0], 2.0 * slopes.by_mean, 1e-15);
     close(slopes.by_half_width[0], slopes.by_sigma * 2.0 / 3.0, 1e-15);
-    close(slopes.along(1.0, 0.0, 1.0, 1.0) + 1.0, 1.0, 1e-15);
+    // A band that moves with the quantity.
+    within(slopes.along(1.0, 0.0, 1.0, 1.0), 0.0, 1e-15);
     // Inside, below, and half-infinite bands.
     close(of(&model, &tolerances, (8.0, 10.5)).distance, -1.0, 1e-15);
     close(of(&model, &tolerances, (7.0, 9.0)).distance, 2.0, 1e-15);
@@ -176,4 +179,40 @@ fn nonsense_is_refused() {
     assert_eq!(found.sigma, 1e-320);
     assert!(found.derivatives.is_none());
     close(found.first_order, 0.5, 1e-13);
+}
+
+#[test]
+fn margins_print_themselves() {
+    let model = Quadratic {
+        value: 10.0,
+        slopes: [0.0, 2.0],
+        curvature: [[0.0; 2]; 2],
+    };
+    let tolerances = Tolerances::new([0.0, 0.75], 3.0, None).unwrap();
+    let margin = of(&model, &tolerances, (11.0, 12.0));
+    let print = |margin| {
+        MarginTable {
+            margin,
+            quantity: "frequency 1",
+            unit: SPEED,
+            description: &<Pendulum as Mechanism<1, 1, 2, 1>>::DESCRIPTION,
+        }
+        .to_string()
+    };
+    let text = print(&margin);
+    println!("{text}");
+    for part in [
+        "margin of frequency 1 against the band 11.0000 to 12.0000 rad/s",
+        "nominal [rad/s]",
+        "0.0227185",
+        "/ l [m]",
+    ] {
+        assert!(text.contains(part), "{part} in:\n{text}");
+    }
+    let still = of(&model, &independent([0.0; 2]), (11.0, f64::INFINITY));
+    let text = print(&still);
+    assert!(
+        text.contains("11.0000 to inf rad/s") && text.contains("nothing varies"),
+        "{text}"
+    );
 }

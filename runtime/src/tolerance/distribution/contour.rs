@@ -3,8 +3,8 @@
 //!
 //! `P(X > y) = 1/(2 pi i) int e^(K(s) - s y) ds / s` along any path from below to above that passes the origin on its right.
 //! On the two rays `s = r e^(+-i theta)` it becomes `theta/pi + 1/pi int_0^inf Im e^(K(s) - s y) dr / r`. All singularities of
-//! `K` lie on the real axis (at `1/nu_j`), so a ray turned towards the side on which `e^(-s y)` falls meets none; there the
-//! integrand falls exponentially. With `r = e^w` it is analytic in a strip about the real `w` at every scale of the
+//! `K` lie on the real axis (at `1/nu_j`), so a ray tilted from the imaginary axis to either side meets none; of the two
+//! the one on which the integrand stays smaller is taken. With `r = e^w` it is analytic in a strip about the real `w` at every scale of the
 //! curvatures, and the trapezoidal rule in `w` converges exponentially (Trefethen and Weideman, SIAM Review 56, 2014).
 
 use core::f64::consts::PI;
@@ -72,31 +72,20 @@ impl Ray {
             end: start,
             largest: f64::NEG_INFINITY,
         };
-        // The ray may run to infinity on the side where the integrand vanishes.
-        let towards = 0.5 * PI - angle;
-        let vanishes = terms.normal > 0.0 || (y - terms.vertex()) * towards >= 0.0;
+        let mut w = start;
         loop {
-            ray.end += STRIDE;
-            let modulus = exponent(terms, y, angle, ray.end).0.re;
+            w += STRIDE;
+            let modulus = exponent(terms, y, Complex::from_polar(w.exp(), angle)).0.re;
             ray.largest = ray.largest.max(modulus);
-            if modulus.is_nan() || ray.largest > LARGEST || ray.end > FARTHEST {
+            if modulus.is_nan() || ray.largest > LARGEST || w > FARTHEST {
                 return None;
             }
-            if modulus < NOTHING && (vanishes || ray.can_return(terms, y)) {
+            if modulus >= NOTHING {
+                ray.end = w + STRIDE;
+            } else if can_return(terms, y, angle, w) {
                 return Some(ray);
             }
         }
-    }
-
-    /// Whether the path from the end of the ray back to the imaginary axis, along which the modulus only falls, adds
-    /// nothing.
-    fn can_return(&self, terms: &Terms, y: f64) -> bool {
-        const POINTS: usize = 8;
-        (0..POINTS).all(|k| {
-            let part = k as f64 / POINTS as f64;
-            let angle = 0.5 * PI * (1.0 - part) + self.angle * part;
-            exponent(terms, y, angle, self.end).0.re < NOTHING + 4.0
-        })
     }
 
     /// Halves the step until the sum stays.
@@ -127,7 +116,8 @@ impl Ray {
         let points = ((self.end - self.start) / step).ceil() as usize;
         for k in 0..points {
             let w = self.start + offset + k as f64 * step;
-            let (exponent, size) = exponent(terms, y, self.angle, w);
+            let s = Complex::from_polar(w.exp(), self.angle);
+            let (exponent, size) = exponent(terms, y, s);
             let modulus = exponent.re.exp();
             sum += modulus * exponent.im.sin();
             noise += modulus * f64::EPSILON * (exponent.im.abs().min(1.0) + size);
@@ -136,9 +126,22 @@ impl Ray {
     }
 }
 
-/// `K(s) - s y` at `s = e^(w + i angle)`, and the size of its summands.
-fn exponent(terms: &Terms, y: f64, angle: f64, w: f64) -> (Complex<f64>, f64) {
-    let s = Complex::from_polar(w.exp(), angle);
+/// Whether the arc from `s = e^(w + i angle)` back to the imaginary axis, along which the modulus only falls, adds nothing:
+/// then what lies beyond may be left out, on the ray as well.
+fn can_return(terms: &Terms, y: f64, angle: f64, w: f64) -> bool {
+    const POINTS: usize = 8;
+    let nothing = |s| exponent(terms, y, s).0.re < NOTHING + 4.0;
+    // The axis itself, exactly: a rounded angle would let a large `s y` grow.
+    nothing(Complex::new(0.0, w.exp()))
+        && (1..POINTS).all(|k| {
+            let part = k as f64 / POINTS as f64;
+            let between = 0.5 * PI * (1.0 - part) + angle * part;
+            nothing(Complex::from_polar(w.exp(), between))
+        })
+}
+
+/// `K(s) - s y`, and the size of its summands.
+fn exponent(terms: &Terms, y: f64, s: Complex<f64>) -> (Complex<f64>, f64) {
     let (log, size) = terms.log_generating(s);
     (log - s * y, size + (s * y).norm())
 }

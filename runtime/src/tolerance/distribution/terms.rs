@@ -63,12 +63,24 @@ impl Terms {
     /// `P(from < X < to)`, by a closed form where there is one.
     pub(in crate::tolerance) fn between(&self, from: f64, to: f64) -> Estimate {
         if from >= to {
-            return exact(0.0);
+            return Estimate {
+                value: 0.0,
+                error: 0.0,
+            };
         }
         match self.squares[..] {
-            [] => exact(normal::between(from / self.normal, to / self.normal)),
-            [square] if self.normal == 0.0 => exact(single::between(square, from, to)),
+            [] => self.straight(from, to),
+            [square] if self.normal == 0.0 => single::between(square, from, to),
             _ => self.inverted(from, to),
+        }
+    }
+
+    /// Without any square: the normal distribution.
+    fn straight(&self, from: f64, to: f64) -> Estimate {
+        let (from, to) = (from / self.normal, to / self.normal);
+        Estimate {
+            value: normal::between(from, to).clamp(0.0, 1.0),
+            error: normal::end_error(from, 0.0) + normal::end_error(to, 0.0),
         }
     }
 
@@ -104,17 +116,53 @@ impl Terms {
         }
         (sum, size)
     }
-
-    /// Where a sum of squares without normal term has its stationary value.
-    pub(super) fn vertex(&self) -> f64 {
-        let terms = self.squares.iter();
-        -terms.map(|t| 0.5 * t.c * t.c / t.nu).sum::<f64>()
-    }
 }
 
-fn exact(value: f64) -> Estimate {
-    Estimate {
-        value: value.clamp(0.0, 1.0),
-        error: 4.0 * f64::EPSILON * value,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Standard deviation 1, five or more variables of every sign: both inversions apply, and share no formula but the
+    /// terms.
+    #[test]
+    fn both_inversions_agree() {
+        for (normal, count, c, nu) in [
+            (0.0, 5, 0.8, 0.7),
+            (0.3, 4, 0.5, -1.2),
+            (0.05, 6, 0.1, 1.0),
+            (1.0, 3, 0.4, 0.05),
+            (0.0, 9, 0.0, 1.0),
+        ] {
+            let squares = (0..count).map(|j| Square {
+                c: c * (1.0 + f64::from(j)).sin(),
+                nu: nu * (2.0 + 1.7 * f64::from(j)).cos(),
+            });
+            let mut terms = Terms {
+                unit: 1.0,
+                normal,
+                squares: squares.collect(),
+            };
+            let parts = terms.squares.iter();
+            let variance: f64 = parts.map(|t| t.c * t.c + 0.5 * t.nu * t.nu).sum();
+            let sigma = (variance + normal * normal).sqrt();
+            terms.normal /= sigma;
+            for square in &mut terms.squares {
+                square.c /= sigma;
+                square.nu /= sigma;
+            }
+            let rule = davies::Rule::new(&terms);
+            let mut compared = 0;
+            for k in -12..=12 {
+                let y = 0.5 * f64::from(k);
+                let axis = rule.between(&terms, y, f64::INFINITY);
+                let Some(ray) = contour::between(&terms, y, f64::INFINITY) else {
+                    panic!("a ray at {y}")
+                };
+                let apart = (axis.value - ray.value).abs();
+                assert!(apart <= axis.error + ray.error, "{y}: {axis:?} {ray:?}");
+                compared += usize::from(axis.error + ray.error < 1e-9);
+            }
+            assert_eq!(compared, 25);
+        }
     }
 }
