@@ -253,6 +253,23 @@ where
         )
     }
 
+    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::flutter_onsets`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn flutter_onset_tolerances(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<EventTolerance<P>>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.flutter_onsets(input, low, high)?;
+        let spread =
+            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
+        Ok(found.iter().map(spread).collect())
+    }
+
     /// Equilibria and modes at each value of one input ([`equilibrium::sweep`]).
     ///
     /// # Errors

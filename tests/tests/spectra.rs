@@ -1,0 +1,12 @@
+//! General modes, whirl, critical speeds and onsets of instability of machines with closed forms, through the front door.
+
+#[path = "spectra/common.rs"]
+mod common;
+#[path = "spectra/follower.rs"]
+mod follower;
+#[path = "spectra/real_roots.rs"]
+mod real_roots;
+#[path = "spectra/rotors.rs"]
+mod rotors;
+#[path = "spectra/tops.rs"]
+mod tops;
