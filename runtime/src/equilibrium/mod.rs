@@ -1,5 +1,6 @@
 //! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
 
+pub(crate) mod branch;
 mod continuation;
 mod convergence;
 mod critical;
@@ -10,6 +11,9 @@ mod problem;
 mod root;
 mod stability;
 
+pub use branch::{
+    Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch, branches,
+};
 pub use continuation::{SweepPoint, sweep};
 pub use critical::{CriticalState, Crossing, Range, critical_state, crossings};
 pub use multistart::{Search, find_equilibria};

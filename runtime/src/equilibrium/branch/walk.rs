@@ -1,0 +1,326 @@
+//! Pseudo-arclength continuation: from one point of a branch along its tangent, with a step that follows the curvature.
+
+use super::super::Failure;
+use super::curve::{Corrected, Curve, Trouble};
+use super::frame::Place;
+use super::special::{Junction, Located, SpecialPoint, at_critical};
+use super::station::{Station, VERTICAL};
+use super::{BranchEnd, BranchPoint};
+use crate::array::largest;
+use crate::{Equilibrium, Error, Mechanism};
+
+/// Least cosine of the angle between the tangents at two neighbouring points.
+const STRAIGHT: f64 = 0.9;
+/// Greatest distance of a point from the tangent, relative to the step.
+const BEND: f64 = 0.3;
+/// Local distance at which two places are the same.
+pub(super) const SAME: f64 = 1e-7;
+
+/// What was passed on the way in one direction; the start itself is not in it.
+pub(crate) struct Walk<const N: usize, const U: usize, const P: usize> {
+    pub(crate) points: Vec<BranchPoint<N, U, P>>,
+    pub(crate) special: Vec<SpecialPoint<N, U, P>>,
+    pub(crate) junctions: Vec<(Junction<N, U, P>, bool)>,
+    pub(crate) end: BranchEnd,
+}
+
+/// One accepted step.
+struct Step<const N: usize, const U: usize, const P: usize> {
+    station: Station<N, U, P>,
+    located: Vec<Located<N, U, P>>,
+    end: Option<BranchEnd>,
+    /// Factor for the length of the next step.
+    growth: f64,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// Goes on from a station along its tangent, which started at `home`, until the branch ends or `stop` says so of a
+    /// special point and of the station before it.
+    pub(crate) fn walk(
+        &self,
+        start: &Station<N, U, P>,
+        home: &Place<N>,
+        mut stop: impl FnMut(&SpecialPoint<N, U, P>, &Station<N, U, P>) -> bool,
+    ) -> Walk<N, U, P> {
+        let settings = self.settings;
+        let mut walk = Walk {
+            points: Vec::new(),
+            special: Vec::new(),
+            junctions: Vec::new(),
+            end: BranchEnd::PointLimit,
+        };
+        let far = settings.escape * (settings.size + largest(&home.q));
+        let mut at = *start;
+        let mut length = 0.2 * settings.max_step;
+        let mut refused: Option<Trouble<N>> = None;
+        while walk.points.len() < settings.max_points {
+            if let Some(end) = self.leaving(&at) {
+                walk.end = end;
+                return walk;
+            }
+            let steps = walk.points.len();
+            let step = match self.advance(&at, length, home, steps) {
+                Ok(step) => step,
+                Err(trouble) => {
+                    length *= 0.5;
+                    // Beside the edge of a domain Newton's method fails for other reasons too.
+                    let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
+                    if length.is_nan() || length < settings.min_step {
+                        walk.end = self.broken_off(reason, &at.equilibrium);
+                        return walk;
+                    }
+                    refused = Some(reason);
+                    continue;
+                }
+            };
+            let growth = if refused.take().is_some() {
+                step.growth.min(1.0)
+            } else {
+                step.growth
+            };
+            for located in step.located {
+                let special = located.special;
+                walk.points.push(BranchPoint {
+                    value: special.value,
+                    equilibrium: special.equilibrium,
+                    tangent: located.direction.q,
+                    input_tangent: located.direction.p,
+                });
+                walk.special.push(special);
+                if let Some(junction) = located.junction {
+                    walk.junctions.push((junction, located.ends_arm));
+                    let home_again = at.frame.at(junction.frame.origin).local(home).norm() <= SAME;
+                    if home_again && !located.ends_arm {
+                        walk.end = BranchEnd::Closed;
+                        return walk;
+                    }
+                }
+                if located.ends_arm || stop(&special, &at) {
+                    walk.end = BranchEnd::BranchPoint;
+                    return walk;
+                }
+            }
+            walk.points.push(self.point(&step.station));
+            if let Some(end) = step.end {
+                walk.end = end;
+                return walk;
+            }
+            if largest(&step.station.place.q) > far {
+                walk.end = BranchEnd::Escape;
+                return walk;
+            }
+            length = (length * growth).min(settings.max_step);
+            at = step.station;
+        }
+        walk
+    }
+
+    pub(crate) fn point(&self, station: &Station<N, U, P>) -> BranchPoint<N, U, P> {
+        let direction = station.direction();
+        let mut equilibrium = station.equilibrium;
+        if station.signs.vertical {
+            // Equilibria side by side at one input: the mode along them is neutral.
+            let linear = equilibrium.linear;
+            equilibrium.stability =
+                at_critical(equilibrium.stability, &linear, Self::DESCRIPTION, 1);
+        }
+        BranchPoint {
+            value: station.place.p,
+            equilibrium,
+            tangent: direction.q,
+            input_tangent: direction.p,
+        }
+    }
+
+    /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
+    /// once or cannot be followed.
+    pub(crate) fn depart(
+        &self,
+        junction: &Junction<N, U, P>,
+        direction: &Place<N>,
+    ) -> Option<Station<N, U, P>> {
+        let frame = &junction.frame;
+        let mut length = 0.2 * self.settings.max_step;
+        let least = self.settings.min_step.max(1e-6 * self.settings.max_step);
+        while length >= least {
+            let from = direction.scaled(length);
+            if let Ok(corrected) = self.correct(frame, &from, direction, BEND * length)
+                && self.inside(corrected.place.p)
+                && let Ok(station) = self.arrive(&corrected, &frame.stretched(direction), None)
+                && straight(&frame.direction(&station.direction()), direction)
+            {
+                return Some(station);
+            }
+            length *= 0.5;
+        }
+        None
+    }
+
+    fn advance(
+        &self,
+        at: &Station<N, U, P>,
+        length: f64,
+        home: &Place<N>,
+        steps: usize,
+    ) -> Result<Step<N, U, P>, Trouble<N>> {
+        let (frame, tangent) = (&at.frame, &at.tangent);
+        let from = tangent.scaled(length);
+        let mut corrected = self.correct(frame, &from, tangent, BEND * length)?;
+        let mut end = None;
+        if let Some((bound, reason)) = self.beyond(corrected.place.p, at) {
+            corrected = self.land(at, &corrected, bound)?;
+            end = Some(reason);
+        }
+        let station = self.arrive(&corrected, &at.direction(), Some(at))?;
+        if !straight(&frame.direction(&station.direction()), tangent) {
+            return Err(Trouble::Missed("the branch bends sharply"));
+        }
+        let mut located = Vec::new();
+        self.locate(at, &station, &mut located)?;
+        if steps > 2 && self.passes(at, &corrected, home) {
+            end = Some(BranchEnd::Closed);
+        }
+        let bend = corrected.local.plus(-1.0, &from).norm() / length;
+        let growth = if corrected.iterations > 5 || bend > 0.5 * BEND {
+            0.7
+        } else if bend < 0.1 {
+            2.0
+        } else {
+            1.0
+        };
+        Ok(Step {
+            station,
+            located,
+            end,
+            growth,
+        })
+    }
+
+    fn arrive(
+        &self,
+        corrected: &Corrected<N>,
+        towards: &Place<N>,
+        before: Option<&Station<N, U, P>>,
+    ) -> Result<Station<N, U, P>, Trouble<N>> {
+        let place = &corrected.place;
+        let equilibrium = self.equilibrium(place, corrected.residual, corrected.iterations)?;
+        self.station(place, equilibrium, towards, before.map(|station| &station.signs))
+    }
+
+    fn inside(&self, p: f64) -> bool {
+        let (least, most) = self.settings.bounds();
+        (least..=most).contains(&p)
+    }
+
+    fn end_at(&self, bound: f64) -> BranchEnd {
+        if bound == self.settings.low {
+            BranchEnd::Low
+        } else {
+            BranchEnd::High
+        }
+    }
+
+    /// The end of the range at which a station is about to leave it.
+    fn leaving(&self, at: &Station<N, U, P>) -> Option<BranchEnd> {
+        let (least, most) = self.settings.bounds();
+        let rate = at.tangent.p;
+        if at.place.p <= least && rate < -VERTICAL {
+            Some(self.end_at(least))
+        } else if at.place.p >= most && rate > VERTICAL {
+            Some(self.end_at(most))
+        } else {
+            None
+        }
+    }
+
+    /// The end of the range that a place lies beyond; a branch along the end may stray by rounding.
+    fn beyond(&self, p: f64, at: &Station<N, U, P>) -> Option<(f64, BranchEnd)> {
+        let (least, most) = self.settings.bounds();
+        let stray = if at.signs.vertical {
+            1e-9 * self.settings.range()
+        } else {
+            0.0
+        };
+        if p < least - stray {
+            Some((least, self.end_at(least)))
+        } else if p > most + stray {
+            Some((most, self.end_at(most)))
+        } else {
+            None
+        }
+    }
+
+    /// The point of the branch exactly at an end of the range.
+    fn land(
+        &self,
+        at: &Station<N, U, P>,
+        outside: &Corrected<N>,
+        bound: f64,
+    ) -> Result<Corrected<N>, Trouble<N>> {
+        let target = at.frame.local(&Place {
+            p: bound,
+            ..at.place
+        });
+        let share = target.p / outside.local.p;
+        if !(0.0..=1.0).contains(&share) {
+            return Err(Trouble::Missed("the end of the range is not between the points"));
+        }
+        let from = outside.local.scaled(share);
+        let input = Place {
+            q: [0.0; N],
+            p: 1.0,
+        };
+        let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
+        landed.place.p = bound;
+        landed.residual = self.system(&landed.place)?.residual;
+        Ok(landed)
+    }
+
+    /// Whether the step from a station passes a place.
+    fn passes(&self, at: &Station<N, U, P>, to: &Corrected<N>, place: &Place<N>) -> bool {
+        let end = &to.local;
+        let target = at.frame.local(place);
+        let along = target.dot(end) / end.dot(end);
+        if !(0.0..=1.0).contains(&along) || target.plus(-along, end).norm() > BEND * end.norm() {
+            return false;
+        }
+        let Some(normal) = end.unit() else {
+            return false;
+        };
+        self.correct(&at.frame, &end.scaled(along), &normal, end.norm())
+            .is_ok_and(|found| found.local.plus(-1.0, &target).norm() <= SAME)
+    }
+
+    pub(super) fn broken_off(
+        &self,
+        trouble: Trouble<N>,
+        at: &Equilibrium<N, U, P>,
+    ) -> BranchEnd {
+        let name = Self::DESCRIPTION.name;
+        match trouble {
+            Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
+                mechanism: name,
+                what: "the residual",
+                coordinates: q.to_vec(),
+            }),
+            Trouble::Unphysical(error) => BranchEnd::Domain(error),
+            Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
+                BranchEnd::Domain(failure.explain(Self::DESCRIPTION))
+            }
+            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(Self::DESCRIPTION)),
+            Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
+                reason,
+                iterations: self.settings.max_corrections,
+                coordinates: at.coordinates.to_vec(),
+                relative_residual: at.relative_residual,
+            }),
+        }
+    }
+}
+
+fn straight<const N: usize>(direction: &Place<N>, tangent: &Place<N>) -> bool {
+    direction.dot(tangent) >= STRAIGHT * direction.norm() * tangent.norm()
+}
