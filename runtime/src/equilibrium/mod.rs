@@ -12,7 +12,8 @@ mod root;
 mod stability;
 
 pub use branch::{
-    Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch, branches,
+    Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch,
+    branches,
 };
 pub use continuation::{SweepPoint, sweep};
 pub use critical::{CriticalState, Crossing, Range, critical_state, crossings};

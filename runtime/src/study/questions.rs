@@ -1,7 +1,9 @@
 //! What a study can be asked: each question runs the chain of functions that answers it.
 
 use super::Study;
-use crate::equilibrium::{self, CriticalState, Crossing, Equilibrium, Range, Search, SweepPoint};
+use crate::equilibrium::{
+    self, Branches, Continuation, CriticalState, Crossing, Equilibrium, Range, Search, SweepPoint,
+};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Sensitivities};
 use crate::tolerance::{self, EventTolerance, FirstOrder, MonteCarlo, OutputTolerances, Sampling};
 use crate::{Error, Input, Mechanism, Modes, modes};
@@ -144,6 +146,34 @@ where
             self.policy,
             input,
             values,
+        )
+    }
+
+    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches(&self, input: Input, low: f64, high: f64) -> Result<Branches<N, U, P>, Error> {
+        self.branches_with(&Continuation::new(input, low, high), None)
+    }
+
+    /// As [`Study::branches`], with other settings and with starts from many places.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches_with(
+        &self,
+        settings: &Continuation,
+        search: Option<&Search<N>>,
+    ) -> Result<Branches<N, U, P>, Error> {
+        self.ready()?;
+        equilibrium::branches(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            settings,
+            search,
         )
     }
 

@@ -5,6 +5,7 @@
 //! cross where `mu` has a saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the
 //! second derivatives give the directions of both branches (algebraic branching equation).
 
+use super::super::convergence::ACCEPTED;
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble, plane};
 use super::fold::{LAST_STEP, ROUNDING, beside};
@@ -17,6 +18,8 @@ use crate::array::{dot, form};
 const MAX_ITERATIONS: usize = 30;
 /// A direction with a smaller part along the input is that of the critical vector.
 const STATIONARY: f64 = 1e-6;
+/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7.
+const CROSSING: f64 = 1e-13;
 /// Distance, in local units, at which the third order is felt out.
 const PROBE: f64 = 1e-3;
 
@@ -60,7 +63,11 @@ where
         let reduced = self.reduced(frame, &local, 0.0, &borders)?;
         let [first, second] = directions(&reduced)?;
         let own_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
-        let (own, other) = if own_is_first { (first, second) } else { (second, first) };
+        let (own, other) = if own_is_first {
+            (first, second)
+        } else {
+            (second, first)
+        };
         let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
         let stationary = |direction: &Place<N>| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
@@ -72,7 +79,16 @@ where
             },
         };
         let critical = frame.stretched(&v);
-        let special = self.special(kind, &place, (&critical.q, &frame.weights(&reduced.w)), 1)?;
+        // The branches pass each other at a distance of the root of mu / H.
+        let size = reduced
+            .hessian
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, h| most.max(h.abs()));
+        let gap = reduced.mu.abs() / size;
+        let also = ACCEPTED * gap / CROSSING;
+        let vectors = (&critical.q, &frame.weights(&reduced.w));
+        let special = self.special(kind, &place, vectors, 1, Some(also))?;
         Ok(Junction {
             special,
             frame: frame.at(place),
@@ -118,7 +134,9 @@ where
             local = local.plus(1.0, &step);
             (mu, last) = (reduced.mu, size);
             if !beside(&local, end) {
-                return Err(Trouble::Missed("the branch point is not between the points"));
+                return Err(Trouble::Missed(
+                    "the branch point is not between the points",
+                ));
             }
             if let Some(column) = unit(&reduced.w) {
                 mu *= dot(&column, &borders.column);
@@ -145,7 +163,10 @@ where
             let image = Place { q, p }.unit().ok_or_else(not_simple)?;
             left = (image.q, [image.p]);
         }
-        let second = right.plus(-right.dot(&first), &first).unit().ok_or_else(not_simple)?;
+        let second = right
+            .plus(-right.dot(&first), &first)
+            .unit()
+            .ok_or_else(not_simple)?;
         Ok(Borders {
             normals: [first, second],
             column: unit(&left.0).ok_or_else(not_simple)?,
@@ -223,7 +244,10 @@ where
             let second = parts[0] * (h[0][0] * parts[0] + h[0][1] * parts[1])
                 + parts[1] * (h[1][0] * parts[0] + h[1][1] * parts[1]);
             let side = form(&frame.weights(&reduced.w), &mass, &frame.stretched(v).q);
-            let size = h.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let size = h
+                .iter()
+                .flatten()
+                .fold(0.0, |most: f64, x| most.max(x.abs()));
             Ok((-second * side.signum(), size))
         };
         let (Ok((up, size_up)), Ok((down, size_down))) = (probe(PROBE), probe(-PROBE)) else {

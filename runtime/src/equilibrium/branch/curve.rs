@@ -1,6 +1,8 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
-use super::super::{Failure, Found, Problem, finish};
+use super::super::convergence::{ACCEPTED, relative_residual};
+use super::super::stability::judge;
+use super::super::{Failure, Problem};
 use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
@@ -44,10 +46,12 @@ impl<const N: usize> Trouble<N> {
 pub(crate) struct Corrected<const N: usize> {
     pub(crate) local: Place<N>,
     pub(crate) place: Place<N>,
-    pub(crate) residual: [f64; N],
+    pub(crate) system: System<N>,
     pub(crate) iterations: usize,
 }
 
+/// Displacement, in units of coordinates and input, that residuals are compared with.
+const SMALL: f64 = 1e-3;
 /// A Newton step this small, in local units, leaves rounding.
 const LAST_STEP: f64 = 1e-13;
 /// A step that no longer shrinks has reached rounding below this size.
@@ -116,12 +120,15 @@ where
         }
     }
 
-    /// The equilibrium at a place where the residual has this value.
+    /// The equilibrium at a place. Its residual is relative, beside what an ordinary solve knows, to what a thousandth of the
+    /// range restores: where `Khat` is singular the input holds what coordinates do not. Where neither does, `also` is
+    /// another measure of it.
     pub(crate) fn equilibrium(
         &self,
         at: &Place<N>,
-        residual: [f64; N],
+        system: &System<N>,
         iterations: usize,
+        also: Option<f64>,
     ) -> Result<Equilibrium<N, U, P>, Trouble<N>> {
         let inputs = self.inputs_at(at.p);
         if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
@@ -131,17 +138,51 @@ where
                 value: violation.value,
             }));
         }
-        let found = Found {
+        let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
+        let linear = problem.linear(&at.q).map_err(Trouble::Refused)?;
+        let mut relative = relative_residual(&problem, &at.q, &system.residual, &linear.stiffness);
+        if relative.is_nan() || relative > ACCEPTED {
+            relative = self
+                .with_input(&at.q, system)
+                .min(also.unwrap_or(f64::INFINITY));
+        }
+        if relative > ACCEPTED {
+            return Err(Trouble::Refused(Failure::NotFound {
+                reason: "the residual stays larger than rounding explains",
+                coordinates: at.q,
+                iterations,
+                relative,
+            }));
+        }
+        Ok(Equilibrium {
             coordinates: at.q,
-            residual,
+            inputs,
+            design: *self.design,
+            stability: judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?,
+            linear,
+            residual: system.residual,
+            relative_residual: relative,
             iterations,
+            pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
             left_unstable_region: false,
-        };
-        finish(
-            &Problem::unchecked(self.mechanism, &inputs, self.design),
-            found,
-        )
-        .map_err(Trouble::Refused)
+            description: Self::DESCRIPTION,
+        })
+    }
+
+    /// Greatest residual, each relative to what a thousandth of the range or of a coordinate's unit restores.
+    fn with_input(&self, q: &[f64; N], system: &System<N>) -> f64 {
+        (0..N).fold(0.0, |most: f64, i| {
+            let input = system.by_input[i].abs() * self.settings.range();
+            let scale = (0..N).fold(input, |sum, j| {
+                sum + system.stiffness[i][j].abs() * (self.settings.size + q[j].abs())
+            });
+            let residual = system.residual[i].abs();
+            most.max(if residual > 0.0 {
+                residual / (SMALL * scale)
+            } else {
+                0.0
+            })
+        })
     }
 
     pub(crate) fn frame(&self, at: &Place<N>, system: &System<N>) -> Frame<N> {
@@ -166,7 +207,7 @@ where
                 return Ok(Corrected {
                     local,
                     place,
-                    residual: system.residual,
+                    system,
                     iterations,
                 });
             }
@@ -193,11 +234,11 @@ where
         }
         if last <= ROUNDING {
             let place = frame.place(&local);
-            let residual = self.system(&place)?.residual;
+            let system = self.system(&place)?;
             return Ok(Corrected {
                 local,
                 place,
-                residual,
+                system,
                 iterations: self.settings.max_corrections,
             });
         }

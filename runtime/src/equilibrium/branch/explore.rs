@@ -158,7 +158,12 @@ where
         start: Option<BranchPoint<N, U, P>>,
         front: Walk<N, U, P>,
     ) -> (Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>) {
-        let mut points: Vec<_> = back.points.into_iter().rev().map(BranchPoint::reversed).collect();
+        let mut points: Vec<_> = back
+            .points
+            .into_iter()
+            .rev()
+            .map(BranchPoint::reversed)
+            .collect();
         points.extend(start);
         points.extend(front.points);
         let mut special: Vec<_> = back.special.into_iter().rev().collect();
@@ -271,6 +276,8 @@ where
                 (branch, junctions, 0)
             }
             Lead::Through(junction, direction) => {
+                let forward = (self.settings.high - self.settings.low).signum();
+                let direction = &direction.scaled(forward * direction.p.signum());
                 let behind = direction.scaled(-1.0);
                 let ahead = self.depart(junction, direction);
                 let behind = self.depart(junction, &behind);
@@ -278,7 +285,9 @@ where
                     return None;
                 }
                 let front = ahead.map(|station| from(junction, &station));
-                let closed = front.as_ref().is_some_and(|walk| walk.end == BranchEnd::Closed);
+                let closed = front
+                    .as_ref()
+                    .is_some_and(|walk| walk.end == BranchEnd::Closed);
                 let back = behind
                     .filter(|_| !closed)
                     .map(|station| from(junction, &station));

@@ -32,14 +32,21 @@ where
         // The part along the input falls to zero on the way.
         let (p_a, p_b) = (a.tangent.p, end_tangent.unit().map_or(0.0, |t| t.p));
         let fraction = p_a / (p_a - p_b);
-        let mut local = end.scaled(if (0.0..=1.0).contains(&fraction) { fraction } else { 0.5 });
+        let mut local = end.scaled(if (0.0..=1.0).contains(&fraction) {
+            fraction
+        } else {
+            0.5
+        });
         let mut v = a.tangent.plus(1.0, &end_tangent).q;
         let mut w = frame.scaled(&self.system(&a.place)?).by_input;
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             let place = frame.place(&local);
             let scaled = frame.scaled(&self.system(&place)?);
-            let (d, c) = (unit(&v).ok_or_else(singular)?, unit(&w).ok_or_else(singular)?);
+            let (d, c) = (
+                unit(&v).ok_or_else(singular)?,
+                unit(&w).ok_or_else(singular)?,
+            );
             let bordered =
                 Bordered::new(&scaled.stiffness, [&c], [&d], [[0.0]]).ok_or_else(singular)?;
             let (right, [h]) = bordered.solve(&[0.0; N], [1.0]);
@@ -48,7 +55,8 @@ where
             let along = frame.stretched(&Place { q: v, p: 0.0 });
             let weights = frame.weights(&w);
             if last <= LAST_STEP {
-                let special = self.special(SpecialKind::Fold, &place, (&along.q, &weights), 1)?;
+                let special =
+                    self.special(SpecialKind::Fold, &place, (&along.q, &weights), 1, None)?;
                 let direction = along.scaled(dot(&v, &end.q).signum());
                 return Ok((special, direction));
             }

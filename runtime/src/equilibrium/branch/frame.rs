@@ -125,13 +125,9 @@ impl<const N: usize> Frame<N> {
         System {
             residual: self.weights(&system.residual),
             stiffness: core::array::from_fn(|i| {
-                core::array::from_fn(|j| {
-                    system.stiffness[i][j] * self.units.q[j] / self.rows[i]
-                })
+                core::array::from_fn(|j| system.stiffness[i][j] * self.units.q[j] / self.rows[i])
             }),
-            by_input: core::array::from_fn(|i| {
-                system.by_input[i] * self.units.p / self.rows[i]
-            }),
+            by_input: core::array::from_fn(|i| system.by_input[i] * self.units.p / self.rows[i]),
         }
     }
 }

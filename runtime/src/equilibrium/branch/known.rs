@@ -74,7 +74,9 @@ fn turned_towards<const N: usize>(
     coordinates: &[crate::CoordinateInfo],
 ) -> Place<N> {
     let q = core::array::from_fn(|i| {
-        let angle = coordinates.get(i).is_some_and(|info| info.unit.symbol == "rad");
+        let angle = coordinates
+            .get(i)
+            .is_some_and(|info| info.unit.symbol == "rad");
         let turns = ((place.q[i] - other.q[i]) / core::f64::consts::TAU).round();
         if angle && turns != 0.0 {
             place.q[i] - turns * core::f64::consts::TAU

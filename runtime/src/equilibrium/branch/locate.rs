@@ -146,10 +146,7 @@ where
         let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
         let from = end.scaled(fraction);
         let corrected = self.correct(&a.frame, &from, &normal, 0.5 * end.norm())?;
-        let (place, residual) = (corrected.place, corrected.residual);
-        let equilibrium = self.equilibrium(&place, residual, corrected.iterations)?;
-        let direction = a.frame.stretched(&normal);
-        self.station(&place, equilibrium, &direction, Some(&a.signs))
+        self.arrive(&corrected, &a.frame.stretched(&normal), Some(a))
     }
 
     /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
@@ -161,11 +158,17 @@ where
     ) -> Result<Located<N, U, P>, Trouble<N>> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
-        let first = a.signs.negative.zip(b.signs.negative).map_or(0, |(a, b)| a.min(b));
+        let first = a
+            .signs
+            .negative
+            .zip(b.signs.negative)
+            .map_or(0, |(a, b)| a.min(b));
         let zero = changes.negative.unwrap_or(0).max(1);
         let mean = |station: &crate::Equilibrium<N, U, P>| {
             let linear = &station.linear;
-            let lambda = symmetric::solve(&linear.stiffness, &linear.mass).ok()?.lambda;
+            let lambda = symmetric::solve(&linear.stiffness, &linear.mass)
+                .ok()?
+                .lambda;
             let sum: f64 = lambda.iter().skip(first).take(zero).sum();
             Some(sum)
         };
@@ -182,8 +185,10 @@ where
             };
             fraction = refine(bracket, |trial| {
                 let from = end.scaled(trial);
-                let at = self.correct(&a.frame, &from, &normal, 0.5 * end.norm()).ok()?;
-                mean(&self.equilibrium(&at.place, at.residual, 0).ok()?)
+                let at = self
+                    .correct(&a.frame, &from, &normal, 0.5 * end.norm())
+                    .ok()?;
+                mean(&self.equilibrium(&at.place, &at.system, 0, None).ok()?)
             });
         }
         let from = end.scaled(fraction);
@@ -191,7 +196,7 @@ where
             Ok(corrected) => corrected.place,
             Err(_) => a.frame.place(&from),
         };
-        let special = self.degenerate(&place, &normal, zero)?;
+        let special = self.degenerate(&place, (&a.frame, &normal), zero)?;
         Ok(Located {
             special,
             direction: a.frame.stretched(&normal),

@@ -18,13 +18,13 @@ mod station;
 mod walk;
 
 pub(crate) use bordered::Bordered;
-pub(crate) use curve::{Curve, Trouble};
+pub(crate) use curve::Curve;
 pub use explore::{branch, branches};
 pub use settings::Continuation;
 pub use special::{SpecialKind, SpecialPoint};
-pub(crate) use walk::Walk;
+pub(crate) use station::Station;
 
-use super::Equilibrium;
+use super::{Equilibrium, Stability};
 use crate::{Description, Error, Input};
 
 /// A point of a branch.
@@ -86,13 +86,45 @@ pub struct Branch<const N: usize, const U: usize, const P: usize> {
 }
 
 impl<const N: usize, const U: usize, const P: usize> Branch<N, U, P> {
-    /// The stretches of the branch that are stable or neutral: runs of neighbouring points, special points at their ends
-    /// included.
+    /// The branch cut at its special points, which belong to both sides, and where the stability changes otherwise.
+    pub fn stretches(&self) -> Vec<(Stability, &[BranchPoint<N, U, P>])> {
+        let mut runs = Vec::new();
+        let mut start = 0;
+        let mut inside = None;
+        for (k, point) in self.points.iter().enumerate() {
+            let stability = point.equilibrium.stability;
+            if self.is_special(point) {
+                if k > start {
+                    runs.push((inside.unwrap_or(stability), &self.points[start..=k]));
+                }
+                (start, inside) = (k, None);
+            } else if let Some(before) = inside
+                && before != stability
+            {
+                runs.push((before, &self.points[start..k]));
+                (start, inside) = (k, Some(stability));
+            } else {
+                inside = Some(stability);
+            }
+        }
+        if let Some(stability) = inside {
+            runs.push((stability, &self.points[start..]));
+        }
+        runs
+    }
+
+    /// The stretches that are stable or neutral.
     pub fn stable(&self) -> Vec<&[BranchPoint<N, U, P>]> {
-        self.points
-            .split(|point| !point.equilibrium.stability.holds())
-            .filter(|run| run.len() > 1)
-            .collect()
+        let stretches = self.stretches().into_iter();
+        let stable = stretches.filter(|(stability, _)| stability.holds());
+        stable.map(|(_, run)| run).collect()
+    }
+
+    fn is_special(&self, point: &BranchPoint<N, U, P>) -> bool {
+        self.special.iter().any(|special| {
+            special.value == point.value
+                && special.equilibrium.coordinates == point.equilibrium.coordinates
+        })
     }
 }
 
@@ -107,9 +139,7 @@ pub struct Branches<const N: usize, const U: usize, const P: usize> {
 
 impl<const N: usize, const U: usize, const P: usize> Branches<N, U, P> {
     /// Stable stretches of all branches, each with its branch.
-    pub fn stable(
-        &self,
-    ) -> impl Iterator<Item = (&Branch<N, U, P>, &[BranchPoint<N, U, P>])> + '_ {
+    pub fn stable(&self) -> impl Iterator<Item = (&Branch<N, U, P>, &[BranchPoint<N, U, P>])> + '_ {
         let stretches = |branch| {
             Branch::stable(branch)
                 .into_iter()

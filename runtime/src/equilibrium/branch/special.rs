@@ -68,20 +68,25 @@ impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_
 where
     M: Mechanism<N, U, P, O>,
 {
-    /// The special point at a place with these critical vectors of any length; `zero` modes are critical.
+    /// The special point at a place with these critical vectors of any length; `zero` modes are critical; `also` as for
+    /// [`Self::equilibrium`].
     pub(crate) fn special(
         &self,
         kind: SpecialKind,
         place: &Place<N>,
         (v, w): (&[f64; N], &[f64; N]),
         zero: usize,
+        also: Option<f64>,
     ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
-        let residual = self.system(place)?.residual;
-        let mut equilibrium = self.equilibrium(place, residual, 0)?;
+        let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
         let (v, w) = normalised(&equilibrium.linear, v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
-        equilibrium.stability =
-            at_critical(equilibrium.stability, &equilibrium.linear, Self::DESCRIPTION, zero);
+        equilibrium.stability = at_critical(
+            equilibrium.stability,
+            &equilibrium.linear,
+            Self::DESCRIPTION,
+            zero,
+        );
         Ok(SpecialPoint {
             kind,
             input: self.settings.input,
@@ -96,7 +101,7 @@ where
     pub(crate) fn degenerate(
         &self,
         place: &Place<N>,
-        tangent: &Place<N>,
+        (frame, tangent): (&Frame<N>, &Place<N>),
         zero: usize,
     ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
         let linear = self
@@ -111,7 +116,14 @@ where
                 Some(pairs.shapes[least])
             });
         let v = softest.unwrap_or(tangent.q);
-        self.special(SpecialKind::Degenerate, place, (&v, &v), zero)
+        let residual = largest(&frame.weights(&self.system(place)?.residual));
+        self.special(
+            SpecialKind::Degenerate,
+            place,
+            (&v, &v),
+            zero,
+            Some(residual),
+        )
     }
 }
 
@@ -122,7 +134,10 @@ fn normalised<const N: usize>(
     w: &[f64; N],
 ) -> Option<([f64; N], [f64; N])> {
     let most = largest(v);
-    let lead = v.iter().copied().find(|value| value.abs() >= most * (1.0 - 1e-9))?;
+    let lead = v
+        .iter()
+        .copied()
+        .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
     let length = form(v, &linear.mass, v).sqrt() * lead.signum();
     let v = v.map(|value| value / length);
     let both = dot(w, &times(&linear.mass, &v));
@@ -150,7 +165,11 @@ pub(crate) fn at_critical<const N: usize>(
     };
     let mut lambda = pairs.lambda;
     lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let negative = lambda.iter().skip(zero).filter(|&&value| value < 0.0).count();
+    let negative = lambda
+        .iter()
+        .skip(zero)
+        .filter(|&&value| value < 0.0)
+        .count();
     let damped = description.damping != DampingKind::Zero;
     match negative {
         0 => Stability::Neutral { zero },

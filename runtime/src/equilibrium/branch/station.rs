@@ -2,7 +2,7 @@
 
 use super::super::Equilibrium;
 use super::curve::{Curve, Trouble, plane};
-use super::frame::{Frame, Place};
+use super::frame::{Frame, Place, System};
 use crate::array::{Cholesky, asymmetry};
 use crate::modes::symmetric;
 use crate::{Description, Linear, Mechanism};
@@ -42,13 +42,13 @@ where
     pub(crate) fn station(
         &self,
         place: &Place<N>,
+        system: &System<N>,
         equilibrium: Equilibrium<N, U, P>,
         towards: &Place<N>,
         before: Option<&Signs>,
     ) -> Result<Station<N, U, P>, Trouble<N>> {
-        let system = self.system(place)?;
-        let frame = self.frame(place, &system);
-        let scaled = frame.scaled(&system);
+        let frame = self.frame(place, system);
+        let scaled = frame.scaled(system);
         let singular = Trouble::Missed("the branch is not isolated");
         let towards = frame.direction(towards).unit();
         let factors = towards.and_then(|towards| plane(&scaled, &towards));
@@ -117,7 +117,8 @@ where
         let forward = (self.settings.high - self.settings.low).signum();
         let tangent = best.ok_or(Trouble::Missed("the branch is not isolated"))?;
         let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
-        self.station(&place, equilibrium, &frame.stretched(&tangent), None)
+        let direction = frame.stretched(&tangent);
+        self.station(&place, &system, equilibrium, &direction, None)
     }
 }
 
@@ -135,6 +136,12 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
         }
     }
 
+    /// Whether the determinant of `Khat`, and where it is symmetric every eigenvalue, is positive.
+    pub(crate) fn stiff(&self) -> bool {
+        self.signs.falling == self.signs.crossed
+            && self.signs.negative.is_none_or(|count| count == 0)
+    }
+
     /// Tangent in SI units.
     pub(crate) fn direction(&self) -> Place<N> {
         self.frame.stretched(&self.tangent)
@@ -149,7 +156,9 @@ fn negative<const N: usize>(linear: &Linear<f64, N>, description: &Description) 
     if Cholesky::new(&linear.stiffness).is_ok() {
         return Some(0);
     }
-    let lambda = symmetric::solve(&linear.stiffness, &linear.mass).ok()?.lambda;
+    let lambda = symmetric::solve(&linear.stiffness, &linear.mass)
+        .ok()?
+        .lambda;
     Some(lambda.iter().filter(|&&value| value < 0.0).count())
 }
 

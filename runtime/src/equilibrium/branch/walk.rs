@@ -98,7 +98,7 @@ where
                         return walk;
                     }
                 }
-                if located.ends_arm || stop(&special, &at) {
+                if stop(&special, &at) || located.ends_arm {
                     walk.end = BranchEnd::BranchPoint;
                     return walk;
                 }
@@ -199,15 +199,17 @@ where
         })
     }
 
-    fn arrive(
+    pub(super) fn arrive(
         &self,
         corrected: &Corrected<N>,
         towards: &Place<N>,
         before: Option<&Station<N, U, P>>,
     ) -> Result<Station<N, U, P>, Trouble<N>> {
         let place = &corrected.place;
-        let equilibrium = self.equilibrium(place, corrected.residual, corrected.iterations)?;
-        self.station(place, equilibrium, towards, before.map(|station| &station.signs))
+        let system = &corrected.system;
+        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let before = before.map(|station| &station.signs);
+        self.station(place, system, equilibrium, towards, before)
     }
 
     fn inside(&self, p: f64) -> bool {
@@ -266,7 +268,9 @@ where
         });
         let share = target.p / outside.local.p;
         if !(0.0..=1.0).contains(&share) {
-            return Err(Trouble::Missed("the end of the range is not between the points"));
+            return Err(Trouble::Missed(
+                "the end of the range is not between the points",
+            ));
         }
         let from = outside.local.scaled(share);
         let input = Place {
@@ -275,7 +279,7 @@ where
         };
         let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
         landed.place.p = bound;
-        landed.residual = self.system(&landed.place)?.residual;
+        landed.system = self.system(&landed.place)?;
         Ok(landed)
     }
 
@@ -294,11 +298,7 @@ where
             .is_ok_and(|found| found.local.plus(-1.0, &target).norm() <= SAME)
     }
 
-    pub(super) fn broken_off(
-        &self,
-        trouble: Trouble<N>,
-        at: &Equilibrium<N, U, P>,
-    ) -> BranchEnd {
+    pub(crate) fn broken_off(&self, trouble: Trouble<N>, at: &Equilibrium<N, U, P>) -> BranchEnd {
         let name = Self::DESCRIPTION.name;
         match trouble {
             Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
