@@ -45,13 +45,13 @@ macro_rules! law {
             fn applied<T: Real>(
                 &self,
                 _: &[T; $n],
-                $q: &[T; $n],
-                $u: &[T; 1],
-                $b: &[T; $p],
+                q: &[T; $n],
+                u: &[T; 1],
+                b: &[T; $p],
             ) -> [T; $n] {
-                let $u = $u[0];
-                #[allow(unused_variables)]
+                let ($q, $u, $b) = (q, u[0], b);
                 let $c = T::constant;
+                let _ = ($q, $u, $b, $c);
                 let g: [T; $n] = $force;
                 g.map(|value| -value)
             }
@@ -112,8 +112,8 @@ law!(
 );
 
 law!(
-    /// A non-symmetric `Khat` whose determinant vanishes at `u = k^2 / (2 k + 2)`, with a cubic spring at the first joint: the
-    /// second equation `k (q2 - q1) - u q2` binds `q2 = k q1 / (k - u)`.
+    /// A non-symmetric `Khat` with a cubic spring at the first joint: `det Khat = k^2 - 6 k u + u^2` at `q = 0`, zero at
+    /// `u = k (3 -+ 8^(1/2))`; on the arms `q2 = k q1 / (k - u)`.
     Lopsided, 2, 1, symmetric: false, RAD, ["k" = 1.0],
     |q, u, b, c| [
         b[0] * (q[0] + q[0] - q[1]) - u * (q[0] + c(3.0) * q[1]) + q[0] * q[0] * q[0],
@@ -128,22 +128,37 @@ law!(
 );
 
 law!(
-    /// `ln(2 - u) + q`: runs to infinity very slowly; `(1 - u) q - 1` runs there as `1 / (1 - u)`.
+    /// `(1 - u) q - 1`: runs to infinity at `u = 1`.
     Away, 1, 0, symmetric: true, METRE, [],
     |q, u, b, c| [(c(1.0) - u) * q[0] - c(1.0)]
 );
 
 law!(
-    /// An isola: `q1^2 + (u - 1)^2 - r^2`, a circle; one coordinate.
-    Isola, 1, 1, symmetric: true, METRE, ["r" = 0.5],
-    |q, u, b, c| [q[0] * q[0] + (u - c(1.0)) * (u - c(1.0)) - b[0] * b[0]]
+    /// `(q - d) (q^2 + (u - 1)^2 - r^2)`: a line through a circle.
+    Ring, 1, 2, symmetric: true, METRE, ["d" = 0.2, "r" = 0.5],
+    |q, u, b, c| {
+        let w = u - c(1.0);
+        [(q[0] - b[0]) * (q[0] * q[0] + w * w - b[1] * b[1])]
+    }
+);
+
+law!(
+    /// Snap-through with a lopsided coupling, `q1 = q0/2`: `q0^3 - (1 - k/2) q0 + u`.
+    LopsidedSnap, 2, 1, symmetric: false, METRE, ["k" = 0.2],
+    |q, u, b, c| [
+        q[0] * q[0] * q[0] - q[0] + b[0] * q[1] + u,
+        q[1] - c(0.5) * q[0]
+    ]
+);
+
+law!(
+    /// Nothing resists and nothing drives it.
+    Free, 1, 0, symmetric: true, METRE, [],
+    |q, u, b, c| [c(0.0) * q[0] * u]
 );
 
 law!(
     /// No coordinate at all.
     Nothing, 0, 0, symmetric: true, METRE, [],
-    |q, u, b, c| {
-        let _ = u;
-        *q
-    }
+    |q, u, b, c| *q
 );

@@ -257,12 +257,7 @@ where
         };
         let at = |junction: &Junction<N, U, P>, direction: &Place<N>| {
             let direction = junction.frame.stretched(direction);
-            Some(BranchPoint {
-                value: junction.special.value,
-                equilibrium: junction.special.equilibrium,
-                tangent: direction.q,
-                input_tangent: direction.p,
-            })
+            Some(self.special_point(&junction.special, &direction))
         };
         let (mut branch, junctions, place) = match lead {
             Lead::Start(station) => {

@@ -101,6 +101,6 @@ pub(super) fn beside<const N: usize>(local: &Place<N>, end: &Place<N>) -> bool {
     let length = end.norm();
     let along = local.dot(end) / length;
     let across = local.plus(-along / length, end).norm();
-    let slack = 0.01 * length;
+    let slack = 1e-6 * length;
     along >= -slack && along <= length + slack && across <= 0.5 * length
 }

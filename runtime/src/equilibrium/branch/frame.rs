@@ -49,6 +49,18 @@ impl<const N: usize> Place<N> {
         all_finite(&self.q) && self.p.is_finite()
     }
 
+    /// Length in these units.
+    pub(crate) fn length_in(&self, units: &Self) -> f64 {
+        self.per(units).norm()
+    }
+
+    fn per(&self, units: &Self) -> Self {
+        Self {
+            q: core::array::from_fn(|i| self.q[i] / units.q[i]),
+            p: self.p / units.p,
+        }
+    }
+
     fn by(&self, units: &Self) -> Self {
         Self {
             q: core::array::from_fn(|i| self.q[i] * units.q[i]),
@@ -75,10 +87,7 @@ pub(crate) struct Frame<const N: usize> {
 
 impl<const N: usize> Frame<N> {
     pub(crate) fn new(origin: Place<N>, size: f64, range: f64, system: &System<N>) -> Self {
-        let units = Place {
-            q: origin.q.map(|value| size + value.abs()),
-            p: range,
-        };
+        let units = units(&origin, size, range);
         let rows = core::array::from_fn(|i| {
             let row: [f64; N] = core::array::from_fn(|j| system.stiffness[i][j] * units.q[j]);
             let most = largest(&row).max((system.by_input[i] * range).abs());
@@ -105,10 +114,7 @@ impl<const N: usize> Frame<N> {
 
     /// A direction in local coordinates.
     pub(crate) fn direction(&self, direction: &Place<N>) -> Place<N> {
-        Place {
-            q: core::array::from_fn(|i| direction.q[i] / self.units.q[i]),
-            p: direction.p / self.units.p,
-        }
+        direction.per(&self.units)
     }
 
     /// A local direction in SI units; a gradient in SI units by local coordinates.
@@ -129,5 +135,13 @@ impl<const N: usize> Frame<N> {
             }),
             by_input: core::array::from_fn(|i| system.by_input[i] * self.units.p / self.rows[i]),
         }
+    }
+}
+
+/// Units of coordinates and input at a place.
+pub(crate) fn units<const N: usize>(place: &Place<N>, size: f64, range: f64) -> Place<N> {
+    Place {
+        q: place.q.map(|value| size + value.abs()),
+        p: range,
     }
 }

@@ -24,6 +24,7 @@ pub use settings::Continuation;
 pub use special::{SpecialKind, SpecialPoint};
 pub(crate) use station::Station;
 
+use super::multistart::turned;
 use super::{Equilibrium, Stability};
 use crate::{Description, Error, Input};
 
@@ -148,17 +149,19 @@ impl<const N: usize, const U: usize, const P: usize> Branches<N, U, P> {
         self.branches.iter().flat_map(stretches)
     }
 
-    /// Every special point once.
+    /// Every special point once, those that differ by full turns of an angle counting as one.
     pub fn special(&self) -> Vec<&SpecialPoint<N, U, P>> {
+        let values = self.branches.iter().flat_map(|branch| &branch.points);
+        let size = values.fold(0.0, |most: f64, point| most.max(point.value.abs()));
         let mut all: Vec<&SpecialPoint<N, U, P>> = Vec::new();
         for special in self.branches.iter().flat_map(|branch| &branch.special) {
-            let q = &special.equilibrium.coordinates;
-            let close = |x: f64, y: f64| (x - y).abs() <= 1e-7 * (1.0 + x.abs());
-            let known = all.iter().any(|known| {
-                let pairs = known.equilibrium.coordinates.iter().zip(q);
-                close(known.value, special.value) && pairs.into_iter().all(|(&x, &y)| close(x, y))
-            });
-            if !known {
+            let at = &special.equilibrium;
+            let known = |other: &&SpecialPoint<N, U, P>| {
+                let there = &other.equilibrium.coordinates;
+                (other.value - special.value).abs() <= 1e-10 * size
+                    && turned(there, &at.coordinates, at.description).is_some()
+            };
+            if !all.iter().any(known) {
                 all.push(special);
             }
         }

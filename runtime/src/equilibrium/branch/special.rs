@@ -78,6 +78,11 @@ where
         zero: usize,
         also: Option<f64>,
     ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
+        let (least, most) = self.settings.bounds();
+        let place = &Place {
+            p: place.p.clamp(least, most),
+            ..*place
+        };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
         let (v, w) = normalised(&equilibrium.linear, v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;

@@ -2,7 +2,7 @@
 
 use super::super::Failure;
 use super::curve::{Corrected, Curve, Trouble};
-use super::frame::Place;
+use super::frame::{Place, units};
 use super::special::{Junction, Located, SpecialPoint, at_critical};
 use super::station::{Station, VERTICAL};
 use super::{BranchEnd, BranchPoint};
@@ -13,6 +13,11 @@ use crate::{Equilibrium, Error, Mechanism};
 const STRAIGHT: f64 = 0.9;
 /// Greatest distance of a point from the tangent, relative to the step.
 const BEND: f64 = 0.3;
+/// First steps away from a branch point, as shares of the greatest step: small, so that nothing lies within, where that
+/// can be told from rounding.
+const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
+/// Share of the range by which a branch along one of its ends may stray by rounding.
+const STRAY: f64 = 1e-9;
 /// Local distance at which two places are the same.
 pub(super) const SAME: f64 = 1e-7;
 
@@ -83,12 +88,8 @@ where
             };
             for located in step.located {
                 let special = located.special;
-                walk.points.push(BranchPoint {
-                    value: special.value,
-                    equilibrium: special.equilibrium,
-                    tangent: located.direction.q,
-                    input_tangent: located.direction.p,
-                });
+                walk.points
+                    .push(self.special_point(&special, &located.direction));
                 walk.special.push(special);
                 if let Some(junction) = located.junction {
                     walk.junctions.push((junction, located.ends_arm));
@@ -135,6 +136,26 @@ where
         }
     }
 
+    /// A special point as a point of the branch that passes it in this direction (SI units).
+    pub(crate) fn special_point(
+        &self,
+        special: &SpecialPoint<N, U, P>,
+        direction: &Place<N>,
+    ) -> BranchPoint<N, U, P> {
+        let place = Place {
+            q: special.equilibrium.coordinates,
+            p: special.value,
+        };
+        let units = units(&place, self.settings.size, self.settings.range());
+        let tangent = direction.scaled(1.0 / direction.length_in(&units));
+        BranchPoint {
+            value: special.value,
+            equilibrium: special.equilibrium,
+            tangent: tangent.q,
+            input_tangent: tangent.p,
+        }
+    }
+
     /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
     /// once or cannot be followed.
     pub(crate) fn depart(
@@ -143,20 +164,16 @@ where
         direction: &Place<N>,
     ) -> Option<Station<N, U, P>> {
         let frame = &junction.frame;
-        let mut length = 0.2 * self.settings.max_step;
-        let least = self.settings.min_step.max(1e-6 * self.settings.max_step);
-        while length >= least {
+        DEPARTURES.iter().find_map(|share| {
+            let length = share * self.settings.max_step;
             let from = direction.scaled(length);
-            if let Ok(corrected) = self.correct(frame, &from, direction, BEND * length)
-                && self.inside(corrected.place.p)
-                && let Ok(station) = self.arrive(&corrected, &frame.stretched(direction), None)
-                && straight(&frame.direction(&station.direction()), direction)
-            {
-                return Some(station);
-            }
-            length *= 0.5;
-        }
-        None
+            let corrected = self.correct(frame, &from, direction, BEND * length).ok()?;
+            let towards = frame.stretched(direction);
+            let station = self.arrive(&corrected, &towards, None).ok()?;
+            let on = self.beyond(corrected.place.p).is_none()
+                && straight(&frame.direction(&station.direction()), direction);
+            on.then_some(station)
+        })
     }
 
     fn advance(
@@ -170,11 +187,21 @@ where
         let from = tangent.scaled(length);
         let mut corrected = self.correct(frame, &from, tangent, BEND * length)?;
         let mut end = None;
-        if let Some((bound, reason)) = self.beyond(corrected.place.p, at) {
-            corrected = self.land(at, &corrected, bound)?;
-            end = Some(reason);
+        if let Some(bound) = self.beyond(corrected.place.p) {
+            let stray = (corrected.place.p - bound).abs();
+            if at.signs.vertical && stray <= STRAY * self.settings.range() {
+                corrected.place.p = bound;
+                corrected.system = self.system(&corrected.place)?;
+            } else {
+                corrected = self.land(at, &corrected, bound)?;
+                end = Some(self.end_at(bound));
+            }
         }
-        let station = self.arrive(&corrected, &at.direction(), Some(at))?;
+        let mut station = self.arrive(&corrected, &at.direction(), Some(at));
+        if station.is_err() && end.is_some() {
+            station = self.arrive_singular(&corrected, at);
+        }
+        let station = station?;
         if !straight(&frame.direction(&station.direction()), tangent) {
             return Err(Trouble::Missed("the branch bends sharply"));
         }
@@ -212,9 +239,23 @@ where
         self.station(place, system, equilibrium, towards, before)
     }
 
-    fn inside(&self, p: f64) -> bool {
-        let (least, most) = self.settings.bounds();
-        (least..=most).contains(&p)
+    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
+    fn arrive_singular(
+        &self,
+        corrected: &Corrected<N>,
+        before: &Station<N, U, P>,
+    ) -> Result<Station<N, U, P>, Trouble<N>> {
+        let (place, system) = (corrected.place, &corrected.system);
+        let equilibrium = self.equilibrium(&place, system, corrected.iterations, None)?;
+        let frame = self.frame(&place, system);
+        let tangent = frame.direction(&before.direction()).unit();
+        Ok(Station {
+            place,
+            equilibrium,
+            frame,
+            tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
+            signs: before.signs,
+        })
     }
 
     fn end_at(&self, bound: f64) -> BranchEnd {
@@ -238,18 +279,13 @@ where
         }
     }
 
-    /// The end of the range that a place lies beyond; a branch along the end may stray by rounding.
-    fn beyond(&self, p: f64, at: &Station<N, U, P>) -> Option<(f64, BranchEnd)> {
+    /// The end of the range that an input lies beyond.
+    fn beyond(&self, p: f64) -> Option<f64> {
         let (least, most) = self.settings.bounds();
-        let stray = if at.signs.vertical {
-            1e-9 * self.settings.range()
-        } else {
-            0.0
-        };
-        if p < least - stray {
-            Some((least, self.end_at(least)))
-        } else if p > most + stray {
-            Some((most, self.end_at(most)))
+        if p < least {
+            Some(least)
+        } else if p > most {
+            Some(most)
         } else {
             None
         }
