@@ -303,9 +303,10 @@ where
             ..at.place
         });
         let share = target.p / outside.local.p;
-        if !(0.0..=1.0).contains(&share) {
+        // A step that turns back between the points would land on the wrong side of the turn.
+        if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
             return Err(Trouble::Missed(
-                "the end of the range is not between the points",
+                "the end of the range is not straight ahead",
             ));
         }
         let from = outside.local.scaled(share);
