@@ -3,12 +3,13 @@
 
 mod common;
 
+use common::branching::{Away, Exchange, LopsidedSnap, Quintic, Rotor, Snap};
 use common::chain::DOUBLE;
 use common::close;
 use common::derived::Derived;
-use common::models::Spring;
-use common::pendulum::Pendulum;
-use eigentol::equilibrium::{Range, critical_state, crossings, sweep};
+use common::models::{Plate, Spring};
+use common::pendulum::{Pendulum, W};
+use eigentol::equilibrium::{Range, SpecialKind, critical_state, crossings, sweep};
 use eigentol::{Error, Input, Policy};
 
 const BAR: [f64; 2] = [3.0, 1.0];
@@ -98,5 +99,104 @@ fn a_limit_point_is_found_where_the_branch_ends() {
     };
     let design = [1.0, -1.0, 1.0];
     let fold = critical_state(&Derived(Spring), &[0.0], &design, &[0.25], range).unwrap();
-    close(fold.value, 3.0 * 0.5f64.powf(2.0 / 3.0), 1e-8);
+    close(fold.value, 3.0 * 0.5f64.powf(2.0 / 3.0), 1e-13);
+    assert_eq!(fold.kind, SpecialKind::Fold);
+    close(fold.equilibrium.coordinates[0], 0.5f64.cbrt(), 1e-12);
+}
+
+fn through(low: f64, high: f64, steps: usize) -> Range {
+    Range {
+        input: Input(0),
+        low,
+        high,
+        steps,
+    }
+}
+
+#[test]
+fn critical_states_from_every_side() {
+    // From the bent branch down to the pitchfork, whatever the steps, into the range and to its very end.
+    for steps in [1, 7, 200] {
+        for low in [6.0, 4.0, W.sqrt() * (1.0 + 1e-7)] {
+            let bent = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], through(low, 0.0, steps));
+            let bent = bent.unwrap();
+            close(bent.value, W.sqrt(), 1e-13);
+            let soft = SpecialKind::Pitchfork {
+                supercritical: Some(true),
+            };
+            assert_eq!(bent.kind, soft);
+        }
+    }
+    let twice = critical_state(&DOUBLE, &[0.0], &BARS, &[1.0, 1.0], through(5.0, 0.0, 30));
+    close(twice.unwrap().value, 2.680_114_012_253_375_3, 1e-12);
+
+    let snap = critical_state(
+        &Derived(Snap),
+        &[0.0],
+        &[1.0],
+        &[2.0],
+        through(-1.0, 1.0, 10),
+    );
+    let snap = snap.unwrap();
+    close(snap.value, 2.0 / 27f64.sqrt(), 1e-14);
+    assert_eq!(snap.kind, SpecialKind::Fold);
+    let snap = critical_state(
+        &Derived(LopsidedSnap),
+        &[0.0],
+        &[0.2],
+        &[2.0, 1.0],
+        through(-1.0, 1.0, 10),
+    );
+    close(snap.unwrap().value, 2.0 * 0.3f64.powf(1.5), 1e-13);
+
+    let exchange = critical_state(
+        &Derived(Exchange),
+        &[0.0],
+        &[0.1, -0.2, 0.7],
+        &[0.1],
+        through(-1.0, 1.0, 10),
+    );
+    let exchange = exchange.unwrap();
+    close(exchange.value, 0.1 + 0.3 / 0.7, 1e-13);
+    assert_eq!(exchange.kind, SpecialKind::Transcritical);
+
+    let hard = critical_state(
+        &Derived(Quintic),
+        &[0.0],
+        &[1.0],
+        &[0.0],
+        through(0.0, 2.0, 9),
+    );
+    close(hard.unwrap().value, 1.0, 1e-13);
+
+    let both = critical_state(
+        &Derived(Rotor),
+        &[0.0],
+        &[],
+        &[0.0; 2],
+        through(0.0, 1.7, 9),
+    );
+    let both = both.unwrap();
+    close(both.value, 1.0, 1e-12);
+    assert_eq!(both.kind, SpecialKind::Degenerate);
+}
+
+#[test]
+fn a_branch_that_runs_to_infinity_is_not_critical() {
+    for (low, high) in [(0.0, 2.0), (-3.0, 1.1)] {
+        let away = critical_state(&Derived(Away), &[0.0], &[], &[0.0], through(low, high, 20));
+        assert!(matches!(away, Err(Error::NotInRange { .. })), "{away:?}");
+    }
+    let design = [0.5, 40.0, 60.0, 0.0];
+    let thrown = critical_state(
+        &Derived(Plate),
+        &[0.0],
+        &design,
+        &[0.1, 0.0],
+        through(0.0, 20.0, 50),
+    );
+    assert!(
+        matches!(thrown, Err(Error::NotInRange { .. })),
+        "{thrown:?}"
+    );
 }

@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::branching::{Exchange, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, Quintic, Snap};
 use common::chain::{Bars, DOUBLE};
 use common::close;
 use common::derived::Derived;
@@ -210,7 +211,95 @@ fn limit_point_moves_with_the_force() {
     };
     let fold = critical_state(&Derived(Spring), &[0.0], &[1.0, -1.0, 1.0], &[0.25], range).unwrap();
     let rates = critical_sensitivity(&Derived(Spring), &fold).unwrap();
-    close(rates[2], 0.5f64.powf(2.0 / 3.0) * 2.0, 1e-3);
+    close(rates[2], 0.5f64.powf(2.0 / 3.0) * 2.0, 1e-10);
+}
+
+/// Critical sensitivities against closed forms, and against differences of critical values found anew.
+fn moves<M, const N: usize, const P: usize>(
+    machine: M,
+    b: [f64; P],
+    start: [f64; N],
+    (low, high): (f64, f64),
+    expected: [f64; P],
+) where
+    M: Mechanism<N, 1, P, 0>,
+{
+    let range = Range {
+        input: Input(0),
+        low,
+        high,
+        steps: 20,
+    };
+    let at = |b: &[f64; P]| critical_state(&machine, &[0.0], b, &start, range).unwrap();
+    let rates = critical_sensitivity(&machine, &at(&b)).unwrap();
+    for j in 0..P {
+        assert!(
+            (rates[j] - expected[j]).abs() < 1e-10 * (1.0 + expected[j].abs()),
+            "{j}: {} {}",
+            rates[j],
+            expected[j]
+        );
+        let (mut up, mut down) = (b, b);
+        up[j] += 1e-4;
+        down[j] -= 1e-4;
+        let slope = (at(&up).value - at(&down).value) / (up[j] - down[j]);
+        assert!((rates[j] - slope).abs() < 1e-6, "{j}: {} {slope}", rates[j]);
+    }
+}
+
+#[test]
+fn critical_values_move_as_their_closed_forms_do() {
+    let root = (1.3 / 3.0f64).sqrt();
+    moves(Derived(Snap), [1.3], [2.0], (-1.0, 2.0), [root]);
+    // 2 (a/3)^(3/2) with a = 1 - k/2.
+    let root = ((1.0 - 0.1) / 3.0f64).sqrt();
+    moves(
+        Derived(LopsidedSnap),
+        [0.2],
+        [2.0, 1.0],
+        (-1.0, 2.0),
+        [-0.5 * root],
+    );
+    let (d, e, s) = (0.1, -0.2, 0.7);
+    moves(
+        Derived(Exchange),
+        [d, e, s],
+        [d],
+        (-1.0, 1.0),
+        [1.0 + 1.0 / s, -1.0 / s, -(d - e) / (s * s)],
+    );
+    moves(Derived(Quintic), [1.2], [0.0], (0.0, 2.0), [1.0]);
+    // The determinant of the lopsided mechanism is negative from k (3 - 8^(1/2)) on.
+    moves(
+        Derived(Lopsided),
+        [1.1],
+        [0.0; 2],
+        (0.01, 1.0),
+        [3.0 - 8f64.sqrt()],
+    );
+}
+
+#[test]
+fn what_destroys_a_bifurcation_has_no_derivative() {
+    let range = Range {
+        input: Input(0),
+        low: -1.0,
+        high: 1.0,
+        steps: 20,
+    };
+    let perfect = [0.0, 0.1];
+    let critical = critical_state(&Derived(Imperfect), &[0.0], &perfect, &[0.0], range).unwrap();
+    close(critical.value, 0.1, 1e-13);
+    assert!(matches!(
+        critical_sensitivity(&Derived(Imperfect), &critical),
+        Err(Error::NoSensitivity { .. })
+    ));
+    let range = Range { high: 1.9, ..range };
+    let both = critical_state(&Derived(NearlyTwo), &[0.0], &[0.0], &[0.0; 2], range).unwrap();
+    assert!(matches!(
+        critical_sensitivity(&Derived(NearlyTwo), &both),
+        Err(Error::ClusteredMode { .. })
+    ));
 }
 
 #[test]

@@ -1,33 +1,43 @@
 //! Values of an input where stiffness vanishes on a branch of equilibria: critical speeds.
 
+use super::branch::{BranchEnd, Continuation, Curve, SpecialKind, SpecialPoint, Station};
 use super::range::Range;
-use super::root::{Bracket, refine};
 use super::{Policy, equilibrium};
-use crate::modes::undamped_modes;
-use crate::{Equilibrium, Error, Input, Mechanism, Modes};
+use crate::{Equilibrium, Error, Input, Mechanism};
 
-/// A state where the lowest `lambda` is zero.
+/// A state where `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CriticalState<const N: usize, const U: usize, const P: usize> {
     /// The input that was varied.
     pub input: Input,
     /// Its critical value, SI.
     pub value: f64,
-    /// The equilibrium there, on the branch that is stable below.
+    /// What happens to the branch there.
+    pub kind: SpecialKind,
+    /// The equilibrium there, on the branch that is stable below; its critical mode counts as neutral.
     pub equilibrium: Equilibrium<N, U, P>,
-    /// The modes there, ascending: the first is the critical one.
-    pub modes: Modes<N>,
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    pub v: [f64; N],
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    pub w: [f64; N],
 }
 
-type State<const N: usize, const U: usize, const P: usize> = (Equilibrium<N, U, P>, Modes<N>);
+/// Least and greatest step of the continuation, whatever the number of steps that is asked for.
+const FINEST_STEP: f64 = 1e-4;
+const COARSEST_STEP: f64 = 0.05;
+/// Most points of the continuation.
+const MOST_POINTS: usize = 50_000;
 
-/// Finds the first value of an input at which the branch that is stable at `range.low` loses its stiffness.
+/// Finds the first value of an input at which the branch that is stable at `range.low` loses its stiffness: a limit
+/// point or a branch point, located to rounding.
 ///
-/// The branch itself is followed, also where a neighbouring one is the stable one, so that the answer at a
-/// bifurcation is the bifurcation. At a limit point, where the branch ends, the value is good to about 1e-9.
+/// The branch itself is followed, by continuation with steps of at most the `steps`-th part of the range, also where a
+/// neighbouring one is the stable one. A branch that runs to infinity is not critical. A non-symmetric `Khat` is critical
+/// where its determinant changes sign.
 ///
 /// # Errors
-/// [`Error::NotInRange`] when the branch keeps its stiffness; otherwise as [`equilibrium`] and [`modes`].
+/// [`Error::NotInRange`] when the branch keeps its stiffness; where it cannot be followed so far, the reason;
+/// otherwise as [`equilibrium`].
 pub fn critical_state<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     u: &[f64; U],
@@ -39,55 +49,49 @@ where
     M: Mechanism<N, U, P, O>,
 {
     range.check::<U>(M::DESCRIPTION.name)?;
-    let solve = |value: f64, from: &[f64; N], policy: Policy| -> Result<State<N, U, P>, Error> {
-        let mut inputs = *u;
-        inputs[range.input.0] = value;
-        let state = equilibrium(mechanism, &inputs, b, from, policy)?;
-        let found = undamped_modes(&state)?;
-        Ok((state, found))
+    let settings = Continuation {
+        max_step: (1.0 / range.steps as f64).clamp(FINEST_STEP, COARSEST_STEP),
+        max_points: MOST_POINTS,
+        ..Continuation::new(range.input, range.low, range.high)
     };
-    let lowest = |state: &State<N, U, P>| state.1.modes.first().map_or(0.0, |mode| mode.lambda);
-    let mut last = solve(range.low, start, Policy::Stable)?;
-    let mut last_value = range.low;
-    for value in range.steps() {
-        let next = solve(value, &last.0.coordinates, Policy::Nearest);
-        let at_next = match &next {
-            Ok(state) => lowest(state),
-            Err(Error::NoEquilibrium { .. }) => -lowest(&last),
-            Err(error) => return Err(error.clone()),
-        };
-        if lowest(&last) >= 0.0 && at_next < 0.0 {
-            let bracket = Bracket {
-                low: last_value,
-                high: value,
-                at_low: lowest(&last),
-                at_high: at_next,
-            };
-            let mut from = last.0.coordinates;
-            let critical = refine(bracket, |trial| {
-                let state = solve(trial, &from, Policy::Nearest).ok()?;
-                if lowest(&state) > 0.0 {
-                    from = state.0.coordinates;
+    settings.check::<U>(M::DESCRIPTION.name)?;
+    let curve = Curve {
+        mechanism,
+        inputs: u,
+        design: b,
+        settings: &settings,
+    };
+    let inputs = curve.inputs_at(range.low);
+    let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
+    let mut found = None;
+    let end = match curve.begin(state) {
+        Ok(station) => {
+            let stop = |special: &SpecialPoint<N, U, P>, before: &Station<N, U, P>| {
+                if before.stiff() {
+                    found = Some(*special);
                 }
-                Some((lowest(&state), None))
-            });
-            let (state, found) = solve(critical, &from, Policy::Nearest).unwrap_or(last);
-            let value = state.inputs[range.input.0];
-            return Ok(CriticalState {
-                input: range.input,
-                value,
-                equilibrium: state,
-                modes: found,
-            });
+                found.is_some()
+            };
+            curve.walk(&station, &station.place, stop).end
         }
-        last = next?;
-        last_value = value;
+        Err(trouble) => curve.broken_off(trouble, &state),
+    };
+    match (found, end) {
+        (Some(special), _) => Ok(CriticalState {
+            input: range.input,
+            value: special.value,
+            kind: special.kind,
+            equilibrium: special.equilibrium,
+            v: special.v,
+            w: special.w,
+        }),
+        (None, BranchEnd::Domain(error) | BranchEnd::Lost(error)) => Err(error),
+        (None, _) => Err(not_in_range(
+            "critical value",
+            M::DESCRIPTION.inputs,
+            &range,
+        )),
     }
-    Err(not_in_range(
-        "critical value",
-        M::DESCRIPTION.inputs,
-        &range,
-    ))
 }
 
 fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {

@@ -1,5 +1,6 @@
 //! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
 
+pub(crate) mod branch;
 mod convergence;
 mod critical;
 mod crossing;
@@ -13,6 +14,10 @@ mod stability;
 mod sweep;
 mod track;
 
+pub use branch::{
+    Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch,
+    branches,
+};
 pub use critical::{CriticalState, critical_state};
 pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};

@@ -61,16 +61,36 @@ where
     Ok(found)
 }
 
+const CLOSE: f64 = 1e-6;
+
 fn same<const N: usize, const U: usize, const P: usize>(
     a: &Equilibrium<N, U, P>,
     b: &Equilibrium<N, U, P>,
     description: &Description,
 ) -> bool {
-    const CLOSE: f64 = 1e-6;
+    let Some(turned) = turned(&a.coordinates, &b.coordinates, description) else {
+        return false;
+    };
+    let (k_a, k_b) = (&a.linear.stiffness, &b.linear.stiffness);
+    let scale = CLOSE * crate::array::largest_element(k_a);
+    !turned
+        || k_a
+            .iter()
+            .flatten()
+            .zip(k_b.iter().flatten())
+            .all(|(x, y)| (x - y).abs() <= scale)
+}
+
+/// Whether full turns of angles lie between two states; `None` when something else does.
+pub(super) fn turned<const N: usize>(
+    a: &[f64; N],
+    b: &[f64; N],
+    description: &Description,
+) -> Option<bool> {
     let mut turned = false;
     for i in 0..N {
-        let difference = (a.coordinates[i] - b.coordinates[i]).abs();
-        let scale = CLOSE * (1.0 + a.coordinates[i].abs());
+        let difference = (a[i] - b[i]).abs();
+        let scale = CLOSE * (1.0 + a[i].abs());
         if difference <= scale {
             continue;
         }
@@ -80,16 +100,9 @@ fn same<const N: usize, const U: usize, const P: usize>(
             .is_some_and(|info| info.unit.symbol == "rad");
         let turns = difference / core::f64::consts::TAU;
         if !angle || (turns - turns.round()).abs() > scale {
-            return false;
+            return None;
         }
         turned = true;
     }
-    let (k_a, k_b) = (&a.linear.stiffness, &b.linear.stiffness);
-    let scale = CLOSE * crate::array::largest_element(k_a);
-    !turned
-        || k_a
-            .iter()
-            .flatten()
-            .zip(k_b.iter().flatten())
-            .all(|(x, y)| (x - y).abs() <= scale)
+    Some(turned)
 }

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::branches::critical_vectors;
 use super::table::{Table, cells, heading, in_unit, number};
 use crate::equilibrium::{Condition, CriticalState, Crossing};
 use crate::{Equilibrium, Stability};
@@ -99,11 +100,12 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for CriticalSt
             let value = in_unit(self.value, info.unit);
             writeln!(
                 f,
-                "{}: critical at {} = {value} {}",
-                d.name, info.name, info.unit.symbol
+                "{}: critical at {} = {value} {}, {}",
+                d.name, info.name, info.unit.symbol, self.kind
             )?;
         }
-        write!(f, "{}{}", self.equilibrium, self.modes)
+        write!(f, "{}", self.equilibrium)?;
+        critical_vectors(f, d, &self.v, &self.w)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Results as text: every result type prints itself as an aligned table with names and units.
 
+mod branches;
 mod campbell;
 mod equilibrium;
 mod margin;

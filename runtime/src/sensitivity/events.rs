@@ -2,10 +2,10 @@
 
 use super::sensitivities;
 use super::shift::outside_domain;
-use crate::array::{Lu, Square, add_scaled, all_finite, dot, largest, times, transpose};
-use crate::equilibrium::{CriticalState, Crossing};
-use crate::modes::clusters;
-use crate::{Equilibrium, Error, Mechanism};
+use crate::array::{all_finite, dot, largest, times, transpose};
+use crate::equilibrium::branch::Bordered;
+use crate::equilibrium::{CriticalState, Crossing, SpecialKind};
+use crate::{Equilibrium, Error, Gradient, Mechanism};
 
 /// `du_c/db` of a crossing: of `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, of an onset of flutter
 /// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable.
@@ -63,17 +63,18 @@ fn finite<const N: usize, const U: usize, const P: usize>(
 /// Parts of the residual along the critical mode below this fraction of what a unit of motion there does count as zero.
 const UNFORCED: f64 = 1e-6;
 
-/// `du_c/db` of a critical value, where `Khat` is singular and the ordinary formulas fail.
+/// `du_c/db` of a critical value, where `Khat` is singular and the ordinary formulas fail; `v`, `w` the critical vectors.
 ///
-/// - At a limit point, where the input pushes along the critical mode (`phi^T dg/du` not zero):
-///   `-(phi^T dg/db) / (phi^T dg/du)`.
-/// - At a bifurcation, where neither input nor design does: `-(dlambda/db) / (dlambda/du)` along the branch, with the
-///   shift solved in the complement of the critical mode.
+/// - At a limit point, where the input pushes along the critical mode: `-(w^T dg/db) / (w^T dg/du)`.
+/// - At a branch point, where neither input nor design does, the crossing of the branches moves: with the null vectors
+///   `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement,
+///   `H (dxi, du) = -w^T (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this is
+///   the ratio of the slopes of the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
 ///
 /// # Errors
-/// [`Error::NoSensitivity`] when a design variable pushes along the mode at a bifurcation (it destroys the bifurcation:
-/// its effect is not differentiable) or `lambda` does not depend on the input; [`Error::ClusteredMode`];
-/// [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::NoSensitivity`] when a design variable pushes along the mode at a branch point (it destroys the crossing:
+/// its effect is not differentiable) or the branches do not cross; [`Error::ClusteredMode`] where several modes are
+/// critical at once; [`Error::OutsideDomain`] when a derivative is not finite.
 pub fn critical_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     critical: &CriticalState<N, U, P>,
@@ -82,83 +83,115 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let at = &critical.equilibrium;
-    let Some(mode) = critical.modes.modes.first() else {
-        return Err(Error::NoSensitivity {
-            reason: "there is no mode",
-        });
-    };
-    if critical.input.0 >= U {
+    let input = critical.input.0;
+    if input >= U {
         return Err(Error::NoSensitivity {
             reason: "there is no such input",
         });
     }
-    if clusters(&critical.modes, 1e-6)[0] {
-        return Err(Error::ClusteredMode { mode: 0 });
-    }
-    let phi = &mode.real_shape();
-    let direct = mechanism.mode_gradient(&at.coordinates, &at.inputs, &at.design, phi, mode.lambda);
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
-    let weighted = times(&at.linear.mass, phi);
-    let deflated = Deflated::new(&critical.modes, &at.linear.stiffness, &weighted)?;
-    let force_input: [f64; N] = by_input.map(|row| row[critical.input.0]);
+    let force_input: [f64; N] = by_input.map(|row| row[input]);
     let forces_design: [[f64; N]; P] = transpose(&by_design);
-    let rate = |explicit: f64, force: &[f64; N]| {
-        explicit + dot(&direct.coordinates, &deflated.shift(phi, &weighted, force))
-    };
-    let lambda_u = rate(direct.inputs[critical.input.0], &force_input);
-    let motion = 1.0 / largest(phi);
-    let push_u = dot(phi, &force_input);
-    if push_u.abs() > UNFORCED * lambda_u.abs() * motion {
-        return finite(forces_design.map(|force| -dot(phi, &force) / push_u), at);
-    }
-    if lambda_u == 0.0 {
-        return Err(Error::NoSensitivity {
-            reason: "the stiffness does not depend on the input",
-        });
-    }
-    let mut result = [0.0; P];
-    for (j, force) in forces_design.iter().enumerate() {
-        let lambda_b = rate(direct.design[j], force);
-        let share = (critical.value / at.design[j]).abs();
-        let scale = lambda_b.abs() + lambda_u.abs() * if share.is_finite() { share } else { 0.0 };
-        if dot(phi, force).abs() > UNFORCED * scale * motion {
-            let reason =
-                "a design variable pushes along the critical mode and destroys the bifurcation";
-            return Err(Error::NoSensitivity { reason });
+    match critical.kind {
+        SpecialKind::Degenerate => Err(Error::ClusteredMode { mode: 0 }),
+        SpecialKind::Fold => {
+            let push = dot(&critical.w, &force_input);
+            finite(
+                forces_design.map(|force| -dot(&critical.w, &force) / push),
+                at,
+            )
         }
-        result[j] = -lambda_b / lambda_u;
+        SpecialKind::Pitchfork { .. } | SpecialKind::Transcritical => {
+            Crossed::new(mechanism, critical, &force_input)?.shifts(critical, &forces_design)
+        }
     }
-    finite(result, at)
 }
 
-/// `Khat` with the critical mode stiffened, so that it can be inverted in the complement of that mode.
-struct Deflated<const N: usize> {
-    factors: Lu<f64, N>,
+/// The neighbourhood of a branch point.
+struct Crossed<const N: usize, const P: usize> {
+    /// `Khat` bordered by the critical vectors.
+    factors: Bordered<N, 1>,
+    /// `w^T g''(x_i, .)` by coordinate and by design variable.
+    second: [([f64; N], [f64; P]); 2],
+    /// `H`.
+    hessian: [[f64; 2]; 2],
 }
 
-impl<const N: usize> Deflated<N> {
-    fn new(
-        modes: &crate::Modes<N>,
-        stiffness: &Square<N>,
-        weighted: &[f64; N],
-    ) -> Result<Self, Error> {
-        let most = modes
-            .modes
-            .iter()
-            .fold(0.0, |most: f64, mode| most.max(mode.lambda.abs()));
-        let added = if N > 1 && most > 0.0 { most } else { 1.0 };
-        let matrix: Square<N> = core::array::from_fn(|i| {
-            core::array::from_fn(|j| stiffness[i][j] + added * weighted[i] * weighted[j])
-        });
-        Lu::new(&matrix)
-            .map(|factors| Self { factors })
-            .ok_or(Error::CriticalState)
+impl<const N: usize, const P: usize> Crossed<N, P> {
+    fn new<M, const U: usize, const O: usize>(
+        mechanism: &M,
+        critical: &CriticalState<N, U, P>,
+        force_input: &[f64; N],
+    ) -> Result<Self, Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let at = &critical.equilibrium;
+        let column = times(&at.linear.mass, &critical.v);
+        let factors = Bordered::new(&at.linear.stiffness, [&column], [&column], [[0.0]])
+            .ok_or(Error::ClusteredMode { mode: 0 })?;
+        let (along, _) = factors.solve(&force_input.map(|value| -value), [0.0]);
+        let unit =
+            |share: f64| core::array::from_fn(|j| if j == critical.input.0 { share } else { 0.0 });
+        let bend = |dq: &[f64; N], du: &[f64; U]| {
+            mechanism.residual_gradient_along(
+                &at.coordinates,
+                &at.inputs,
+                &at.design,
+                &critical.w,
+                dq,
+                du,
+                &[0.0; P],
+                &[0.0; N],
+            )
+        };
+        let by_v = bend(&critical.v, &unit(0.0));
+        let by_along = bend(&along, &unit(1.0));
+        let row = |bend: &Gradient<f64, N, U, P>| {
+            let input = bend.inputs[critical.input.0];
+            [
+                dot(&bend.coordinates, &critical.v),
+                dot(&bend.coordinates, &along) + input,
+            ]
+        };
+        Ok(Self {
+            factors,
+            hessian: [row(&by_v), row(&by_along)],
+            second: [by_v, by_along].map(|bend| (bend.coordinates, bend.design)),
+        })
     }
 
-    /// Shift by `force`, without its part along the mode.
-    fn shift(&self, phi: &[f64; N], weighted: &[f64; N], force: &[f64; N]) -> [f64; N] {
-        let rest = add_scaled(force, -dot(phi, force), weighted);
-        self.factors.solve(&rest).map(|value| -value)
+    fn shifts<const U: usize>(
+        &self,
+        critical: &CriticalState<N, U, P>,
+        forces: &[[f64; N]; P],
+    ) -> Result<[f64; P], Error> {
+        let at = &critical.equilibrium;
+        let [[a, b], [c, d]] = self.hessian;
+        let det = a * d - b * c;
+        if det.is_nan() || det.abs() <= 1e-12 * b * b {
+            return Err(Error::NoSensitivity {
+                reason: "the stiffness does not depend on the input",
+            });
+        }
+        let motion = 1.0 / largest(&critical.v);
+        let mut result = [0.0; P];
+        for (j, force) in forces.iter().enumerate() {
+            let (shift, _) = self.factors.solve(&force.map(|value| -value), [0.0]);
+            let rates = self
+                .second
+                .each_ref()
+                .map(|(coordinates, design)| dot(coordinates, &shift) + design[j]);
+            let share = (critical.value / at.design[j]).abs();
+            let scale = rates[0].abs() + b.abs() * if share.is_finite() { share } else { 0.0 };
+            if dot(&critical.w, force).abs() > UNFORCED * scale * motion {
+                return Err(Error::NoSensitivity {
+                    reason: "a design variable pushes along the critical mode and destroys the bifurcation",
+                });
+            }
+            result[j] = (c * rates[0] - a * rates[1]) / det;
+        }
+        finite(result, at)
     }
 }

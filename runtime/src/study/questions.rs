@@ -3,7 +3,8 @@
 use super::Study;
 use crate::campbell::{self, Campbell};
 use crate::equilibrium::{
-    self, CriticalState, Crossing, Equilibrium, Line, Range, Search, SweepPoint,
+    self, Branches, Continuation, CriticalState, Crossing, Equilibrium, Line, Range, Search,
+    SweepPoint,
 };
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
@@ -284,6 +285,34 @@ where
             self.following(),
             input,
             values,
+        )
+    }
+
+    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches(&self, input: Input, low: f64, high: f64) -> Result<Branches<N, U, P>, Error> {
+        self.branches_with(&Continuation::new(input, low, high), None)
+    }
+
+    /// As [`Study::branches`], with other settings and with starts from many places.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches_with(
+        &self,
+        settings: &Continuation,
+        search: Option<&Search<N>>,
+    ) -> Result<Branches<N, U, P>, Error> {
+        self.ready()?;
+        equilibrium::branches(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            settings,
+            search,
         )
     }
 

@@ -1,6 +1,7 @@
 //! Mechanisms written by hand, independent of the compiler.
 #![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
 
+pub mod branching;
 pub mod chain;
 pub mod derived;
 pub mod dual;

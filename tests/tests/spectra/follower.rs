@@ -76,6 +76,9 @@ fn damping_destabilises() {
     let growing = found.modes.iter().find(|mode| mode.behaviour.grows());
     let growing = growing.expect("flutter");
     assert!(matches!(growing.behaviour, Behaviour::Flutter(_)));
-    close(growing.damping_ratio().expect("one"), -growing.s.re / growing.s.norm());
+    close(
+        growing.damping_ratio().expect("one"),
+        -growing.s.re / growing.s.norm(),
+    );
     assert!(growing.damping_ratio().expect("one") < 0.0);
 }

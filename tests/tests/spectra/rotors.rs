@@ -187,7 +187,11 @@ fn the_campbell_diagram_of_the_disk() {
             .collect();
         assert_eq!(senses.len(), values.len() - 1);
         assert!(senses.iter().all(|sense| sense == &senses[0]));
-        let sign = if senses[0] == Sense::Forward { 1.0 } else { -1.0 };
+        let sign = if senses[0] == Sense::Forward {
+            1.0
+        } else {
+            -1.0
+        };
         for (speed, mode) in &branch[1..] {
             let half = 0.5 * speed * ip / it;
             let root = (half * half + k / it).sqrt();

@@ -1,0 +1,288 @@
+//! Branch points, where two branches cross.
+//!
+//! About a branch point the equations reduce to one scalar of two variables (Lyapunov and Schmidt): on
+//! `g(x) + mu c = 0`, `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the lines `mu(xi, eta) = 0`, and they
+//! cross where `mu` has a saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the
+//! second derivatives give the directions of both branches (algebraic branching equation).
+
+use super::super::convergence::ACCEPTED;
+use super::bordered::Bordered;
+use super::curve::{Curve, Trouble, plane};
+use super::fold::{LAST_STEP, ROUNDING, beside};
+use super::frame::{Frame, Place};
+use super::special::{Junction, SpecialKind};
+use super::station::Station;
+use crate::Mechanism;
+use crate::array::{dot, form};
+
+const MAX_ITERATIONS: usize = 30;
+/// A direction with a smaller part along the input is that of the critical vector.
+const STATIONARY: f64 = 1e-6;
+/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7.
+const CROSSING: f64 = 1e-13;
+/// Distance, in local units, at which the third order is felt out.
+const PROBE: f64 = 1e-3;
+
+/// `mu` and its derivatives at one place.
+struct Reduced<const N: usize> {
+    /// Newton step to `g + mu c = 0` and the value of `mu` after it.
+    correction: Place<N>,
+    mu: f64,
+    /// `dx/dxi`, `dx/deta`.
+    tangents: [Place<N>; 2],
+    w: [f64; N],
+    gradient: [f64; 2],
+    hessian: [[f64; 2]; 2],
+}
+
+/// Directions that complete the equations, and the column that does.
+struct Borders<const N: usize> {
+    normals: [Place<N>; 2],
+    column: [f64; N],
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// The branch point between two stations.
+    pub(crate) fn branch_point(
+        &self,
+        a: &Station<N, U, P>,
+        b: &Station<N, U, P>,
+    ) -> Result<Junction<N, U, P>, Trouble<N>> {
+        let frame = &a.frame;
+        let end = frame.local(&b.place);
+        let (mut local, borders) = self.saddle(a, &end)?;
+        // Two more inner steps leave the residual at rounding.
+        for _ in 0..2 {
+            let reduced = self.reduced(frame, &local, 0.0, &borders)?;
+            local = local.plus(1.0, &reduced.correction);
+        }
+        let place = frame.place(&local);
+        let reduced = self.reduced(frame, &local, 0.0, &borders)?;
+        let [first, second] = directions(&reduced)?;
+        let own_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
+        let (own, other) = if own_is_first {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
+        let stationary = |direction: &Place<N>| direction.p.abs() <= STATIONARY;
+        let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
+        let kind = match (stationary(&own), stationary(&other)) {
+            (true, true) => return Err(not_simple()),
+            (false, false) => SpecialKind::Transcritical,
+            _ => SpecialKind::Pitchfork {
+                supercritical: self.supercritical(frame, &local, &borders, &v)?,
+            },
+        };
+        let critical = frame.stretched(&v);
+        // The branches pass each other at a distance of the root of mu / H.
+        let size = reduced
+            .hessian
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, h| most.max(h.abs()));
+        let gap = reduced.mu.abs() / size;
+        let also = ACCEPTED * gap / CROSSING;
+        let vectors = (&critical.q, &frame.weights(&reduced.w));
+        let special = self.special(kind, &place, vectors, 1, Some(also))?;
+        Ok(Junction {
+            special,
+            frame: frame.at(place),
+            own,
+            other,
+        })
+    }
+
+    /// The saddle of `mu` between the origin of the frame and `end`, both on the branch.
+    fn saddle(
+        &self,
+        a: &Station<N, U, P>,
+        end: &Place<N>,
+    ) -> Result<(Place<N>, Borders<N>), Trouble<N>> {
+        let frame = &a.frame;
+        let mut borders = self.borders(a, end)?;
+        let mut local = end.scaled(0.5);
+        let (mut mu, mut last) = (0.0, f64::INFINITY);
+        for _ in 0..MAX_ITERATIONS {
+            let reduced = self.reduced(frame, &local, mu, &borders)?;
+            if last <= LAST_STEP {
+                return Ok((local, borders));
+            }
+            let [[a, b], [c, d]] = reduced.hessian;
+            let det = a * d - b * c;
+            let size = a.abs().max(b.abs()).max(d.abs());
+            if det.is_nan() || det.abs() <= 1e-12 * size * size {
+                return Err(not_simple());
+            }
+            let [x, y] = reduced.gradient.map(|value| -value);
+            let amounts = [(d * x - b * y) / det, (a * y - c * x) / det];
+            let step = reduced
+                .correction
+                .plus(amounts[0], &reduced.tangents[0])
+                .plus(amounts[1], &reduced.tangents[1]);
+            let size = step.norm();
+            if !step.finite() {
+                return Err(not_simple());
+            }
+            if last <= ROUNDING && size >= 0.5 * last {
+                return Ok((local, borders));
+            }
+            local = local.plus(1.0, &step);
+            (mu, last) = (reduced.mu, size);
+            if !beside(&local, end) {
+                return Err(Trouble::Missed(
+                    "the branch point is not between the points",
+                ));
+            }
+            if let Some(column) = unit(&reduced.w) {
+                mu *= dot(&column, &borders.column);
+                borders.column = column;
+            }
+        }
+        Err(Trouble::Missed("the branch point was not located"))
+    }
+
+    /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
+    fn borders(&self, a: &Station<N, U, P>, end: &Place<N>) -> Result<Borders<N>, Trouble<N>> {
+        let scaled = a.frame.scaled(&self.system(&a.place)?);
+        let first = end.unit().ok_or_else(not_simple)?;
+        let factors = plane(&scaled, &first).ok_or_else(not_simple)?;
+        let mut left = ([1.0; N], [0.5]);
+        for (i, value) in left.0.iter_mut().enumerate() {
+            *value += 0.1 * i as f64;
+        }
+        let mut right = Place::ZERO;
+        for _ in 0..6 {
+            let (q, [p]) = factors.solve(&left.0, left.1);
+            right = Place { q, p }.unit().ok_or_else(not_simple)?;
+            let (q, [p]) = factors.solve_transposed(&right.q, [right.p]);
+            let image = Place { q, p }.unit().ok_or_else(not_simple)?;
+            left = (image.q, [image.p]);
+        }
+        let second = right
+            .plus(-right.dot(&first), &first)
+            .unit()
+            .ok_or_else(not_simple)?;
+        Ok(Borders {
+            normals: [first, second],
+            column: unit(&left.0).ok_or_else(not_simple)?,
+        })
+    }
+
+    fn reduced(
+        &self,
+        frame: &Frame<N>,
+        local: &Place<N>,
+        mu: f64,
+        borders: &Borders<N>,
+    ) -> Result<Reduced<N>, Trouble<N>> {
+        let place = frame.place(local);
+        let scaled = frame.scaled(&self.system(&place)?);
+        let [first, second] = &borders.normals;
+        let factors = Bordered::new(
+            &scaled.stiffness,
+            [&scaled.by_input, &borders.column],
+            [&first.q, &second.q],
+            [[first.p, 0.0], [second.p, 0.0]],
+        )
+        .ok_or_else(not_simple)?;
+        let off = core::array::from_fn(|i| -(scaled.residual[i] + mu * borders.column[i]));
+        let (q, [p, change]) = factors.solve(&off, [0.0; 2]);
+        let correction = Place { q, p };
+        let tangents = [[1.0, 0.0], [0.0, 1.0]].map(|right| {
+            let (q, [p, _]) = factors.solve(&[0.0; N], right);
+            Place { q, p }
+        });
+        let (w, slopes) = factors.solve_transposed(&[0.0; N], [0.0, 1.0]);
+        let weights = frame.weights(&w);
+        let mut bent = [Place::ZERO; 2];
+        for (bent, tangent) in bent.iter_mut().zip(&tangents) {
+            let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
+            *bent = frame.stretched(&curvature);
+        }
+        // w^T [Khat dg/du] + a1 n1 + a2 n2 = 0, so that the slopes of mu are a1 and a2.
+        Ok(Reduced {
+            correction,
+            mu: mu + change,
+            tangents,
+            w,
+            gradient: core::array::from_fn(|i| slopes[i] - bent[i].dot(&correction)),
+            hessian: bent
+                .each_ref()
+                .map(|bent| tangents.each_ref().map(|tangent| -bent.dot(tangent))),
+        })
+    }
+
+    /// Sign of the third order along the critical vector, by differences of exact second orders.
+    fn supercritical(
+        &self,
+        frame: &Frame<N>,
+        at: &Place<N>,
+        borders: &Borders<N>,
+        v: &Place<N>,
+    ) -> Result<Option<bool>, Trouble<N>> {
+        let place = frame.place(at);
+        let mass = self
+            .mechanism
+            .linear(&place.q, &self.inputs_at(place.p), self.design)
+            .mass;
+        let parts = borders.normals.each_ref().map(|normal| normal.dot(v));
+        let probe = |distance: f64| -> Result<(f64, f64), Trouble<N>> {
+            let mut local = at.plus(distance, v);
+            let mut mu = 0.0;
+            for _ in 0..4 {
+                let reduced = self.reduced(frame, &local, mu, borders)?;
+                local = local.plus(1.0, &reduced.correction);
+                mu = reduced.mu;
+            }
+            let reduced = self.reduced(frame, &local, mu, borders)?;
+            let h = reduced.hessian;
+            let second = parts[0] * (h[0][0] * parts[0] + h[0][1] * parts[1])
+                + parts[1] * (h[1][0] * parts[0] + h[1][1] * parts[1]);
+            let side = form(&frame.weights(&reduced.w), &mass, &frame.stretched(v).q);
+            let size = h
+                .iter()
+                .flatten()
+                .fold(0.0, |most: f64, x| most.max(x.abs()));
+            Ok((-second * side.signum(), size))
+        };
+        let (Ok((up, size_up)), Ok((down, size_down))) = (probe(PROBE), probe(-PROBE)) else {
+            return Ok(None);
+        };
+        let third = (up - down) / (2.0 * PROBE);
+        let known = third.abs() > 1e-6 * size_up.max(size_down);
+        Ok(known.then_some(third > 0.0))
+    }
+}
+
+fn not_simple<const N: usize>() -> Trouble<N> {
+    Trouble::Missed("the branch point is not simple")
+}
+
+/// Unit directions of the two branches: the roots of the quadratic form of second derivatives.
+fn directions<const N: usize>(reduced: &Reduced<N>) -> Result<[Place<N>; 2], Trouble<N>> {
+    let [[a, b], [_, c]] = reduced.hessian;
+    let discriminant = b * b - a * c;
+    let size = a.abs().max(b.abs()).max(c.abs());
+    if discriminant.is_nan() || discriminant <= 1e-12 * size * size {
+        return Err(not_simple());
+    }
+    let q = -(b + discriminant.sqrt().copysign(b));
+    let [x, y] = &reduced.tangents;
+    let combine = |s: f64, t: f64| x.scaled(s).plus(t, y).unit().ok_or_else(not_simple);
+    Ok([combine(q, a)?, combine(c, q)?])
+}
+
+/// The combination of the tangents along which the input stands still.
+fn critical<const N: usize>([x, y]: &[Place<N>; 2]) -> Option<Place<N>> {
+    let v = x.scaled(y.p).plus(-x.p, y);
+    Place { q: v.q, p: 0.0 }.unit()
+}
+
+fn unit<const N: usize>(x: &[f64; N]) -> Option<[f64; N]> {
+    Place { q: *x, p: 0.0 }.unit().map(|place| place.q)
+}

@@ -1,0 +1,88 @@
+//! Whether an equilibrium lies on a branch that is already known.
+
+use super::Branch;
+use super::curve::Curve;
+use super::frame::{Frame, Place};
+use crate::Mechanism;
+use crate::array::largest_element;
+
+/// Local distance from a branch below which a place is on it.
+const CLOSE: f64 = 1e-6;
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// Whether a place, or one that differs from it by full turns and is the same state, lies on one of the branches.
+    pub(super) fn known(&self, branches: &[Branch<N, U, P>], place: &Place<N>) -> bool {
+        branches.iter().any(|branch| self.on(branch, place))
+    }
+
+    fn on(&self, branch: &Branch<N, U, P>, place: &Place<N>) -> bool {
+        let at = |k: usize| Place {
+            q: branch.points[k].equilibrium.coordinates,
+            p: branch.points[k].value,
+        };
+        (1..branch.points.len()).any(|k| {
+            let (from, to) = (at(k - 1), at(k));
+            let turned = turned_towards(place, &from, Self::DESCRIPTION.coordinates);
+            self.near(&from, &to, &turned) && (turned == *place || self.same(place, &turned))
+        })
+    }
+
+    /// Whether a place on some branch lies on the piece of branch between two neighbouring points.
+    fn near(&self, from: &Place<N>, to: &Place<N>, place: &Place<N>) -> bool {
+        let Ok(system) = self.system(from) else {
+            return false;
+        };
+        let frame: Frame<N> = self.frame(from, &system);
+        let (end, target) = (frame.local(to), frame.local(place));
+        let length = end.norm();
+        let Some(normal) = end.unit() else {
+            return target.norm() <= CLOSE;
+        };
+        let along = target.dot(&normal);
+        let across = target.plus(-along, &normal).norm();
+        if across > 0.3 * length + CLOSE || along < -CLOSE || along > length + CLOSE {
+            return false;
+        }
+        let tolerance = CLOSE.min(0.01 * length);
+        match self.correct(&frame, &normal.scaled(along), &normal, length) {
+            Ok(found) => found.local.plus(-1.0, &target).norm() <= tolerance,
+            Err(_) => across <= tolerance,
+        }
+    }
+
+    /// Whether two places that differ by full turns are the same state.
+    fn same(&self, a: &Place<N>, b: &Place<N>) -> bool {
+        let (Ok(a), Ok(b)) = (self.system(a), self.system(b)) else {
+            return false;
+        };
+        let scale = CLOSE * largest_element(&a.stiffness);
+        let stiffness = a.stiffness.iter().flatten();
+        stiffness
+            .zip(b.stiffness.iter().flatten())
+            .chain(a.residual.iter().zip(&b.residual))
+            .all(|(x, y)| (x - y).abs() <= scale)
+    }
+}
+
+/// The place with its angles turned to the side of another one by full turns.
+fn turned_towards<const N: usize>(
+    place: &Place<N>,
+    other: &Place<N>,
+    coordinates: &[crate::CoordinateInfo],
+) -> Place<N> {
+    let q = core::array::from_fn(|i| {
+        let angle = coordinates
+            .get(i)
+            .is_some_and(|info| info.unit.symbol == "rad");
+        let turns = ((place.q[i] - other.q[i]) / core::f64::consts::TAU).round();
+        if angle && turns != 0.0 {
+            place.q[i] - turns * core::f64::consts::TAU
+        } else {
+            place.q[i]
+        }
+    });
+    Place { q, p: place.p }
+}

@@ -1,0 +1,181 @@
+//! Points of a branch at which `Khat` is singular.
+
+use super::super::{Equilibrium, Stability};
+use super::curve::{Curve, Trouble};
+use super::frame::{Frame, Place};
+use super::station::symmetric_to_rounding;
+use crate::array::{dot, form, largest, times};
+use crate::modes::symmetric;
+use crate::{DampingKind, Description, Input, Linear, Mechanism};
+
+/// What happens where `Khat` is singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpecialKind {
+    /// A limit point: the branch turns back, `w^T dg/du` is not zero.
+    Fold,
+    /// A branch crosses this one on which the input is stationary: two arms leave to the same side of the input.
+    Pitchfork {
+        /// The arms lie where the critical mode of the branch that they leave has lost its stiffness (supercritical, a
+        /// soft loss), or where it still has it (subcritical, a hard loss). `None` where the third order vanishes.
+        supercritical: Option<bool>,
+    },
+    /// Another branch crosses this one and goes on to both sides of the input.
+    Transcritical,
+    /// Several modes lose their stiffness at once, or branches touch: located, but not resolved into branches.
+    Degenerate,
+}
+
+/// A point of a branch at which `Khat` is singular.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpecialPoint<const N: usize, const U: usize, const P: usize> {
+    /// What happens there.
+    pub kind: SpecialKind,
+    /// The input that varies.
+    pub input: Input,
+    /// Its value there, SI.
+    pub value: f64,
+    /// The equilibrium there; its stability counts the critical mode as neutral.
+    pub equilibrium: Equilibrium<N, U, P>,
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    pub v: [f64; N],
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    pub w: [f64; N],
+}
+
+/// Where branches cross, with what is needed to enter the other one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Junction<const N: usize, const U: usize, const P: usize> {
+    pub(crate) special: SpecialPoint<N, U, P>,
+    /// At the junction, with the units of a regular point nearby.
+    pub(crate) frame: Frame<N>,
+    /// Local unit direction of the branch on which it was found, along the walk.
+    pub(crate) own: Place<N>,
+    /// Local unit direction of the other branch.
+    pub(crate) other: Place<N>,
+}
+
+/// A special point on a walk.
+pub(crate) struct Located<const N: usize, const U: usize, const P: usize> {
+    pub(crate) special: SpecialPoint<N, U, P>,
+    /// Tangent of the walk, SI units.
+    pub(crate) direction: Place<N>,
+    pub(crate) junction: Option<Junction<N, U, P>>,
+    /// The walk came along an arm of a pitchfork, which ends there.
+    pub(crate) ends_arm: bool,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// The special point at a place with these critical vectors of any length; `zero` modes are critical; `also` as for
+    /// [`Self::equilibrium`].
+    pub(crate) fn special(
+        &self,
+        kind: SpecialKind,
+        place: &Place<N>,
+        (v, w): (&[f64; N], &[f64; N]),
+        zero: usize,
+        also: Option<f64>,
+    ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
+        let (least, most) = self.settings.bounds();
+        let place = &Place {
+            p: place.p.clamp(least, most),
+            ..*place
+        };
+        let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
+        let (v, w) = normalised(&equilibrium.linear, v, w)
+            .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
+        equilibrium.stability = at_critical(
+            equilibrium.stability,
+            &equilibrium.linear,
+            Self::DESCRIPTION,
+            zero,
+        );
+        Ok(SpecialPoint {
+            kind,
+            input: self.settings.input,
+            value: place.p,
+            equilibrium,
+            v,
+            w,
+        })
+    }
+
+    /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
+    pub(crate) fn degenerate(
+        &self,
+        place: &Place<N>,
+        (frame, tangent): (&Frame<N>, &Place<N>),
+        zero: usize,
+    ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
+        let linear = self
+            .mechanism
+            .linear(&place.q, &self.inputs_at(place.p), self.design);
+        let softest = symmetric_to_rounding(&linear, Self::DESCRIPTION)
+            .then(|| symmetric::solve(&linear.stiffness, &linear.mass).ok())
+            .flatten()
+            .and_then(|pairs| {
+                let size = |r: &usize| pairs.lambda[*r].abs();
+                let least = (0..N).min_by(|a, b| size(a).total_cmp(&size(b)))?;
+                Some(pairs.shapes[least])
+            });
+        let v = softest.unwrap_or(tangent.q);
+        let residual = largest(&frame.weights(&self.system(place)?.residual));
+        self.special(
+            SpecialKind::Degenerate,
+            place,
+            (&v, &v),
+            zero,
+            Some(residual),
+        )
+    }
+}
+
+/// `v^T M v = 1` with the largest component positive, `w^T M v = 1`.
+fn normalised<const N: usize>(
+    linear: &Linear<f64, N>,
+    v: &[f64; N],
+    w: &[f64; N],
+) -> Option<([f64; N], [f64; N])> {
+    let most = largest(v);
+    let lead = v
+        .iter()
+        .copied()
+        .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
+    let length = form(v, &linear.mass, v).sqrt() * lead.signum();
+    let v = v.map(|value| value / length);
+    let both = dot(w, &times(&linear.mass, &v));
+    let w = w.map(|value| value / both);
+    let finite = v.iter().chain(&w).all(|value| value.is_finite());
+    finite.then_some((v, w))
+}
+
+/// Stability where `zero` modes are critical, whatever sign rounding gives them.
+pub(crate) fn at_critical<const N: usize>(
+    judged: Stability,
+    linear: &Linear<f64, N>,
+    description: &Description,
+    zero: usize,
+) -> Stability {
+    let flutters = matches!(judged, Stability::Flutter { .. });
+    if flutters || !symmetric_to_rounding(linear, description) {
+        return judged;
+    }
+    let Ok(pairs) = symmetric::solve(&linear.stiffness, &linear.mass) else {
+        return judged;
+    };
+    let mut lambda = pairs.lambda;
+    lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let negative = lambda
+        .iter()
+        .skip(zero)
+        .filter(|&&value| value < 0.0)
+        .count();
+    let damped = description.damping != DampingKind::Zero;
+    match negative {
+        0 => Stability::Neutral { zero },
+        _ if negative % 2 == 0 && damped => judged,
+        _ => Stability::Divergent { negative },
+    }
+}

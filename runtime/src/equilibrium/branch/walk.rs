@@ -1,0 +1,363 @@
+//! Pseudo-arclength continuation: from one point of a branch along its tangent, with a step that follows the curvature.
+
+use super::super::Failure;
+use super::curve::{Corrected, Curve, Trouble};
+use super::frame::{Place, units};
+use super::special::{Junction, Located, SpecialPoint, at_critical};
+use super::station::{Station, VERTICAL};
+use super::{BranchEnd, BranchPoint};
+use crate::array::largest;
+use crate::{Equilibrium, Error, Mechanism};
+
+/// Least cosine of the angle between the tangents at two neighbouring points.
+const STRAIGHT: f64 = 0.9;
+/// Greatest distance of a point from the tangent, relative to the step.
+const BEND: f64 = 0.3;
+/// First steps away from a branch point, as shares of the greatest step: small, so that nothing lies within, where that
+/// can be told from rounding.
+const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
+/// Share of the range by which a branch along one of its ends may stray by rounding.
+const STRAY: f64 = 1e-9;
+/// Local distance at which two places are the same.
+pub(super) const SAME: f64 = 1e-7;
+
+/// What was passed on the way in one direction; the start itself is not in it.
+pub(crate) struct Walk<const N: usize, const U: usize, const P: usize> {
+    pub(crate) points: Vec<BranchPoint<N, U, P>>,
+    pub(crate) special: Vec<SpecialPoint<N, U, P>>,
+    pub(crate) junctions: Vec<(Junction<N, U, P>, bool)>,
+    pub(crate) end: BranchEnd,
+}
+
+/// One accepted step.
+struct Step<const N: usize, const U: usize, const P: usize> {
+    station: Station<N, U, P>,
+    located: Vec<Located<N, U, P>>,
+    end: Option<BranchEnd>,
+    /// Factor for the length of the next step.
+    growth: f64,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// Goes on from a station along its tangent, which started at `home`, until the branch ends or `stop` says so of a
+    /// special point and of the station before it.
+    pub(crate) fn walk(
+        &self,
+        start: &Station<N, U, P>,
+        home: &Place<N>,
+        mut stop: impl FnMut(&SpecialPoint<N, U, P>, &Station<N, U, P>) -> bool,
+    ) -> Walk<N, U, P> {
+        let settings = self.settings;
+        let mut walk = Walk {
+            points: Vec::new(),
+            special: Vec::new(),
+            junctions: Vec::new(),
+            end: BranchEnd::PointLimit,
+        };
+        let far = settings.escape * (settings.size + largest(&home.q));
+        let mut at = *start;
+        let mut length = 0.2 * settings.max_step;
+        let mut refused: Option<Trouble<N>> = None;
+        while walk.points.len() < settings.max_points {
+            if let Some(end) = self.leaving(&at) {
+                walk.end = end;
+                return walk;
+            }
+            let steps = walk.points.len();
+            let step = match self.advance(&at, length, home, steps) {
+                Ok(step) => step,
+                Err(trouble) => {
+                    length *= 0.5;
+                    // Beside the edge of a domain Newton's method fails for other reasons too.
+                    let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
+                    if length.is_nan() || length < settings.min_step {
+                        walk.end = self.broken_off(reason, &at.equilibrium);
+                        return walk;
+                    }
+                    refused = Some(reason);
+                    continue;
+                }
+            };
+            let growth = if refused.take().is_some() {
+                step.growth.min(1.0)
+            } else {
+                step.growth
+            };
+            for located in step.located {
+                let special = located.special;
+                walk.points
+                    .push(self.special_point(&special, &located.direction));
+                walk.special.push(special);
+                if let Some(junction) = located.junction {
+                    walk.junctions.push((junction, located.ends_arm));
+                    let home_again = at.frame.at(junction.frame.origin).local(home).norm() <= SAME;
+                    if home_again && !located.ends_arm {
+                        walk.end = BranchEnd::Closed;
+                        return walk;
+                    }
+                }
+                if stop(&special, &at) || located.ends_arm {
+                    walk.end = BranchEnd::BranchPoint;
+                    return walk;
+                }
+            }
+            walk.points.push(self.point(&step.station));
+            if let Some(end) = step.end {
+                walk.end = end;
+                return walk;
+            }
+            if largest(&step.station.place.q) > far {
+                walk.end = BranchEnd::Escape;
+                return walk;
+            }
+            length = (length * growth).min(settings.max_step);
+            at = step.station;
+        }
+        walk
+    }
+
+    pub(crate) fn point(&self, station: &Station<N, U, P>) -> BranchPoint<N, U, P> {
+        let direction = station.direction();
+        let mut equilibrium = station.equilibrium;
+        if station.signs.vertical {
+            // Equilibria side by side at one input: the mode along them is neutral.
+            let linear = equilibrium.linear;
+            equilibrium.stability =
+                at_critical(equilibrium.stability, &linear, Self::DESCRIPTION, 1);
+        }
+        BranchPoint {
+            value: station.place.p,
+            equilibrium,
+            tangent: direction.q,
+            input_tangent: direction.p,
+        }
+    }
+
+    /// A special point as a point of the branch that passes it in this direction (SI units).
+    pub(crate) fn special_point(
+        &self,
+        special: &SpecialPoint<N, U, P>,
+        direction: &Place<N>,
+    ) -> BranchPoint<N, U, P> {
+        let place = Place {
+            q: special.equilibrium.coordinates,
+            p: special.value,
+        };
+        let units = units(&place, self.settings.size, self.settings.range());
+        let tangent = direction.scaled(1.0 / direction.length_in(&units));
+        BranchPoint {
+            value: special.value,
+            equilibrium: special.equilibrium,
+            tangent: tangent.q,
+            input_tangent: tangent.p,
+        }
+    }
+
+    /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
+    /// once or cannot be followed.
+    pub(crate) fn depart(
+        &self,
+        junction: &Junction<N, U, P>,
+        direction: &Place<N>,
+    ) -> Option<Station<N, U, P>> {
+        let frame = &junction.frame;
+        DEPARTURES.iter().find_map(|share| {
+            let length = share * self.settings.max_step;
+            let from = direction.scaled(length);
+            let corrected = self.correct(frame, &from, direction, BEND * length).ok()?;
+            let towards = frame.stretched(direction);
+            let station = self.arrive(&corrected, &towards, None).ok()?;
+            let on = self.beyond(corrected.place.p).is_none()
+                && straight(&frame.direction(&station.direction()), direction);
+            on.then_some(station)
+        })
+    }
+
+    fn advance(
+        &self,
+        at: &Station<N, U, P>,
+        length: f64,
+        home: &Place<N>,
+        steps: usize,
+    ) -> Result<Step<N, U, P>, Trouble<N>> {
+        let (frame, tangent) = (&at.frame, &at.tangent);
+        let from = tangent.scaled(length);
+        let mut corrected = self.correct(frame, &from, tangent, BEND * length)?;
+        let mut end = None;
+        if let Some(bound) = self.beyond(corrected.place.p) {
+            let stray = (corrected.place.p - bound).abs();
+            if at.signs.vertical && stray <= STRAY * self.settings.range() {
+                corrected.place.p = bound;
+                corrected.system = self.system(&corrected.place)?;
+            } else {
+                corrected = self.land(at, &corrected, bound)?;
+                end = Some(self.end_at(bound));
+            }
+        }
+        let mut station = self.arrive(&corrected, &at.direction(), Some(at));
+        if station.is_err() && end.is_some() {
+            station = self.arrive_singular(&corrected, at);
+        }
+        let station = station?;
+        if !straight(&frame.direction(&station.direction()), tangent) {
+            return Err(Trouble::Missed("the branch bends sharply"));
+        }
+        let mut located = Vec::new();
+        self.locate(at, &station, &mut located)?;
+        if steps > 2 && self.passes(at, &corrected, home) {
+            end = Some(BranchEnd::Closed);
+        }
+        let bend = corrected.local.plus(-1.0, &from).norm() / length;
+        let growth = if corrected.iterations > 5 || bend > 0.5 * BEND {
+            0.7
+        } else if bend < 0.1 {
+            2.0
+        } else {
+            1.0
+        };
+        Ok(Step {
+            station,
+            located,
+            end,
+            growth,
+        })
+    }
+
+    pub(super) fn arrive(
+        &self,
+        corrected: &Corrected<N>,
+        towards: &Place<N>,
+        before: Option<&Station<N, U, P>>,
+    ) -> Result<Station<N, U, P>, Trouble<N>> {
+        let place = &corrected.place;
+        let system = &corrected.system;
+        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let before = before.map(|station| &station.signs);
+        self.station(place, system, equilibrium, towards, before)
+    }
+
+    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
+    fn arrive_singular(
+        &self,
+        corrected: &Corrected<N>,
+        before: &Station<N, U, P>,
+    ) -> Result<Station<N, U, P>, Trouble<N>> {
+        let (place, system) = (corrected.place, &corrected.system);
+        let equilibrium = self.equilibrium(&place, system, corrected.iterations, None)?;
+        let frame = self.frame(&place, system);
+        let tangent = frame.direction(&before.direction()).unit();
+        Ok(Station {
+            place,
+            equilibrium,
+            frame,
+            tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
+            signs: before.signs,
+        })
+    }
+
+    fn end_at(&self, bound: f64) -> BranchEnd {
+        if bound == self.settings.low {
+            BranchEnd::Low
+        } else {
+            BranchEnd::High
+        }
+    }
+
+    /// The end of the range at which a station is about to leave it.
+    fn leaving(&self, at: &Station<N, U, P>) -> Option<BranchEnd> {
+        let (least, most) = self.settings.bounds();
+        let rate = at.tangent.p;
+        if at.place.p <= least && rate < -VERTICAL {
+            Some(self.end_at(least))
+        } else if at.place.p >= most && rate > VERTICAL {
+            Some(self.end_at(most))
+        } else {
+            None
+        }
+    }
+
+    /// The end of the range that an input lies beyond.
+    fn beyond(&self, p: f64) -> Option<f64> {
+        let (least, most) = self.settings.bounds();
+        if p < least {
+            Some(least)
+        } else if p > most {
+            Some(most)
+        } else {
+            None
+        }
+    }
+
+    /// The point of the branch exactly at an end of the range.
+    fn land(
+        &self,
+        at: &Station<N, U, P>,
+        outside: &Corrected<N>,
+        bound: f64,
+    ) -> Result<Corrected<N>, Trouble<N>> {
+        let target = at.frame.local(&Place {
+            p: bound,
+            ..at.place
+        });
+        let share = target.p / outside.local.p;
+        // A step that turns back between the points would land on the wrong side of the turn.
+        if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
+            return Err(Trouble::Missed(
+                "the end of the range is not straight ahead",
+            ));
+        }
+        let from = outside.local.scaled(share);
+        let input = Place {
+            q: [0.0; N],
+            p: 1.0,
+        };
+        let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
+        landed.place.p = bound;
+        landed.system = self.system(&landed.place)?;
+        Ok(landed)
+    }
+
+    /// Whether the step from a station passes a place.
+    fn passes(&self, at: &Station<N, U, P>, to: &Corrected<N>, place: &Place<N>) -> bool {
+        let end = &to.local;
+        let target = at.frame.local(place);
+        let along = target.dot(end) / end.dot(end);
+        if !(0.0..=1.0).contains(&along) || target.plus(-along, end).norm() > BEND * end.norm() {
+            return false;
+        }
+        let Some(normal) = end.unit() else {
+            return false;
+        };
+        self.correct(&at.frame, &end.scaled(along), &normal, end.norm())
+            .is_ok_and(|found| found.local.plus(-1.0, &target).norm() <= SAME)
+    }
+
+    pub(crate) fn broken_off(&self, trouble: Trouble<N>, at: &Equilibrium<N, U, P>) -> BranchEnd {
+        let name = Self::DESCRIPTION.name;
+        match trouble {
+            Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
+                mechanism: name,
+                what: "the residual",
+                coordinates: q.to_vec(),
+            }),
+            Trouble::Unphysical(error) => BranchEnd::Domain(error),
+            Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
+                BranchEnd::Domain(failure.explain(Self::DESCRIPTION))
+            }
+            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(Self::DESCRIPTION)),
+            Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
+                reason,
+                iterations: self.settings.max_corrections,
+                coordinates: at.coordinates.to_vec(),
+                relative_residual: at.relative_residual,
+            }),
+        }
+    }
+}
+
+fn straight<const N: usize>(direction: &Place<N>, tangent: &Place<N>) -> bool {
+    direction.dot(tangent) >= STRAIGHT * direction.norm() * tangent.norm()
+}

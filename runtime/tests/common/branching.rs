@@ -1,0 +1,164 @@
+//! Mechanisms whose branches of equilibria have closed forms. Unit masses; `g` stands in each description.
+
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Violation};
+
+use super::derived::Model;
+use super::{METRE, NUMBER, RAD, coordinate, design, input};
+
+/// A mechanism of unit masses under a force law.
+macro_rules! law {
+    ($(#[$doc:meta])* $name:ident, $n:literal, $p:literal, symmetric: $symmetric:literal,
+     $unit:ident, [$($design:literal = $nominal:literal),*],
+     |$q:ident, $u:ident, $b:ident, $c:ident| $force:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name;
+
+        impl Model<$n, 1, $p, 0> for $name {
+            const DESCRIPTION: Description = {
+                const COORDINATES: [CoordinateInfo; $n] = [coordinate("q", $unit); $n];
+                const INPUTS: [InputInfo; 1] = [input("u", NUMBER)];
+                const DESIGN: [DesignInfo; $p] = [$(design($design, NUMBER, $nominal, 0.0)),*];
+                Description {
+                    name: stringify!($name),
+                    coordinates: &COORDINATES,
+                    inputs: &INPUTS,
+                    design: &DESIGN,
+                    outputs: &[],
+                    symmetric_stiffness: $symmetric,
+                    damping: DampingKind::Zero,
+                    kernels: &[],
+                }
+            };
+
+            fn inertia<T: Real>(
+                &self,
+                a: &[T; $n],
+                _: &[T; $n],
+                _: &[T; $n],
+                _: &[T; 1],
+                _: &[T; $p],
+            ) -> [T; $n] {
+                *a
+            }
+
+            fn applied<T: Real>(
+                &self,
+                _: &[T; $n],
+                q: &[T; $n],
+                u: &[T; 1],
+                b: &[T; $p],
+            ) -> [T; $n] {
+                let ($q, $u, $b) = (q, u[0], b);
+                let $c = T::constant;
+                let _ = ($q, $u, $b, $c);
+                let g: [T; $n] = $force;
+                g.map(|value| -value)
+            }
+
+            fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; $p]) -> Option<Violation<T>> {
+                None
+            }
+
+            fn outputs<T: Real>(&self, _: &[T; $n], _: &[T; 1], _: &[T; $p]) -> [T; 0] {
+                []
+            }
+        }
+    };
+}
+
+law!(
+    /// Snap-through: `q^3 - a q + u`, folds at `u = +- 2 (a/3)^(3/2)`, `q = +- (a/3)^(1/2)`.
+    Snap, 1, 1, symmetric: true, METRE, ["a" = 1.0],
+    |q, u, b, c| [q[0] * q[0] * q[0] - b[0] * q[0] + u]
+);
+
+law!(
+    /// Transcritical: `(q - d) (q - e - s (u - d))`, branches `q = d` and `q = e + s (u - d)` cross at
+    /// `u = d + (d - e) / s`.
+    Exchange, 1, 3, symmetric: true, METRE, ["d" = 0.0, "e" = 0.0, "s" = 1.0],
+    |q, u, b, c| [(q[0] - b[0]) * (q[0] - b[1] - b[2] * (u - b[0]))]
+);
+
+law!(
+    /// Imperfect pitchfork: `q^3 - (u - a) q + e`.
+    Imperfect, 1, 2, symmetric: true, METRE, ["e" = 0.01, "a" = 0.0],
+    |q, u, b, c| [q[0] * q[0] * q[0] - (u - b[1]) * q[0] + b[0]]
+);
+
+law!(
+    /// Subcritical pitchfork that comes back: `q^5 - q^3 + (a - u) q`, arms `u = a - q^2 + q^4`, folds at `q^2 = 1/2`,
+    /// `u = a - 1/4`.
+    Quintic, 1, 1, symmetric: true, METRE, ["a" = 1.0],
+    |q, u, b, c| {
+        let s = q[0] * q[0];
+        [q[0] * (s * s - s + b[0] - u)]
+    }
+);
+
+law!(
+    /// Two equal stiffnesses on a rotor: `(1 - u) q`.
+    Rotor, 2, 0, symmetric: true, METRE, [],
+    |q, u, b, c| [(c(1.0) - u) * q[0], (c(1.0) - u) * q[1]]
+);
+
+law!(
+    /// Two nearly equal stiffnesses with cubic springs: `(1 + e i - u) q_i + q_i^3`.
+    NearlyTwo, 2, 1, symmetric: true, METRE, ["e" = 1e-4],
+    |q, u, b, c| [
+        (c(1.0) - u) * q[0] + q[0] * q[0] * q[0],
+        (c(1.0) + b[0] - u) * q[1] + q[1] * q[1] * q[1]
+    ]
+);
+
+law!(
+    /// A non-symmetric `Khat` with a cubic spring at the first joint: `det Khat = k^2 - 6 k u + u^2` at `q = 0`, zero at
+    /// `u = k (3 -+ 8^(1/2))`; on the arms `q2 = k q1 / (k - u)`.
+    Lopsided, 2, 1, symmetric: false, RAD, ["k" = 1.0],
+    |q, u, b, c| [
+        b[0] * (q[0] + q[0] - q[1]) - u * (q[0] + c(3.0) * q[1]) + q[0] * q[0] * q[0],
+        b[0] * (q[1] - q[0]) - u * q[1]
+    ]
+);
+
+law!(
+    /// `q - sqrt(1 - u)`: the branch ends at `u = 1` with infinite slope.
+    Edge, 1, 0, symmetric: true, METRE, [],
+    |q, u, b, c| [q[0] - (c(1.0) - u).sqrt()]
+);
+
+law!(
+    /// `(1 - u) q - 1`: runs to infinity at `u = 1`.
+    Away, 1, 0, symmetric: true, METRE, [],
+    |q, u, b, c| [(c(1.0) - u) * q[0] - c(1.0)]
+);
+
+law!(
+    /// `(q - d) (q^2 + (u - 1)^2 - r^2)`: a line through a circle.
+    Ring, 1, 2, symmetric: true, METRE, ["d" = 0.2, "r" = 0.5],
+    |q, u, b, c| {
+        let w = u - c(1.0);
+        [(q[0] - b[0]) * (q[0] * q[0] + w * w - b[1] * b[1])]
+    }
+);
+
+law!(
+    /// Snap-through with a lopsided coupling, `q1 = q0/2`: `q0^3 - (1 - k/2) q0 + u`.
+    LopsidedSnap, 2, 1, symmetric: false, METRE, ["k" = 0.2],
+    |q, u, b, c| [
+        q[0] * q[0] * q[0] - q[0] + b[0] * q[1] + u,
+        q[1] - c(0.5) * q[0]
+    ]
+);
+
+law!(
+    /// Nothing resists and nothing drives it.
+    Free, 1, 0, symmetric: true, METRE, [],
+    |q, u, b, c| [c(0.0) * q[0] * u]
+);
+
+law!(
+    /// No coordinate at all.
+    Nothing, 0, 0, symmetric: true, METRE, [],
+    |q, u, b, c| *q
+);
