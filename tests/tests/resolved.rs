@@ -11,8 +11,12 @@ mod conditions;
 mod corpus;
 #[path = "resolved/differences.rs"]
 mod differences;
+#[path = "resolved/expected.rs"]
+mod expected;
 #[path = "resolved/instability.rs"]
 mod instability;
+#[path = "resolved/product.rs"]
+mod product;
 #[path = "resolved/scalar.rs"]
 mod scalar;
 #[path = "resolved/whirl.rs"]

@@ -1,7 +1,7 @@
 //! Every machine: derivatives by the product and by solving again.
 
 use eigentol::equilibrium::Equilibrium;
-use eigentol::modes::modes;
+use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol::{Error, Mechanism};
 use eigentol_tests::corpus::corpus;
@@ -72,7 +72,7 @@ impl Comparison for Gradients {
             }
         }
 
-        let found = match modes(at) {
+        let found = match undamped_modes(at) {
             Ok(found) => found,
             Err(Error::NonsymmetricStiffness { .. }) => {
                 self.nonsymmetric += 1;

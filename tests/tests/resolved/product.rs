@@ -1,0 +1,276 @@
+//! The product's derivatives of every mode of every machine, both families: first and second ones of the eigenvalue and of
+//! what is asked of it, first ones of both shapes.
+
+use eigentol::equilibrium::Equilibrium;
+use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
+use eigentol::sensitivity::{
+    Quantity, SecondDerivatives, mode_curvature, sensitivities, shape_sensitivity,
+};
+use eigentol::{Complex, Error, Mechanism, Sensitivities};
+use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
+
+use super::expected::Expected;
+
+/// Relative errors allowed: of values and first derivatives, of second ones, of derivatives of shapes.
+const FIRST: f64 = 1e-9;
+const SECOND: f64 = 1e-8;
+const SHAPES: f64 = 1e-8;
+
+#[derive(Default)]
+struct Product {
+    modes: usize,
+    second: usize,
+    shapes: usize,
+    one_sided: usize,
+    /// Greatest errors relative to what is allowed, and where.
+    worst: [(f64, String); 3],
+}
+
+/// Second derivatives by design variables, then inputs.
+fn ordered<T: Copy, const U: usize, const P: usize>(
+    all: &SecondDerivatives<T, U, P>,
+) -> Vec<Vec<T>> {
+    let by = |i: usize, j: usize| match (i < P, j < P) {
+        (true, true) => all.by_design[i][j],
+        (true, false) => all.by_input_and_design[j - P][i],
+        (false, true) => all.by_input_and_design[i - P][j],
+        (false, false) => all.by_input[i - P][j - P],
+    };
+    (0..P + U)
+        .map(|i| (0..P + U).map(|j| by(i, j)).collect())
+        .collect()
+}
+
+impl Product {
+    fn note(&mut self, kind: usize, error: f64, allowed: f64, what: &str) {
+        // Not a number is the worst error of all.
+        let ratio = if error.is_nan() {
+            f64::INFINITY
+        } else {
+            error / allowed
+        };
+        if ratio > self.worst[kind].0 {
+            self.worst[kind] = (ratio, what.to_owned());
+        }
+    }
+
+    /// Sizes of derivatives to be expected of a number of size `size`: by it and the variables.
+    fn first(&mut self, found: &[f64], expected: &Derived, b: &[f64], size: f64, what: &str) {
+        assert_eq!(found.len(), b.len(), "{what}");
+        for k in 0..b.len() {
+            let scale = expected.gradient[k].abs() + 1e-2 * size / b[k];
+            let error = (found[k] - expected.gradient[k]).abs();
+            self.note(0, error, FIRST * scale, &format!("{what} by {k}"));
+        }
+    }
+
+    fn second(&mut self, found: &[Vec<f64>], expected: &Derived, b: &[f64], size: f64, what: &str) {
+        for (i, row) in found.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                let exact = expected.hessian[i][j];
+                let scale = exact.abs() + 1e-2 * size / (b[i] * b[j]);
+                let error = (value - exact).abs();
+                self.note(1, error, SECOND * scale, &format!("{what} by {i}, {j}"));
+                self.second += 1;
+            }
+        }
+    }
+
+    fn shape(
+        &mut self,
+        rates: &[Complex],
+        expected: &[[Derived; 2]],
+        k: usize,
+        b: f64,
+        what: &str,
+    ) {
+        let most = expected
+            .iter()
+            .map(|[x, y]| f64::hypot(x.value, y.value))
+            .fold(0.0, f64::max);
+        for (rate, [x, y]) in rates.iter().zip(expected) {
+            for (found, exact) in [(rate.re, x.gradient[k]), (rate.im, y.gradient[k])] {
+                let scale = exact.abs() + 1e-2 * most / b;
+                self.note(
+                    2,
+                    (found - exact).abs(),
+                    SHAPES * scale,
+                    &format!("{what} by {k}"),
+                );
+                self.shapes += 1;
+            }
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn mode<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        what: &str,
+        machine: &M,
+        at: &Equilibrium<N, U, P>,
+        (modes, all): (&Modes<N>, &Sensitivities<N, U, P>),
+        r: usize,
+        expected: &Expected,
+    ) where
+        M: Mechanism<N, U, P, O>,
+    {
+        let b: Vec<f64> = [&at.design[..], &at.inputs]
+            .concat()
+            .iter()
+            .map(|&x| if x == 0.0 { 1.0 } else { x.abs() })
+            .collect();
+        let own = &all.modes[r];
+        let curvature =
+            mode_curvature(machine, at, modes, r).unwrap_or_else(|error| panic!("{what}: {error}"));
+        let size = modes.modes[r].s.norm();
+        if let Some(lambda) = &expected.lambda {
+            let found = [&own.lambda_by_design[..], &own.lambda_by_input].concat();
+            self.first(&found, lambda, &b, size * size, &format!("{what} lambda"));
+            let found = ordered(&curvature.lambda);
+            self.second(&found, lambda, &b, size * size, &format!("{what} lambda"));
+        }
+        if let Some(s) = &expected.s {
+            let slopes = own.s.unwrap_or_else(|| panic!("{what} has no derivative"));
+            let slopes = [&slopes.by_design[..], &slopes.by_input].concat();
+            let second = ordered(&curvature.eigenvalue.expect("second derivatives"));
+            for (part, number) in s.iter().enumerate() {
+                let of = |x: &Complex| [x.re, x.im][part];
+                let what = format!("{what} part {part} of s");
+                let found: Vec<f64> = slopes.iter().map(of).collect();
+                self.first(&found, number, &b, size, &what);
+                let found: Vec<Vec<f64>> = second
+                    .iter()
+                    .map(|row| row.iter().map(of).collect())
+                    .collect();
+                self.second(&found, number, &b, size, &what);
+            }
+        }
+        for (quantity, number) in &expected.quantities {
+            let what = format!("{what} {quantity:?}");
+            let oscillates = modes.modes[r].frequency().is_some();
+            let Some(slopes) = own.of(*quantity) else {
+                assert!(!oscillates, "{what} has no derivative");
+                continue;
+            };
+            let size = if *quantity == Quantity::DampingRatio {
+                1.0
+            } else {
+                size
+            };
+            let found = [&slopes.by_design[..], &slopes.by_input].concat();
+            self.first(&found, number, &b, size, &what);
+            let found = ordered(&curvature.of(*quantity).expect("as the first"));
+            self.second(&found, number, &b, size, &what);
+        }
+        let shapes = shape_sensitivity(machine, at, modes, r)
+            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        for (k, &b) in b.iter().enumerate() {
+            let (right, left) = if k < P {
+                (&shapes.right_by_design[k], &shapes.left_by_design[k])
+            } else {
+                (&shapes.right_by_input[k - P], &shapes.left_by_input[k - P])
+            };
+            self.shape(right, &expected.right, k, b, &format!("{what} right"));
+            self.shape(left, &expected.left, k, b, &format!("{what} left"));
+        }
+        self.modes += 1;
+    }
+}
+
+/// The component that the product made real: the greatest of those that are.
+fn lead<const N: usize>(shape: &[Complex; N]) -> usize {
+    let real = (0..N).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
+    real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
+        .expect("a real component")
+}
+
+fn assert_shape<const N: usize>(mode: &Mode<N>, expected: &Expected, what: &str) {
+    for (shape, exact) in [(&mode.shape, &expected.right), (&mode.left, &expected.left)] {
+        let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        for (x, [re, im]) in shape.iter().zip(exact) {
+            let error = f64::hypot(x.re - re.value, x.im - im.value);
+            assert!(error <= 1e-8 * most, "{what}: {shape:?}");
+        }
+    }
+}
+
+impl Comparison for Product {
+    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        what: &str,
+        machine: &M,
+        at: &Equilibrium<N, U, P>,
+        state: &State,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let general = eigentol::modes::modes_of(&at.linear, Family::General, at.description)
+            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert_eq!(general.modes.len(), state.eigenvalues().len(), "{what}");
+        let all =
+            sensitivities(machine, at, &general).unwrap_or_else(|error| panic!("{what}: {error}"));
+        for (r, mode) in general.modes.iter().enumerate() {
+            let what = format!("{what} general mode {r}");
+            let near = nalgebra::Complex::new(mode.s.re, mode.s.im);
+            let leads = [lead(&mode.shape), lead(&mode.left)].map(Some);
+            let Some(solved) = state.general_mode(near, leads) else {
+                panic!("{what} is repeated");
+            };
+            let left = solved.left.iter().zip(&solved.right);
+            let apart = |(x, y): (&ComplexDerived, &ComplexDerived)| {
+                (x.re.value - y.re.value).abs() + (x.im.value - y.im.value).abs() > 1e-6
+            };
+            self.one_sided += usize::from(left.into_iter().any(apart));
+            let expected = Expected::general(solved);
+            let [re, im] = expected.s.as_ref().expect("of a general mode");
+            let error = f64::hypot(re.value - mode.s.re, im.value - mode.s.im);
+            assert!(
+                error <= 1e-10 * mode.s.norm(),
+                "{what}: {error:e} of {}",
+                mode.s
+            );
+            assert_shape(mode, &expected, &what);
+            self.mode(&what, machine, at, (&general, &all), r, &expected);
+        }
+        let undamped = match undamped_modes(at) {
+            Ok(undamped) => undamped,
+            Err(Error::NonsymmetricStiffness { .. }) => return,
+            Err(error) => panic!("{what}: {error}"),
+        };
+        let all =
+            sensitivities(machine, at, &undamped).unwrap_or_else(|error| panic!("{what}: {error}"));
+        for (r, mode) in state.undamped_modes().into_iter().enumerate() {
+            let what = format!("{what} undamped mode {r}");
+            let Some(mode) = mode else {
+                let refused = mode_curvature(machine, at, &undamped, r);
+                assert!(
+                    matches!(refused, Err(Error::ClusteredMode { .. })),
+                    "{what}"
+                );
+                continue;
+            };
+            let expected = Expected::undamped(mode);
+            assert_shape(&undamped.modes[r], &expected, &what);
+            self.mode(&what, machine, at, (&undamped, &all), r, &expected);
+        }
+        assert!(modes(at).is_ok(), "{what}");
+    }
+}
+
+#[test]
+fn every_derivative_of_every_mode() {
+    let mut product = Product::default();
+    every_machine(&mut product);
+    let Product {
+        modes,
+        second,
+        shapes,
+        one_sided,
+        worst,
+    } = product;
+
+    assert!(modes > 150 && second > 10_000 && shapes > 5_000 && one_sided > 20);
+    for (ratio, what) in worst {
+        assert!(ratio <= 1.0, "{what}: {ratio:.1e} of the allowed error");
+    }
+}
