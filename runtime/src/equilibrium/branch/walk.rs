@@ -18,6 +18,8 @@ const BEND: f64 = 0.3;
 const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
 /// Share of the range by which a branch along one of its ends may stray by rounding.
 const STRAY: f64 = 1e-9;
+/// Local distance on which a branch is its tangent to rounding.
+const BESIDE: f64 = 1e-7;
 /// Local distance at which two places are the same.
 pub(super) const SAME: f64 = 1e-7;
 
@@ -74,7 +76,14 @@ where
                     // Beside the edge of a domain Newton's method fails for other reasons too.
                     let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
                     if length.is_nan() || length < settings.min_step {
-                        walk.end = self.broken_off(reason, &at.equilibrium);
+                        walk.end = match self.last_step(&at) {
+                            Some((station, end)) => {
+                                walk.points
+                                    .extend(station.map(|station| self.point(&station)));
+                                end
+                            }
+                            None => self.broken_off(reason, &at.equilibrium),
+                        };
                         return walk;
                     }
                     refused = Some(reason);
@@ -94,7 +103,7 @@ where
                 if let Some(junction) = located.junction {
                     walk.junctions.push((junction, located.ends_arm));
                     let home_again = at.frame.at(junction.frame.origin).local(home).norm() <= SAME;
-                    if home_again && !located.ends_arm {
+                    if steps > 2 && home_again && !located.ends_arm {
                         walk.end = BranchEnd::Closed;
                         return walk;
                     }
@@ -318,6 +327,37 @@ where
         landed.place.p = bound;
         landed.system = self.system(&landed.place)?;
         Ok(landed)
+    }
+
+    /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
+    /// is there.
+    #[allow(clippy::type_complexity)]
+    fn last_step(&self, at: &Station<N, U, P>) -> Option<(Option<Station<N, U, P>>, BranchEnd)> {
+        let (least, most) = self.settings.bounds();
+        let away = |bound: f64| (bound - at.place.p) / self.settings.range();
+        let bound = if away(least).abs() < away(most).abs() {
+            least
+        } else {
+            most
+        };
+        if away(bound) == 0.0 {
+            return Some((None, self.end_at(bound)));
+        }
+        let step = at.tangent.scaled(away(bound) / at.tangent.p);
+        if !(step.norm() <= BESIDE && step.dot(&at.tangent) > 0.0) {
+            return None;
+        }
+        let mut place = at.frame.place(&step);
+        place.p = bound;
+        let system = self.system(&place).ok()?;
+        let corrected = Corrected {
+            local: step,
+            place,
+            system,
+            iterations: 0,
+        };
+        let station = self.arrive_singular(&corrected, at).ok()?;
+        Some((Some(station), self.end_at(bound)))
     }
 
     /// Whether the step from a station passes a place.
