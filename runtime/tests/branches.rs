@@ -749,19 +749,10 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
         ask(range(0.0, 1.0), 0.1, [3.0, -1.0]),
         Err(Error::Unphysical { .. })
     ));
-    let wild = [
-        0.0,
-        1e-20,
-        -1.0,
-        3.836_013_555_763_326_5,
-        6.0,
-        -1e9,
-        1e160,
-        1e300,
-    ];
+    let wild = [0.0, -1.0, 3.836_013_555_763_326_5, 6.0, -1e9, 1e160, 1e300];
     for low in wild {
         for high in wild {
-            for start in [0.0, 3.1, -1e7, 1e200] {
+            for start in [0.1, -1e7, 1e200] {
                 assert_numbers(ask(range(low, high), start, BAR), low, high);
                 for (b, u) in [([1.0, 1e-3], low), ([1e-200, 1e200], high)] {
                     let found = branches(
