@@ -16,7 +16,8 @@ macro_rules! law {
 
         impl Model<$n, 1, $p, 0> for $name {
             const DESCRIPTION: Description = {
-                const COORDINATES: [CoordinateInfo; $n] = [coordinate("q", $unit); $n];
+                const COORDINATE: CoordinateInfo = coordinate("q", $unit);
+                const COORDINATES: [CoordinateInfo; $n] = [COORDINATE; $n];
                 const INPUTS: [InputInfo; 1] = [input("u", NUMBER)];
                 const DESIGN: [DesignInfo; $p] = [$(design($design, NUMBER, $nominal, 0.0)),*];
                 Description {
@@ -148,6 +149,18 @@ law!(
     |q, u, b, c| [
         q[0] * q[0] * q[0] - q[0] + b[0] * q[1] + u,
         q[1] - c(0.5) * q[0]
+    ]
+);
+
+law!(
+    /// Two coordinates in a potential of fourth order with all lower terms at will, and a lopsided term `s`:
+    /// `q_i^3 + sum_j a_ij q_j + e_i - u q_i + c q_0 q_1 (..) + s (q_1, 0)`.
+    Field, 2, 7, symmetric: false, METRE,
+    ["a00" = 0.0, "a01" = 0.0, "a11" = 0.0, "c" = 0.0, "e0" = 0.0, "e1" = 0.0, "s" = 0.0],
+    |q, u, b, c| [
+        q[0] * q[0] * q[0] + (b[0] - u) * q[0] + b[1] * q[1] + b[3] * q[0] * q[1] + b[4]
+            + b[6] * q[1],
+        q[1] * q[1] * q[1] + (b[2] - u) * q[1] + b[1] * q[0] + c(0.5) * b[3] * q[0] * q[0] + b[5]
     ]
 );
 

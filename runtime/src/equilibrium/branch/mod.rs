@@ -7,6 +7,7 @@
 mod bordered;
 mod branch_point;
 mod curve;
+mod ends;
 mod explore;
 mod fold;
 mod frame;

@@ -1,13 +1,13 @@
 //! Pseudo-arclength continuation: from one point of a branch along its tangent, with a step that follows the curvature.
 
-use super::super::Failure;
 use super::curve::{Corrected, Curve, Trouble};
+use super::ends::STRAY;
 use super::frame::{Place, units};
 use super::special::{Junction, Located, SpecialPoint, at_critical};
-use super::station::{Station, VERTICAL};
+use super::station::Station;
 use super::{BranchEnd, BranchPoint};
+use crate::Mechanism;
 use crate::array::largest;
-use crate::{Equilibrium, Error, Mechanism};
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
@@ -16,8 +16,6 @@ const BEND: f64 = 0.3;
 /// First steps away from a branch point, as shares of the greatest step: small, so that nothing lies within, where that
 /// can be told from rounding.
 const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
-/// Share of the range by which a branch along one of its ends may stray by rounding.
-const STRAY: f64 = 1e-9;
 /// Local distance at which two places are the same.
 pub(super) const SAME: f64 = 1e-7;
 
@@ -74,7 +72,14 @@ where
                     // Beside the edge of a domain Newton's method fails for other reasons too.
                     let reason = refused.take().filter(Trouble::at_edge).unwrap_or(trouble);
                     if length.is_nan() || length < settings.min_step {
-                        walk.end = self.broken_off(reason, &at.equilibrium);
+                        walk.end = match self.last_step(&at) {
+                            Some((station, end)) => {
+                                walk.points
+                                    .extend(station.map(|station| self.point(&station)));
+                                end
+                            }
+                            None => self.broken_off(reason, &at.equilibrium),
+                        };
                         return walk;
                     }
                     refused = Some(reason);
@@ -94,7 +99,7 @@ where
                 if let Some(junction) = located.junction {
                     walk.junctions.push((junction, located.ends_arm));
                     let home_again = at.frame.at(junction.frame.origin).local(home).norm() <= SAME;
-                    if home_again && !located.ends_arm {
+                    if steps > 2 && home_again && !located.ends_arm {
                         walk.end = BranchEnd::Closed;
                         return walk;
                     }
@@ -239,87 +244,6 @@ where
         self.station(place, system, equilibrium, towards, before)
     }
 
-    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
-    fn arrive_singular(
-        &self,
-        corrected: &Corrected<N>,
-        before: &Station<N, U, P>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
-        let (place, system) = (corrected.place, &corrected.system);
-        let equilibrium = self.equilibrium(&place, system, corrected.iterations, None)?;
-        let frame = self.frame(&place, system);
-        let tangent = frame.direction(&before.direction()).unit();
-        Ok(Station {
-            place,
-            equilibrium,
-            frame,
-            tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
-            signs: before.signs,
-        })
-    }
-
-    fn end_at(&self, bound: f64) -> BranchEnd {
-        if bound == self.settings.low {
-            BranchEnd::Low
-        } else {
-            BranchEnd::High
-        }
-    }
-
-    /// The end of the range at which a station is about to leave it.
-    fn leaving(&self, at: &Station<N, U, P>) -> Option<BranchEnd> {
-        let (least, most) = self.settings.bounds();
-        let rate = at.tangent.p;
-        if at.place.p <= least && rate < -VERTICAL {
-            Some(self.end_at(least))
-        } else if at.place.p >= most && rate > VERTICAL {
-            Some(self.end_at(most))
-        } else {
-            None
-        }
-    }
-
-    /// The end of the range that an input lies beyond.
-    fn beyond(&self, p: f64) -> Option<f64> {
-        let (least, most) = self.settings.bounds();
-        if p < least {
-            Some(least)
-        } else if p > most {
-            Some(most)
-        } else {
-            None
-        }
-    }
-
-    /// The point of the branch exactly at an end of the range.
-    fn land(
-        &self,
-        at: &Station<N, U, P>,
-        outside: &Corrected<N>,
-        bound: f64,
-    ) -> Result<Corrected<N>, Trouble<N>> {
-        let target = at.frame.local(&Place {
-            p: bound,
-            ..at.place
-        });
-        let share = target.p / outside.local.p;
-        // A step that turns back between the points would land on the wrong side of the turn.
-        if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
-            return Err(Trouble::Missed(
-                "the end of the range is not straight ahead",
-            ));
-        }
-        let from = outside.local.scaled(share);
-        let input = Place {
-            q: [0.0; N],
-            p: 1.0,
-        };
-        let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
-        landed.place.p = bound;
-        landed.system = self.system(&landed.place)?;
-        Ok(landed)
-    }
-
     /// Whether the step from a station passes a place.
     fn passes(&self, at: &Station<N, U, P>, to: &Corrected<N>, place: &Place<N>) -> bool {
         let end = &to.local;
@@ -333,28 +257,6 @@ where
         };
         self.correct(&at.frame, &end.scaled(along), &normal, end.norm())
             .is_ok_and(|found| found.local.plus(-1.0, &target).norm() <= SAME)
-    }
-
-    pub(crate) fn broken_off(&self, trouble: Trouble<N>, at: &Equilibrium<N, U, P>) -> BranchEnd {
-        let name = Self::DESCRIPTION.name;
-        match trouble {
-            Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
-                mechanism: name,
-                what: "the residual",
-                coordinates: q.to_vec(),
-            }),
-            Trouble::Unphysical(error) => BranchEnd::Domain(error),
-            Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
-                BranchEnd::Domain(failure.explain(Self::DESCRIPTION))
-            }
-            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(Self::DESCRIPTION)),
-            Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
-                reason,
-                iterations: self.settings.max_corrections,
-                coordinates: at.coordinates.to_vec(),
-                relative_residual: at.relative_residual,
-            }),
-        }
     }
 }
 
