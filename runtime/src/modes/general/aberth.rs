@@ -6,6 +6,8 @@ use num_complex::Complex64;
 use super::lu::Lu;
 use super::pencil::Pencil;
 
+/// In a scaled pencil a value below this is zero.
+const NOTHING: f64 = 1e-40;
 const SWEEPS: usize = 60;
 
 /// Improves those of all the eigenvalues that are `open`, and closes them as they settle. `work` takes `4 n` numbers.
@@ -30,6 +32,11 @@ pub(super) fn improve(
                 .filter(|&&other| other != s)
                 .map(|other| (s - other).inv())
                 .sum();
+            let newton = trace.inv().norm();
+            if newton <= f64::EPSILON * s.norm() + NOTHING && newton * repulsion.norm() <= 0.5 {
+                open[i] = false;
+                continue;
+            }
             let step = (trace - repulsion).inv();
             let new = s - step;
             if !(new.re.is_finite() && new.im.is_finite()) {
@@ -37,7 +44,7 @@ pub(super) fn improve(
                 continue;
             }
             values[i] = new;
-            if step.norm() <= 4.0 * f64::EPSILON * new.norm() {
+            if step.norm() <= 4.0 * f64::EPSILON * new.norm() + NOTHING {
                 open[i] = false;
             } else {
                 settled = false;
