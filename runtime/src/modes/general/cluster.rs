@@ -21,9 +21,10 @@ const STEPS: usize = 4;
 struct Cluster {
     s: Complex64,
     multiplicity: usize,
-    /// Distance of the eigenvalues that it stands for, and greatest radius of them.
+    /// Distance of the eigenvalues that it stands for, greatest radius and reach of them.
     spread: f64,
     radius: f64,
+    reach: f64,
     nullity: usize,
     /// Vectors `0..regular` belong to semisimple eigenvalues.
     regular: usize,
@@ -116,16 +117,18 @@ fn merge_one(
     if real {
         s.im = 0.0;
     }
-    let (mut spread, mut radius) = (0.0_f64, 0.0_f64);
+    let (mut spread, mut radius, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
     for i in members() {
         spread = spread.max((found.pairs[i].s - s).norm());
         radius = radius.max(found.pairs[i].radius());
+        reach = reach.max(found.pairs[i].reach);
     }
     let mut cluster = Cluster {
         s,
         multiplicity,
         spread,
         radius,
+        reach,
         nullity: 0,
         regular: 0,
     };
@@ -185,7 +188,7 @@ impl Solver<'_> {
             &self.basis_left[k * n..(k + 1) * n],
         );
         pair.residual > INACCURATE
-            && (pair.newton.norm() > 4.0 * cluster.spread + cluster.radius
+            && (pair.newton.norm() > 4.0 * cluster.spread + cluster.reach
                 || !self.is_rounding(cluster.s, right, left))
     }
 
@@ -268,7 +271,10 @@ impl Solver<'_> {
                 tolerance = tolerance.max((pair.rounding * pair.mass_terms).sqrt());
             }
         }
-        tolerance *= 4.0;
+        let sum = |x: &[Complex64]| x.iter().map(|&x| bound(x)).sum::<f64>() / nullity as f64;
+        let vectors = sum(&self.basis_left[..nullity * n]) * sum(&self.basis_right[..nullity * n]);
+        let rounding = 8.0 * n as f64 * f64::EPSILON * self.pencil.slope_size(s);
+        tolerance = (4.0 * tolerance).max(rounding * vectors);
         let mut regular = 0;
         let mut column = 0;
         let mut columns = nullity;

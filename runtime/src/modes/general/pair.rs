@@ -25,6 +25,8 @@ pub(super) struct Pair {
     pub(super) rounding: f64,
     /// Distance within which `Q` is the same but for rounding.
     pub(super) reach: f64,
+    /// The same by the greatest elements of the matrices.
+    reach_overall: f64,
     /// Error of second order, from the residuals of both vectors.
     pub(super) second: f64,
     /// Greatest relative residual of the two vectors.
@@ -45,6 +47,7 @@ impl Pair {
         mass_terms: 0.0,
         rounding: 0.0,
         reach: 0.0,
+        reach_overall: 0.0,
         second: 0.0,
         residual: 0.0,
         merged: false,
@@ -64,7 +67,7 @@ impl Pair {
     /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
     pub(super) fn radius(&self) -> f64 {
         let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
-        radius.min(1e6 * self.reach)
+        radius.min(1e6 * self.reach_overall)
     }
 
 }
@@ -235,11 +238,13 @@ impl Solver<'_> {
         let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
         let rounding = (n as f64 + 4.0) * f64::EPSILON * (terms + NOTHING);
         let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
-        let [most_mass, _, _] = self.pencil.largest;
+        let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
         Pair {
             s,
             newton: if value == Complex64::ZERO {
                 value
+            } else if slope == Complex64::ZERO {
+                Complex64::new(f64::INFINITY, 0.0)
             } else {
                 value / slope
             },
@@ -247,11 +252,8 @@ impl Solver<'_> {
             slope_terms,
             mass_terms,
             rounding,
-            reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach(
-                overall,
-                self.pencil.slope_size(s),
-                most_mass,
-            )),
+            reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach_overall),
+            reach_overall,
             residual,
             ..Pair::NONE
         }

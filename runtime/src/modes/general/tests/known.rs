@@ -163,7 +163,7 @@ pub(super) fn check_known<const N: usize>(known: &Known<N>) -> Result<(), String
                 return Err(format!("{exact:?}: error {error:e}: {root:?}"));
             }
             let semisimple = exact.algebraic == exact.geometric;
-            if semisimple && root.error > 1e-12 * (1.0 + exact.s.norm()) * root.condition {
+            if semisimple && root.error > 1e-11 * (1.0 + exact.s.norm()) * root.condition {
                 return Err(format!("{exact:?}: pessimistic: {root:?}"));
             }
         }
