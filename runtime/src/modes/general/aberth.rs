@@ -6,7 +6,11 @@ use num_complex::Complex64;
 use super::lu::Lu;
 use super::pencil::Pencil;
 
-const SWEEPS: usize = 60;
+/// In a scaled pencil a value below this is zero.
+const NOTHING: f64 = 1e-36;
+/// Steps below this end the search for zero.
+const SMALL: f64 = 1e-40;
+const SWEEPS: usize = 150;
 
 /// Improves those of all the eigenvalues that are `open`, and closes them as they settle. `work` takes `4 n` numbers.
 pub(super) fn improve(
@@ -30,6 +34,11 @@ pub(super) fn improve(
                 .filter(|&&other| other != s)
                 .map(|other| (s - other).inv())
                 .sum();
+            let newton = trace.inv().norm();
+            if newton <= f64::EPSILON * s.norm() + SMALL && newton * repulsion.norm() <= 0.5 {
+                open[i] = false;
+                continue;
+            }
             let step = (trace - repulsion).inv();
             let new = s - step;
             if !(new.re.is_finite() && new.im.is_finite()) {
@@ -37,7 +46,7 @@ pub(super) fn improve(
                 continue;
             }
             values[i] = new;
-            if step.norm() <= 4.0 * f64::EPSILON * new.norm() {
+            if step.norm() <= 4.0 * f64::EPSILON * new.norm() + SMALL {
                 open[i] = false;
             } else {
                 settled = false;
@@ -77,6 +86,11 @@ fn logarithmic_derivative(
 /// is real when that is itself. They move to the end, conjugates as neighbours.
 pub(super) fn symmetrise(values: &mut [Complex64], marked: &mut [bool]) {
     let count = values.len();
+    for value in values.iter_mut() {
+        if value.norm_sqr() < NOTHING * NOTHING {
+            *value = Complex64::ZERO;
+        }
+    }
     let mut start = 0;
     for i in 0..count {
         if !marked[i] {

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::cluster::Found;
-use super::pair::{Pair, Solver};
+use super::pair::{INACCURATE, Pair, Solver};
 
 /// Eigenvalues farther away than this many errors do not matter.
 const FAR: f64 = 8.0;
@@ -13,7 +13,8 @@ const PARALLEL: f64 = 0.9;
 /// Whether the pair needs the second method: its error is far beyond what rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
     let step = pair.newton.norm();
-    !(pair.merged || step <= 64.0 * pair.doubt() || step <= 1e-12 * pair.s.norm())
+    let far = step > 64.0 * pair.doubt() && step > 1e-12 * pair.s.norm();
+    !pair.merged && (far || pair.residual > INACCURATE)
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster.
@@ -34,7 +35,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
     for (s, _, _) in others(found, i) {
         gap = gap.min((s - pair.s).norm());
     }
-    if FAR * first <= gap {
+    if FAR * first <= gap && pair.residual <= INACCURATE {
         return first;
     }
     let error = first.max(solver.noise(pair.condition));
@@ -74,7 +75,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
             high = middle;
         }
     }
-    high.exp().max(own)
+    (2.0 * high.exp()).max(own)
 }
 
 /// The other eigenvalues: value, pair, whether it is the conjugate of that pair.

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::lu::Lu;
-use super::pair::{Pair, Solver};
+use super::pair::{INACCURATE, Pair, Solver, ZERO};
 use super::pencil::bound;
 
 /// The pairs found so far; the vectors of pair `i` are the components `i n .. (i + 1) n`.
@@ -14,65 +14,98 @@ pub(super) struct Found<'a> {
     pub(super) left: &'a mut [Complex64],
 }
 
-/// One eigenvalue of multiplicity `members` and what was found of its eigenspaces.
+/// Newton steps of a cluster.
+const STEPS: usize = 4;
+
+/// One eigenvalue and what was found of its eigenspaces.
 struct Cluster {
     s: Complex64,
     multiplicity: usize,
-    /// Distance of the eigenvalues that it stands for.
+    /// Distance of the eigenvalues that it stands for, greatest radius and reach of them.
     spread: f64,
+    radius: f64,
+    reach: f64,
     nullity: usize,
     /// Vectors `0..regular` belong to semisimple eigenvalues.
     regular: usize,
 }
 
+/// How eigenvalues are linked to a cluster.
+#[derive(Clone, Copy, PartialEq)]
+enum Links {
+    /// They may be the same; they are merged where they have as many independent vectors.
+    Loose,
+    /// The pencil is the same there, but for rounding; merged in any case.
+    Tight,
+}
+
+impl Links {
+    fn join(self, pair: &Pair, other: &Pair, distance: f64) -> bool {
+        match self {
+            Self::Loose => distance <= pair.radius() + other.radius(),
+            Self::Tight => distance <= pair.reach.max(other.reach),
+        }
+    }
+
+    /// Whether a pair may be the same as its conjugate.
+    fn real(self, pair: &Pair) -> bool {
+        !pair.conjugate || self.join(pair, pair, 2.0 * pair.s.im)
+    }
+}
+
 /// Merges what cannot be told apart. Returns whether a pair was found twice in place of two different ones.
 pub(super) fn merge(solver: &mut Solver, found: &mut Found, label: &mut [usize]) -> bool {
-    let count = found.count;
-    for i in 0..count {
-        label[i] = i;
+    let mut collapsed = false;
+    for links in [Links::Loose, Links::Tight] {
+        let count = found.count;
+        if link(links, &found.pairs[..count], label) {
+            for first in 0..count {
+                if label[first] == first {
+                    collapsed |= merge_one(solver, found, &label[..count], first, links);
+                }
+            }
+        }
     }
+    collapsed
+}
+
+/// Labels each pair with the first of its cluster; whether there are clusters.
+fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
     let mut any = false;
-    for i in 0..count {
-        let pair = &found.pairs[i];
-        any |= pair.conjugate && pair.reaches(2.0 * pair.s.im);
-        for j in 0..i {
-            let other = &found.pairs[j];
-            let distance = (pair.s - other.s).norm();
-            if pair.reaches(distance) || other.reaches(distance) {
+    for (i, pair) in pairs.iter().enumerate() {
+        label[i] = i;
+        if pair.merged {
+            continue;
+        }
+        any |= pair.conjugate && links.real(pair);
+        for (j, other) in pairs[..i].iter().enumerate() {
+            if !other.merged && links.join(pair, other, (pair.s - other.s).norm()) {
                 any = true;
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
-                label[..count]
+                label[..=i]
                     .iter_mut()
                     .filter(|label| **label == old)
                     .for_each(|label| *label = new);
             }
         }
     }
-    if !any {
-        return false;
-    }
-    let mut collapsed = false;
-    for first in 0..count {
-        if label[first] == first {
-            collapsed |= merge_one(solver, found, &label[..count], first);
-        }
-    }
-    collapsed
+    any
 }
 
-fn merge_one(solver: &mut Solver, found: &mut Found, label: &[usize], first: usize) -> bool {
+/// Merges one cluster where that is right; whether it turned out to be one eigenvalue found twice.
+fn merge_one(
+    solver: &mut Solver,
+    found: &mut Found,
+    label: &[usize],
+    first: usize,
+    links: Links,
+) -> bool {
+    if found.pairs[first].merged {
+        return false;
+    }
     let members = || (0..label.len()).filter(|&i| label[i] == first);
-    let real = members().any(|i| {
-        let pair = &found.pairs[i];
-        !pair.conjugate || pair.reaches(2.0 * pair.s.im)
-    });
-    let weight = |i: usize| {
-        if real && found.pairs[i].conjugate {
-            2
-        } else {
-            1
-        }
-    };
+    let real = members().any(|i| links.real(&found.pairs[i]));
+    let weight = |i: usize| if real && found.pairs[i].conjugate { 2 } else { 1 };
     let multiplicity: usize = members().map(weight).sum();
     if multiplicity < 2 {
         return false;
@@ -84,17 +117,33 @@ fn merge_one(solver: &mut Solver, found: &mut Found, label: &[usize], first: usi
     if real {
         s.im = 0.0;
     }
-    let spread = members().fold(0.0_f64, |most, i| most.max((found.pairs[i].s - s).norm()));
+    let (mut spread, mut radius, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for i in members() {
+        spread = spread.max((found.pairs[i].s - s).norm());
+        radius = radius.max(found.pairs[i].radius());
+        reach = reach.max(found.pairs[i].reach);
+    }
     let mut cluster = Cluster {
         s,
         multiplicity,
         spread,
+        radius,
+        reach,
         nullity: 0,
         regular: 0,
     };
     solver.eigenspaces(&mut cluster);
-    if cluster.nullity < multiplicity && cluster.regular == cluster.nullity {
-        return true;
+    if std::env::var("D").is_ok() { println!("cluster {} m {} spread {:.1e} radius {:.1e} nullity {} regular {}", cluster.s, cluster.multiplicity, cluster.spread, cluster.radius, cluster.nullity, cluster.regular); }
+    if cluster.regular < multiplicity {
+        if links == Links::Loose {
+            return false;
+        }
+        if cluster.regular == cluster.nullity {
+            return true;
+        }
+    }
+    if (0..cluster.nullity).any(|k| solver.is_poor(&cluster, k)) {
+        return links == Links::Tight && cluster.regular == multiplicity;
     }
     // The members keep their places; what a real cluster has more of goes to the end.
     let end = found.count;
@@ -114,7 +163,9 @@ impl Solver<'_> {
         self.pencil.at(cluster.s, self.q);
         let size = self.pencil.size(cluster.s);
         let lu = Lu::new(n, self.q, self.order);
-        let threshold = 16.0 * n as f64 * f64::EPSILON * size / lu.unit;
+        let rounding = 16.0 * n as f64 * f64::EPSILON * size;
+        let distance = 4.0 * cluster.spread * self.pencil.slope_size(cluster.s);
+        let threshold = (rounding + distance) / lu.unit;
         let nullity = lu.nullity(threshold).min(cluster.multiplicity);
         for k in 0..nullity {
             lu.null_right(nullity, k, &mut self.basis_right[k * n..(k + 1) * n]);
@@ -124,14 +175,45 @@ impl Solver<'_> {
         self.orthonormalise(nullity);
         cluster.regular = self.dualise(cluster.s, nullity);
         if cluster.regular == cluster.multiplicity {
-            // The mean of the Rayleigh quotients.
+            self.centre(cluster);
+        }
+    }
+
+    /// Whether a vector does not belong to the eigenvalue.
+    fn is_poor(&mut self, cluster: &Cluster, k: usize) -> bool {
+        let pair = self.basis_pair(cluster.s, k);
+        let n = self.pencil.n;
+        let (right, left) = (
+            &self.basis_right[k * n..(k + 1) * n],
+            &self.basis_left[k * n..(k + 1) * n],
+        );
+        pair.residual > INACCURATE
+            && (pair.newton.norm() > 4.0 * cluster.spread + cluster.reach
+                || !self.is_rounding(cluster.s, right, left))
+    }
+
+    /// Moves the eigenvalue to the mean of the Rayleigh quotients.
+    fn centre(&mut self, cluster: &mut Cluster) {
+        let allowed = 4.0 * cluster.spread + cluster.radius;
+        let mut moved = 0.0;
+        for _ in 0..STEPS {
             let mut step = Complex64::ZERO;
-            for k in 0..nullity {
-                let pair = self.basis_pair(cluster.s, k);
-                step += pair.newton / nullity as f64;
+            for k in 0..cluster.nullity {
+                step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
             }
-            if step.norm() <= 4.0 * cluster.spread {
-                cluster.s -= step;
+            moved += step.norm();
+            if step == Complex64::ZERO || !(moved <= allowed) {
+                break;
+            }
+            cluster.s -= step;
+        }
+        if cluster.s.norm_sqr() < ZERO * ZERO {
+            let zero = Cluster {
+                s: Complex64::ZERO,
+                ..*cluster
+            };
+            if !(0..cluster.nullity).any(|k| self.is_poor(&zero, k)) {
+                cluster.s = zero.s;
             }
         }
     }
@@ -141,6 +223,8 @@ impl Solver<'_> {
         let range = k * n..(k + 1) * n;
         self.pencil
             .multiply(&self.basis_right[range.clone()], false, &mut self.of_right);
+        self.pencil
+            .multiply(&self.basis_left[range.clone()], true, &mut self.of_left);
         self.measure(s, &self.basis_left[range])
     }
 
@@ -187,7 +271,10 @@ impl Solver<'_> {
                 tolerance = tolerance.max((pair.rounding * pair.mass_terms).sqrt());
             }
         }
-        tolerance *= 4.0;
+        let sum = |x: &[Complex64]| x.iter().map(|&x| bound(x)).sum::<f64>() / nullity as f64;
+        let vectors = sum(&self.basis_left[..nullity * n]) * sum(&self.basis_right[..nullity * n]);
+        let rounding = 8.0 * n as f64 * f64::EPSILON * self.pencil.slope_size(s);
+        tolerance = (4.0 * tolerance).max(rounding * vectors);
         let mut regular = 0;
         let mut column = 0;
         let mut columns = nullity;
@@ -253,15 +340,16 @@ impl Solver<'_> {
         left.copy_from_slice(&self.basis_left[vector * n..(vector + 1) * n]);
         let mut pair = self.examine(cluster.s, right, left);
         pair.conjugate = conjugate;
-        pair.newton = Complex64::ZERO;
         if regular {
             pair.condition = self.condition(&pair, right, left);
-            pair.error = pair.doubt() + cluster.spread.min(self.noise(pair.condition));
+            let own = f64::EPSILON * pair.s.norm();
+            pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
         } else {
-            let block = (cluster.multiplicity - cluster.regular).div_ceil(defective);
+            let block = (cluster.multiplicity - cluster.regular).div_ceil(defective).max(2);
             let relative = (n as f64 + 4.0) * f64::EPSILON;
             // rounding = relative size^2 mass_terms
             let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();
+            let size = size.min((self.pencil.size(pair.s) / self.pencil.largest[0]).sqrt());
             pair.condition = f64::INFINITY;
             pair.error = (2.0 * cluster.spread).max(size * relative.powf(1.0 / block as f64));
         }

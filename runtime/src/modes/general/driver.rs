@@ -135,6 +135,7 @@ fn scaled<'a>(
     }
     let pencil = Pencil {
         n,
+        largest: [&*mass, damping, stiffness].map(largest),
         mass,
         damping,
         stiffness,
@@ -261,7 +262,7 @@ fn solve_with(
     if troubles > 0 {
         let second = take(&mut complex, 2 * n);
         second_values(&mut solver, &found, second, spare, open, marked);
-        if find(&mut solver, &mut found, second, label) > troubles {
+        if find(&mut solver, &mut found, second, label) >= troubles {
             find(&mut solver, &mut found, values, label);
         }
     }
@@ -277,6 +278,8 @@ fn solve_with(
         let (phi, psi) = (&found.right[vectors.clone()], &found.left[vectors]);
         let mut residual = pair.residual;
         if residual > ACCEPTED {
+            solver.pencil.multiply(phi, false, &mut solver.of_right);
+            solver.pencil.multiply(psi, true, &mut solver.of_left);
             if !solver.is_rounding(pair.s, phi, psi) {
                 return Err(Trouble::Inaccurate { mode, residual });
             }
@@ -323,7 +326,9 @@ fn find(
         );
         found.count += 1;
     }
+    if std::env::var("D").is_ok() { println!("--- size {:.2e}",solver.linearisation.size); for p in &found.pairs[..found.count] { println!("s {:.6e} {:+.6e}i newton {:.2e} doubt {:.2e} second {:.2e} cond {:.2e} res {:.2e} trouble {}", p.s.re,p.s.im,p.newton.norm(),p.doubt(),p.second,p.condition,p.residual,accuracy::in_trouble(p)); } }
     let collapsed = cluster::merge(solver, found, label);
+    if std::env::var("D").is_ok() { println!("merged, collapsed {collapsed}"); for p in &found.pairs[..found.count] { println!("s {:.6e} {:+.6e}i newton {:.2e} merged {} err {:.2e} cond {:.2e} res {:.2e} trouble {}", p.s.re,p.s.im,p.newton.norm(),p.merged,p.error,p.condition,p.residual,accuracy::in_trouble(p)); } }
     let pairs = &found.pairs[..found.count];
     pairs
         .iter()
@@ -347,9 +352,14 @@ fn second_values(
         let crowded = found.pairs[..found.count]
             .iter()
             .enumerate()
-            .any(|(j, other)| i != j && !pair.merged && pair.reaches((pair.s - other.s).norm()));
-        let bad = crowded || accuracy::in_trouble(pair);
-        let reach = pair.newton.norm().max(f64::EPSILON * pair.s.norm());
+            .any(|(j, other)| i != j && !pair.merged && (pair.s - other.s).norm() <= pair.reach);
+        let unsure = solver.noise(pair.condition) > 1e-3 * pair.s.norm();
+        let bad = unsure || crowded || accuracy::in_trouble(pair);
+        let reach = pair.newton.norm().max(if crowded {
+            pair.s.norm()
+        } else {
+            f64::EPSILON * pair.s.norm()
+        });
         let reach = if reach.is_finite() { reach } else { 1.0 };
         for s in [Some(pair.s), pair.conjugate.then_some(pair.s.conj())]
             .into_iter()
@@ -366,6 +376,7 @@ fn second_values(
     marked.copy_from_slice(open);
     let (pencil, q, order) = (&solver.pencil, &mut *solver.q, &mut *solver.order);
     aberth::improve(pencil, second, open, q, order, spare);
+    if std::env::var("D").is_ok() { for i in 0..second.len() { println!("a {:.6e} open {}",second[i],open[i]); } }
     aberth::symmetrise(second, marked);
 }
 

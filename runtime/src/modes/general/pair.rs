@@ -23,6 +23,10 @@ pub(super) struct Pair {
     pub(super) mass_terms: f64,
     /// Bound on the rounding in `psi^T Q(s) phi`.
     pub(super) rounding: f64,
+    /// Distance within which `Q` is the same but for rounding.
+    pub(super) reach: f64,
+    /// The same by the greatest elements of the matrices.
+    reach_overall: f64,
     /// Error of second order, from the residuals of both vectors.
     pub(super) second: f64,
     /// Greatest relative residual of the two vectors.
@@ -42,6 +46,8 @@ impl Pair {
         slope_terms: 0.0,
         mass_terms: 0.0,
         rounding: 0.0,
+        reach: 0.0,
+        reach_overall: 0.0,
         second: 0.0,
         residual: 0.0,
         merged: false,
@@ -58,10 +64,12 @@ impl Pair {
         }
     }
 
-    /// Whether `Q` is the same at a distance from `s`, but for rounding.
-    pub(super) fn reaches(&self, distance: f64) -> bool {
-        distance * self.slope_terms <= 16.0 * self.rounding
+    /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
+    pub(super) fn radius(&self) -> f64 {
+        let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
+        radius.min(1e6 * self.reach_overall)
     }
+
 }
 
 /// Everything that finding pairs needs, in slices.
@@ -79,16 +87,20 @@ pub(super) struct Solver<'a> {
 }
 
 /// Improvements of one pair.
+/// What is less than this may be zero in a scaled pencil.
+pub(super) const ZERO: f64 = 1e-30;
+/// Terms that are less than this are zero in a scaled pencil.
+const NOTHING: f64 = 1e-60;
 const STEPS: usize = 8;
 /// Residual beyond which the vectors are improved.
-const INACCURATE: f64 = 1e-13;
+pub(super) const INACCURATE: f64 = 1e-13;
 /// Residual relative to the matrices that rounding of a vector explains.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Solver<'_> {
     /// Rounding error of an eigenvalue of the linearisation with this condition number.
     pub(super) fn noise(&self, condition: f64) -> f64 {
-        4.0 * f64::EPSILON * self.linearisation.size * condition
+        8.0 * f64::EPSILON * self.linearisation.size * condition
     }
 
     /// The pair that starts from `s`, `gap` away from the next eigenvalue.
@@ -102,7 +114,7 @@ impl Solver<'_> {
         let n = self.pencil.n;
         let mut s = start;
         let mut pair = Pair::NONE;
-        for _ in 0..STEPS {
+        for count in 0..=STEPS {
             self.pencil.at(s, self.q);
             let lu = Lu::new(n, self.q, self.order);
             lu.null_right(1, 0, right);
@@ -115,7 +127,7 @@ impl Solver<'_> {
             pair = self.examine(s, right, left);
             pair.second = self.second_order(&pair, neighbour);
             let step = pair.newton.norm();
-            if !step.is_finite() {
+            if !step.is_finite() || count == STEPS {
                 break;
             }
             let doubt = pair.doubt();
@@ -129,14 +141,29 @@ impl Solver<'_> {
                     break;
                 }
             }
-            s -= pair.newton;
-            let settled = step * pair.slope_terms <= 4.0 * pair.rounding;
-            pair = Pair {
-                second: pair.second,
-                ..self.measure(s, left)
-            };
-            if settled {
+            let next = s - pair.newton;
+            if start.im > 0.0 && next.im <= 0.0 {
                 break;
+            }
+            s = next;
+            if step * pair.slope_terms <= 4.0 * pair.rounding {
+                let moved = self.measure(s, left);
+                if moved.residual <= INACCURATE {
+                    pair = Pair {
+                        second: pair.second,
+                        ..moved
+                    };
+                    break;
+                }
+            }
+        }
+        if start.im == 0.0 && pair.s.norm_sqr() < ZERO * ZERO && pair.s != Complex64::ZERO {
+            let zero = self.measure(Complex64::ZERO, left);
+            if zero.residual < pair.residual {
+                pair = Pair {
+                    second: pair.second,
+                    ..zero
+                };
             }
         }
         if pair.residual > INACCURATE {
@@ -144,7 +171,6 @@ impl Solver<'_> {
         }
         if start.im > 0.0 {
             pair.conjugate = true;
-            pair.s.im = pair.s.im.abs();
         }
         pair.condition = self.condition(&pair, right, left);
         pair
@@ -210,17 +236,24 @@ impl Solver<'_> {
             mass_terms += size * of_right.mass_terms(i);
         }
         let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
+        let rounding = (n as f64 + 4.0) * f64::EPSILON * (terms + NOTHING);
+        let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
+        let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
         Pair {
             s,
             newton: if value == Complex64::ZERO {
                 value
+            } else if slope == Complex64::ZERO {
+                Complex64::new(f64::INFINITY, 0.0)
             } else {
                 value / slope
             },
             slope,
             slope_terms,
             mass_terms,
-            rounding: (n as f64 + 4.0) * f64::EPSILON * terms,
+            rounding,
+            reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach_overall),
+            reach_overall,
             residual,
             ..Pair::NONE
         }
@@ -252,17 +285,10 @@ impl Solver<'_> {
         }
     }
 
-    /// Whether rounding of the vectors explains the residual: a vector that `K` takes to zero has nothing but rounding in
-    /// the rows that act, and their terms are no measure.
-    pub(super) fn is_rounding(
-        &mut self,
-        s: Complex64,
-        right: &[Complex64],
-        left: &[Complex64],
-    ) -> bool {
+    /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
+    /// has nothing but rounding in the rows that act, and their terms are no measure.
+    pub(super) fn is_rounding(&self, s: Complex64, right: &[Complex64], left: &[Complex64]) -> bool {
         let allowed = ROUNDING * self.pencil.size(s);
-        self.pencil.multiply(right, false, &mut self.of_right);
-        self.pencil.multiply(left, true, &mut self.of_left);
         let most = |products: &Products| {
             (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
         };
@@ -270,6 +296,11 @@ impl Solver<'_> {
         most(&self.of_right) <= allowed * largest(right)
             && most(&self.of_left) <= allowed * largest(left)
     }
+}
+
+/// The `d` with `d (slope + d mass) = rounding`, about.
+fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
+    (rounding / slope).min((rounding / mass).sqrt())
 }
 
 /// Scales `x` to `x^H M x = 1`, and its products with it.

@@ -8,6 +8,8 @@ pub(super) struct Pencil<'a> {
     pub(super) mass: &'a [f64],
     pub(super) damping: &'a [f64],
     pub(super) stiffness: &'a [f64],
+    /// Greatest element of each.
+    pub(super) largest: [f64; 3],
 }
 
 /// Products of the three matrices with one vector, and the sums of the absolute terms in them.
@@ -63,11 +65,15 @@ impl Pencil<'_> {
         }
     }
 
+    /// The size of what `2 s M + C` is summed from.
+    pub(super) fn slope_size(&self, s: Complex64) -> f64 {
+        2.0 * bound(s) * self.largest[0] + self.largest[1]
+    }
+
     /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.
     pub(super) fn size(&self, s: Complex64) -> f64 {
         let size = bound(s);
-        let most = |matrix: &[f64]| matrix.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        size * size * most(self.mass) + size * most(self.damping) + most(self.stiffness)
+        size * size * self.largest[0] + size * self.largest[1] + self.largest[2]
     }
 }
 
