@@ -4,8 +4,11 @@ use super::sensitivities;
 use super::shift::outside_domain;
 use crate::array::{all_finite, dot, largest, times, transpose};
 use crate::equilibrium::branch::Bordered;
-use crate::equilibrium::{CriticalState, Crossing, SpecialKind};
+use crate::equilibrium::{Condition, CriticalState, Crossing, SpecialKind};
 use crate::{Equilibrium, Error, Gradient, Mechanism};
+
+/// Condition number of an eigenvalue from which on it counts as merged with another.
+const MERGED: f64 = 1e5;
 
 /// `du_c/db` of a crossing: of `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, of an onset of flutter
 /// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable.
@@ -28,6 +31,11 @@ where
     };
     if own.clustered {
         return Err(Error::ClusteredMode { mode });
+    }
+    if crossing.condition == Condition::FlutterOnset && there.condition > MERGED {
+        return Err(Error::NoSensitivity {
+            reason: "two frequencies merge there: the least damping moves the onset by a finite amount",
+        });
     }
     let (quantity, other) = crossing.condition.sides();
     let Some(slopes) = own.of(quantity).filter(|_| there.frequency().is_some()) else {

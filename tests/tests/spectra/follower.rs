@@ -42,10 +42,13 @@ fn frequencies_that_merge_have_an_onset_without_derivative() {
         panic!("{found:?}")
     };
     assert!((only.value - boundary).abs() < 1e-6 * boundary);
-    assert!(matches!(
-        only.spread,
-        Err(Error::ClusteredMode { .. } | Error::NoSensitivity { .. })
-    ));
+    assert!(
+        matches!(
+            only.spread,
+            Err(Error::ClusteredMode { .. } | Error::NoSensitivity { .. })
+        ),
+        "{only:?}"
+    );
 }
 
 /// Small damping lowers the flutter load to `p = 41/28 + c^2 / (2 m l^2 k)` (Ziegler 1952).
@@ -70,7 +73,7 @@ fn damping_destabilises() {
         panic!("{found:?}")
     };
     let widths = *study.tolerances().expect("declared").half_widths();
-    event(only, load, slopes, widths);
+    event(only, load, slopes, study.design_values(), &widths);
     let there = study.input(ZieglerColumn::load, load + 0.5);
     let found = there.modes().expect("modes");
     let growing = found.modes.iter().find(|mode| mode.behaviour.grows());

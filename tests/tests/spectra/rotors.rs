@@ -79,7 +79,7 @@ fn onset_of_instability_by_internal_damping() {
     let [only] = &found[..] else {
         panic!("{found:?}")
     };
-    event(only, expected, slopes, widths);
+    event(only, expected, slopes, &design, &widths);
     // Slightly above, samples are on both sides; the shares follow the spread of the onset itself.
     let sigma = only.sigma().expect("a spread");
     let run = study
@@ -161,7 +161,7 @@ fn conical_whirl_and_its_critical_speeds() {
             -0.5 * sign * speed / inertia,
             0.5 * speed / k,
         ];
-        event(crossing, speed, slopes, widths);
+        event(crossing, speed, slopes, study.design_values(), &widths);
         assert!(matches!(crossing.event, Event::Crossing { .. }));
     }
 }

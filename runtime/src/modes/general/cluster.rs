@@ -105,7 +105,13 @@ fn merge_one(
     }
     let members = || (0..label.len()).filter(|&i| label[i] == first);
     let real = members().any(|i| links.real(&found.pairs[i]));
-    let weight = |i: usize| if real && found.pairs[i].conjugate { 2 } else { 1 };
+    let weight = |i: usize| {
+        if real && found.pairs[i].conjugate {
+            2
+        } else {
+            1
+        }
+    };
     let multiplicity: usize = members().map(weight).sum();
     if multiplicity < 2 {
         return false;
@@ -133,7 +139,17 @@ fn merge_one(
         regular: 0,
     };
     solver.eigenspaces(&mut cluster);
-    if std::env::var("D").is_ok() { println!("cluster {} m {} spread {:.1e} radius {:.1e} nullity {} regular {}", cluster.s, cluster.multiplicity, cluster.spread, cluster.radius, cluster.nullity, cluster.regular); }
+    if std::env::var("D").is_ok() {
+        println!(
+            "cluster {} m {} spread {:.1e} radius {:.1e} nullity {} regular {}",
+            cluster.s,
+            cluster.multiplicity,
+            cluster.spread,
+            cluster.radius,
+            cluster.nullity,
+            cluster.regular
+        );
+    }
     if cluster.regular < multiplicity {
         if links == Links::Loose {
             return false;
@@ -345,7 +361,9 @@ impl Solver<'_> {
             let own = f64::EPSILON * pair.s.norm();
             pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
         } else {
-            let block = (cluster.multiplicity - cluster.regular).div_ceil(defective).max(2);
+            let block = (cluster.multiplicity - cluster.regular)
+                .div_ceil(defective)
+                .max(2);
             let relative = (n as f64 + 4.0) * f64::EPSILON;
             // rounding = relative size^2 mass_terms
             let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();

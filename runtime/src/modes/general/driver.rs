@@ -326,9 +326,39 @@ fn find(
         );
         found.count += 1;
     }
-    if std::env::var("D").is_ok() { println!("--- size {:.2e}",solver.linearisation.size); for p in &found.pairs[..found.count] { println!("s {:.6e} {:+.6e}i newton {:.2e} doubt {:.2e} second {:.2e} cond {:.2e} res {:.2e} trouble {}", p.s.re,p.s.im,p.newton.norm(),p.doubt(),p.second,p.condition,p.residual,accuracy::in_trouble(p)); } }
+    if std::env::var("D").is_ok() {
+        println!("--- size {:.2e}", solver.linearisation.size);
+        for p in &found.pairs[..found.count] {
+            println!(
+                "s {:.6e} {:+.6e}i newton {:.2e} doubt {:.2e} second {:.2e} cond {:.2e} res {:.2e} trouble {}",
+                p.s.re,
+                p.s.im,
+                p.newton.norm(),
+                p.doubt(),
+                p.second,
+                p.condition,
+                p.residual,
+                accuracy::in_trouble(p)
+            );
+        }
+    }
     let collapsed = cluster::merge(solver, found, label);
-    if std::env::var("D").is_ok() { println!("merged, collapsed {collapsed}"); for p in &found.pairs[..found.count] { println!("s {:.6e} {:+.6e}i newton {:.2e} merged {} err {:.2e} cond {:.2e} res {:.2e} trouble {}", p.s.re,p.s.im,p.newton.norm(),p.merged,p.error,p.condition,p.residual,accuracy::in_trouble(p)); } }
+    if std::env::var("D").is_ok() {
+        println!("merged, collapsed {collapsed}");
+        for p in &found.pairs[..found.count] {
+            println!(
+                "s {:.6e} {:+.6e}i newton {:.2e} merged {} err {:.2e} cond {:.2e} res {:.2e} trouble {}",
+                p.s.re,
+                p.s.im,
+                p.newton.norm(),
+                p.merged,
+                p.error,
+                p.condition,
+                p.residual,
+                accuracy::in_trouble(p)
+            );
+        }
+    }
     let pairs = &found.pairs[..found.count];
     pairs
         .iter()
@@ -376,7 +406,11 @@ fn second_values(
     marked.copy_from_slice(open);
     let (pencil, q, order) = (&solver.pencil, &mut *solver.q, &mut *solver.order);
     aberth::improve(pencil, second, open, q, order, spare);
-    if std::env::var("D").is_ok() { for i in 0..second.len() { println!("a {:.6e} open {}",second[i],open[i]); } }
+    if std::env::var("D").is_ok() {
+        for i in 0..second.len() {
+            println!("a {:.6e} open {}", second[i], open[i]);
+        }
+    }
     aberth::symmetrise(second, marked);
 }
 

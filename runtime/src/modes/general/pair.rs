@@ -69,7 +69,6 @@ impl Pair {
         let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
         radius.min(1e6 * self.reach_overall)
     }
-
 }
 
 /// Everything that finding pairs needs, in slices.
@@ -287,7 +286,12 @@ impl Solver<'_> {
 
     /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
     /// has nothing but rounding in the rows that act, and their terms are no measure.
-    pub(super) fn is_rounding(&self, s: Complex64, right: &[Complex64], left: &[Complex64]) -> bool {
+    pub(super) fn is_rounding(
+        &self,
+        s: Complex64,
+        right: &[Complex64],
+        left: &[Complex64],
+    ) -> bool {
         let allowed = ROUNDING * self.pencil.size(s);
         let most = |products: &Products| {
             (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
