@@ -1,9 +1,13 @@
 //! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
 
-use crate::equilibrium::{Condition, Crossing, Following, Line, Tracker, between, check_input};
+use crate::equilibrium::{
+    Condition, Crossing, Following, Line, Tracker, between, check_input, critical_states_on,
+};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
-use crate::tolerance::{EventTolerance, Spread, Tolerances, crossing_tolerance};
+use crate::tolerance::{
+    EventTolerance, Spread, Tolerances, critical_tolerance, crossing_tolerance,
+};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Mechanism};
 
 /// One mode at one value of the input.
@@ -48,6 +52,8 @@ pub struct Campbell<const N: usize, const U: usize, const P: usize> {
     /// Where a frequency meets a line: value of the input, sensitivity and spread; in the order of discovery. The number of
     /// the mode is its label.
     pub crossings: Vec<EventTolerance<P>>,
+    /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::equilibrium::Sweep)).
+    pub critical: Vec<EventTolerance<P>>,
     /// Where an oscillation begins or ceases to grow.
     pub flutter_onsets: Vec<EventTolerance<P>>,
     /// Standard deviations that a tolerance holds.
@@ -104,7 +110,8 @@ where
     M: Mechanism<N, U, P, O>,
 {
     check_input::<U>(input, M::DESCRIPTION.name)?;
-    let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
+    let following = following.into();
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let conditions = orders.iter().map(|&line| Condition::Line(line));
     let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
     let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
@@ -142,8 +149,14 @@ where
             modes,
         });
     }
+    let path = points.iter().map(|point| (point.value, &point.equilibrium));
+    let critical = critical_states_on(mechanism, (u, b), following, input, path);
+    let critical = critical
+        .iter()
+        .map(|state| critical_tolerance(mechanism, state, tolerances));
     Ok(Campbell {
         input,
+        critical: critical.collect(),
         points,
         orders: orders.to_vec(),
         crossings,

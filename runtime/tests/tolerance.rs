@@ -11,8 +11,7 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Plate, Spring};
 use common::pendulum::Pendulum;
-use eigentol::report::SweepTable;
-use eigentol::tolerance::{Tolerances, output_tolerances};
+use eigentol::tolerance::{Band, Tolerances, output_tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Study};
 
 type Double = Study<Derived<Bars>, 2, 1, 4, 1>;
@@ -305,7 +304,20 @@ fn every_result_prints() {
         study.monte_carlo().unwrap().to_string(),
         study.critical_state(OMEGA, 1.0, 5.0).unwrap().to_string(),
         study.crossings(OMEGA, 1.0, 5.0, 1.0).unwrap()[0].to_string(),
-        SweepTable(&study.sweep(OMEGA, &[1.0, f64::NAN, 5.0]).unwrap()).to_string(),
+        study
+            .sweep(OMEGA, &[1.0, f64::NAN, 5.0])
+            .unwrap()
+            .to_string(),
+        study
+            .campbell(OMEGA, &[1.0, 3.0], &[1.0])
+            .unwrap()
+            .to_string(),
+        study.second_order().unwrap().to_string(),
+        study
+            .margin(0, Band::around(OMEGA, 0.1))
+            .unwrap()
+            .to_string(),
+        study.branches(OMEGA, 1.0, 5.0).unwrap().to_string(),
     ]
     .join("\n");
     println!("{text}");
@@ -316,6 +328,10 @@ fn every_result_prints() {
         "tip_radius",
         "share of l",
         "samples",
+        "critical at omega = 3.83601",
+        "Campbell",
+        "second order",
+        "margin of frequency 1",
     ] {
         assert!(text.contains(word), "{word} is missing from\n{text}");
     }

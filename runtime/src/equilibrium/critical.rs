@@ -2,6 +2,7 @@
 
 use super::branch::{BranchEnd, Continuation, Curve, SpecialKind, SpecialPoint, Station};
 use super::range::Range;
+use super::track::Following;
 use super::{Policy, equilibrium};
 use crate::{Equilibrium, Error, Input, Mechanism};
 
@@ -92,6 +93,60 @@ where
             &range,
         )),
     }
+}
+
+/// Most critical states on one path: a safeguard, far above what a machine has.
+const MOST_STATES: usize = 32;
+
+/// The critical states on a path of stable equilibria, each on the branch that the path follows up to it. None where
+/// stable equilibria are not what is followed, or the values neither ascend nor descend.
+pub(crate) fn critical_states_on<
+    'a,
+    M,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>(
+    mechanism: &M,
+    (u, b): (&[f64; U], &[f64; P]),
+    following: Following,
+    input: Input,
+    path: impl Iterator<Item = (f64, &'a Result<Equilibrium<N, U, P>, Error>)>,
+) -> Vec<CriticalState<N, U, P>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut found = Vec::new();
+    let solved = path.filter_map(|(value, state)| Some((value, state.as_ref().ok()?.coordinates)));
+    let path: Vec<_> = solved.collect();
+    let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
+    let (Some(&(end, _)), true) = (path.last(), monotonic) else {
+        return found;
+    };
+    if following.policy != Policy::Stable {
+        return found;
+    }
+    let direction = end - path[0].0;
+    let mut rest = &path[..];
+    while let [(low, start), _, ..] = rest
+        && found.len() < MOST_STATES
+    {
+        let range = Range {
+            input,
+            low: *low,
+            high: end,
+            steps: rest.len(),
+        };
+        let Ok(critical) = critical_state(mechanism, u, b, start, range) else {
+            break;
+        };
+        let beyond = |(value, _): &(f64, [f64; N])| (value - critical.value) * direction > 0.0;
+        let next = rest.iter().position(beyond).unwrap_or(rest.len());
+        rest = &rest[next.max(1)..];
+        found.push(critical);
+    }
+    found
 }
 
 fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {

@@ -18,6 +18,7 @@ pub use branch::{
     Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch,
     branches,
 };
+pub(crate) use critical::critical_states_on;
 pub use critical::{CriticalState, critical_state};
 pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
@@ -25,7 +26,7 @@ pub use multistart::{Search, find_equilibria};
 pub use range::Range;
 pub(crate) use range::check_input;
 pub use stability::Stability;
-pub use sweep::{SweepPoint, sweep};
+pub use sweep::{Sweep, SweepPoint, sweep};
 pub use track::Following;
 pub(crate) use track::Tracker;
 

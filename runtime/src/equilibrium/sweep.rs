@@ -1,28 +1,61 @@
 //! Sweeps of one input: each point starts from the equilibrium before it, and modes keep their identity.
 
+use core::ops::Deref;
+
+use super::CriticalState;
+use super::critical::critical_states_on;
 use super::range::check_input;
 use super::track::{Following, Tracker};
 use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
 
+/// A sweep: its points read as a slice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep<const N: usize, const U: usize, const P: usize> {
+    /// The swept input.
+    pub input: Input,
+    /// One point for each value.
+    pub points: Vec<SweepPoint<N, U, P>>,
+    /// Where the stable equilibrium that the sweep follows loses its stiffness: critical values of the input, located to
+    /// rounding, each on the branch before it. Looked for when a stable equilibrium is wanted and the values ascend or
+    /// descend.
+    pub critical: Vec<CriticalState<N, U, P>>,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const N: usize, const U: usize, const P: usize> Deref for Sweep<N, U, P> {
+    type Target = [SweepPoint<N, U, P>];
+
+    fn deref(&self) -> &Self::Target {
+        &self.points
+    }
+}
+
+impl<'a, const N: usize, const U: usize, const P: usize> IntoIterator for &'a Sweep<N, U, P> {
+    type Item = &'a SweepPoint<N, U, P>;
+    type IntoIter = core::slice::Iter<'a, SweepPoint<N, U, P>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.points.iter()
+    }
+}
+
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPoint<const N: usize, const U: usize, const P: usize> {
-    /// The swept input.
-    pub input: Input,
-    /// Its value, SI.
+    /// Value of the swept input, SI.
     pub value: f64,
     /// The equilibrium, or why there is none.
     pub equilibrium: Result<Equilibrium<N, U, P>, Error>,
     /// The modes there: modes with one label are one motion along the whole sweep.
     pub modes: Result<Modes<N>, Error>,
-    /// The mechanism it belongs to.
-    pub description: &'static Description,
 }
 
 /// Solves equilibrium and modes at each of `values` of one input; the others keep their value in `u`.
 ///
 /// The first point starts at `start`, each later one at the last equilibrium found. A point that fails carries its
-/// error and the sweep goes on.
+/// error and the sweep goes on. A sweep that follows stable equilibria passes from branch to branch by itself and reports
+/// the critical values on its way.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
@@ -34,24 +67,31 @@ pub fn sweep<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     following: impl Into<Following>,
     input: Input,
     values: &[f64],
-) -> Result<Vec<SweepPoint<N, U, P>>, Error>
+) -> Result<Sweep<N, U, P>, Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     check_input::<U>(input, M::DESCRIPTION.name)?;
-    let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
+    let following = following.into();
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let points = values.iter().map(|&value| {
         let (equilibrium, modes) = match tracker.advance(value) {
             Ok((state, modes)) => (Ok(state), modes),
             Err(error) => (Err(error.clone()), Err(error)),
         };
         SweepPoint {
-            input,
             value,
             equilibrium,
             modes,
-            description: const { &M::DESCRIPTION },
         }
     });
-    Ok(points.collect())
+    let points: Vec<_> = points.collect();
+    let path = points.iter().map(|point| (point.value, &point.equilibrium));
+    let critical = critical_states_on(mechanism, (u, b), following, input, path);
+    Ok(Sweep {
+        input,
+        points,
+        critical,
+        description: const { &M::DESCRIPTION },
+    })
 }

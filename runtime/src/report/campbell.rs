@@ -50,7 +50,8 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N
         }
         write!(f, "{table}")?;
         undamped(f, self.family, d)?;
-        for event in self.crossings.iter().chain(&self.flutter_onsets) {
+        let events = self.crossings.iter().chain(&self.critical);
+        for event in events.chain(&self.flutter_onsets) {
             write!(f, "{event}")?;
         }
         Ok(())

@@ -12,4 +12,3 @@ mod table;
 mod tolerance;
 
 pub use margin::MarginTable;
-pub use sweep::SweepTable;

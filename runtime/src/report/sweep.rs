@@ -4,36 +4,30 @@ use core::fmt;
 
 use super::table::{Table, heading, in_unit, optional, undamped};
 use crate::Mode;
-use crate::equilibrium::SweepPoint;
+use crate::equilibrium::Sweep;
 
-/// Points of a sweep, printed as one table.
-#[derive(Clone, Copy, Debug)]
-pub struct SweepTable<'a, const N: usize, const U: usize, const P: usize>(
-    /// The points, as [`sweep`](crate::equilibrium::sweep) returns them.
-    pub &'a [SweepPoint<N, U, P>],
-);
-
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable<'_, N, U, P> {
+impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sweep<N, U, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(first) = self.0.first() else {
-            return Ok(());
-        };
-        let d = first.description;
+        let d = self.description;
         writeln!(f, "{}: sweep", d.name)?;
-        let input = d.inputs.get(first.input.0);
+        let input = d.inputs.get(self.input.0);
         let mut head = vec![input.map_or_else(String::new, |info| heading(info.name, info.unit))];
         head.extend(
             d.coordinates
                 .iter()
                 .map(|info| heading(info.name, info.unit)),
         );
-        let found = || self.0.iter().filter_map(|point| point.modes.as_ref().ok());
+        let found = || {
+            self.points
+                .iter()
+                .filter_map(|point| point.modes.as_ref().ok())
+        };
         let all = || found().flat_map(|modes| modes.modes.iter());
         let labels = all().fold(0, |most, mode| most.max(mode.label + 1));
         head.extend((1..=labels).map(|r| format!("omega{r} [rad/s]")));
         head.push("state".to_owned());
         let mut table = Table::new(head);
-        for point in self.0 {
+        for point in &self.points {
             let value = input.map_or_else(String::new, |info| in_unit(point.value, info.unit));
             let mut row = vec![value];
             row.extend((0..N).map(|i| {
@@ -57,15 +51,20 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepTable
             table.row(row);
         }
         write!(f, "{table}")?;
+        for critical in &self.critical {
+            if let Some(info) = input {
+                let value = in_unit(critical.value, info.unit);
+                let symbol = info.unit.symbol;
+                writeln!(
+                    f,
+                    "  critical at {} = {value} {symbol} ({})",
+                    info.name, critical.kind
+                )?;
+            }
+        }
         match found().next() {
             Some(modes) => undamped(f, modes.family, d),
             None => Ok(()),
         }
-    }
-}
-
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for SweepPoint<N, U, P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        SweepTable(core::slice::from_ref(self)).fmt(f)
     }
 }

@@ -3,8 +3,7 @@
 use super::Study;
 use crate::campbell::{self, Campbell};
 use crate::equilibrium::{
-    self, Branches, Continuation, CriticalState, Crossing, Equilibrium, Line, Range, Search,
-    SweepPoint,
+    self, Branches, Continuation, CriticalState, Crossing, Equilibrium, Line, Range, Search, Sweep,
 };
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
@@ -271,11 +270,11 @@ where
         Ok(found.iter().map(spread).collect())
     }
 
-    /// Equilibria and modes at each value of one input ([`equilibrium::sweep`]).
+    /// Equilibria and modes at each value of one input, and the critical values on the way ([`equilibrium::sweep`]).
     ///
     /// # Errors
     /// [`Error::UnknownHandle`]; a point that fails carries its own error.
-    pub fn sweep(&self, input: Input, values: &[f64]) -> Result<Vec<SweepPoint<N, U, P>>, Error> {
+    pub fn sweep(&self, input: Input, values: &[f64]) -> Result<Sweep<N, U, P>, Error> {
         self.ready()?;
         equilibrium::sweep(
             &self.mechanism,

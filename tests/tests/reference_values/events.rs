@@ -1,8 +1,8 @@
 //! Critical speeds and resonances, and how they move with the design.
 
-use eigentol::equilibrium::Policy;
+use eigentol::equilibrium::{Policy, SpecialKind};
 use eigentol::sensitivity::{critical_sensitivity, crossing_sensitivity};
-use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Study};
+use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Stability, Study};
 use eigentol_tests::corpus::chain_of_eight::ChainOfEight;
 use eigentol_tests::corpus::chain_of_four::ChainOfFour;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
@@ -113,6 +113,41 @@ fn the_bent_branch_is_followed() {
             .map(|omega| omega.expect("it oscillates"));
         assert_close(&found, &row[3..5], 0.0, &what);
     }
+}
+
+/// From rest upwards, with nothing set: both pendulums leave the axis by themselves at the critical speed, which the
+/// sweep reports; downwards they come back to it.
+#[test]
+fn a_default_sweep_bends_and_reports_the_critical_speed() {
+    fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, critical: f64)
+    where
+        M: Mechanism<N, 1, P, O> + Copy,
+    {
+        let mut speeds: Vec<f64> = (0..=80).map(|step| 0.1 * f64::from(step)).collect();
+        for direction in ["up", "down"] {
+            let swept = Study::new(machine).sweep(OMEGA, &speeds).expect("a sweep");
+            for point in &swept {
+                let at = point.equilibrium.as_ref().expect("an equilibrium");
+                assert_eq!(at.stability, Stability::Stable, "{direction}");
+                let bent = at.coordinates[0].abs() > 1e-3;
+                assert_eq!(bent, point.value > critical, "{direction} {}", point.value);
+            }
+            let [found] = &swept.critical[..] else {
+                panic!("{direction}: {:?}", swept.critical)
+            };
+            assert_close(&[found.value], &[critical], 0.0, direction);
+            let soft = SpecialKind::Pitchfork {
+                supercritical: Some(true),
+            };
+            assert_eq!(found.kind, soft, "{direction}");
+            speeds.reverse();
+        }
+    }
+    check(RotatingPendulum, (1.5_f64 * 9.81).sqrt());
+    check(
+        RotatingDoublePendulum,
+        (9.81 * (3.0 - 6.0 / 7f64.sqrt())).sqrt(),
+    );
 }
 
 fn critical<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &str)
