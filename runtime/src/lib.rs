@@ -37,6 +37,21 @@
 //! # #[cfg(not(feature = "std"))]
 //! # fn main() {}
 //! ```
+//!
+//! What a `Study` answers, and the function behind it where results are to be used again:
+//!
+//! | question | method | function |
+//! | --- | --- | --- |
+//! | where does it stay? | `equilibrium`, `equilibria` | `equilibrium::equilibrium`, `find_equilibria` |
+//! | which branches are there, where do they fold and fork? | `branches` | `equilibrium::branches` |
+//! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |
+//! | what moves frequencies, damping, shapes, outputs? | `sensitivities`, `shape_sensitivity`, `outputs` | `sensitivity::sensitivities`, ... |
+//! | ... to second order? | `mode_curvature` | `sensitivity::mode_curvature` |
+//! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
+//! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
+//! | how probable is a forbidden band? | `margin` | `tolerance::frequency_margin` |
+//! | what happens along an input? | `sweep`, `campbell` | `equilibrium::sweep`, `campbell::campbell` |
+//! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `equilibrium::critical_state`, ... |
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod mechanism;
