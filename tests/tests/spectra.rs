@@ -4,6 +4,8 @@
 mod common;
 #[path = "spectra/follower.rs"]
 mod follower;
+#[path = "spectra/following.rs"]
+mod following;
 #[path = "spectra/real_roots.rs"]
 mod real_roots;
 #[path = "spectra/rotors.rs"]

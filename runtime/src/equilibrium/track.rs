@@ -2,7 +2,8 @@
 //! keep their identity.
 
 use super::{Policy, equilibrium};
-use crate::modes::{Family, match_with_assurance, modes_of};
+use crate::modes::{Family, clusters, match_with_assurance, modes_of};
+use crate::sensitivity::CLUSTER_GAP;
 use crate::{Equilibrium, Error, Input, Mechanism, Modes};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
@@ -144,10 +145,12 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             return Ok(self.arrive(value, state, found));
         };
         let order = match_with_assurance(&last.modes, &found, &state.linear.mass);
+        // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
+        let repeated = clusters(&found, CLUSTER_GAP);
         let doubtful = order
             .iter()
             .flatten()
-            .any(|(_, assurance)| *assurance < RECOGNISED);
+            .any(|&(position, assurance)| assurance < RECOGNISED && !repeated[position]);
         let middle = 0.5 * (last.value + value);
         let between = (middle - last.value) * (value - middle) > 0.0;
         if doubtful && halvings > 0 && between && self.halving(middle, halvings - 1).is_ok() {

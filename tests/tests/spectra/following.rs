@@ -1,0 +1,101 @@
+//! Modes keep their identity along a sweep: through a crossing, and through a veering however coarse the sweep is.
+
+use eigentol::{Error, Study, mechanism};
+
+mechanism! {
+    /// Two sliders on springs of their own, coupled by a weak one; the first spring is tuned by an input.
+    pub mechanism TunedPair {
+        input tuning: N/m;
+        design mass = 1 kg +/- 1%;
+        design stiffness = 100 N/m +/- 1%;
+        design coupling = 0 N/m;
+        body first: point(mass: mass);
+        body second: point(mass: mass);
+        joint a: prismatic(x) from ground to first;
+        joint b: prismatic(x) from ground to second;
+        force own_a: spring(on: a, stiffness: tuning);
+        force own_b: spring(on: b, stiffness: stiffness);
+        force between: potential(energy: 0.5 * coupling * (a - b)^2);
+    }
+}
+
+type Pair = Study<TunedPair, 2, 1, 3, 0>;
+
+fn pair(coupling: f64) -> Pair {
+    Study::new(TunedPair).design(TunedPair::coupling, coupling)
+}
+
+/// Frequencies of the mode of a label along a sweep, and how much of it is motion of the first slider.
+fn branch(study: &Pair, values: &[f64], label: usize) -> Vec<(f64, f64)> {
+    let swept = study.sweep(TunedPair::tuning, values).expect("a sweep");
+    swept
+        .iter()
+        .map(|point| {
+            let modes = point.modes.as_ref().expect("modes");
+            let mode = modes.modes.iter().find(|mode| mode.label == label);
+            let mode = mode.expect("followed");
+            let [a, b] = mode.shape.map(|x| x.norm_sqr());
+            (mode.frequency().expect("it oscillates"), a / (a + b))
+        })
+        .collect()
+}
+
+#[test]
+fn uncoupled_modes_cross() {
+    let values: Vec<f64> = (0..=10).map(|step| 50.0 + 10.0 * f64::from(step)).collect();
+    let study = pair(0.0);
+    for (k, (omega, share)) in values.iter().zip(branch(&study, &values, 0)) {
+        assert!(
+            (omega - k.sqrt()).abs() < 1e-12 && share > 1.0 - 1e-12,
+            "{k}"
+        );
+    }
+    for (omega, share) in branch(&study, &values, 1) {
+        assert!((omega - 10.0).abs() < 1e-12 && share < 1e-12);
+    }
+}
+
+/// Coupled, the two never meet: the lower one turns from the first slider to the second. A sweep of two points finds the
+/// same as one of a thousand, because unrecognised modes are followed in smaller steps.
+#[test]
+fn coupled_modes_veer() {
+    let study = pair(2.0);
+    let fine: Vec<f64> = (0..=1000)
+        .map(|step| 50.0 + 0.1 * f64::from(step))
+        .collect();
+    let coarse = [50.0, 150.0];
+    for (label, first_share) in [(0, true), (1, false)] {
+        let fine = branch(&study, &fine, label);
+        let coarse = branch(&study, &coarse, label);
+        assert!((fine[0].0 - coarse[0].0).abs() < 1e-12);
+        assert!((fine[1000].0 - coarse[1].0).abs() < 1e-12);
+        assert_eq!(fine[0].1 > 0.9, first_share);
+        assert_eq!(fine[1000].1 > 0.9, !first_share);
+        assert!(fine.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    }
+    // At the nearest approach each is half of both; single derivatives exist, and mix the two.
+    let near = study.clone().input(TunedPair::tuning, 100.0);
+    let slopes = near.sensitivities().expect("derivatives");
+    for (mode, omega) in slopes.modes.iter().zip([100.0_f64, 104.0]) {
+        assert!(!mode.clustered);
+        let by_tuning = mode.omega_by_input.expect("it oscillates")[0];
+        assert!((by_tuning - 0.25 / omega.sqrt()).abs() < 1e-12);
+    }
+}
+
+/// Exactly tuned and uncoupled there is no single-mode derivative.
+#[test]
+fn a_double_frequency_has_no_derivative_of_its_own() {
+    let study = pair(0.0).input(TunedPair::tuning, 100.0);
+    let slopes = study.sensitivities().expect("derivatives");
+    assert!(slopes.modes.iter().all(|mode| mode.clustered));
+    assert!(matches!(
+        study.mode_curvature(1),
+        Err(Error::ClusteredMode { mode: 1 })
+    ));
+    assert!(matches!(
+        study.shape_sensitivity(0),
+        Err(Error::ClusteredMode { mode: 0 })
+    ));
+    assert!(!study.first_order().expect("a spread").trusted());
+}
