@@ -346,12 +346,15 @@ impl Solver<'_> {
             pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
         } else {
             let block = (cluster.multiplicity - cluster.regular).div_ceil(defective).max(2);
-            let relative = (n as f64 + 4.0) * f64::EPSILON;
+            let relative = self.relative();
             // rounding = relative size^2 mass_terms
             let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();
-            let size = size.min((self.pencil.size(pair.s) / self.pencil.largest[0]).sqrt());
+            let size = size.min(self.pencil.rate(pair.s));
             pair.condition = f64::INFINITY;
-            pair.error = (2.0 * cluster.spread).max(size * relative.powf(1.0 / block as f64));
+            pair.error = (2.0 * cluster.spread)
+                .max(size * relative.powf(1.0 / block as f64))
+                .max(2.0 * cluster.multiplicity as f64 * pair.newton.norm())
+                .min(self.pencil.rate(pair.s) * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;
         found.pairs[place] = pair;

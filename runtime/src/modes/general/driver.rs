@@ -254,7 +254,7 @@ fn solve_with(
     };
     let mut found = Found {
         count: 0,
-        pairs: std::mem::take(&mut work.pairs),
+        pairs: &mut std::mem::take(&mut work.pairs)[..2 * n],
         right: take(&mut complex, 2 * n * n),
         left: take(&mut complex, 2 * n * n),
     };

@@ -98,6 +98,11 @@ pub(super) const INACCURATE: f64 = 1e-13;
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Solver<'_> {
+    /// Relative rounding error of a component of `Q(s) x`.
+    pub(super) fn relative(&self) -> f64 {
+        (self.pencil.n as f64 + 4.0) * f64::EPSILON
+    }
+
     /// Rounding error of an eigenvalue of the linearisation with this condition number.
     pub(super) fn noise(&self, condition: f64) -> f64 {
         8.0 * f64::EPSILON * self.linearisation.size * condition
@@ -114,6 +119,7 @@ impl Solver<'_> {
         let n = self.pencil.n;
         let mut s = start;
         let mut pair = Pair::NONE;
+        let mut moved = 0.0;
         for count in 0..=STEPS {
             self.pencil.at(s, self.q);
             let lu = Lu::new(n, self.q, self.order);
@@ -135,9 +141,10 @@ impl Solver<'_> {
                 // Almost multiple: the step is rounding, and the mean of the linearisation is better.
                 break;
             }
-            if step > 0.25 * gap {
+            moved += step;
+            if moved > 0.25 * gap {
                 pair.condition = self.condition(&pair, right, left);
-                if step > self.noise(pair.condition) || doubt > 0.125 * step {
+                if moved > self.noise(pair.condition) || doubt > 0.125 * step {
                     break;
                 }
             }
@@ -236,7 +243,7 @@ impl Solver<'_> {
             mass_terms += size * of_right.mass_terms(i);
         }
         let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
-        let rounding = (n as f64 + 4.0) * f64::EPSILON * (terms + NOTHING);
+        let rounding = self.relative() * (terms + NOTHING);
         let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
         let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
         Pair {
@@ -288,7 +295,7 @@ impl Solver<'_> {
     /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
     /// has nothing but rounding in the rows that act, and their terms are no measure.
     pub(super) fn is_rounding(&self, s: Complex64, right: &[Complex64], left: &[Complex64]) -> bool {
-        let allowed = ROUNDING * self.pencil.size(s);
+        let allowed = self.relative() * self.pencil.size(s);
         let most = |products: &Products| {
             (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
         };

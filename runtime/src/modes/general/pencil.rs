@@ -70,6 +70,11 @@ impl Pencil<'_> {
         2.0 * bound(s) * self.largest[0] + self.largest[1]
     }
 
+    /// Size of the eigenvalues that a change of `Q(s)` as a whole could make.
+    pub(super) fn rate(&self, s: Complex64) -> f64 {
+        (self.size(s) / self.largest[0]).sqrt()
+    }
+
     /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.
     pub(super) fn size(&self, s: Complex64) -> f64 {
         let size = bound(s);
