@@ -105,7 +105,13 @@ fn merge_one(
     }
     let members = || (0..label.len()).filter(|&i| label[i] == first);
     let real = members().any(|i| links.real(&found.pairs[i]));
-    let weight = |i: usize| if real && found.pairs[i].conjugate { 2 } else { 1 };
+    let weight = |i: usize| {
+        if real && found.pairs[i].conjugate {
+            2
+        } else {
+            1
+        }
+    };
     let multiplicity: usize = members().map(weight).sum();
     if multiplicity < 2 {
         return false;
@@ -133,7 +139,6 @@ fn merge_one(
         regular: 0,
     };
     solver.eigenspaces(&mut cluster);
-    if std::env::var("D").is_ok() { println!("cluster {} m {} spread {:.1e} radius {:.1e} nullity {} regular {}", cluster.s, cluster.multiplicity, cluster.spread, cluster.radius, cluster.nullity, cluster.regular); }
     if cluster.regular < multiplicity {
         if links == Links::Loose {
             return false;
@@ -159,6 +164,20 @@ impl Solver<'_> {
     /// Bases of the eigenspaces in `basis_right` and `basis_left`, the right one orthonormal by the mass matrix, the left
     /// one dual to it where the eigenvalue is semisimple.
     fn eigenspaces(&mut self, cluster: &mut Cluster) {
+        for _ in 0..2 {
+            let start = cluster.s;
+            self.bases(cluster);
+            if cluster.regular < cluster.multiplicity {
+                break;
+            }
+            self.centre(cluster);
+            if (cluster.s - start).norm() <= cluster.reach {
+                break;
+            }
+        }
+    }
+
+    fn bases(&mut self, cluster: &mut Cluster) {
         let n = self.pencil.n;
         self.pencil.at(cluster.s, self.q);
         let size = self.pencil.size(cluster.s);
@@ -174,9 +193,6 @@ impl Solver<'_> {
         cluster.nullity = nullity;
         self.orthonormalise(nullity);
         cluster.regular = self.dualise(cluster.s, nullity);
-        if cluster.regular == cluster.multiplicity {
-            self.centre(cluster);
-        }
     }
 
     /// Whether a vector does not belong to the eigenvalue.
@@ -189,7 +205,7 @@ impl Solver<'_> {
         );
         pair.residual > INACCURATE
             && (pair.newton.norm() > 4.0 * cluster.spread + cluster.reach
-                || !self.is_rounding(cluster.s, right, left))
+                || !self.is_rounding(cluster.s, right, left, 1.0))
     }
 
     /// Moves the eigenvalue to the mean of the Rayleigh quotients.
@@ -345,7 +361,9 @@ impl Solver<'_> {
             let own = f64::EPSILON * pair.s.norm();
             pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
         } else {
-            let block = (cluster.multiplicity - cluster.regular).div_ceil(defective).max(2);
+            let block = (cluster.multiplicity - cluster.regular)
+                .div_ceil(defective)
+                .max(2);
             let relative = self.relative();
             // rounding = relative size^2 mass_terms
             let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();

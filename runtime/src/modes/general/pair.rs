@@ -69,7 +69,6 @@ impl Pair {
         let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
         radius.min(1e6 * self.reach_overall)
     }
-
 }
 
 /// Everything that finding pairs needs, in slices.
@@ -94,8 +93,6 @@ const NOTHING: f64 = 1e-60;
 const STEPS: usize = 8;
 /// Residual beyond which the vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
-/// Residual relative to the matrices that rounding of a vector explains.
-pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Solver<'_> {
     /// Relative rounding error of a component of `Q(s) x`.
@@ -294,8 +291,14 @@ impl Solver<'_> {
 
     /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
     /// has nothing but rounding in the rows that act, and their terms are no measure.
-    pub(super) fn is_rounding(&self, s: Complex64, right: &[Complex64], left: &[Complex64]) -> bool {
-        let allowed = self.relative() * self.pencil.size(s);
+    pub(super) fn is_rounding(
+        &self,
+        s: Complex64,
+        right: &[Complex64],
+        left: &[Complex64],
+        margin: f64,
+    ) -> bool {
+        let allowed = margin * self.relative() * self.pencil.size(s);
         let most = |products: &Products| {
             (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
         };

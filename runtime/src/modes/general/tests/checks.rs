@@ -125,17 +125,22 @@ pub(super) fn check_sum<const N: usize>(roots: &Roots<N>, trace: f64) -> Result<
 }
 
 /// `product of all s = det K / det M`, within the errors of the roots.
-pub(super) fn check_product<const N: usize>(
-    roots: &Roots<N>,
-    quotient: f64,
-) -> Result<(), String> {
+pub(super) fn check_product<const N: usize>(roots: &Roots<N>, quotient: f64) -> Result<(), String> {
     let (mut product, mut most) = (1.0, 1.0);
     for root in roots.as_slice() {
         let size = root.s.norm();
-        let factor = if root.s.im > 0.0 { size * size } else { root.s.re };
+        let factor = if root.s.im > 0.0 {
+            size * size
+        } else {
+            root.s.re
+        };
         let upper = size + root.error + 1e-15 * size;
         product *= factor;
-        most *= if root.s.im > 0.0 { upper * upper } else { upper };
+        most *= if root.s.im > 0.0 {
+            upper * upper
+        } else {
+            upper
+        };
     }
     let allowed = most - product.abs() + 1e-13 * most;
     if (product - quotient).abs() <= allowed {
@@ -169,7 +174,11 @@ pub(super) fn rank<const N: usize>(linear: &Linear<f64, N>, vectors: &[[Complex6
 }
 
 /// `psi_i^T ((s_i + s_j) M + C) phi_j`.
-pub(super) fn cross<const N: usize>(linear: &Linear<f64, N>, i: &Root<N>, j: &Root<N>) -> Complex64 {
+pub(super) fn cross<const N: usize>(
+    linear: &Linear<f64, N>,
+    i: &Root<N>,
+    j: &Root<N>,
+) -> Complex64 {
     let mut sum = Complex64::ZERO;
     for k in 0..N {
         for l in 0..N {

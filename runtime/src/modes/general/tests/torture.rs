@@ -134,11 +134,7 @@ fn one<const N: usize>(rng: &mut ChaCha8Rng, kind: u32) -> Result<(), String> {
             }
             check_integers::<N>(damping, stiffness)
         }
-        8 => check_any::<N>(&linear(
-            mass(rng, 6.0),
-            graded(rng, 6.0),
-            graded(rng, 12.0),
-        )),
+        8 => check_any::<N>(&linear(mass(rng, 6.0), graded(rng, 6.0), graded(rng, 12.0))),
         9 => {
             let units: [f64; N] = core::array::from_fn(|_| 10.0_f64.powf(6.0 * uniform(rng)));
             let mut scaled = |matrix: Matrix<N>| fill(|i, j| matrix[i][j] * units[i] * units[j]);
@@ -189,7 +185,11 @@ fn torture(count: u64) {
             failures.push(format!("case {case}, kind {kind}: {what}"));
         }
     }
-    for failure in failures.iter().filter(|f| std::env::var("K").map_or(true, |k| f.contains(&format!("kind {k}:")))).take(5) {
+    for failure in failures
+        .iter()
+        .filter(|f| std::env::var("K").map_or(true, |k| f.contains(&format!("kind {k}:"))))
+        .take(5)
+    {
         println!("{failure}");
     }
     assert!(
