@@ -3,10 +3,12 @@
 use num_complex::Complex64;
 
 use super::cluster::Found;
-use super::pair::{INACCURATE, Pair, Solver};
+use super::pair::{INACCURATE, Pair, Solver, ZERO};
 
 /// Eigenvalues farther away than this many errors do not matter.
 const FAR: f64 = 8.0;
+/// Accepted error of the sum of the eigenvalues relative to their sizes.
+const SUM: f64 = 1e-7;
 /// Vectors of eigenvalues that come from one defective eigenvalue are parallel to this.
 const PARALLEL: f64 = 0.9;
 
@@ -15,6 +17,18 @@ pub(super) fn in_trouble(pair: &Pair) -> bool {
     let step = pair.newton.norm();
     let far = step > 64.0 * pair.doubt() && step > 1e-12 * pair.s.norm();
     !pair.merged && (far || pair.residual > INACCURATE)
+}
+
+/// Whether the eigenvalues have the sum that they must have, within their errors: one that was found twice in place of
+/// another one spoils it.
+pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
+    let (mut sum, mut allowed) = (0.0, 0.0);
+    for pair in &found.pairs[..found.count] {
+        let weight = if pair.conjugate { 2.0 } else { 1.0 };
+        sum += weight * pair.s.re;
+        allowed += weight * (pair.error + SUM * pair.s.norm());
+    }
+    (sum - solver.linearisation.sum()).abs() <= allowed
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster.
@@ -60,13 +74,13 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         }
     }
     let reduced = if partner > 0.0 {
-        // The root of the quadratic without cancellation.
-        4.0 * error / (1.0 + (1.0 + 4.0 * error / partner).sqrt())
+        // Four times the root of the quadratic: p is an estimate.
+        8.0 * error / (1.0 + (1.0 + 4.0 * error / partner).sqrt())
     } else {
         error
     };
     let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
-    reduced.min(most).max(own)
+    reduced.min(most).max(own).max(ZERO)
 }
 
 fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {

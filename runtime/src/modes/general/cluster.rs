@@ -365,14 +365,12 @@ impl Solver<'_> {
                 .div_ceil(defective)
                 .max(2);
             let relative = self.relative();
-            // rounding = relative size^2 mass_terms
-            let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();
-            let size = size.min(self.pencil.rate(pair.s));
+            let size = self.pencil.rate(pair.s);
             pair.condition = f64::INFINITY;
             pair.error = (2.0 * cluster.spread)
                 .max(size * relative.powf(1.0 / block as f64))
                 .max(2.0 * cluster.multiplicity as f64 * pair.newton.norm())
-                .min(self.pencil.rate(pair.s) * relative.powf(0.5 / n as f64));
+                .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;
         found.pairs[place] = pair;

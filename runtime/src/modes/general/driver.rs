@@ -268,7 +268,9 @@ fn solve_with(
             find(&mut solver, &mut found, values, label);
         }
     }
-    accuracy::estimate(&mut solver, &mut found);
+    if !accuracy::is_complete(&solver, &found) {
+        return Err(not_found());
+    }
     let places = &mut label[..found.count];
     for (i, place) in places.iter_mut().enumerate() {
         *place = i;
@@ -350,6 +352,10 @@ fn find(
                 troubles += 4 * n;
             }
         }
+    }
+    accuracy::estimate(solver, found);
+    if !accuracy::is_complete(solver, found) {
+        troubles += 4 * n;
     }
     troubles
 }

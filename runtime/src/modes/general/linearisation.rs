@@ -57,6 +57,13 @@ impl<'a> Linearisation<'a> {
         })
     }
 
+    /// The sum of all eigenvalues: `-tr(M^-1 C)`.
+    pub(super) fn sum(&self) -> f64 {
+        -(0..self.n)
+            .map(|i| self.damping[i * (self.n + 1)])
+            .sum::<f64>()
+    }
+
     /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and `slope = psi^T (2 s M + C) phi`.
     /// `work` takes `n` numbers.
     pub(super) fn condition(

@@ -91,6 +91,8 @@ pub(super) const ZERO: f64 = 1e-30;
 /// Terms that are less than this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;
 const STEPS: usize = 8;
+/// Vectors of a worse conditioned eigenvalue may belong to another one.
+const MODERATE: f64 = 1e8;
 /// Residual beyond which the vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
 
@@ -116,7 +118,7 @@ impl Solver<'_> {
         let n = self.pencil.n;
         let mut s = start;
         let mut pair = Pair::NONE;
-        let mut moved = 0.0;
+        let (mut moved, mut last) = (0.0, f64::INFINITY);
         for count in 0..=STEPS {
             self.pencil.at(s, self.q);
             let lu = Lu::new(n, self.q, self.order);
@@ -141,7 +143,8 @@ impl Solver<'_> {
             moved += step;
             if moved > 0.25 * gap {
                 pair.condition = self.condition(&pair, right, left);
-                if moved > self.noise(pair.condition) || doubt > 0.125 * step {
+                let explained = pair.condition <= MODERATE && moved <= self.noise(pair.condition);
+                if !explained || doubt > 0.125 * step || step > 0.5 * last {
                     break;
                 }
             }
@@ -150,6 +153,7 @@ impl Solver<'_> {
                 break;
             }
             s = next;
+            last = step;
             if step * pair.slope_terms <= 4.0 * pair.rounding {
                 let moved = self.measure(s, left);
                 if moved.residual <= INACCURATE {

@@ -167,7 +167,9 @@ fn torture(count: u64) {
     let mut failures = Vec::new();
     let mut kinds = [0; 12];
     let only: Option<u64> = std::env::var("CASE").ok().and_then(|c| c.parse().ok());
-    for case in only.map_or(0..count, |c| c..c + 1) {
+    for case in only.map_or(0..count, |c| {
+        c..c + std::env::var("NUM").map_or(1, |n| n.parse().unwrap())
+    }) {
         let mut rng = ChaCha8Rng::seed_from_u64(case);
         let kind = (case % 12) as u32;
         let outcome = match (case / 12) % 8 {
