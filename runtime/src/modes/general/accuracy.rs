@@ -3,7 +3,8 @@
 use num_complex::Complex64;
 
 use super::cluster::Found;
-use super::pair::{INACCURATE, Pair, Solver, ZERO};
+use super::pair::{INACCURATE, Pair, Solver};
+use super::pencil::modulus;
 
 /// Eigenvalues farther away than this many errors do not matter.
 const FAR: f64 = 8.0;
@@ -14,8 +15,8 @@ const PARALLEL: f64 = 0.9;
 
 /// Whether the pair needs the second method: its error is far beyond what rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
-    let step = pair.newton.norm();
-    let far = step > 64.0 * pair.doubt() && step > 1e-12 * pair.s.norm();
+    let step = modulus(pair.newton);
+    let far = step > 64.0 * pair.doubt() && step > 1e-12 * modulus(pair.s);
     !pair.merged && (far || pair.residual > INACCURATE)
 }
 
@@ -26,7 +27,7 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
     for pair in &found.pairs[..found.count] {
         let weight = if pair.conjugate { 2.0 } else { 1.0 };
         sum += weight * pair.s.re;
-        allowed += weight * (pair.error + SUM * pair.s.norm());
+        allowed += weight * (pair.error + SUM * modulus(pair.s));
     }
     (sum - solver.linearisation.sum()).abs() <= allowed
 }
@@ -42,13 +43,13 @@ pub(super) fn estimate(solver: &mut Solver, found: &mut Found) {
 
 fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
     let pair = &found.pairs[i];
-    let step = pair.newton.norm();
-    let own = f64::EPSILON * pair.s.norm();
+    let step = modulus(pair.newton);
+    let own = pair.own();
     let first = pair.doubt() + 2.0 * step + pair.second + own;
     let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
     for (s, _, _) in others(found, i) {
-        gap = gap.min((s - pair.s).norm());
+        gap = gap.min(modulus(s - pair.s));
     }
     if FAR * first <= gap && pair.residual <= INACCURATE && !in_trouble(pair) {
         return first;
@@ -61,14 +62,14 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         .pencil
         .multiply(vector(found, i), false, &mut solver.of_right);
     for (s, j, conjugate) in others(found, i) {
-        let distance = (s - pair.s).norm();
+        let distance = modulus(s - pair.s);
         if distance < FAR * error {
             let parallel = vector(found, j)
                 .iter()
                 .zip(solver.of_right.mass.iter())
                 .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
                 .sum::<Complex64>();
-            if parallel.norm() > PARALLEL {
+            if modulus(parallel) > PARALLEL {
                 partner = partner.max(distance);
             }
         }
@@ -80,7 +81,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         error
     };
     let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
-    reduced.min(most).max(own).max(ZERO)
+    reduced.min(most).max(own)
 }
 
 fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {

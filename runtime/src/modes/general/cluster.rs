@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::lu::Lu;
 use super::pair::{INACCURATE, Pair, Solver, ZERO};
-use super::pencil::bound;
+use super::pencil::{bound, modulus};
 
 /// The pairs found so far; the vectors of pair `i` are the components `i n .. (i + 1) n`.
 pub(super) struct Found<'a> {
@@ -79,7 +79,7 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
         }
         any |= pair.conjugate && links.real(pair);
         for (j, other) in pairs[..i].iter().enumerate() {
-            if !other.merged && links.join(pair, other, (pair.s - other.s).norm()) {
+            if !other.merged && links.join(pair, other, modulus(pair.s - other.s)) {
                 any = true;
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
                 label[..=i]
@@ -125,7 +125,7 @@ fn merge_one(
     }
     let (mut spread, mut radius, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
     for i in members() {
-        spread = spread.max((found.pairs[i].s - s).norm());
+        spread = spread.max(modulus(found.pairs[i].s - s));
         radius = radius.max(found.pairs[i].radius());
         reach = reach.max(found.pairs[i].reach);
     }
@@ -171,7 +171,7 @@ impl Solver<'_> {
                 break;
             }
             self.centre(cluster);
-            if (cluster.s - start).norm() <= cluster.reach {
+            if modulus(cluster.s - start) <= cluster.reach {
                 break;
             }
         }
@@ -204,7 +204,7 @@ impl Solver<'_> {
             &self.basis_left[k * n..(k + 1) * n],
         );
         pair.residual > INACCURATE
-            && (pair.newton.norm() > 4.0 * cluster.spread + cluster.reach
+            && (modulus(pair.newton) > 4.0 * cluster.spread + cluster.reach
                 || !self.is_rounding(cluster.s, right, left, 1.0))
     }
 
@@ -217,7 +217,7 @@ impl Solver<'_> {
             for k in 0..cluster.nullity {
                 step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
             }
-            moved += step.norm();
+            moved += modulus(step);
             if step == Complex64::ZERO || !(moved <= allowed) {
                 break;
             }
@@ -358,8 +358,7 @@ impl Solver<'_> {
         pair.conjugate = conjugate;
         if regular {
             pair.condition = self.condition(&pair, right, left);
-            let own = f64::EPSILON * pair.s.norm();
-            pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
+            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.own();
         } else {
             let block = (cluster.multiplicity - cluster.regular)
                 .div_ceil(defective)
@@ -369,7 +368,7 @@ impl Solver<'_> {
             pair.condition = f64::INFINITY;
             pair.error = (2.0 * cluster.spread)
                 .max(size * relative.powf(1.0 / block as f64))
-                .max(2.0 * cluster.multiplicity as f64 * pair.newton.norm())
+                .max(2.0 * cluster.multiplicity as f64 * modulus(pair.newton))
                 .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::pencil::Pencil;
+use super::pencil::{Pencil, modulus};
 use super::schur;
 use crate::modes::symmetric::{Trouble, factor_into};
 
@@ -107,7 +107,7 @@ impl<'a> Linearisation<'a> {
             };
             w += square * (self.scales[j] * self.scales[j]);
         }
-        let condition = (x * w).sqrt() / slope.norm();
+        let condition = (x * w).sqrt() / modulus(slope);
         if condition.is_nan() {
             f64::INFINITY
         } else {

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::linearisation::Linearisation;
 use super::lu::Lu;
-use super::pencil::{Pencil, Products, bound, dot};
+use super::pencil::{Pencil, Products, bound, dot, modulus};
 
 /// An eigenvalue with what its vectors say about it.
 #[derive(Clone, Copy)]
@@ -60,13 +60,18 @@ impl Pair {
         if self.rounding == 0.0 {
             0.0
         } else {
-            self.rounding / self.slope.norm()
+            self.rounding / modulus(self.slope)
         }
+    }
+
+    /// Rounding of `s` itself.
+    pub(super) fn own(&self) -> f64 {
+        f64::EPSILON * modulus(self.s) + ZERO
     }
 
     /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
     pub(super) fn radius(&self) -> f64 {
-        let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
+        let radius = 2.0 * (self.doubt() + modulus(self.newton)) + self.second;
         radius.min(1e6 * self.reach_overall)
     }
 }
@@ -131,7 +136,7 @@ impl Solver<'_> {
             };
             pair = self.examine(s, right, left);
             pair.second = self.second_order(&pair, neighbour);
-            let step = pair.newton.norm();
+            let step = modulus(pair.newton);
             if !step.is_finite() || count == STEPS {
                 break;
             }
@@ -289,7 +294,7 @@ impl Solver<'_> {
         if product == 0.0 || self.pencil.n < 2 {
             0.0
         } else {
-            product / (neighbour * pair.slope.norm())
+            product / (neighbour * modulus(pair.slope))
         }
     }
 

@@ -27,6 +27,11 @@ pub(super) fn bound(z: Complex64) -> f64 {
     z.re.abs() + z.im.abs()
 }
 
+/// `|z|` for numbers of a scaled pencil, whose squares are within range.
+pub(super) fn modulus(z: Complex64) -> f64 {
+    z.norm_sqr().sqrt()
+}
+
 impl Pencil<'_> {
     /// `Q(s)` into `q`.
     pub(super) fn at(&self, s: Complex64, q: &mut [Complex64]) {
