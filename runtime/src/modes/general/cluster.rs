@@ -218,7 +218,7 @@ impl Solver<'_> {
                 step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
             }
             moved += modulus(step);
-            if step == Complex64::ZERO || !(moved <= allowed) {
+            if step == Complex64::ZERO || moved.is_nan() || moved > allowed {
                 break;
             }
             cluster.s -= step;
