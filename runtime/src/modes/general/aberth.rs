@@ -35,7 +35,8 @@ pub(super) fn improve(
                 .map(|other| (s - other).inv())
                 .sum();
             let newton = trace.inv().norm();
-            if newton <= f64::EPSILON * s.norm() + SMALL && newton * repulsion.norm() <= 0.5 {
+            let alone = newton * repulsion.norm() <= 0.5;
+            if newton <= SMALL || (newton <= f64::EPSILON * s.norm() && alone) {
                 open[i] = false;
                 continue;
             }

@@ -4,17 +4,32 @@ use num_complex::Complex64;
 
 use super::cluster::Found;
 use super::pair::{INACCURATE, Pair, Solver};
+use super::pencil::modulus;
 
 /// Eigenvalues farther away than this many errors do not matter.
 const FAR: f64 = 8.0;
+/// Accepted error of the sum of the eigenvalues relative to their sizes.
+const SUM: f64 = 1e-7;
 /// Vectors of eigenvalues that come from one defective eigenvalue are parallel to this.
 const PARALLEL: f64 = 0.9;
 
 /// Whether the pair needs the second method: its error is far beyond what rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
-    let step = pair.newton.norm();
-    let far = step > 64.0 * pair.doubt() && step > 1e-12 * pair.s.norm();
+    let step = modulus(pair.newton);
+    let far = step > 64.0 * pair.doubt() && step > 1e-12 * modulus(pair.s);
     !pair.merged && (far || pair.residual > INACCURATE)
+}
+
+/// Whether the eigenvalues have the sum that they must have, within their errors: one that was found twice in place of
+/// another one spoils it.
+pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
+    let (mut sum, mut allowed) = (0.0, 0.0);
+    for pair in &found.pairs[..found.count] {
+        let weight = if pair.conjugate { 2.0 } else { 1.0 };
+        sum += weight * pair.s.re;
+        allowed += weight * (pair.error + SUM * modulus(pair.s));
+    }
+    (sum - solver.linearisation.sum()).abs() <= allowed
 }
 
 /// Fills in the errors of all pairs that are not part of a cluster.
@@ -28,54 +43,50 @@ pub(super) fn estimate(solver: &mut Solver, found: &mut Found) {
 
 fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
     let pair = &found.pairs[i];
-    let step = pair.newton.norm();
-    let own = f64::EPSILON * pair.s.norm();
+    let step = modulus(pair.newton);
+    let own = pair.own();
     let first = pair.doubt() + 2.0 * step + pair.second + own;
+    let n = solver.pencil.n;
     let mut gap = f64::INFINITY;
     for (s, _, _) in others(found, i) {
-        gap = gap.min((s - pair.s).norm());
+        gap = gap.min(modulus(s - pair.s));
     }
-    if FAR * first <= gap && pair.residual <= INACCURATE {
+    if FAR * first <= gap && pair.residual <= INACCURATE && !in_trouble(pair) {
         return first;
     }
     let error = first.max(solver.noise(pair.condition));
-    // A perturbation p of an almost multiple root moves it by delta with delta prod(delta + d_j) = p prod(d_j).
-    let n = solver.pencil.n;
-    let vector = |j: usize| j * n..(j + 1) * n;
+    // A perturbation that moves an eigenvalue by p to first order moves one of a pair at a distance d, which meet in a
+    // defective one, by delta with delta (1 + delta / d) = p.
+    let mut partner = 0.0_f64;
     solver
         .pencil
-        .multiply(&found.right[vector(i)], false, &mut solver.of_right);
-    let log_product = |delta: f64| {
-        let mut log = delta.ln();
-        for (s, j, conjugate) in others(found, i) {
-            let distance = (s - pair.s).norm();
-            if distance > 0.0 && FAR * error > distance {
-                let parallel = found.right[vector(j)]
-                    .iter()
-                    .zip(solver.of_right.mass.iter())
-                    .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
-                    .sum::<Complex64>();
-                if parallel.norm() > PARALLEL {
-                    log += (delta / distance).ln_1p();
-                }
+        .multiply(vector(found, i), false, &mut solver.of_right);
+    for (s, j, conjugate) in others(found, i) {
+        let distance = modulus(s - pair.s);
+        if distance < FAR * error {
+            let parallel = vector(found, j)
+                .iter()
+                .zip(solver.of_right.mass.iter())
+                .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
+                .sum::<Complex64>();
+            if modulus(parallel) > PARALLEL {
+                partner = partner.max(distance);
             }
         }
-        log
+    }
+    let reduced = if partner > 0.0 {
+        // Four times the root of the quadratic: p is an estimate.
+        8.0 * error / (1.0 + (1.0 + 4.0 * error / partner).sqrt())
+    } else {
+        error
     };
-    if !error.is_finite() {
-        return f64::INFINITY;
-    }
-    let target = error.ln();
-    let (mut low, mut high) = (target - 40.0, target);
-    for _ in 0..20 {
-        let middle = 0.5 * (low + high);
-        if log_product(middle.exp()) < target {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    (2.0 * high.exp()).max(own)
+    let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
+    reduced.min(most).max(own)
+}
+
+fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {
+    let n = found.right.len() / found.pairs.len();
+    &found.right[i * n..(i + 1) * n]
 }
 
 /// The other eigenvalues: value, pair, whether it is the conjugate of that pair.

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::lu::Lu;
 use super::pair::{INACCURATE, Pair, Solver, ZERO};
-use super::pencil::bound;
+use super::pencil::{bound, modulus};
 
 /// The pairs found so far; the vectors of pair `i` are the components `i n .. (i + 1) n`.
 pub(super) struct Found<'a> {
@@ -79,7 +79,7 @@ fn link(links: Links, pairs: &[Pair], label: &mut [usize]) -> bool {
         }
         any |= pair.conjugate && links.real(pair);
         for (j, other) in pairs[..i].iter().enumerate() {
-            if !other.merged && links.join(pair, other, (pair.s - other.s).norm()) {
+            if !other.merged && links.join(pair, other, modulus(pair.s - other.s)) {
                 any = true;
                 let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
                 label[..=i]
@@ -125,7 +125,7 @@ fn merge_one(
     }
     let (mut spread, mut radius, mut reach) = (0.0_f64, 0.0_f64, 0.0_f64);
     for i in members() {
-        spread = spread.max((found.pairs[i].s - s).norm());
+        spread = spread.max(modulus(found.pairs[i].s - s));
         radius = radius.max(found.pairs[i].radius());
         reach = reach.max(found.pairs[i].reach);
     }
@@ -139,17 +139,6 @@ fn merge_one(
         regular: 0,
     };
     solver.eigenspaces(&mut cluster);
-    if std::env::var("D").is_ok() {
-        println!(
-            "cluster {} m {} spread {:.1e} radius {:.1e} nullity {} regular {}",
-            cluster.s,
-            cluster.multiplicity,
-            cluster.spread,
-            cluster.radius,
-            cluster.nullity,
-            cluster.regular
-        );
-    }
     if cluster.regular < multiplicity {
         if links == Links::Loose {
             return false;
@@ -175,6 +164,20 @@ impl Solver<'_> {
     /// Bases of the eigenspaces in `basis_right` and `basis_left`, the right one orthonormal by the mass matrix, the left
     /// one dual to it where the eigenvalue is semisimple.
     fn eigenspaces(&mut self, cluster: &mut Cluster) {
+        for _ in 0..2 {
+            let start = cluster.s;
+            self.bases(cluster);
+            if cluster.regular < cluster.multiplicity {
+                break;
+            }
+            self.centre(cluster);
+            if modulus(cluster.s - start) <= cluster.reach {
+                break;
+            }
+        }
+    }
+
+    fn bases(&mut self, cluster: &mut Cluster) {
         let n = self.pencil.n;
         self.pencil.at(cluster.s, self.q);
         let size = self.pencil.size(cluster.s);
@@ -190,9 +193,6 @@ impl Solver<'_> {
         cluster.nullity = nullity;
         self.orthonormalise(nullity);
         cluster.regular = self.dualise(cluster.s, nullity);
-        if cluster.regular == cluster.multiplicity {
-            self.centre(cluster);
-        }
     }
 
     /// Whether a vector does not belong to the eigenvalue.
@@ -204,8 +204,8 @@ impl Solver<'_> {
             &self.basis_left[k * n..(k + 1) * n],
         );
         pair.residual > INACCURATE
-            && (pair.newton.norm() > 4.0 * cluster.spread + cluster.reach
-                || !self.is_rounding(cluster.s, right, left))
+            && (modulus(pair.newton) > 4.0 * cluster.spread + cluster.reach
+                || !self.is_rounding(cluster.s, right, left, 1.0))
     }
 
     /// Moves the eigenvalue to the mean of the Rayleigh quotients.
@@ -217,8 +217,8 @@ impl Solver<'_> {
             for k in 0..cluster.nullity {
                 step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
             }
-            moved += step.norm();
-            if step == Complex64::ZERO || !(moved <= allowed) {
+            moved += modulus(step);
+            if step == Complex64::ZERO || moved.is_nan() || moved > allowed {
                 break;
             }
             cluster.s -= step;
@@ -358,18 +358,18 @@ impl Solver<'_> {
         pair.conjugate = conjugate;
         if regular {
             pair.condition = self.condition(&pair, right, left);
-            let own = f64::EPSILON * pair.s.norm();
-            pair.error = pair.doubt() + 2.0 * pair.newton.norm() + own;
+            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.own();
         } else {
             let block = (cluster.multiplicity - cluster.regular)
                 .div_ceil(defective)
                 .max(2);
-            let relative = (n as f64 + 4.0) * f64::EPSILON;
-            // rounding = relative size^2 mass_terms
-            let size = (pair.rounding / (relative * pair.mass_terms)).sqrt();
-            let size = size.min((self.pencil.size(pair.s) / self.pencil.largest[0]).sqrt());
+            let relative = self.relative();
+            let size = self.pencil.rate(pair.s);
             pair.condition = f64::INFINITY;
-            pair.error = (2.0 * cluster.spread).max(size * relative.powf(1.0 / block as f64));
+            pair.error = (2.0 * cluster.spread)
+                .max(size * relative.powf(1.0 / block as f64))
+                .max(2.0 * cluster.multiplicity as f64 * modulus(pair.newton))
+                .min(size * relative.powf(0.5 / n as f64));
         }
         pair.merged = true;
         found.pairs[place] = pair;

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::cluster::Found;
 use super::linearisation::Linearisation;
-use super::pair::{Pair, ROUNDING, Solver};
+use super::pair::{Pair, Solver};
 use super::pencil::{Pencil, Products};
 use super::scaling::{largest, scale};
 use super::{aberth, accuracy, cluster, schur};
@@ -51,6 +51,8 @@ impl Numbers {
 
 /// Accepted residual of a pair relative to the terms in it.
 const ACCEPTED: f64 = 1e-9;
+/// Residual of a pair that has nothing but rounding in it.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Sizes of eigenvalues that differ by less count as equal in the order.
 const EQUAL: f64 = 1e-12;
 
@@ -254,7 +256,7 @@ fn solve_with(
     };
     let mut found = Found {
         count: 0,
-        pairs: std::mem::take(&mut work.pairs),
+        pairs: &mut std::mem::take(&mut work.pairs)[..2 * n],
         right: take(&mut complex, 2 * n * n),
         left: take(&mut complex, 2 * n * n),
     };
@@ -266,7 +268,9 @@ fn solve_with(
             find(&mut solver, &mut found, values, label);
         }
     }
-    accuracy::estimate(&mut solver, &mut found);
+    if !accuracy::is_complete(&solver, &found) {
+        return Err(not_found());
+    }
     let places = &mut label[..found.count];
     for (i, place) in places.iter_mut().enumerate() {
         *place = i;
@@ -276,16 +280,10 @@ fn solve_with(
         let pair = &found.pairs[i];
         let vectors = i * n..(i + 1) * n;
         let (phi, psi) = (&found.right[vectors.clone()], &found.left[vectors]);
-        let mut residual = pair.residual;
-        if residual > ACCEPTED {
-            solver.pencil.multiply(phi, false, &mut solver.of_right);
-            solver.pencil.multiply(psi, true, &mut solver.of_left);
-            if !solver.is_rounding(pair.s, phi, psi) {
-                return Err(Trouble::Inaccurate { mode, residual });
-            }
-            // Relative to the matrices instead of to terms that are rounding themselves.
-            residual = ROUNDING;
-        }
+        let Some(residual) = accepted(&mut solver, pair, phi, psi) else {
+            let residual = pair.residual;
+            return Err(Trouble::Inaccurate { mode, residual });
+        };
         numbers[mode] = Numbers {
             s: pair.s * rate,
             residual,
@@ -298,7 +296,25 @@ fn solve_with(
     Ok(found.count)
 }
 
-/// Finds all pairs that start from `values`; returns the number of those that went wrong.
+/// The residual of a pair that passes the check.
+fn accepted(
+    solver: &mut Solver,
+    pair: &Pair,
+    right: &[Complex64],
+    left: &[Complex64],
+) -> Option<f64> {
+    if pair.residual <= ACCEPTED {
+        return Some(pair.residual);
+    }
+    solver.pencil.multiply(right, false, &mut solver.of_right);
+    solver.pencil.multiply(left, true, &mut solver.of_left);
+    // Relative to the matrices instead of to terms that are rounding themselves.
+    let rounding = solver.is_rounding(pair.s, right, left, 4.0);
+    rounding.then_some(ROUNDING)
+}
+
+/// Finds all pairs that start from `values`; returns the number of those that went wrong; one that would be
+/// refused counts more than all others.
 fn find(
     solver: &mut Solver,
     found: &mut Found,
@@ -326,45 +342,22 @@ fn find(
         );
         found.count += 1;
     }
-    if std::env::var("D").is_ok() {
-        println!("--- size {:.2e}", solver.linearisation.size);
-        for p in &found.pairs[..found.count] {
-            println!(
-                "s {:.6e} {:+.6e}i newton {:.2e} doubt {:.2e} second {:.2e} cond {:.2e} res {:.2e} trouble {}",
-                p.s.re,
-                p.s.im,
-                p.newton.norm(),
-                p.doubt(),
-                p.second,
-                p.condition,
-                p.residual,
-                accuracy::in_trouble(p)
-            );
+    let mut troubles = usize::from(cluster::merge(solver, found, label));
+    for (i, pair) in found.pairs[..found.count].iter().enumerate() {
+        let vectors = i * n..(i + 1) * n;
+        let (right, left) = (&found.right[vectors.clone()], &found.left[vectors]);
+        if accuracy::in_trouble(pair) {
+            troubles += 1;
+            if accepted(solver, pair, right, left).is_none() {
+                troubles += 4 * n;
+            }
         }
     }
-    let collapsed = cluster::merge(solver, found, label);
-    if std::env::var("D").is_ok() {
-        println!("merged, collapsed {collapsed}");
-        for p in &found.pairs[..found.count] {
-            println!(
-                "s {:.6e} {:+.6e}i newton {:.2e} merged {} err {:.2e} cond {:.2e} res {:.2e} trouble {}",
-                p.s.re,
-                p.s.im,
-                p.newton.norm(),
-                p.merged,
-                p.error,
-                p.condition,
-                p.residual,
-                accuracy::in_trouble(p)
-            );
-        }
+    accuracy::estimate(solver, found);
+    if !accuracy::is_complete(solver, found) {
+        troubles += 4 * n;
     }
-    let pairs = &found.pairs[..found.count];
-    pairs
-        .iter()
-        .filter(|pair| accuracy::in_trouble(pair))
-        .count()
-        + usize::from(collapsed)
+    troubles
 }
 
 /// The eigenvalues by the second method, which starts from those of the first and holds the good ones fast.
@@ -406,11 +399,6 @@ fn second_values(
     marked.copy_from_slice(open);
     let (pencil, q, order) = (&solver.pencil, &mut *solver.q, &mut *solver.order);
     aberth::improve(pencil, second, open, q, order, spare);
-    if std::env::var("D").is_ok() {
-        for i in 0..second.len() {
-            println!("a {:.6e} open {}", second[i], open[i]);
-        }
-    }
     aberth::symmetrise(second, marked);
 }
 

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::pencil::Pencil;
+use super::pencil::{Pencil, modulus};
 use super::schur;
 use crate::modes::symmetric::{Trouble, factor_into};
 
@@ -57,6 +57,13 @@ impl<'a> Linearisation<'a> {
         })
     }
 
+    /// The sum of all eigenvalues: `-tr(M^-1 C)`.
+    pub(super) fn sum(&self) -> f64 {
+        -(0..self.n)
+            .map(|i| self.damping[i * (self.n + 1)])
+            .sum::<f64>()
+    }
+
     /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and `slope = psi^T (2 s M + C) phi`.
     /// `work` takes `n` numbers.
     pub(super) fn condition(
@@ -100,7 +107,7 @@ impl<'a> Linearisation<'a> {
             };
             w += square * (self.scales[j] * self.scales[j]);
         }
-        let condition = (x * w).sqrt() / slope.norm();
+        let condition = (x * w).sqrt() / modulus(slope);
         if condition.is_nan() {
             f64::INFINITY
         } else {

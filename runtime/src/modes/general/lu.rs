@@ -35,8 +35,9 @@ impl<'a> Lu<'a> {
                 }
             }
             if k == 0 {
-                unit = if most > 0.0 { most } else { 1.0 };
-                matrix.iter_mut().for_each(|x| *x /= unit);
+                unit = if most > NOTHING { most } else { 1.0 };
+                let inverse = 1.0 / unit;
+                matrix.iter_mut().for_each(|x| *x *= inverse);
             }
             if i_most != k {
                 rows.swap(k, i_most);
@@ -157,6 +158,8 @@ impl<'a> Lu<'a> {
     }
 }
 
+/// A matrix with nothing greater is zero.
+const NOTHING: f64 = 1e-290;
 /// Stands in for a pivot that is nothing: its square is still a number, and so is the square of its inverse.
 const TINY: f64 = 1e-100;
 

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::linearisation::Linearisation;
 use super::lu::Lu;
-use super::pencil::{Pencil, Products, bound, dot};
+use super::pencil::{Pencil, Products, bound, dot, modulus};
 
 /// An eigenvalue with what its vectors say about it.
 #[derive(Clone, Copy)]
@@ -60,13 +60,18 @@ impl Pair {
         if self.rounding == 0.0 {
             0.0
         } else {
-            self.rounding / self.slope.norm()
+            self.rounding / modulus(self.slope)
         }
+    }
+
+    /// Rounding of `s` itself.
+    pub(super) fn own(&self) -> f64 {
+        f64::EPSILON * modulus(self.s) + ZERO
     }
 
     /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
     pub(super) fn radius(&self) -> f64 {
-        let radius = 2.0 * (self.doubt() + self.newton.norm()) + self.second;
+        let radius = 2.0 * (self.doubt() + modulus(self.newton)) + self.second;
         radius.min(1e6 * self.reach_overall)
     }
 }
@@ -91,12 +96,17 @@ pub(super) const ZERO: f64 = 1e-30;
 /// Terms that are less than this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;
 const STEPS: usize = 8;
+/// Vectors of a worse conditioned eigenvalue may belong to another one.
+const MODERATE: f64 = 1e8;
 /// Residual beyond which the vectors are improved.
 pub(super) const INACCURATE: f64 = 1e-13;
-/// Residual relative to the matrices that rounding of a vector explains.
-pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Solver<'_> {
+    /// Relative rounding error of a component of `Q(s) x`.
+    pub(super) fn relative(&self) -> f64 {
+        (self.pencil.n as f64 + 4.0) * f64::EPSILON
+    }
+
     /// Rounding error of an eigenvalue of the linearisation with this condition number.
     pub(super) fn noise(&self, condition: f64) -> f64 {
         8.0 * f64::EPSILON * self.linearisation.size * condition
@@ -113,6 +123,7 @@ impl Solver<'_> {
         let n = self.pencil.n;
         let mut s = start;
         let mut pair = Pair::NONE;
+        let (mut moved, mut last) = (0.0, f64::INFINITY);
         for count in 0..=STEPS {
             self.pencil.at(s, self.q);
             let lu = Lu::new(n, self.q, self.order);
@@ -125,7 +136,7 @@ impl Solver<'_> {
             };
             pair = self.examine(s, right, left);
             pair.second = self.second_order(&pair, neighbour);
-            let step = pair.newton.norm();
+            let step = modulus(pair.newton);
             if !step.is_finite() || count == STEPS {
                 break;
             }
@@ -134,9 +145,11 @@ impl Solver<'_> {
                 // Almost multiple: the step is rounding, and the mean of the linearisation is better.
                 break;
             }
-            if step > 0.25 * gap {
+            moved += step;
+            if moved > 0.25 * gap {
                 pair.condition = self.condition(&pair, right, left);
-                if step > self.noise(pair.condition) || doubt > 0.125 * step {
+                let explained = pair.condition <= MODERATE && moved <= self.noise(pair.condition);
+                if !explained || doubt > 0.125 * step || step > 0.5 * last {
                     break;
                 }
             }
@@ -145,6 +158,7 @@ impl Solver<'_> {
                 break;
             }
             s = next;
+            last = step;
             if step * pair.slope_terms <= 4.0 * pair.rounding {
                 let moved = self.measure(s, left);
                 if moved.residual <= INACCURATE {
@@ -235,7 +249,7 @@ impl Solver<'_> {
             mass_terms += size * of_right.mass_terms(i);
         }
         let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
-        let rounding = (n as f64 + 4.0) * f64::EPSILON * (terms + NOTHING);
+        let rounding = self.relative() * (terms + NOTHING);
         let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
         let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
         Pair {
@@ -280,7 +294,7 @@ impl Solver<'_> {
         if product == 0.0 || self.pencil.n < 2 {
             0.0
         } else {
-            product / (neighbour * pair.slope.norm())
+            product / (neighbour * modulus(pair.slope))
         }
     }
 
@@ -291,8 +305,9 @@ impl Solver<'_> {
         s: Complex64,
         right: &[Complex64],
         left: &[Complex64],
+        margin: f64,
     ) -> bool {
-        let allowed = ROUNDING * self.pencil.size(s);
+        let allowed = margin * self.relative() * self.pencil.size(s);
         let most = |products: &Products| {
             (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
         };

@@ -27,6 +27,11 @@ pub(super) fn bound(z: Complex64) -> f64 {
     z.re.abs() + z.im.abs()
 }
 
+/// `|z|` for numbers of a scaled pencil, whose squares are within range.
+pub(super) fn modulus(z: Complex64) -> f64 {
+    z.norm_sqr().sqrt()
+}
+
 impl Pencil<'_> {
     /// `Q(s)` into `q`.
     pub(super) fn at(&self, s: Complex64, q: &mut [Complex64]) {
@@ -68,6 +73,11 @@ impl Pencil<'_> {
     /// The size of what `2 s M + C` is summed from.
     pub(super) fn slope_size(&self, s: Complex64) -> f64 {
         2.0 * bound(s) * self.largest[0] + self.largest[1]
+    }
+
+    /// Size of the eigenvalues that a change of `Q(s)` as a whole could make.
+    pub(super) fn rate(&self, s: Complex64) -> f64 {
+        (self.size(s) / self.largest[0]).sqrt()
     }
 
     /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.

@@ -198,7 +198,8 @@ fn shifts(n: usize, h: &[f64], first: usize, last: usize, step: usize) -> [Compl
     if size == 0.0 {
         return [Complex64::ZERO; 2];
     }
-    let (h11, h12, h21, h22) = (h11 / size, h12 / size, h21 / size, h22 / size);
+    let inverse = 1.0 / size;
+    let (h11, h12, h21, h22) = (h11 * inverse, h12 * inverse, h21 * inverse, h22 * inverse);
     let mean = 0.5 * (h11 + h22);
     let determinant = (h11 - mean) * (h22 - mean) - h12 * h21;
     let root = determinant.abs().sqrt();
@@ -224,16 +225,15 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
         let diagonal = h[m * n + m];
         let below = h[(m + 1) * n + m];
         let size = (diagonal - two.re).abs() + two.im.abs() + below.abs();
-        let ratio = below / size;
+        let inverse = 1.0 / size;
+        let ratio = below * inverse;
         let next = h[(m + 1) * n + m + 1];
         v = [
-            ratio * h[m * n + m + 1] + (diagonal - one.re) * ((diagonal - two.re) / size)
-                - one.im * (two.im / size),
+            ratio * h[m * n + m + 1] + (diagonal - one.re) * ((diagonal - two.re) * inverse)
+                - one.im * (two.im * inverse),
             ratio * (diagonal + next - one.re - two.re),
             ratio * h[(m + 2) * n + m + 1],
         ];
-        let size = v[0].abs() + v[1].abs() + v[2].abs();
-        v = v.map(|x| x / size);
         if m == first {
             break;
         }
@@ -297,7 +297,28 @@ fn sweep(n: usize, h: &mut [f64], first: usize, last: usize, [one, two]: [Comple
 }
 
 /// Householder reflector that takes `x` to `(beta, 0, 0)`: `(beta, tau, v2, v3)` with `v = (1, v2, v3)`.
-fn reflector(x: [f64; 3]) -> (f64, f64, f64, f64) {
+#[inline]
+fn reflector([a, b, c]: [f64; 3]) -> (f64, f64, f64, f64) {
+    let below = b * b + c * c;
+    let square = a * a + below;
+    if !(SAFE..1.0 / SAFE).contains(&square) {
+        return scaled_reflector([a, b, c]);
+    }
+    if below == 0.0 {
+        return (a, 0.0, 0.0, 0.0);
+    }
+    let beta = -square.sqrt().copysign(a);
+    let divisor = a - beta;
+    let inverse = 1.0 / (beta * divisor);
+    let factor = beta * inverse;
+    (beta, -divisor * divisor * inverse, b * factor, c * factor)
+}
+
+/// Squares from here to the inverse are far from underflow and overflow.
+const SAFE: f64 = 1e-200;
+
+#[cold]
+fn scaled_reflector(x: [f64; 3]) -> (f64, f64, f64, f64) {
     let size = x[1].abs().max(x[2].abs());
     if size == 0.0 {
         return (x[0], 0.0, 0.0, 0.0);
@@ -306,7 +327,7 @@ fn reflector(x: [f64; 3]) -> (f64, f64, f64, f64) {
     let [a, b, c] = x.map(|component| component / size);
     let beta = -(a * a + b * b + c * c).sqrt().copysign(a);
     let divisor = a - beta;
-    (beta * size, (beta - a) / beta, b / divisor, c / divisor)
+    (beta * size, -divisor / beta, b / divisor, c / divisor)
 }
 
 /// Eigenvalues of a two by two matrix, given row by row.

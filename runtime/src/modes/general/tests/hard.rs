@@ -1,1 +1,131 @@
+//! Degenerate cases one by one.
 
+use super::checks::check;
+use super::*;
+
+#[test]
+fn nothing_resists() {
+    let pencil = linear([[1.0, 0.2], [0.2, 1.3]], [[0.0; 2]; 2], [[0.0; 2]; 2]);
+    let roots = solve(&pencil).unwrap();
+    check(&pencil, &roots).unwrap();
+    assert_eq!(roots.as_slice().len(), 4);
+    for root in roots.as_slice() {
+        assert_eq!(root.s, Complex64::ZERO);
+        assert!(root.error < 1e-20 && root.condition == f64::INFINITY);
+    }
+}
+
+/// `M s^2 + C s` with a regular `C`: zero, semisimple, as often as there are coordinates.
+#[test]
+fn only_dampers() {
+    let pencil = linear(
+        identity(),
+        [[3.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]],
+        [[0.0; 3]; 3],
+    );
+    let roots = solve(&pencil).unwrap();
+    check(&pencil, &roots).unwrap();
+    let zeros = &roots.as_slice()[..3];
+    assert!(zeros.iter().all(|root| root.s.norm() <= root.error));
+    assert!(zeros.iter().all(|root| root.error < 1e-14));
+    let vectors: Vec<_> = zeros.iter().map(|root| root.right).collect();
+    assert_eq!(checks::rank(&pencil, &vectors), 3);
+}
+
+/// A Jordan block of `K`: `s = +- i sqrt(2)`, each twice, with one vector.
+#[test]
+fn jordan_block() {
+    let pencil = linear(identity(), [[0.0; 2]; 2], [[2.0, 1.0], [0.0, 2.0]]);
+    let roots = solve(&pencil).unwrap();
+    check(&pencil, &roots).unwrap();
+    for root in roots.as_slice() {
+        assert!((root.s - Complex64::new(0.0, 2.0_f64.sqrt())).norm() <= root.error);
+        assert!(root.error < 1e-6 && root.condition > 1e7);
+        assert!(root.right[1].norm() < 1e-6 && root.left[0].norm() < 1e-6);
+    }
+}
+
+#[test]
+fn critically_damped() {
+    let roots = solve(&linear([[1.0]], [[2.0]], [[1.0]])).unwrap();
+    let [a, b] = roots.as_slice() else {
+        panic!("{roots:?}")
+    };
+    for root in [a, b] {
+        assert!((root.s + 1.0).norm() <= root.error && root.error < 1e-6);
+    }
+}
+
+#[test]
+fn failures_are_answers() {
+    let zero = [[0.0; 2]; 2];
+    let singular = solve(&linear([[1.0, 1.0], [1.0, 1.0]], zero, zero));
+    assert_eq!(singular.err(), Some(Trouble::SingularMass(1)));
+    let negative = solve(&linear(diagonal([-1.0, 1.0]), zero, zero));
+    assert_eq!(negative.err(), Some(Trouble::SingularMass(0)));
+    for bad in [f64::NAN, f64::INFINITY] {
+        for place in 0..3 {
+            let mut matrices = [identity::<2>(); 3];
+            matrices[place][0][1] = bad;
+            let [mass, damping, stiffness] = matrices;
+            assert!(solve(&linear(mass, damping, stiffness)).is_err());
+            assert!(eigenvalues(&linear(mass, damping, stiffness)).is_err());
+        }
+    }
+    assert_eq!(solve::<0>(&linear([], [], [])).unwrap().as_slice().len(), 0);
+}
+
+/// Values alone are those of the full answer, in the same order.
+#[test]
+fn values_alone() {
+    let pencil = linear(
+        [[2.0, 0.3], [0.3, 1.0]],
+        [[9.0, -3.0], [2.5, 0.4]],
+        [[30.0, 4.0], [-5.0, 20.0]],
+    );
+    let values = eigenvalues(&pencil).unwrap();
+    let roots = all(&solve(&pencil).unwrap());
+    assert_eq!(roots.len(), 4);
+    for (value, root) in values.as_flattened().iter().zip(&roots) {
+        assert!((value.norm() - root.norm()).abs() < 1e-13 * root.norm());
+        assert!(roots.iter().any(|root| (value - root).norm() < 1e-13));
+    }
+    assert!(
+        values
+            .as_flattened()
+            .windows(2)
+            .all(|pair| pair[0].norm() <= pair[1].norm() * (1.0 + 1e-11))
+    );
+}
+
+/// Beyond eight coordinates the work is on the heap: a chain of equal masses and springs,
+/// `omega = 2 sin(pi r / (2 (n + 1)))`.
+#[test]
+fn twelve_coordinates() {
+    const N: usize = 12;
+    let mut stiffness = diagonal([2.0; N]);
+    for i in 1..N {
+        stiffness[i][i - 1] = -1.0;
+        stiffness[i - 1][i] = -1.0;
+    }
+    let pencil = linear(identity(), [[0.0; N]; N], stiffness);
+    let roots = solve(&pencil).unwrap();
+    check(&pencil, &roots).unwrap();
+    for (r, root) in roots.as_slice().iter().enumerate() {
+        let angle = core::f64::consts::PI * (r + 1) as f64 / (2.0 * (N + 1) as f64);
+        let expected = Complex64::new(0.0, 2.0 * angle.sin());
+        assert!((root.s - expected).norm() <= root.error, "{root:?}");
+        assert!(root.error < 1e-13);
+    }
+}
+
+#[test]
+fn the_same_bits_every_time() {
+    let pencil = linear(
+        identity(),
+        [[0.0, 1.0, 0.0], [-1.0, 0.0, 2.0], [0.0, -2.0, 0.0]],
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    );
+    let once = solve(&pencil).unwrap();
+    assert_eq!(once, solve(&pencil).unwrap());
+}

@@ -137,7 +137,7 @@ fn one<const N: usize>(rng: &mut ChaCha8Rng, kind: u32) -> Result<(), String> {
         8 => check_any::<N>(&linear(mass(rng, 6.0), graded(rng, 6.0), graded(rng, 12.0))),
         9 => {
             let units: [f64; N] = core::array::from_fn(|_| 10.0_f64.powf(6.0 * uniform(rng)));
-            let mut scaled = |matrix: Matrix<N>| fill(|i, j| matrix[i][j] * units[i] * units[j]);
+            let scaled = |matrix: Matrix<N>| fill(|i, j| matrix[i][j] * units[i] * units[j]);
             let damping = scaled(integers(rng, 2));
             check_any::<N>(&linear(
                 mass(rng, 0.0),
@@ -165,9 +165,7 @@ fn one<const N: usize>(rng: &mut ChaCha8Rng, kind: u32) -> Result<(), String> {
 
 fn torture(count: u64) {
     let mut failures = Vec::new();
-    let mut kinds = [0; 12];
-    let only: Option<u64> = std::env::var("CASE").ok().and_then(|c| c.parse().ok());
-    for case in only.map_or(0..count, |c| c..c + 1) {
+    for case in 0..count {
         let mut rng = ChaCha8Rng::seed_from_u64(case);
         let kind = (case % 12) as u32;
         let outcome = match (case / 12) % 8 {
@@ -181,22 +179,11 @@ fn torture(count: u64) {
             _ => one::<8>(&mut rng, kind),
         };
         if let Err(what) = outcome {
-            kinds[kind as usize] += 1;
             failures.push(format!("case {case}, kind {kind}: {what}"));
         }
     }
-    for failure in failures
-        .iter()
-        .filter(|f| std::env::var("K").map_or(true, |k| f.contains(&format!("kind {k}:"))))
-        .take(5)
-    {
-        println!("{failure}");
-    }
-    assert!(
-        failures.is_empty(),
-        "{} of {count} failed, by kind {kinds:?}",
-        failures.len()
-    );
+    let few = &failures[..failures.len().min(3)];
+    assert!(few.is_empty(), "{} of {count}: {few:#?}", failures.len());
 }
 
 #[test]
@@ -204,7 +191,7 @@ fn hard_pencils_in_number() {
     torture(6_000);
 }
 
-/// Minutes without optimisation.
+/// Ten seconds with optimisation: `cargo test --release -p eigentol -- --ignored hard_pencils`.
 #[test]
 #[ignore = "takes minutes without optimisation"]
 fn hard_pencils_in_great_number() {
