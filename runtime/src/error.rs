@@ -109,6 +109,15 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
+    /// Modes have merged into one defective eigenvalue, or are too near to it for their couplings to be told from rounding.
+    #[error(
+        "modes {modes:?} (counted from 0) have merged into a defective eigenvalue: it splits as the square root of any \
+         change and has no derivative; move the operating point or sample the whole problem"
+    )]
+    Defective {
+        /// Positions of the modes, from 0.
+        modes: Vec<usize>,
+    },
     /// No sign change was found in the range.
     #[error("no {what} in the range {low} to {high} of input `{input}`")]
     NotInRange {

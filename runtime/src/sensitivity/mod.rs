@@ -114,7 +114,7 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
     ) -> Self {
         let lambda = s.map(|ds| -2.0 * (mode.s * ds).re);
         let finite = lambda.finite() && s.map(|ds| ds.l1_norm()).finite();
-        if finite {
+        if finite && mode.condition.is_finite() {
             Self::new(mode, lambda, Some(s), clustered)
         } else {
             Self::new(mode, lambda.map(|_| 0.0), None, true)
