@@ -109,9 +109,10 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
-    /// Modes have merged into one defective eigenvalue, or are too near to it for their couplings to be told from rounding.
+    /// Modes have merged into one defective eigenvalue (a single one with its conjugate), or are too near to that for their
+    /// couplings to be told from rounding.
     #[error(
-        "modes {modes:?} (counted from 0) have merged into a defective eigenvalue: it splits as the square root of any \
+        "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
          change and has no derivative; move the operating point or sample the whole problem"
     )]
     Defective {

@@ -62,8 +62,8 @@ impl<const U: usize, const P: usize> fmt::Display for ClusterTolerance<U, P> {
             Err(_) if self.defective() => {
                 return writeln!(
                     f,
-                    "{name}: {modes} have merged into a defective eigenvalue: they split as the square root of any \
-                     change and have no sigma; use Monte Carlo"
+                    "{name}: merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
+                     has no sigma; use Monte Carlo"
                 );
             }
             Err(error) => return writeln!(f, "{name}: {modes} form a cluster: {error}"),

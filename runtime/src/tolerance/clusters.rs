@@ -3,11 +3,12 @@
 
 use super::cluster_sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
 use super::{Spread, TRUSTED_DISTANCE, Tolerances};
-use crate::modes::Family;
+use crate::modes::{Family, merged};
 use crate::sensitivity::{CLUSTER_GAP, ModalCouplings, Quantity, modal_couplings};
-use crate::{Complex, Description, Equilibrium, Error, Mechanism, Mode, Modes};
+use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes};
 
-/// Modes that tolerances bring together, or that rounding cannot tell apart.
+/// Modes that tolerances bring together, or that rounding cannot tell apart. A mode that has merged with its own conjugate
+/// is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClusterTolerance<const U: usize, const P: usize> {
     /// Positions of the modes, from 0, ascending.
@@ -78,7 +79,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let count = modes.modes.len();
-    if count < 2 {
+    if count < 2 && !merged(modes, 0) {
         return Ok(Vec::new());
     }
     let all: Vec<usize> = (0..count).collect();
@@ -96,9 +97,9 @@ where
         }
     }
     let members = |first| (0..count).filter(|&i| label[i] == first).collect();
-    let groups = (0..count)
-        .map(members)
-        .filter(|group: &Vec<usize>| group.len() > 1);
+    let wanted =
+        |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
+    let groups = (0..count).map(members).filter(wanted);
     Ok(groups
         .map(|group| tolerance(&couplings.among(&group), modes, tolerances))
         .collect())
@@ -168,16 +169,12 @@ fn together<const N: usize, const P: usize>(
     if gap <= CLUSTER_GAP * values[i].norm().max(values[j].norm()) {
         return true;
     }
-    if merged(a) || merged(b) {
+    if merged(modes, i) || merged(modes, j) {
         // Their couplings mean nothing: only rounding can be compared.
         let error = if a.error < b.error { b.error } else { a.error };
         return error.is_finite() && gap <= error;
     }
     Pair::new(couplings, (i, j), tolerances).distance() < TRUSTED_DISTANCE
-}
-
-fn merged<const N: usize>(mode: &Mode<N>) -> bool {
-    !mode.condition.is_finite()
 }
 
 fn tolerance<const N: usize, const U: usize, const P: usize>(
@@ -187,7 +184,7 @@ fn tolerance<const N: usize, const U: usize, const P: usize>(
 ) -> ClusterTolerance<U, P> {
     let own = |place: usize| &modes.modes[couplings.modes[place]];
     let count = couplings.modes.len();
-    let mut defective = (0..count).any(|place| merged(own(place)));
+    let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
     let mut distance = f64::INFINITY;
     for i in 0..count {
         for j in 0..i {

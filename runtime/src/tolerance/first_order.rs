@@ -284,7 +284,9 @@ fn distance_to_neighbour<const N: usize, const U: usize, const P: usize>(
                 let gap = 0.5 * (a.s - b.s).norm();
                 (gap, part(|value| value.re).hypot(part(|value| value.im)))
             }
-            (Family::General, ..) => (0.0, 1.0),
+            // It has merged, perhaps with the other: nothing tells what moves them.
+            (Family::General, None, _) => (0.0, 1.0),
+            (Family::General, Some(_), None) => return least,
         };
         if sigma > 0.0 {
             least.min(gap / sigma)

@@ -283,6 +283,30 @@ fn overdamped_roots_form_a_pair() {
 }
 
 #[test]
+fn critically_damped_roots_are_defective() {
+    // c = 2 sqrt(k m) in one direction, then in both: one and two double roots at -10.
+    let both = plate(0.0, 10.0);
+    let one = both.clone().design(KY, 4000.0);
+    for (study, count) in [(one, 2), (both, 4)] {
+        let found = study.clusters().unwrap();
+        let [found] = found.as_slice() else {
+            panic!("{found:?}")
+        };
+        assert!(found.defective(), "{found:?}");
+        assert!(found.modes.len() == count || found.modes.len() == count / 2);
+        let summary = study.summary().unwrap();
+        assert!(!format!("{summary:?} {summary}").contains("NaN"));
+        for mode in &found.modes {
+            assert!(summary.first.modes[*mode].growth.is_none());
+        }
+    }
+    // Equal overdamped motions are double roots that are not defective.
+    let found = plate(0.0, 20.0).clusters().unwrap();
+    assert_eq!(found.len(), 2);
+    assert!(found.iter().all(|cluster| cluster.spread.is_ok()));
+}
+
+#[test]
 fn a_pair_of_a_general_family_meets_the_undamped_one() {
     let study = plate(0.0, 0.0).design(KY, 50.5);
     let general = study.clone().clusters().unwrap();
