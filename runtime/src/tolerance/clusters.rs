@@ -79,7 +79,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let count = modes.modes.len();
-    if count < 2 && !merged(modes, 0) {
+    if count == 0 || count == 1 && !merged(modes, 0) {
         return Ok(Vec::new());
     }
     let all: Vec<usize> = (0..count).collect();
