@@ -109,6 +109,16 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
     },
+    /// Modes have merged into one defective eigenvalue (a single one with its conjugate), or are too near to that for their
+    /// couplings to be told from rounding.
+    #[error(
+        "merged into a defective eigenvalue: modes {modes:?} (counted from 0). It splits as the square root of any \
+         change and has no derivative; move the operating point or sample the whole problem"
+    )]
+    Defective {
+        /// Positions of the modes, from 0.
+        modes: Vec<usize>,
+    },
     /// No sign change was found in the range.
     #[error("no {what} in the range {low} to {high} of input `{input}`")]
     NotInRange {

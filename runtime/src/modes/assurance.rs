@@ -1,7 +1,6 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
 use super::{Family, Mode, PerMode};
-use crate::array::all_finite;
 use crate::{Complex, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
@@ -149,6 +148,21 @@ impl<const N: usize> Modes<N> {
     }
 }
 
+/// Whether mode `r` has merged with another, or with its own conjugate, into a defective eigenvalue, as far as its
+/// accuracy can tell: it has no derivative, and its shapes are those of the other.
+pub(crate) fn merged<const N: usize>(modes: &Modes<N>, r: usize) -> bool {
+    /// Semisimple eigenvalues that meet are far better conditioned; defective ones that are told apart far worse.
+    const ILL_CONDITIONED: f64 = 1e5;
+    let own = &modes.modes[r];
+    if modes.family == Family::Undamped || own.condition <= ILL_CONDITIONED {
+        return false;
+    }
+    let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != r);
+    let gaps = others.map(|(_, other)| (own.s - other.s).norm());
+    let conjugate = (own.s.im > 0.0).then_some(2.0 * own.s.im);
+    !own.condition.is_finite() || gaps.chain(conjugate).any(|gap| gap <= own.error)
+}
+
 /// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
 /// relative to the larger of the two: they share a cluster and have no derivative of their own.
 pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> {
@@ -160,7 +174,6 @@ pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> 
         let own = &modes.modes[i];
         let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
         let mut others = others.map(|(_, other)| other);
-        let merges = modes.family == Family::General && !all_finite(&[own.condition]);
-        merges || others.any(|other| near(own, other))
+        merged(modes, i) || others.any(|other| near(own, other))
     })
 }

@@ -11,8 +11,8 @@ mod refine;
 pub(crate) mod symmetric;
 mod whirl;
 
-pub(crate) use assurance::match_with_assurance;
 pub use assurance::{assurance, clusters, match_modes};
+pub(crate) use assurance::{match_with_assurance, merged};
 pub use per_mode::PerMode;
 pub use whirl::{Sense, Whirl, whirls};
 

@@ -7,6 +7,7 @@ mod margin;
 mod modes;
 mod second_order;
 mod sensitivity;
+mod summary;
 mod sweep;
 mod table;
 mod tolerance;

@@ -107,6 +107,12 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
                 number(mode.distance_to_neighbour)
             )?;
         }
+        if self.modes.len() > 1 {
+            writeln!(
+                f,
+                "  Each mode is taken alone: `summary` also sees what mixes modes and how frequencies bend."
+            )?;
+        }
         Ok(())
     }
 }

@@ -26,14 +26,49 @@ pub struct ModalCouplings {
 }
 
 impl ModalCouplings {
+    /// Mean of the eigenvalues.
+    pub fn mean(&self) -> Complex {
+        self.eigenvalues.iter().sum::<Complex>() / self.modes.len().max(1) as f64
+    }
+
+    /// Total derivatives of the mean of the eigenvalues by the inputs.
+    pub fn mean_by_input(&self) -> Vec<Complex> {
+        self.by_input.iter().map(|own| self.trace(own)).collect()
+    }
+
     /// Total derivatives of the mean of the eigenvalues by the design variables: it has them whatever the modes do.
     pub fn mean_by_design(&self) -> Vec<Complex> {
+        self.by_design.iter().map(|own| self.trace(own)).collect()
+    }
+
+    /// Trace of a matrix over its size.
+    fn trace(&self, matrix: &[Complex]) -> Complex {
         let count = self.modes.len();
-        let trace = |matrix: &Vec<Complex>| {
-            let diagonal = (0..count).map(|i| matrix[i * count + i]);
-            diagonal.sum::<Complex>() / count.max(1) as f64
+        let diagonal = (0..count).map(|i| matrix[i * count + i]);
+        diagonal.sum::<Complex>() / count.max(1) as f64
+    }
+
+    /// Element (`i`, `j`) of the matrix of each design variable.
+    pub(crate) fn element(&self, i: usize, j: usize) -> impl Iterator<Item = Complex> {
+        let place = i * self.modes.len() + j;
+        self.by_design.iter().map(move |matrix| matrix[place])
+    }
+
+    /// The couplings among some of these modes, given by their places here.
+    pub(crate) fn among(&self, places: &[usize]) -> Self {
+        let count = self.modes.len();
+        let minor = |matrix: &Vec<Complex>| {
+            let rows = places.iter();
+            rows.flat_map(|i| places.iter().map(move |j| matrix[i * count + j]))
+                .collect()
         };
-        self.by_design.iter().map(trace).collect()
+        Self {
+            modes: places.iter().map(|&i| self.modes[i]).collect(),
+            family: self.family,
+            eigenvalues: places.iter().map(|&i| self.eigenvalues[i]).collect(),
+            by_input: self.by_input.iter().map(minor).collect(),
+            by_design: self.by_design.iter().map(minor).collect(),
+        }
     }
 }
 
@@ -79,16 +114,14 @@ where
 
 /// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
 fn undamped<const N: usize>(members: &[&Mode<N>], change: &Linear<f64, N>) -> Vec<Complex> {
-    let mut matrix = Vec::with_capacity(members.len() * members.len());
-    for a in members {
-        for b in members {
+    matrix(members, |b| {
+        let k = times_complex(&change.stiffness, &b.shape);
+        let m = times_complex(&change.mass, &b.shape);
+        move |a| {
             let lambda = 0.5 * (a.lambda + b.lambda);
-            let k = dot_complex(&a.left, &times_complex(&change.stiffness, &b.shape));
-            let m = dot_complex(&a.left, &times_complex(&change.mass, &b.shape));
-            matrix.push(k - lambda * m);
+            dot_complex(&a.left, &k) - lambda * dot_complex(&a.left, &m)
         }
-    }
-    matrix
+    })
 }
 
 /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
@@ -98,11 +131,23 @@ fn general<const N: usize, const U: usize, const P: usize>(
     members: &[&Mode<N>],
     change: &Linear<f64, N>,
 ) -> Vec<Complex> {
-    let mut matrix = Vec::with_capacity(members.len() * members.len());
-    for a in members {
-        let scale = normaliser(at, a);
-        for b in members {
-            matrix.push(-dot_complex(&a.left, &pencil_times(change, b.s, &b.shape)) / scale);
+    matrix(members, |b| {
+        let moved = pencil_times(change, b.s, &b.shape);
+        move |a| -dot_complex(&a.left, &moved) / normaliser(at, a)
+    })
+}
+
+/// Row by row; `column` prepares for one right vector what every left vector meets.
+fn matrix<'a, const N: usize, F: Fn(&Mode<N>) -> Complex>(
+    members: &[&'a Mode<N>],
+    column: impl Fn(&'a Mode<N>) -> F,
+) -> Vec<Complex> {
+    let count = members.len();
+    let mut matrix = vec![Complex::default(); count * count];
+    for (j, b) in members.iter().enumerate() {
+        let element = column(b);
+        for (i, a) in members.iter().enumerate() {
+            matrix[i * count + j] = element(a);
         }
     }
     matrix

@@ -25,7 +25,7 @@ pub use shapes::{ShapeSensitivity, shape_sensitivity};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 
 use crate::array::all_finite;
-use crate::modes::{Family, PerMode, clusters as clustered_modes};
+use crate::modes::{Family, PerMode, clusters as clustered_modes, merged};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes};
 use quantity::eigenvalue_slope;
 
@@ -69,7 +69,8 @@ impl<const U: usize, const P: usize> Slopes<f64, U, P> {
 /// Total derivatives of one mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeSensitivity<const U: usize, const P: usize> {
-    /// `dlambda/du`, 1/s^2 by SI unit of the input; `lambda = -Re s^2`.
+    /// `dlambda/du`, 1/s^2 by SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
+    /// derivative because it has merged with another eigenvalue.
     pub lambda_by_input: [f64; U],
     /// `dlambda/db`, 1/s^2 by SI unit of the design variable.
     pub lambda_by_design: [f64; P],
@@ -117,8 +118,17 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         if finite {
             Self::new(mode, lambda, Some(s), clustered)
         } else {
-            Self::new(mode, lambda.map(|_| 0.0), None, true)
+            Self::merged(mode)
         }
+    }
+
+    /// A general mode that has merged with another: it has no derivatives.
+    fn merged<const N: usize>(mode: &Mode<N>) -> Self {
+        let none = Slopes {
+            by_input: [0.0; U],
+            by_design: [0.0; P],
+        };
+        Self::new(mode, none, None, true)
     }
 
     fn new<const N: usize>(
@@ -173,9 +183,13 @@ fn assemble<const N: usize, const U: usize, const P: usize>(
     mut eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
 ) -> Result<Sensitivities<N, U, P>, Error> {
     let clustered = clustered_modes(modes, CLUSTER_GAP);
-    let mut clustered = clustered.iter().copied();
+    let mut clustered = clustered.iter().copied().enumerate();
     let sensitivities = modes.modes.map(|mode| {
-        let (slopes, clustered) = (eigenvalue(mode), clustered.next().unwrap_or(true));
+        let (position, clustered) = clustered.next().unwrap_or((0, true));
+        if merged(modes, position) {
+            return ModeSensitivity::merged(mode);
+        }
+        let slopes = eigenvalue(mode);
         match modes.family {
             Family::Undamped => {
                 ModeSensitivity::from_lambda(mode, slopes.map(|value| value.re), clustered)

@@ -10,8 +10,8 @@ use crate::sensitivity::{
     self, EquilibriumShift, ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity,
 };
 use crate::tolerance::{
-    self, Band, EventTolerance, FirstOrder, FrequencyMargin, MonteCarlo, OutputTolerances,
-    Sampling, SecondOrder,
+    self, Band, ClusterTolerance, EventTolerance, FirstOrder, FrequencyMargin, MonteCarlo,
+    OutputTolerances, Sampling, SecondOrder, Summary,
 };
 use crate::{Error, Input, Mechanism, Modes, modes};
 
@@ -178,6 +178,29 @@ where
             &found,
             &tolerances,
         ))
+    }
+
+    /// The modes that tolerances bring together, and their spread ([`tolerance::clusters`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes, tolerances and the function.
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance<U, P>>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        tolerance::clusters(&self.mechanism, &state, &found, &tolerances)
+    }
+
+    /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
+    /// ([`tolerance::summary`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes, tolerances and the function.
+    pub fn summary(&self) -> Result<Summary<N, U, P>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.equilibrium()?;
+        let found = self.modes_at(&state)?;
+        tolerance::summary(&self.mechanism, &state, &found, &tolerances)
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band

@@ -1,22 +1,14 @@
-//! A cluster of nearly equal eigenvalues: no member has a derivative, but the small matrix that splits them has.
+//! A cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that splits
+//! them has.
 
 use super::distribution::diagonalise;
+use super::eigenvalues::eigenvalues;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
-use crate::Error;
-
-/// First-order model of `m` nearly equal eigenvalues: those of `diag(values) + sum_k slopes_k x_k` for deviations `x` of the
-/// design variables.
-#[derive(Clone, Copy, Debug)]
-pub struct Cluster<'a, const P: usize> {
-    /// The `m` eigenvalues at the nominal design.
-    pub values: &'a [f64],
-    /// For each design variable the derivative of the small matrix, `m` x `m`, row by row.
-    pub slopes: &'a [Vec<f64>; P],
-    /// Whether the matrices are symmetric. Others are taken for pairs only (`m = 2`).
-    pub symmetric: bool,
-}
+use crate::modes::Family;
+use crate::sensitivity::ModalCouplings;
+use crate::{Complex, Error, Quantity};
 
 /// How to sample a cluster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,30 +31,41 @@ impl Default for ClusterSampling {
     }
 }
 
-/// Spread of a cluster.
+/// Spread of a cluster: what its sorted members do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClusterSpread {
-    /// Mean of the eigenvalues at the nominal design; the mean over all designs too, as it is linear in them.
-    pub mean: f64,
-    /// Standard deviation of the mean of the eigenvalues (a trace), exact for the model.
-    pub mean_sigma: f64,
-    /// The sampled eigenvalues by position, ascending (by their real parts when complex).
-    pub members: Vec<MemberSpread>,
-    /// Samples with a complex pair.
-    pub complex: usize,
-    /// Modulus of the imaginary parts over those samples; `None` without any.
-    pub imaginary: Option<Statistics>,
     /// Number of samples.
     pub samples: usize,
+    /// Frequency, rad/s: `sqrt(lambda)` or `Im s`.
+    pub frequency: SortedSpread,
+    /// Eigenvalue `lambda`, 1/s^2; `None` for general modes.
+    pub lambda: Option<SortedSpread>,
+    /// Growth `Re s`, 1/s; `None` for undamped modes.
+    pub growth: Option<SortedSpread>,
+    /// Damping ratio; `None` for undamped modes.
+    pub damping_ratio: Option<SortedSpread>,
+    /// Samples in which a member grows: `lambda < 0`, or `Re s` positive beyond rounding.
+    pub unstable: usize,
+    /// Samples whose eigenvalues were not found; they count in nothing else.
+    pub unsolved: usize,
 }
 
-impl ClusterSpread {
-    /// The least eigenvalue; `None` for an empty cluster.
+/// Spread of one quantity over the members of a cluster, sorted by this quantity in every sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SortedSpread {
+    /// By position, ascending. A member without the quantity counts as lower than all others.
+    pub members: Vec<MemberSpread>,
+    /// Highest less lowest, over the samples where every member has the quantity; `None` without any.
+    pub splitting: Option<Statistics>,
+}
+
+impl SortedSpread {
+    /// The lowest; `None` for an empty cluster.
     pub fn lowest(&self) -> Option<&MemberSpread> {
         self.members.first()
     }
 
-    /// The greatest eigenvalue; `None` for an empty cluster.
+    /// The highest; `None` for an empty cluster.
     pub fn highest(&self) -> Option<&MemberSpread> {
         self.members.last()
     }
@@ -71,117 +74,132 @@ impl ClusterSpread {
 /// Spread of one position of a sorted cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemberSpread {
-    /// The eigenvalue, its real part when complex; `None` without samples.
+    /// Over the samples whose member has the quantity, in its unit; `None` without any.
     pub value: Option<Statistics>,
-    /// The function of the eigenvalue over the samples that have it; `None` without any.
-    pub function: Option<Statistics>,
-    /// Samples whose eigenvalue is complex or outside of the domain of the function.
+    /// Samples whose member has no such quantity, for example no frequency.
     pub without: usize,
 }
 
-/// Samples the eigenvalues of a cluster, and a `function` of each, such as the frequency `sqrt(lambda)` where there is one.
+/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x` of the design variables,
+/// `x ~ N(0, Sigma)`.
 ///
 /// # Errors
-/// [`Error::Setting`] for matrices of a wrong size, not finite, said to be symmetric and not, or not symmetric and larger
-/// than 2 x 2, and for samples beyond the range of a double.
+/// [`Error::Setting`] for matrices of a wrong number or size, not finite, or not real and symmetric for undamped modes,
+/// and for samples beyond the range of a double.
 pub fn sample_cluster<const P: usize>(
-    cluster: &Cluster<'_, P>,
+    couplings: &ModalCouplings,
     tolerances: &Tolerances<P>,
     sampling: &ClusterSampling,
-    function: fn(f64) -> Option<f64>,
 ) -> Result<ClusterSpread, Error> {
-    let m = cluster.values.len();
-    cluster.check()?;
-    let mut sums = vec![(Moments::EMPTY, Moments::EMPTY); m];
-    let mut imaginary = Moments::EMPTY;
-    let mut complex = 0;
+    check::<P>(couplings)?;
+    let family = couplings.family;
+    let m = couplings.eigenvalues.len();
     let mut work = Work::new(m);
+    let mut frequency = Sorted::new(m);
+    let mut parts = [Sorted::new(m), Sorted::new(m)];
+    let (mut unstable, mut unsolved) = (0, 0);
     let mut draw = Draw::from((sampling.seed, sampling.stream), 0, &[0.0; P], tolerances);
     for _ in 0..sampling.samples {
-        work.fill(cluster, &draw.next());
-        if !work.matrix.iter().all(|value| value.abs() < LARGEST) {
+        work.fill(couplings, &draw.next());
+        if !work.matrix.iter().all(|value| value.l1_norm() < LARGEST) {
             return Err(refuse("a sample exceeds the range of a double".to_owned()));
         }
-        let part = work.solve(cluster.symmetric);
-        if let Some(part) = part {
-            complex += 1;
-            imaginary.add(part);
+        if !work.solve(family) {
+            unsolved += 1;
+            continue;
         }
-        for ((values, functions), &value) in sums.iter_mut().zip(&work.values) {
-            values.add(value);
-            let image = if part.is_none() {
-                function(value)
-            } else {
-                None
-            };
-            if let Some(image) = image.filter(|image| image.is_finite()) {
-                functions.add(image);
-            }
+        let values = work.values.as_slice();
+        unstable += usize::from(values.iter().any(|&value| grows(family, value)));
+        frequency.add(values, |value| frequency_of(family, value));
+        let [first, second] = &mut parts;
+        first.add(values, |value| Some(value.re));
+        if family == Family::General {
+            second.add(values, damping_ratio);
         }
     }
-    let (mean, mean_sigma) = cluster.mean(tolerances);
+    let solved = sampling.samples - unsolved;
+    let [first, second] = parts.map(|part| part.spread(solved));
+    let (lambda, growth, damping_ratio) = match family {
+        Family::Undamped => (Some(first), None, None),
+        Family::General => (None, Some(first), Some(second)),
+    };
     Ok(ClusterSpread {
-        mean,
-        mean_sigma,
-        members: sums
-            .iter()
-            .map(|(values, functions)| {
-                let function = functions.statistics();
-                MemberSpread {
-                    value: values.statistics(),
-                    function,
-                    without: sampling.samples - function.map_or(0, |found| found.count),
-                }
-            })
-            .collect(),
-        complex,
-        imaginary: imaginary.statistics(),
         samples: sampling.samples,
+        frequency: frequency.spread(solved),
+        lambda,
+        growth,
+        damping_ratio,
+        unstable,
+        unsolved,
     })
 }
 
 /// Elements up to here can be squared and added by the eigenvalue iteration.
 const LARGEST: f64 = 1e150;
+/// `Re s` of an oscillation that keeps its amplitude comes out below this, relative to `|s|`.
+const ROUNDING: f64 = 1e-9;
 
-impl<const P: usize> Cluster<'_, P> {
-    /// Mean of the eigenvalues and its standard deviation.
-    fn mean(&self, tolerances: &Tolerances<P>) -> (f64, f64) {
-        let m = self.values.len();
-        let share = 1.0 / m.max(1) as f64;
-        let trace = |slopes: &Vec<f64>| (0..m).map(|i| share * slopes[i * m + i]).sum();
-        let slopes = self.slopes.each_ref().map(trace);
-        let mean = self.values.iter().map(|value| share * value).sum();
-        (mean, tolerances.sigma(&slopes))
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        let m = self.values.len();
-        if !self.symmetric && m > 2 {
-            return Err(refuse(format!(
-                "{m} eigenvalues of nonsymmetric matrices: more than two are not sampled"
-            )));
-        }
-        for (k, slopes) in self.slopes.iter().enumerate() {
-            if slopes.len() != m * m {
-                return Err(refuse(format!(
-                    "matrix {k} has {} elements and must have {}",
-                    slopes.len(),
-                    m * m
-                )));
-            }
-            let size = slopes.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            let mirrored = |e: usize| (slopes[e] - slopes[e % m * m + e / m]).abs();
-            if self.symmetric && (0..m * m).any(|e| mirrored(e) > 1e-9 * size) {
-                return Err(refuse(format!("matrix {k} is not symmetric")));
-            }
-        }
-        let mut numbers = self.values.iter().chain(self.slopes.iter().flatten());
-        match numbers.find(|value| !value.is_finite()) {
-            Some(value) => Err(refuse(format!("an element is {value}"))),
-            None => Ok(()),
-        }
+fn grows(family: Family, value: Complex) -> bool {
+    match family {
+        Family::Undamped => value.re < 0.0,
+        Family::General => value.re > ROUNDING * value.norm(),
     }
 }
+
+/// `sqrt(lambda)` or `Im s`, where positive.
+pub(super) fn frequency_of(family: Family, value: Complex) -> Option<f64> {
+    match family {
+        Family::Undamped => (value.re > 0.0).then(|| value.re.sqrt()),
+        Family::General => (value.im > 0.0).then_some(value.im),
+    }
+}
+
+fn damping_ratio(s: Complex) -> Option<f64> {
+    (s.norm() > 0.0).then(|| Quantity::DampingRatio.value(s))
+}
+
+/// Matrices of the right number and size, finite, and symmetric where the method rests on it.
+fn check<const P: usize>(couplings: &ModalCouplings) -> Result<(), Error> {
+    let m = couplings.eigenvalues.len();
+    if couplings.by_design.len() != P {
+        let count = couplings.by_design.len();
+        return Err(refuse(format!("{count} matrices for {P} design variables")));
+    }
+    for (k, matrix) in couplings.by_design.iter().enumerate() {
+        if matrix.len() != m * m {
+            let size = matrix.len();
+            let wanted = m * m;
+            return Err(refuse(format!(
+                "matrix {k} has {size} elements and must have {wanted}"
+            )));
+        }
+    }
+    let mut numbers = couplings
+        .eigenvalues
+        .iter()
+        .chain(couplings.by_design.iter().flatten());
+    if let Some(value) = numbers.find(|value| !value.is_finite()) {
+        return Err(refuse(format!("an element is {value}")));
+    }
+    if couplings.family == Family::General {
+        return Ok(());
+    }
+    if couplings.eigenvalues.iter().any(|value| value.im != 0.0) {
+        return Err(refuse("eigenvalues of undamped modes are real".to_owned()));
+    }
+    for (k, matrix) in couplings.by_design.iter().enumerate() {
+        let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.l1_norm()));
+        let mirrored = |e: usize| (matrix[e] - matrix[e % m * m + e / m].conj()).l1_norm();
+        let real = |e: usize| matrix[e].im.abs();
+        if (0..m * m).any(|e| mirrored(e).max(real(e)) > SYMMETRIC * size) {
+            return Err(refuse(format!("matrix {k} is not real and symmetric")));
+        }
+    }
+    Ok(())
+}
+
+/// Mirrored elements may differ by rounding.
+const SYMMETRIC: f64 = 1e-9;
 
 fn refuse(reason: String) -> Error {
     Error::Setting {
@@ -192,52 +210,98 @@ fn refuse(reason: String) -> Error {
 
 /// Space for one sample.
 struct Work {
-    matrix: Vec<f64>,
-    values: Vec<f64>,
+    matrix: Vec<Complex>,
+    real: Vec<f64>,
+    values: Vec<Complex>,
 }
 
 impl Work {
     fn new(m: usize) -> Self {
         Self {
-            matrix: vec![0.0; m * m],
-            values: vec![0.0; m],
+            matrix: vec![Complex::default(); m * m],
+            real: vec![0.0; m * m],
+            values: vec![Complex::default(); m],
         }
     }
 
-    /// `diag(values) + sum_k slopes_k x_k`.
-    fn fill<const P: usize>(&mut self, cluster: &Cluster<'_, P>, x: &[f64; P]) {
-        let m = cluster.values.len();
-        self.matrix.fill(0.0);
-        for (i, &value) in cluster.values.iter().enumerate() {
+    /// `diag(eigenvalues) + sum_k x_k by_design[k]`.
+    fn fill(&mut self, couplings: &ModalCouplings, x: &[f64]) {
+        let m = self.values.len();
+        self.matrix.fill(Complex::default());
+        for (i, &value) in couplings.eigenvalues.iter().enumerate() {
             self.matrix[i * m + i] = value;
         }
-        for (slopes, &x) in cluster.slopes.iter().zip(x) {
+        for (slopes, &x) in couplings.by_design.iter().zip(x) {
+            if x == 0.0 {
+                continue;
+            }
             for (sum, slope) in self.matrix.iter_mut().zip(slopes) {
                 *sum += slope * x;
             }
         }
     }
 
-    /// Fills the values, ascending; the imaginary part of a complex pair.
-    fn solve(&mut self, symmetric: bool) -> Option<f64> {
-        let m = self.values.len();
-        let mut imaginary = None;
-        if !symmetric && m == 2 {
-            let middle = 0.5 * (self.matrix[0] + self.matrix[3]);
-            let half = 0.5 * (self.matrix[0] - self.matrix[3]);
-            let inside = half * half + self.matrix[1] * self.matrix[2];
-            let root = inside.abs().sqrt();
-            let apart = if inside < 0.0 { 0.0 } else { root };
-            imaginary = (inside < 0.0).then_some(root);
-            self.values
-                .copy_from_slice(&[middle - apart, middle + apart]);
-        } else {
-            diagonalise(&mut self.matrix, m, &mut []);
-            for (i, value) in self.values.iter_mut().enumerate() {
-                *value = self.matrix[i * m + i];
-            }
-            self.values.sort_by(f64::total_cmp);
+    /// Fills the values; `false` when they were not found.
+    fn solve(&mut self, family: Family) -> bool {
+        if family == Family::General {
+            return eigenvalues(&mut self.matrix, &mut self.values);
         }
-        imaginary
+        let m = self.values.len();
+        for (real, value) in self.real.iter_mut().zip(&self.matrix) {
+            *real = value.re;
+        }
+        diagonalise(&mut self.real, m, &mut []);
+        for (i, value) in self.values.iter_mut().enumerate() {
+            *value = self.real[i * m + i].into();
+        }
+        true
+    }
+}
+
+/// Sums over samples of one quantity of the members, sorted by it.
+struct Sorted {
+    values: Vec<f64>,
+    members: Vec<Moments>,
+    splitting: Moments,
+}
+
+impl Sorted {
+    fn new(m: usize) -> Self {
+        Self {
+            values: vec![0.0; m],
+            members: vec![Moments::EMPTY; m],
+            splitting: Moments::EMPTY,
+        }
+    }
+
+    fn add(&mut self, eigenvalues: &[Complex], quantity: impl Fn(Complex) -> Option<f64>) {
+        for (value, &s) in self.values.iter_mut().zip(eigenvalues) {
+            *value = quantity(s).unwrap_or(f64::NEG_INFINITY);
+        }
+        self.values.sort_unstable_by(f64::total_cmp);
+        for (sums, &value) in self.members.iter_mut().zip(&self.values) {
+            if value.is_finite() {
+                sums.add(value);
+            }
+        }
+        if let (Some(low), Some(high)) = (self.values.first(), self.values.last())
+            && low.is_finite()
+        {
+            self.splitting.add(high - low);
+        }
+    }
+
+    fn spread(&self, samples: usize) -> SortedSpread {
+        let member = |sums: &Moments| {
+            let value = sums.statistics();
+            MemberSpread {
+                value,
+                without: samples - value.map_or(0, |found| found.count),
+            }
+        };
+        SortedSpread {
+            members: self.members.iter().map(member).collect(),
+            splitting: self.splitting.statistics(),
+        }
     }
 }

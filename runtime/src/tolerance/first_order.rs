@@ -46,7 +46,7 @@ impl<const P: usize> Spread<P> {
 pub struct ModeTolerance<const P: usize> {
     /// Nominal `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue.
     pub lambda: f64,
-    /// Standard deviation of `lambda`, 1/s^2.
+    /// Standard deviation of `lambda`, 1/s^2; infinite for a general mode without a derivative (a defective eigenvalue).
     pub lambda_sigma: f64,
     /// Nominal frequency `Im s`, rad/s, which at first order is the mean; `None` for a mode that does not oscillate.
     pub mean: Option<f64>,
@@ -64,15 +64,17 @@ pub struct ModeTolerance<const P: usize> {
     /// The growth `Re s`, 1/s; `None` where the eigenvalue has no derivative.
     pub growth: Option<Spread<P>>,
     /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda / lambda_sigma`, with
-    /// `|s|^2` for `lambda` of a general mode; not positive when the mode diverges, infinite when nothing moves it.
+    /// `|s|^2` for `lambda` of a general mode; not positive when the mode diverges, infinite when nothing moves it or when
+    /// it has no derivative that would tell.
     pub distance_to_critical: f64,
     /// Standard deviations between the growth of this mode and zero; not positive when it grows. Infinite when nothing
-    /// moves the growth, as for undamped modes.
+    /// moves the growth beyond rounding, as for undamped modes.
     pub distance_to_instability: f64,
     /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
     pub distance_to_neighbour: f64,
-    /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it.
+    /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it. That tolerances mix modes
+    /// farther apart is told by [`clusters`](super::clusters) and [`summary`](super::summary).
     pub clustered: bool,
 }
 
@@ -100,7 +102,8 @@ pub struct FirstOrder<const N: usize, const P: usize> {
 }
 
 impl<const N: usize, const P: usize> FirstOrder<N, P> {
-    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]).
+    /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]). It looks at each
+    /// mode alone; [`summary`](super::summary) also sees what mixes modes and how frequencies bend.
     pub fn trusted(&self) -> bool {
         self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }
@@ -169,7 +172,10 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
             tolerances,
         ))
     };
-    let (lambda_sigma, lambda_shares) = tolerances.spread(&own.lambda_by_design);
+    let (lambda_sigma, lambda_shares) = match (modes.family, own.s) {
+        (Family::General, None) => (f64::INFINITY, [0.0; P]),
+        _ => tolerances.spread(&own.lambda_by_design),
+    };
     let (frequency, natural_frequency) = (of(Quantity::Frequency), of(Quantity::NaturalFrequency));
     let growth = of(Quantity::Growth);
     ModeTolerance {
@@ -187,13 +193,18 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
             Family::General => distance_to_zero(mode, natural_frequency, growth),
         },
         distance_to_instability: growth
-            .filter(|_| modes.family == Family::General)
+            .filter(|spread| modes.family == Family::General && !keeps_amplitude(mode, spread))
             .map_or(f64::INFINITY, |spread| {
                 in_sigmas(-spread.mean, spread.sigma)
             }),
         distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
         clustered: own.clustered,
     }
+}
+
+/// Whether neither the growth nor what tolerances add to it can be told from zero.
+fn keeps_amplitude<const N: usize, const P: usize>(mode: &Mode<N>, growth: &Spread<P>) -> bool {
+    matches!(mode.behaviour, Behaviour::Oscillating(_)) && growth.sigma <= mode.error
 }
 
 /// Distance of a general mode to `s = 0`: that of `|s|^2` for an oscillation, that of `s` otherwise.
@@ -206,7 +217,7 @@ fn distance_to_zero<const N: usize, const P: usize>(
         (Behaviour::Neutral, ..) => 0.0,
         (_, Some(natural), _) => in_sigmas(0.5 * natural.mean, natural.sigma),
         (_, None, Some(growth)) => in_sigmas(-growth.mean, growth.sigma),
-        (_, None, None) => 0.0,
+        (_, None, None) => f64::INFINITY,
     }
 }
 
@@ -273,7 +284,9 @@ fn distance_to_neighbour<const N: usize, const U: usize, const P: usize>(
                 let gap = 0.5 * (a.s - b.s).norm();
                 (gap, part(|value| value.re).hypot(part(|value| value.im)))
             }
-            (Family::General, ..) => (0.0, 1.0),
+            // It has merged, perhaps with the other: nothing tells what moves them.
+            (Family::General, None, _) => (0.0, 1.0),
+            (Family::General, Some(_), None) => return least,
         };
         if sigma > 0.0 {
             least.min(gap / sigma)

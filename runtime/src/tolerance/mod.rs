@@ -2,8 +2,10 @@
 
 mod band;
 mod cluster_sampling;
+mod clusters;
 mod declared;
 mod distribution;
+mod eigenvalues;
 mod events;
 mod first_order;
 mod margin;
@@ -14,10 +16,14 @@ mod quadratic;
 mod sampling;
 mod second_order;
 mod statistics;
+mod summary;
 mod trust;
 
 pub use band::{Band, FrequencyMargin, frequency_margin};
-pub use cluster_sampling::{Cluster, ClusterSampling, ClusterSpread, MemberSpread, sample_cluster};
+pub use cluster_sampling::{
+    ClusterSampling, ClusterSpread, MemberSpread, SortedSpread, sample_cluster,
+};
+pub use clusters::{ClusterTolerance, MeanEigenvalue, clusters};
 pub use declared::Tolerances;
 pub use events::{Event, EventSpread, EventTolerance, critical_tolerance, crossing_tolerance};
 pub use first_order::{
@@ -30,4 +36,5 @@ pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
 pub use second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};
 pub use statistics::Statistics;
+pub use summary::{Doubt, Summary, TRUSTED_SIGMA_ERROR, Trust, summary};
 pub use trust::Nonlinearity;

@@ -1,19 +1,19 @@
 //! Moments of a sample, gathered in pieces that merge in a fixed order.
 
-/// Statistics of one mode's frequency over the samples where it oscillates.
+/// Statistics of one quantity over the samples that have it, such as a mode's frequency where it oscillates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of values.
     pub count: usize,
-    /// Mean, rad/s.
+    /// Mean, in the unit of the quantity.
     pub mean: f64,
-    /// Standard deviation with divisor `count - 1`, rad/s; `None` for a single value, which says nothing about it.
+    /// Standard deviation with divisor `count - 1`; `None` for a single value, which says nothing about it.
     pub standard_deviation: Option<f64>,
-    /// Standard error of the mean, rad/s; `None` for a single value.
+    /// Standard error of the mean; `None` for a single value.
     pub standard_error: Option<f64>,
-    /// Least value, rad/s.
+    /// Least value.
     pub min: f64,
-    /// Greatest value, rad/s.
+    /// Greatest value.
     pub max: f64,
 }
 

@@ -151,3 +151,102 @@ impl Model<2, 1, 1, 0> for Follower {
         []
     }
 }
+
+/// Two unit masses: `Khat = [[k1, c], [c, k2]]`, so that `c` mixes the two coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair;
+
+impl Model<2, 0, 3, 0> for Pair {
+    const DESCRIPTION: Description = Description {
+        name: "Pair",
+        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
+        inputs: &[],
+        design: &[
+            design("k1", STIFFNESS, 100.0, 0.0),
+            design("k2", STIFFNESS, 100.0, 0.0),
+            design("c", STIFFNESS, 0.0, 3.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Zero,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 0],
+        _: &[T; 3],
+    ) -> [T; 2] {
+        *a
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 0], b: &[T; 3]) -> [T; 2] {
+        [-(b[0] * q[0] + b[2] * q[1]), -(b[2] * q[0] + b[1] * q[1])]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 0], _: &[T; 3]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 0], _: &[T; 3]) -> [T; 0] {
+        []
+    }
+}
+
+/// Three unit masses with any symmetric `Khat`; design: its diagonal, then `k12`, `k13`, `k23`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triple;
+
+impl Model<3, 0, 6, 0> for Triple {
+    const DESCRIPTION: Description = Description {
+        name: "Triple",
+        coordinates: &[
+            coordinate("x", METRE),
+            coordinate("y", METRE),
+            coordinate("z", METRE),
+        ],
+        inputs: &[],
+        design: &[
+            design("k1", STIFFNESS, 100.0, 3.0),
+            design("k2", STIFFNESS, 100.0, 3.0),
+            design("k3", STIFFNESS, 100.0, 3.0),
+            design("k12", STIFFNESS, 0.0, 0.0),
+            design("k13", STIFFNESS, 0.0, 0.0),
+            design("k23", STIFFNESS, 0.0, 0.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Zero,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 3],
+        _: &[T; 3],
+        _: &[T; 3],
+        _: &[T; 0],
+        _: &[T; 6],
+    ) -> [T; 3] {
+        *a
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 3], q: &[T; 3], _: &[T; 0], b: &[T; 6]) -> [T; 3] {
+        [
+            -(b[0] * q[0] + b[3] * q[1] + b[4] * q[2]),
+            -(b[3] * q[0] + b[1] * q[1] + b[5] * q[2]),
+            -(b[4] * q[0] + b[5] * q[1] + b[2] * q[2]),
+        ]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 0], _: &[T; 6]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 3], _: &[T; 0], _: &[T; 6]) -> [T; 0] {
+        []
+    }
+}

@@ -1,0 +1,203 @@
+//! First order, second order and clusters side by side, and for every mode whether its standard deviation is to be
+//! believed.
+
+use super::{
+    ClusterTolerance, FirstOrder, SecondOrder, TRUSTED_DISTANCE, Tolerances, clusters, first_order,
+    second_order,
+};
+use crate::modes::Family;
+use crate::sensitivity::{Quantity, sensitivities};
+use crate::{Behaviour, Description, Equilibrium, Error, Mechanism, Mode, Modes};
+
+/// A first-order standard deviation that misses that of the second-order model by more than this is not to be believed.
+pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
+
+/// What tolerances do to the modes, with a verdict for each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary<const N: usize, const U: usize, const P: usize> {
+    /// First-order spread.
+    pub first: FirstOrder<N, P>,
+    /// Spread to second order.
+    pub second: SecondOrder<P>,
+    /// The modes that tolerances bring together.
+    pub clusters: Vec<ClusterTolerance<U, P>>,
+    /// For each mode whether its standard deviation is to be believed.
+    pub trust: Vec<Trust>,
+    /// The mechanism it belongs to.
+    pub description: &'static Description,
+}
+
+impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
+    /// Whether every mode is trusted.
+    pub fn trusted(&self) -> bool {
+        self.trust.iter().all(Trust::trusted)
+    }
+
+    /// The cluster that a mode belongs to.
+    pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance<U, P>> {
+        self.clusters
+            .iter()
+            .find(|cluster| cluster.modes.contains(&mode))
+    }
+}
+
+/// The verdict on the first-order standard deviation of one mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trust {
+    /// Position of the mode, from 0.
+    pub mode: usize,
+    /// What speaks against it; empty when nothing does.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Trust {
+    /// Whether nothing speaks against it.
+    pub fn trusted(&self) -> bool {
+        self.doubts.is_empty()
+    }
+}
+
+/// Why a first-order standard deviation is not to be believed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// The mode does not oscillate: it has no frequency.
+    NoFrequency,
+    /// Tolerances mix it with other modes.
+    Clustered {
+        /// Positions of all modes of the cluster, its own included.
+        modes: Vec<usize>,
+        /// Least distance of two of them, in standard deviations.
+        distance: f64,
+        /// They have merged into one defective eigenvalue.
+        defective: bool,
+    },
+    /// The critical state, beyond which the equilibrium changes branch, is this many standard deviations away; not
+    /// positive beyond it.
+    NearCritical {
+        /// Standard deviations.
+        distance: f64,
+    },
+    /// The mode begins to grow this many standard deviations away; not positive when it grows.
+    NearInstability {
+        /// Standard deviations.
+        distance: f64,
+    },
+    /// The mode ceases to oscillate this many standard deviations away: it meets its conjugate and becomes two real ones.
+    NearCriticalDamping {
+        /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
+        distance: f64,
+    },
+    /// First order misses the standard deviation of the second-order model.
+    Nonlinear {
+        /// Of what.
+        quantity: Quantity,
+        /// By this fraction of that of the second-order model.
+        sigma_error: f64,
+    },
+    /// The second-order model that should check it does not exist.
+    Unchecked {
+        /// Why.
+        reason: Error,
+    },
+}
+
+/// First order, second order, clusters and a verdict for each mode.
+///
+/// # Errors
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
+pub fn summary<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    tolerances: &Tolerances<P>,
+) -> Result<Summary<N, U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let slopes = sensitivities(mechanism, at, modes)?;
+    let mut summary = Summary {
+        first: first_order(modes, &slopes, tolerances),
+        second: second_order(mechanism, at, modes, tolerances),
+        clusters: clusters(mechanism, at, modes, tolerances)?,
+        trust: Vec::new(),
+        description: modes.description,
+    };
+    let verdict = |(mode, own)| Trust {
+        mode,
+        doubts: summary.doubts(mode, own),
+    };
+    summary.trust = modes.modes.iter().enumerate().map(verdict).collect();
+    Ok(summary)
+}
+
+impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
+    fn doubts(&self, mode: usize, own: &Mode<N>) -> Vec<Doubt> {
+        let mut doubts = Vec::new();
+        let near = |distance: f64| distance < TRUSTED_DISTANCE;
+        if own.frequency().is_none() {
+            doubts.push(Doubt::NoFrequency);
+        }
+        let cluster = self.cluster_of(mode);
+        if let Some(cluster) = cluster {
+            doubts.push(Doubt::Clustered {
+                modes: cluster.modes.clone(),
+                distance: cluster.distance,
+                defective: cluster.defective(),
+            });
+        }
+        let first = &self.first.modes[mode];
+        let distance = self.first.distance_to_critical;
+        if near(distance) {
+            doubts.push(Doubt::NearCritical { distance });
+        }
+        let distance = first.distance_to_instability;
+        if near(distance) {
+            doubts.push(Doubt::NearInstability { distance });
+        }
+        if let Some(distance) = self.distance_to_critical_damping(mode)
+            && near(distance)
+            && !near(first.distance_to_critical)
+        {
+            doubts.push(Doubt::NearCriticalDamping { distance });
+        }
+        if cluster.is_none() && own.frequency().is_some() {
+            self.check_by_second_order(mode, own, &mut doubts);
+        }
+        doubts
+    }
+
+    /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
+    fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
+        let own = &self.first.modes[mode];
+        let (mean, sigma) = (own.mean?, own.sigma?);
+        (self.first.family == Family::General && sigma > 0.0).then(|| 0.5 * mean / sigma)
+    }
+
+    fn check_by_second_order(&self, mode: usize, own: &Mode<N>, doubts: &mut Vec<Doubt>) {
+        let second = match &self.second.modes[mode] {
+            Ok(second) => second,
+            Err(reason) => {
+                let reason = reason.clone();
+                doubts.push(Doubt::Unchecked { reason });
+                return;
+            }
+        };
+        let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
+        for (quantity, spread, size) in [
+            (Quantity::Frequency, &second.frequency, own.s.norm()),
+            (Quantity::DampingRatio, &second.damping_ratio, 1.0),
+        ] {
+            let sigma_error = spread.nonlinearity.sigma_error();
+            let seen = quantity == Quantity::Frequency || damped;
+            if seen && spread.moments.sigma > ROUNDING * size && sigma_error > TRUSTED_SIGMA_ERROR {
+                doubts.push(Doubt::Nonlinear {
+                    quantity,
+                    sigma_error,
+                });
+            }
+        }
+    }
+}
+
+/// Standard deviations below this, relative to the quantity, are rounding.
+const ROUNDING: f64 = 1e-10;

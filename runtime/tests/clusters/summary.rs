@@ -1,0 +1,196 @@
+//! Verdicts: each doubt where its cause is, none where there is none, and a sentence for each.
+
+use eigentol::tolerance::{Doubt, Summary};
+use eigentol::{Coordinate, DesignVariable, Family, Input, Study};
+
+use super::close;
+use super::common::derived::Derived;
+use super::common::models::{Pair, Plate};
+use super::common::pendulum::Pendulum;
+
+const OMEGA: Input = Input(0);
+const LENGTH: DesignVariable = DesignVariable(1);
+
+fn pendulum(speed: f64, tolerance: f64) -> Summary<1, 1, 2> {
+    let study = Study::new(Pendulum)
+        .input(OMEGA, speed)
+        .start(Coordinate(0), 1.0)
+        .tolerance(LENGTH, tolerance);
+    study.summary().unwrap()
+}
+
+fn plate(speed: f64, damping: f64, sigma: f64) -> Summary<2, 1, 4> {
+    let study = Study::new(Derived(Plate))
+        .family(Family::General)
+        .sigma_level(1.0)
+        .input(OMEGA, speed)
+        .design(DesignVariable(3), damping)
+        .tolerance(DesignVariable(0), 0.0)
+        .tolerance(DesignVariable(1), 0.1)
+        .tolerance(DesignVariable(2), 0.1)
+        .tolerance(DesignVariable(3), sigma);
+    study.summary().unwrap()
+}
+
+fn says(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn far_from_everything_a_mode_is_trusted() {
+    for summary in [pendulum(2.0, 0.03), pendulum(6.0, 0.03)] {
+        assert!(summary.trusted(), "{summary}");
+        says(
+            &summary.to_string(),
+            &["yes", "Mode 1: nothing speaks against"],
+        );
+    }
+    let whirling = plate(3.0, 0.0, 0.0);
+    assert!(whirling.trusted(), "{whirling}");
+    says(
+        &whirling.to_string(),
+        &["Modes 1 and 2: nothing speaks against"],
+    );
+}
+
+#[test]
+fn near_the_critical_speed_nothing_is_believed() {
+    let summary = pendulum(3.87, 0.03);
+    let [Doubt::NearCritical { distance }, ..] = summary.trust[0].doubts[..] else {
+        panic!("{summary:?}")
+    };
+    assert_eq!(distance, summary.first.distance_to_critical);
+    assert!(distance > 0.0 && distance < 2.0);
+    says(
+        &summary.to_string(),
+        &["critical state is", "Monte Carlo", " no\n"],
+    );
+}
+
+#[test]
+fn wide_tolerances_bend() {
+    let summary = pendulum(7.0, 0.6);
+    let found = summary.trust[0]
+        .doubts
+        .iter()
+        .find_map(|doubt| match doubt {
+            Doubt::Nonlinear { sigma_error, .. } => Some(*sigma_error),
+            _ => None,
+        });
+    let second = summary.second.modes[0].as_ref().unwrap();
+    close(
+        found.unwrap(),
+        second.frequency.nonlinearity.sigma_error(),
+        1e-15,
+    );
+    says(
+        &summary.to_string(),
+        &["% below that of second order", " no\n"],
+    );
+}
+
+#[test]
+fn mixed_modes_have_no_sigma_of_their_own() {
+    let study = Study::new(Derived(Pair)).design(DesignVariable(1), 102.0);
+    let summary = study.summary().unwrap();
+    for trust in &summary.trust {
+        let [
+            Doubt::Clustered {
+                modes,
+                distance,
+                defective: false,
+            },
+        ] = &trust.doubts[..]
+        else {
+            panic!("{trust:?}")
+        };
+        assert_eq!(modes, &[0, 1]);
+        close(*distance, 1.0, 1e-12);
+    }
+    assert_eq!(summary.cluster_of(1).unwrap().modes, [0, 1]);
+    let text = summary.to_string();
+    says(
+        &text,
+        &[
+            "Modes 1 and 2: tolerances mix modes 1 and 2, 1.00000 standard deviations apart",
+            "lowest frequency",
+            "highest frequency",
+            "splitting",
+            "of the mean eigenvalue",
+            "cluster",
+        ],
+    );
+    // Their rows show no sigma.
+    let row = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("1 "))
+        .unwrap();
+    assert_eq!(row.matches(" -").count(), 3, "{row}");
+    // First order alone points there.
+    says(
+        &summary.first.to_string(),
+        &["Each mode is taken alone", "summary"],
+    );
+    // Equal frequencies, where second order does not exist either.
+    let equal = Study::new(Derived(Pair)).summary().unwrap();
+    assert!(matches!(
+        &equal.trust[0].doubts[..],
+        [Doubt::Clustered { .. }]
+    ));
+}
+
+#[test]
+fn a_vibration_about_to_grow_says_so() {
+    let summary = plate(0.5, 0.02, 0.01);
+    for trust in &summary.trust {
+        let [Doubt::NearInstability { distance }] = trust.doubts[..] else {
+            panic!("{trust:?}")
+        };
+        close(distance, 2.0, 1e-3);
+    }
+    says(&summary.to_string(), &["begins to grow 2.0"]);
+    let growing = plate(0.5, -0.02, 0.01);
+    says(&growing.to_string(), &["the vibration grows"]);
+    // Without damping nothing moves the growth, rounding apart.
+    let conservative = plate(0.5, 0.0, 0.0);
+    assert!(conservative.trusted(), "{conservative}");
+    let first = &conservative.first.modes[0];
+    assert_eq!(first.distance_to_instability, f64::INFINITY);
+}
+
+#[test]
+fn an_oscillation_about_to_cease_says_so() {
+    // At rest in x: (Im s)^2 = k/m - (c/2m)^2 with m = 0.5, k = 40: c = 8.9 is just below critical damping.
+    let summary = plate(0.0, 8.9, 0.05);
+    let near = summary
+        .trust
+        .iter()
+        .find_map(|trust| match trust.doubts[..] {
+            [Doubt::NearCriticalDamping { distance }, ..] => Some((trust.mode, distance)),
+            _ => None,
+        });
+    let (mode, distance) = near.unwrap();
+    // Variances of (Im s)^2 by k and c.
+    let sigma = (0.1_f64 / 0.5).hypot(2.0 * 8.9 * 0.05);
+    close(distance, (80.0 - 8.9_f64.powi(2)) / sigma, 1e-9);
+    assert!(summary.first.modes[mode].distance_to_critical > 4.5);
+    says(&summary.to_string(), &["the oscillation ceases"]);
+    // Beyond it two decaying modes form a cluster.
+    let beyond = plate(0.0, 9.0, 0.05);
+    let doubts = &beyond
+        .trust
+        .iter()
+        .find(|own| !own.trusted())
+        .unwrap()
+        .doubts;
+    assert!(matches!(
+        doubts[..],
+        [Doubt::NoFrequency, Doubt::Clustered { .. }]
+    ));
+    says(
+        &beyond.to_string(),
+        &["no oscillation", "a member has no frequency"],
+    );
+}
