@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use super::cluster::Found;
 use super::linearisation::Linearisation;
 use super::pair::{Pair, Solver};
-use super::pencil::{Pencil, Products};
+use super::pencil::{Pencil, Products, modulus};
 use super::scaling::{largest, scale};
 use super::{aberth, accuracy, cluster, schur};
 use crate::Linear;
@@ -193,13 +193,13 @@ pub(super) fn eigenvalues(matrices: Matrices, values: &mut [Complex64]) -> Resul
             open,
             values,
         );
+        sort(values, |value| *value);
         for value in values.iter_mut() {
             *value *= rate;
             if !(value.re.is_finite() && value.im.is_finite()) {
                 return Err(not_found());
             }
         }
-        sort(values, |value| *value);
         Ok(())
     })
 }
@@ -420,9 +420,9 @@ fn finish(vector: &[Complex64], units: &[f64], into: &mut [Complex64]) {
     }
 }
 
-/// Ascending in size; those of equal size by imaginary, then by real part.
+/// Ascending in size, in scaled units; those of equal size by imaginary, then by real part.
 fn sort<T>(items: &mut [T], value: impl Fn(&T) -> Complex64) {
-    let size = |item: &T| value(item).norm();
+    let size = |item: &T| modulus(value(item));
     items.sort_unstable_by(|a, b| size(a).total_cmp(&size(b)));
     let mut start = 0;
     while start < items.len() {

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::linearisation::Linearisation;
 use super::lu::Lu;
-use super::pencil::{Pencil, Products, bound, dot, modulus};
+use super::pencil::{Pencil, Products, bound, modulus};
 
 /// An eigenvalue with what its vectors say about it.
 #[derive(Clone, Copy)]
@@ -29,6 +29,8 @@ pub(super) struct Pair {
     reach_overall: f64,
     /// Error of second order, from the residuals of both vectors.
     pub(super) second: f64,
+    /// Product of the sizes of both residuals.
+    product: f64,
     /// Greatest relative residual of the two vectors.
     pub(super) residual: f64,
     /// It stands for a cluster, which has told its error.
@@ -49,6 +51,7 @@ impl Pair {
         reach: 0.0,
         reach_overall: 0.0,
         second: 0.0,
+        product: 0.0,
         residual: 0.0,
         merged: false,
         condition: 1.0,
@@ -61,6 +64,16 @@ impl Pair {
             0.0
         } else {
             self.rounding / modulus(self.slope)
+        }
+    }
+
+    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
+    /// one that vanishes.
+    fn second_order(&self, neighbour: f64) -> f64 {
+        if self.product == 0.0 || neighbour == f64::INFINITY {
+            0.0
+        } else {
+            self.product / (neighbour * modulus(self.slope))
         }
     }
 
@@ -130,12 +143,12 @@ impl Solver<'_> {
             lu.null_right(1, 0, right);
             lu.null_left(1, 0, left);
             let neighbour = if n < 2 {
-                0.0
+                f64::INFINITY
             } else {
                 lu.pivot(n - 2) * lu.unit
             };
             pair = self.examine(s, right, left);
-            pair.second = self.second_order(&pair, neighbour);
+            pair.second = pair.second_order(neighbour);
             let step = modulus(pair.newton);
             if !step.is_finite() || count == STEPS {
                 break;
@@ -239,16 +252,21 @@ impl Solver<'_> {
     pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
         let n = self.pencil.n;
         let (of_right, of_left) = (&self.of_right, &self.of_left);
-        let value = dot(left, (0..n).map(|i| of_right.value(s, i)));
-        let slope = dot(left, (0..n).map(|i| of_right.slope(s, i)));
+        let (mut value, mut slope) = (Complex64::ZERO, Complex64::ZERO);
         let (mut terms, mut slope_terms, mut mass_terms) = (0.0, 0.0, 0.0);
+        let (mut by_right, mut by_left) = (Residual::NONE, Residual::NONE);
         for (i, &x) in left.iter().enumerate() {
+            let (part, part_terms) = (of_right.value(s, i), of_right.terms(s, i));
+            value += x * part;
+            slope += x * of_right.slope(s, i);
             let size = bound(x);
-            terms += size * of_right.terms(s, i);
+            terms += size * part_terms;
             slope_terms += size * of_right.slope_terms(s, i);
             mass_terms += size * of_right.mass_terms(i);
+            by_right.add(part, part_terms);
+            by_left.add(of_left.value(s, i), of_left.terms(s, i));
         }
-        let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
+        let residual = by_right.relative().max(by_left.relative());
         let rounding = self.relative() * (terms + NOTHING);
         let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
         let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
@@ -268,6 +286,7 @@ impl Solver<'_> {
             reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach_overall),
             reach_overall,
             residual,
+            product: by_right.sum * by_left.sum,
             ..Pair::NONE
         }
     }
@@ -280,22 +299,6 @@ impl Solver<'_> {
     ) -> f64 {
         self.linearisation
             .condition(pair.s, right, left, pair.slope, self.cross)
-    }
-
-    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
-    /// one that vanishes.
-    fn second_order(&self, pair: &Pair, neighbour: f64) -> f64 {
-        let size = |products: &Products| {
-            (0..self.pencil.n)
-                .map(|i| bound(products.value(pair.s, i)))
-                .sum::<f64>()
-        };
-        let product = size(&self.of_right) * size(&self.of_left);
-        if product == 0.0 || self.pencil.n < 2 {
-            0.0
-        } else {
-            product / (neighbour * modulus(pair.slope))
-        }
     }
 
     /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
@@ -334,22 +337,35 @@ pub(super) fn normalise(x: &mut [Complex64], products: &mut Products) {
     products.scale(factor);
 }
 
-/// Greatest component of `Q(s) x` relative to the greatest sum of absolute terms in a row.
-fn relative_residual(products: &Products, s: Complex64, n: usize) -> f64 {
-    let (mut most, mut size) = (0.0_f64, 0.0_f64);
-    for i in 0..n {
-        let value = bound(products.value(s, i));
-        if value.is_nan() {
-            return f64::INFINITY;
-        }
-        most = most.max(value);
-        size = size.max(products.terms(s, i));
+/// What is left of `Q(s) x`.
+struct Residual {
+    most: f64,
+    terms: f64,
+    sum: f64,
+}
+
+impl Residual {
+    const NONE: Self = Self {
+        most: 0.0,
+        terms: 0.0,
+        sum: 0.0,
+    };
+
+    fn add(&mut self, value: Complex64, terms: f64) {
+        let size = bound(value);
+        self.most = self.most.max(size);
+        self.terms = self.terms.max(terms);
+        self.sum += size;
     }
-    if most == 0.0 {
-        0.0
-    } else if size.is_finite() {
-        most / size
-    } else {
-        f64::INFINITY
+
+    /// Greatest component relative to the greatest sum of absolute terms in a row.
+    fn relative(&self) -> f64 {
+        if self.sum == 0.0 {
+            0.0
+        } else if self.sum.is_finite() && self.terms.is_finite() {
+            self.most / self.terms
+        } else {
+            f64::INFINITY
+        }
     }
 }
