@@ -16,12 +16,17 @@ mod aberth;
 mod accuracy;
 mod cluster;
 mod driver;
+mod eigenspaces;
+mod hessenberg;
 mod linearisation;
 mod lu;
+mod measure;
+mod order;
 mod pair;
 mod pencil;
 mod scaling;
 mod schur;
+mod scratch;
 #[cfg(test)]
 mod tests;
 

@@ -3,7 +3,8 @@
 use num_complex::Complex64;
 
 use super::cluster::Found;
-use super::pair::{INACCURATE, Pair, Solver};
+use super::measure::Pair;
+use super::pair::{INACCURATE, Solver};
 use super::pencil::modulus;
 
 /// Eigenvalues farther away than this many errors do not matter.

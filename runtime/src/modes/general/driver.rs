@@ -1,13 +1,16 @@
-//! The recipe, on slices of any size: up to eight coordinates on the stack, more on the heap.
+//! The recipe, on slices of any size.
 
 use num_complex::Complex64;
 
 use super::cluster::Found;
 use super::linearisation::Linearisation;
-use super::pair::{Pair, Solver};
+use super::measure::Pair;
+use super::order::{finish, sort};
+use super::pair::Solver;
 use super::pencil::{Pencil, Products};
 use super::scaling::{largest, scale};
-use super::{aberth, accuracy, cluster, schur};
+use super::scratch::{Work, take, with_work};
+use super::{aberth, accuracy, cluster, hessenberg, schur};
 use crate::Linear;
 use crate::modes::symmetric::Trouble;
 
@@ -53,60 +56,12 @@ impl Numbers {
 const ACCEPTED: f64 = 1e-9;
 /// Residual of a pair that has nothing but rounding in it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Sizes of eigenvalues that differ by less count as equal in the order.
-const EQUAL: f64 = 1e-12;
-
-struct Work<'a> {
-    real: &'a mut [f64],
-    complex: &'a mut [Complex64],
-    indices: &'a mut [usize],
-    flags: &'a mut [bool],
-    pairs: &'a mut [Pair],
-}
-
-/// Numbers of each kind that a problem of size `n` needs, in units of `n` times `n`.
-const REALS: usize = 24;
-const COMPLEXES: usize = 17;
-
-fn on_stack<const N: usize, T>(job: impl FnOnce(&mut Work) -> T) -> T {
-    job(&mut Work {
-        real: [[[0.0; N]; N]; REALS].as_flattened_mut().as_flattened_mut(),
-        complex: [[[Complex64::ZERO; N]; N]; COMPLEXES]
-            .as_flattened_mut()
-            .as_flattened_mut(),
-        indices: [[0; N]; 6].as_flattened_mut(),
-        flags: [[false; N]; 4].as_flattened_mut(),
-        pairs: [[Pair::NONE; N]; 2].as_flattened_mut(),
-    })
-}
-
-fn with_work<T>(n: usize, job: impl FnOnce(&mut Work) -> T) -> T {
-    match n {
-        0..=2 => on_stack::<2, T>(job),
-        3..=4 => on_stack::<4, T>(job),
-        5..=8 => on_stack::<8, T>(job),
-        _ => job(&mut Work {
-            real: &mut vec![0.0; REALS * n * n],
-            complex: &mut vec![Complex64::ZERO; COMPLEXES * n * n],
-            indices: &mut vec![0; 6 * n],
-            flags: &mut vec![false; 4 * n],
-            pairs: &mut vec![Pair::NONE; 2 * n],
-        }),
-    }
-}
 
 fn not_found() -> Trouble {
     Trouble::Inaccurate {
         mode: 0,
         residual: f64::INFINITY,
     }
-}
-
-/// Takes the next `count` numbers of a store.
-fn take<'a, T>(store: &mut &'a mut [T], count: usize) -> &'a mut [T] {
-    let (taken, rest) = std::mem::take(store).split_at_mut(count);
-    *store = rest;
-    taken
 }
 
 /// Scaled pencil, `D`, unit of the eigenvalues.
@@ -156,7 +111,7 @@ fn linear_values(
     values: &mut [Complex64],
 ) {
     let n = pencil.n;
-    schur::hessenberg(2 * n, companion, vector);
+    hessenberg::reduce(2 * n, companion, vector);
     if schur::eigenvalues(2 * n, companion, values) {
         return;
     }
@@ -193,13 +148,13 @@ pub(super) fn eigenvalues(matrices: Matrices, values: &mut [Complex64]) -> Resul
             open,
             values,
         );
+        sort(values, |value| *value);
         for value in values.iter_mut() {
             *value *= rate;
             if !(value.re.is_finite() && value.im.is_finite()) {
                 return Err(not_found());
             }
         }
-        sort(values, |value| *value);
         Ok(())
     })
 }
@@ -400,39 +355,4 @@ fn second_values(
     let (pencil, q, order) = (&solver.pencil, &mut *solver.q, &mut *solver.order);
     aberth::improve(pencil, second, open, q, order, spare);
     aberth::symmetrise(second, marked);
-}
-
-/// A vector in its own units, largest component real and positive; a margin keeps the choice when two are equal but for
-/// rounding.
-fn finish(vector: &[Complex64], units: &[f64], into: &mut [Complex64]) {
-    let mut lead = 0;
-    for i in 0..vector.len() {
-        into[i] = vector[i] * units[i];
-        if into[i].norm_sqr() > into[lead].norm_sqr() * (1.0 + 2e-9) {
-            lead = i;
-        }
-    }
-    let size = into[lead].norm();
-    if size > 0.0 && !(into[lead].im == 0.0 && into[lead].re > 0.0) {
-        let turn = into[lead].conj() / size;
-        into.iter_mut().for_each(|x| *x *= turn);
-        into[lead] = Complex64::new(size, 0.0);
-    }
-}
-
-/// Ascending in size; those of equal size by imaginary, then by real part.
-fn sort<T>(items: &mut [T], value: impl Fn(&T) -> Complex64) {
-    let size = |item: &T| value(item).norm();
-    items.sort_unstable_by(|a, b| size(a).total_cmp(&size(b)));
-    let mut start = 0;
-    while start < items.len() {
-        let limit = size(&items[start]) * (1.0 + EQUAL);
-        let run = items[start..].iter().take_while(|item| size(item) <= limit);
-        let end = start + run.count().max(1);
-        items[start..end].sort_unstable_by(|a, b| {
-            let (a, b) = (value(a), value(b));
-            a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re))
-        });
-        start = end;
-    }
 }

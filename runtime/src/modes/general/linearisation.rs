@@ -2,8 +2,9 @@
 
 use num_complex::Complex64;
 
+use super::hessenberg;
 use super::pencil::{Pencil, modulus};
-use super::schur;
+
 use crate::modes::symmetric::{Trouble, factor_into};
 
 /// `x' = A x` for `x = D^-1 (y, s y)`, `phi = L^-T y`, `M = L L^T`, with
@@ -45,7 +46,7 @@ impl<'a> Linearisation<'a> {
                 companion[(n + i) * 2 * n + n + j] = -damping[i * n + j];
             }
         }
-        schur::balance(2 * n, companion, scales);
+        hessenberg::balance(2 * n, companion, scales);
         let size = companion.iter().map(|x| x * x).sum::<f64>().sqrt();
         Ok(Self {
             n,

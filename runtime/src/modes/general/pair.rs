@@ -6,75 +6,8 @@ use num_complex::Complex64;
 
 use super::linearisation::Linearisation;
 use super::lu::Lu;
-use super::pencil::{Pencil, Products, bound, dot, modulus};
-
-/// An eigenvalue with what its vectors say about it.
-#[derive(Clone, Copy)]
-pub(super) struct Pair {
-    pub(super) s: Complex64,
-    /// It stands for itself and its conjugate.
-    pub(super) conjugate: bool,
-    /// Step that Newton's method would take from `s`.
-    pub(super) newton: Complex64,
-    /// `psi^T (2 s M + C) phi`.
-    pub(super) slope: Complex64,
-    /// Sums of the absolute terms in `psi^T (2 s M + C) phi` and in `psi^T M phi`.
-    pub(super) slope_terms: f64,
-    pub(super) mass_terms: f64,
-    /// Bound on the rounding in `psi^T Q(s) phi`.
-    pub(super) rounding: f64,
-    /// Distance within which `Q` is the same but for rounding.
-    pub(super) reach: f64,
-    /// The same by the greatest elements of the matrices.
-    reach_overall: f64,
-    /// Error of second order, from the residuals of both vectors.
-    pub(super) second: f64,
-    /// Greatest relative residual of the two vectors.
-    pub(super) residual: f64,
-    /// It stands for a cluster, which has told its error.
-    pub(super) merged: bool,
-    pub(super) condition: f64,
-    pub(super) error: f64,
-}
-
-impl Pair {
-    pub(super) const NONE: Self = Self {
-        s: Complex64::ZERO,
-        conjugate: false,
-        newton: Complex64::ZERO,
-        slope: Complex64::ZERO,
-        slope_terms: 0.0,
-        mass_terms: 0.0,
-        rounding: 0.0,
-        reach: 0.0,
-        reach_overall: 0.0,
-        second: 0.0,
-        residual: 0.0,
-        merged: false,
-        condition: 1.0,
-        error: 0.0,
-    };
-
-    /// Error of `s` that the rounding of the pencil's elements causes, to first order.
-    pub(super) fn doubt(&self) -> f64 {
-        if self.rounding == 0.0 {
-            0.0
-        } else {
-            self.rounding / modulus(self.slope)
-        }
-    }
-
-    /// Rounding of `s` itself.
-    pub(super) fn own(&self) -> f64 {
-        f64::EPSILON * modulus(self.s) + ZERO
-    }
-
-    /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
-    pub(super) fn radius(&self) -> f64 {
-        let radius = 2.0 * (self.doubt() + modulus(self.newton)) + self.second;
-        radius.min(1e6 * self.reach_overall)
-    }
-}
+use super::measure::{Pair, ZERO, normalise};
+use super::pencil::{Pencil, Products, modulus};
 
 /// Everything that finding pairs needs, in slices.
 pub(super) struct Solver<'a> {
@@ -91,10 +24,6 @@ pub(super) struct Solver<'a> {
 }
 
 /// Improvements of one pair.
-/// What is less than this may be zero in a scaled pencil.
-pub(super) const ZERO: f64 = 1e-30;
-/// Terms that are less than this are zero in a scaled pencil.
-const NOTHING: f64 = 1e-60;
 const STEPS: usize = 8;
 /// Vectors of a worse conditioned eigenvalue may belong to another one.
 const MODERATE: f64 = 1e8;
@@ -130,12 +59,12 @@ impl Solver<'_> {
             lu.null_right(1, 0, right);
             lu.null_left(1, 0, left);
             let neighbour = if n < 2 {
-                0.0
+                f64::INFINITY
             } else {
                 lu.pivot(n - 2) * lu.unit
             };
             pair = self.examine(s, right, left);
-            pair.second = self.second_order(&pair, neighbour);
+            pair.second = pair.second_order(neighbour);
             let step = modulus(pair.newton);
             if !step.is_finite() || count == STEPS {
                 break;
@@ -219,137 +148,5 @@ impl Solver<'_> {
         } else {
             pair
         }
-    }
-
-    /// Normalises both vectors and measures them with `s`.
-    pub(super) fn examine(
-        &mut self,
-        s: Complex64,
-        right: &mut [Complex64],
-        left: &mut [Complex64],
-    ) -> Pair {
-        self.pencil.multiply(right, false, &mut self.of_right);
-        normalise(right, &mut self.of_right);
-        self.pencil.multiply(left, true, &mut self.of_left);
-        normalise(left, &mut self.of_left);
-        self.measure(s, left)
-    }
-
-    /// Measures `s` with vectors whose products are known.
-    pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
-        let n = self.pencil.n;
-        let (of_right, of_left) = (&self.of_right, &self.of_left);
-        let value = dot(left, (0..n).map(|i| of_right.value(s, i)));
-        let slope = dot(left, (0..n).map(|i| of_right.slope(s, i)));
-        let (mut terms, mut slope_terms, mut mass_terms) = (0.0, 0.0, 0.0);
-        for (i, &x) in left.iter().enumerate() {
-            let size = bound(x);
-            terms += size * of_right.terms(s, i);
-            slope_terms += size * of_right.slope_terms(s, i);
-            mass_terms += size * of_right.mass_terms(i);
-        }
-        let residual = relative_residual(of_right, s, n).max(relative_residual(of_left, s, n));
-        let rounding = self.relative() * (terms + NOTHING);
-        let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
-        let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
-        Pair {
-            s,
-            newton: if value == Complex64::ZERO {
-                value
-            } else if slope == Complex64::ZERO {
-                Complex64::new(f64::INFINITY, 0.0)
-            } else {
-                value / slope
-            },
-            slope,
-            slope_terms,
-            mass_terms,
-            rounding,
-            reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach_overall),
-            reach_overall,
-            residual,
-            ..Pair::NONE
-        }
-    }
-
-    pub(super) fn condition(
-        &mut self,
-        pair: &Pair,
-        right: &[Complex64],
-        left: &[Complex64],
-    ) -> f64 {
-        self.linearisation
-            .condition(pair.s, right, left, pair.slope, self.cross)
-    }
-
-    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
-    /// one that vanishes.
-    fn second_order(&self, pair: &Pair, neighbour: f64) -> f64 {
-        let size = |products: &Products| {
-            (0..self.pencil.n)
-                .map(|i| bound(products.value(pair.s, i)))
-                .sum::<f64>()
-        };
-        let product = size(&self.of_right) * size(&self.of_left);
-        if product == 0.0 || self.pencil.n < 2 {
-            0.0
-        } else {
-            product / (neighbour * modulus(pair.slope))
-        }
-    }
-
-    /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
-    /// has nothing but rounding in the rows that act, and their terms are no measure.
-    pub(super) fn is_rounding(
-        &self,
-        s: Complex64,
-        right: &[Complex64],
-        left: &[Complex64],
-        margin: f64,
-    ) -> bool {
-        let allowed = margin * self.relative() * self.pencil.size(s);
-        let most = |products: &Products| {
-            (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
-        };
-        let largest = |x: &[Complex64]| x.iter().fold(0.0_f64, |most, x| most.max(bound(*x)));
-        most(&self.of_right) <= allowed * largest(right)
-            && most(&self.of_left) <= allowed * largest(left)
-    }
-}
-
-/// The `d` with `d (slope + d mass) = rounding`, about.
-fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
-    (rounding / slope).min((rounding / mass).sqrt())
-}
-
-/// Scales `x` to `x^H M x = 1`, and its products with it.
-pub(super) fn normalise(x: &mut [Complex64], products: &mut Products) {
-    let square: f64 = x
-        .iter()
-        .zip(products.mass.iter())
-        .map(|(x, mass)| x.re * mass.re + x.im * mass.im)
-        .sum();
-    let factor = 1.0 / square.sqrt();
-    x.iter_mut().for_each(|x| *x *= factor);
-    products.scale(factor);
-}
-
-/// Greatest component of `Q(s) x` relative to the greatest sum of absolute terms in a row.
-fn relative_residual(products: &Products, s: Complex64, n: usize) -> f64 {
-    let (mut most, mut size) = (0.0_f64, 0.0_f64);
-    for i in 0..n {
-        let value = bound(products.value(s, i));
-        if value.is_nan() {
-            return f64::INFINITY;
-        }
-        most = most.max(value);
-        size = size.max(products.terms(s, i));
-    }
-    if most == 0.0 {
-        0.0
-    } else if size.is_finite() {
-        most / size
-    } else {
-        f64::INFINITY
     }
 }

@@ -143,8 +143,3 @@ impl<'a> Products<'a> {
         self.mass_terms[i]
     }
 }
-
-/// `x^T y`.
-pub(super) fn dot(x: &[Complex64], y: impl Iterator<Item = Complex64>) -> Complex64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}

@@ -7,7 +7,7 @@ use super::known::below;
 use super::*;
 use crate::modes::general::lu::Lu;
 use crate::modes::general::pencil::Pencil;
-use crate::modes::general::{aberth, schur};
+use crate::modes::general::{aberth, hessenberg, schur};
 
 /// Companion matrices of polynomials with small integer coefficients, on which an unbounded QR iteration without
 /// exceptional shifts hangs.
@@ -26,8 +26,8 @@ fn qr_converges_on_small_integer_companions() {
         let coefficients = matrix[..n].to_vec();
         let mut values = vec![Complex64::ZERO; n];
         let mut work = vec![0.0; n];
-        schur::balance(n, &mut matrix, &mut work);
-        schur::hessenberg(n, &mut matrix, &mut work);
+        hessenberg::balance(n, &mut matrix, &mut work);
+        hessenberg::reduce(n, &mut matrix, &mut work);
         assert!(
             schur::eigenvalues(n, &mut matrix, &mut values),
             "{coefficients:?}"
@@ -60,7 +60,7 @@ fn balancing_keeps_the_matrix_similar() {
     let original = [1.0, 1e9, -3.0, 1e-9, 2.0, 4e-7, 5.0, 1e8, 3.0];
     let mut matrix = original;
     let mut scales = [0.0; 3];
-    schur::balance(3, &mut matrix, &mut scales);
+    hessenberg::balance(3, &mut matrix, &mut scales);
     for i in 0..3 {
         for j in 0..3 {
             assert_eq!(

@@ -1,0 +1,242 @@
+//! Bases of the eigenspaces of one eigenvalue, from the left and from the right.
+
+use num_complex::Complex64;
+
+use super::cluster::{Cluster, Found};
+use super::lu::Lu;
+use super::measure::{Pair, ZERO, normalise};
+use super::pair::{INACCURATE, Solver};
+use super::pencil::{bound, modulus};
+
+/// Newton steps of a cluster.
+const STEPS: usize = 4;
+
+impl Solver<'_> {
+    /// Bases of the eigenspaces in `basis_right` and `basis_left`, the right one orthonormal by the mass matrix, the left
+    /// one dual to it where the eigenvalue is semisimple.
+    pub(super) fn eigenspaces(&mut self, cluster: &mut Cluster) {
+        for _ in 0..2 {
+            let start = cluster.s;
+            self.bases(cluster);
+            if cluster.regular < cluster.multiplicity {
+                break;
+            }
+            self.centre(cluster);
+            if modulus(cluster.s - start) <= cluster.reach {
+                break;
+            }
+        }
+    }
+
+    fn bases(&mut self, cluster: &mut Cluster) {
+        let n = self.pencil.n;
+        self.pencil.at(cluster.s, self.q);
+        let size = self.pencil.size(cluster.s);
+        let lu = Lu::new(n, self.q, self.order);
+        let rounding = 16.0 * n as f64 * f64::EPSILON * size;
+        let distance = 4.0 * cluster.spread * self.pencil.slope_size(cluster.s);
+        let threshold = (rounding + distance) / lu.unit;
+        let nullity = lu.nullity(threshold).min(cluster.multiplicity);
+        for k in 0..nullity {
+            lu.null_right(nullity, k, &mut self.basis_right[k * n..(k + 1) * n]);
+            lu.null_left(nullity, k, &mut self.basis_left[k * n..(k + 1) * n]);
+        }
+        cluster.nullity = nullity;
+        self.orthonormalise(nullity);
+        cluster.regular = self.dualise(cluster.s, nullity);
+    }
+
+    /// Whether a vector does not belong to the eigenvalue.
+    pub(super) fn is_poor(&mut self, cluster: &Cluster, k: usize) -> bool {
+        let pair = self.basis_pair(cluster.s, k);
+        let n = self.pencil.n;
+        let (right, left) = (
+            &self.basis_right[k * n..(k + 1) * n],
+            &self.basis_left[k * n..(k + 1) * n],
+        );
+        pair.residual > INACCURATE
+            && (modulus(pair.newton) > 4.0 * cluster.spread + cluster.reach
+                || !self.is_rounding(cluster.s, right, left, 1.0))
+    }
+
+    /// Moves the eigenvalue to the mean of the Rayleigh quotients.
+    fn centre(&mut self, cluster: &mut Cluster) {
+        let allowed = 4.0 * cluster.spread + cluster.radius;
+        let mut moved = 0.0;
+        for _ in 0..STEPS {
+            let mut step = Complex64::ZERO;
+            for k in 0..cluster.nullity {
+                step += self.basis_pair(cluster.s, k).newton / cluster.nullity as f64;
+            }
+            moved += modulus(step);
+            if step == Complex64::ZERO || moved.is_nan() || moved > allowed {
+                break;
+            }
+            cluster.s -= step;
+        }
+        if cluster.s.norm_sqr() < ZERO * ZERO {
+            let zero = Cluster {
+                s: Complex64::ZERO,
+                ..*cluster
+            };
+            if !(0..cluster.nullity).any(|k| self.is_poor(&zero, k)) {
+                cluster.s = zero.s;
+            }
+        }
+    }
+
+    fn basis_pair(&mut self, s: Complex64, k: usize) -> Pair {
+        let n = self.pencil.n;
+        let range = k * n..(k + 1) * n;
+        self.pencil
+            .multiply(&self.basis_right[range.clone()], false, &mut self.of_right);
+        self.pencil
+            .multiply(&self.basis_left[range.clone()], true, &mut self.of_left);
+        self.measure(s, &self.basis_left[range])
+    }
+
+    /// Makes the first vectors of `basis_right` orthonormal by the mass matrix.
+    fn orthonormalise(&mut self, nullity: usize) {
+        let n = self.pencil.n;
+        for k in 0..nullity {
+            for _ in 0..2 {
+                for other in 0..k {
+                    let (done, rest) = self.basis_right.split_at_mut(k * n);
+                    let (done, x) = (&done[other * n..(other + 1) * n], &mut rest[..n]);
+                    self.pencil.multiply(done, false, &mut self.of_right);
+                    let part: Complex64 = x
+                        .iter()
+                        .zip(self.of_right.mass.iter())
+                        .map(|(x, mass)| x * mass.conj())
+                        .sum();
+                    for (x, done) in x.iter_mut().zip(done) {
+                        *x -= part * done;
+                    }
+                }
+                let x = &mut self.basis_right[k * n..(k + 1) * n];
+                self.pencil.multiply(x, false, &mut self.of_right);
+                normalise(x, &mut self.of_right);
+            }
+        }
+    }
+
+    /// Gauss-Jordan elimination on `Psi^T (2 s M + C) Phi`: row operations on the left vectors, pivots the largest in their
+    /// columns. Returns the number of pivots; columns without one, and the left vectors that remain, are moved behind.
+    fn dualise(&mut self, s: Complex64, nullity: usize) -> usize {
+        let n = self.pencil.n;
+        let mut tolerance = 0.0_f64;
+        for j in 0..nullity {
+            self.pencil.multiply(
+                &self.basis_right[j * n..(j + 1) * n],
+                false,
+                &mut self.of_right,
+            );
+            for i in 0..nullity {
+                let left = &self.basis_left[i * n..(i + 1) * n];
+                let pair = self.measure(s, left);
+                self.cross[i * nullity + j] = pair.slope;
+                tolerance = tolerance.max((pair.rounding * pair.mass_terms).sqrt());
+            }
+        }
+        let sum = |x: &[Complex64]| x.iter().map(|&x| bound(x)).sum::<f64>() / nullity as f64;
+        let vectors = sum(&self.basis_left[..nullity * n]) * sum(&self.basis_right[..nullity * n]);
+        let rounding = 8.0 * n as f64 * f64::EPSILON * self.pencil.slope_size(s);
+        tolerance = (4.0 * tolerance).max(rounding * vectors);
+        let mut regular = 0;
+        let mut column = 0;
+        let mut columns = nullity;
+        while column < columns {
+            let mut best = regular;
+            for i in regular..nullity {
+                if bound(self.cross[i * nullity + column])
+                    > bound(self.cross[best * nullity + column])
+                {
+                    best = i;
+                }
+            }
+            let pivot = self.cross[best * nullity + column];
+            if bound(pivot) <= tolerance {
+                // This right vector goes behind.
+                columns -= 1;
+                swap_blocks(self.basis_right, n, column, columns);
+                for i in 0..nullity {
+                    self.cross.swap(i * nullity + column, i * nullity + columns);
+                }
+                continue;
+            }
+            swap_blocks(self.basis_left, n, regular, best);
+            swap_blocks(self.cross, nullity, regular, best);
+            for i in (0..nullity).filter(|&i| i != regular) {
+                let factor = self.cross[i * nullity + column] / pivot;
+                subtract(self.cross, nullity, i, factor, regular);
+                subtract(self.basis_left, n, i, factor, regular);
+            }
+            regular += 1;
+            column += 1;
+        }
+        // Defective right vectors lose what they have of the others.
+        for j in regular..nullity {
+            for i in 0..regular {
+                let factor = self.cross[i * nullity + j] / self.cross[i * nullity + i];
+                subtract(self.basis_right, n, j, factor, i);
+            }
+        }
+        regular
+    }
+
+    /// Writes root `k` of the cluster to its place.
+    pub(super) fn place(
+        &mut self,
+        cluster: &Cluster,
+        k: usize,
+        conjugate: bool,
+        place: usize,
+        found: &mut Found,
+    ) {
+        let n = self.pencil.n;
+        let regular = k < cluster.regular;
+        let defective = cluster.nullity - cluster.regular;
+        let vector = if regular {
+            k
+        } else {
+            cluster.regular + (k - cluster.regular) % defective
+        };
+        let right = &mut found.right[place * n..(place + 1) * n];
+        let left = &mut found.left[place * n..(place + 1) * n];
+        right.copy_from_slice(&self.basis_right[vector * n..(vector + 1) * n]);
+        left.copy_from_slice(&self.basis_left[vector * n..(vector + 1) * n]);
+        let mut pair = self.examine(cluster.s, right, left);
+        pair.conjugate = conjugate;
+        if regular {
+            pair.condition = self.condition(&pair, right, left);
+            pair.error = pair.doubt() + 2.0 * modulus(pair.newton) + pair.own();
+        } else {
+            let block = (cluster.multiplicity - cluster.regular)
+                .div_ceil(defective)
+                .max(2);
+            let relative = self.relative();
+            let size = self.pencil.rate(pair.s);
+            pair.condition = f64::INFINITY;
+            pair.error = (2.0 * cluster.spread)
+                .max(size * relative.powf(1.0 / block as f64))
+                .max(2.0 * cluster.multiplicity as f64 * modulus(pair.newton))
+                .min(size * relative.powf(0.5 / n as f64));
+        }
+        pair.merged = true;
+        found.pairs[place] = pair;
+    }
+}
+
+fn swap_blocks(x: &mut [Complex64], length: usize, i: usize, j: usize) {
+    for k in 0..length {
+        x.swap(i * length + k, j * length + k);
+    }
+}
+
+/// Subtracts `factor` times block `from` from block `of`.
+fn subtract(x: &mut [Complex64], length: usize, of: usize, factor: Complex64, from: usize) {
+    for k in 0..length {
+        let part = factor * x[from * length + k];
+        x[of * length + k] -= part;
+    }
+}

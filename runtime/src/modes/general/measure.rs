@@ -1,0 +1,229 @@
+//! What a pair of vectors says about an eigenvalue.
+
+use num_complex::Complex64;
+
+use super::pair::Solver;
+use super::pencil::{Products, bound, modulus};
+
+/// Terms that are less than this are zero in a scaled pencil.
+const NOTHING: f64 = 1e-60;
+/// What is less than this may be zero in a scaled pencil.
+pub(super) const ZERO: f64 = 1e-30;
+
+/// An eigenvalue with what its vectors say about it.
+#[derive(Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) s: Complex64,
+    /// It stands for itself and its conjugate.
+    pub(super) conjugate: bool,
+    /// Step that Newton's method would take from `s`.
+    pub(super) newton: Complex64,
+    /// `psi^T (2 s M + C) phi`.
+    pub(super) slope: Complex64,
+    /// Sums of the absolute terms in `psi^T (2 s M + C) phi` and in `psi^T M phi`.
+    pub(super) slope_terms: f64,
+    pub(super) mass_terms: f64,
+    /// Bound on the rounding in `psi^T Q(s) phi`.
+    pub(super) rounding: f64,
+    /// Distance within which `Q` is the same but for rounding.
+    pub(super) reach: f64,
+    /// The same by the greatest elements of the matrices.
+    pub(super) reach_overall: f64,
+    /// Error of second order, from the residuals of both vectors.
+    pub(super) second: f64,
+    /// Product of the sizes of both residuals.
+    pub(super) product: f64,
+    /// Greatest relative residual of the two vectors.
+    pub(super) residual: f64,
+    /// It stands for a cluster, which has told its error.
+    pub(super) merged: bool,
+    pub(super) condition: f64,
+    pub(super) error: f64,
+}
+
+impl Pair {
+    pub(super) const NONE: Self = Self {
+        s: Complex64::ZERO,
+        conjugate: false,
+        newton: Complex64::ZERO,
+        slope: Complex64::ZERO,
+        slope_terms: 0.0,
+        mass_terms: 0.0,
+        rounding: 0.0,
+        reach: 0.0,
+        reach_overall: 0.0,
+        second: 0.0,
+        product: 0.0,
+        residual: 0.0,
+        merged: false,
+        condition: 1.0,
+        error: 0.0,
+    };
+
+    /// Error of `s` that the rounding of the pencil's elements causes, to first order.
+    pub(super) fn doubt(&self) -> f64 {
+        if self.rounding == 0.0 {
+            0.0
+        } else {
+            self.rounding / modulus(self.slope)
+        }
+    }
+
+    /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
+    /// one that vanishes.
+    pub(super) fn second_order(&self, neighbour: f64) -> f64 {
+        if self.product == 0.0 || neighbour == f64::INFINITY {
+            0.0
+        } else {
+            self.product / (neighbour * modulus(self.slope))
+        }
+    }
+
+    /// Rounding of `s` itself.
+    pub(super) fn own(&self) -> f64 {
+        f64::EPSILON * modulus(self.s) + ZERO
+    }
+
+    /// Distance within which the eigenvalue lies, unless it is almost multiple or the vectors are not its own.
+    pub(super) fn radius(&self) -> f64 {
+        let radius = 2.0 * (self.doubt() + modulus(self.newton)) + self.second;
+        radius.min(1e6 * self.reach_overall)
+    }
+}
+
+impl Solver<'_> {
+    /// Normalises both vectors and measures them with `s`.
+    pub(super) fn examine(
+        &mut self,
+        s: Complex64,
+        right: &mut [Complex64],
+        left: &mut [Complex64],
+    ) -> Pair {
+        self.pencil.multiply(right, false, &mut self.of_right);
+        normalise(right, &mut self.of_right);
+        self.pencil.multiply(left, true, &mut self.of_left);
+        normalise(left, &mut self.of_left);
+        self.measure(s, left)
+    }
+
+    /// Measures `s` with vectors whose products are known.
+    pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
+        let n = self.pencil.n;
+        let (of_right, of_left) = (&self.of_right, &self.of_left);
+        let (mut value, mut slope) = (Complex64::ZERO, Complex64::ZERO);
+        let (mut terms, mut slope_terms, mut mass_terms) = (0.0, 0.0, 0.0);
+        let (mut by_right, mut by_left) = (Residual::NONE, Residual::NONE);
+        for (i, &x) in left.iter().enumerate() {
+            let (part, part_terms) = (of_right.value(s, i), of_right.terms(s, i));
+            value += x * part;
+            slope += x * of_right.slope(s, i);
+            let size = bound(x);
+            terms += size * part_terms;
+            slope_terms += size * of_right.slope_terms(s, i);
+            mass_terms += size * of_right.mass_terms(i);
+            by_right.add(part, part_terms);
+            by_left.add(of_left.value(s, i), of_left.terms(s, i));
+        }
+        let residual = by_right.relative().max(by_left.relative());
+        let rounding = self.relative() * (terms + NOTHING);
+        let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
+        let reach_overall = reach(overall, self.pencil.slope_size(s), self.pencil.largest[0]);
+        Pair {
+            s,
+            newton: if value == Complex64::ZERO {
+                value
+            } else if slope == Complex64::ZERO {
+                Complex64::new(f64::INFINITY, 0.0)
+            } else {
+                value / slope
+            },
+            slope,
+            slope_terms,
+            mass_terms,
+            rounding,
+            reach: reach(16.0 * rounding, slope_terms, mass_terms).min(reach_overall),
+            reach_overall,
+            residual,
+            product: by_right.sum * by_left.sum,
+            ..Pair::NONE
+        }
+    }
+
+    pub(super) fn condition(
+        &mut self,
+        pair: &Pair,
+        right: &[Complex64],
+        left: &[Complex64],
+    ) -> f64 {
+        self.linearisation
+            .condition(pair.s, right, left, pair.slope, self.cross)
+    }
+
+    /// Whether rounding of the vectors, whose products are known, explains the residual: a vector that `K` takes to zero
+    /// has nothing but rounding in the rows that act, and their terms are no measure.
+    pub(super) fn is_rounding(
+        &self,
+        s: Complex64,
+        right: &[Complex64],
+        left: &[Complex64],
+        margin: f64,
+    ) -> bool {
+        let allowed = margin * self.relative() * self.pencil.size(s);
+        let most = |products: &Products| {
+            (0..self.pencil.n).fold(0.0_f64, |most, i| most.max(bound(products.value(s, i))))
+        };
+        let largest = |x: &[Complex64]| x.iter().fold(0.0_f64, |most, x| most.max(bound(*x)));
+        most(&self.of_right) <= allowed * largest(right)
+            && most(&self.of_left) <= allowed * largest(left)
+    }
+}
+
+/// The `d` with `d (slope + d mass) = rounding`, about.
+fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
+    (rounding / slope).min((rounding / mass).sqrt())
+}
+
+/// Scales `x` to `x^H M x = 1`, and its products with it.
+pub(super) fn normalise(x: &mut [Complex64], products: &mut Products) {
+    let square: f64 = x
+        .iter()
+        .zip(products.mass.iter())
+        .map(|(x, mass)| x.re * mass.re + x.im * mass.im)
+        .sum();
+    let factor = 1.0 / square.sqrt();
+    x.iter_mut().for_each(|x| *x *= factor);
+    products.scale(factor);
+}
+
+/// What is left of `Q(s) x`.
+struct Residual {
+    most: f64,
+    terms: f64,
+    sum: f64,
+}
+
+impl Residual {
+    const NONE: Self = Self {
+        most: 0.0,
+        terms: 0.0,
+        sum: 0.0,
+    };
+
+    fn add(&mut self, value: Complex64, terms: f64) {
+        let size = bound(value);
+        self.most = self.most.max(size);
+        self.terms = self.terms.max(terms);
+        self.sum += size;
+    }
+
+    /// Greatest component relative to the greatest sum of absolute terms in a row.
+    fn relative(&self) -> f64 {
+        if self.sum == 0.0 {
+            0.0
+        } else if self.sum.is_finite() && self.terms.is_finite() {
+            self.most / self.terms
+        } else {
+            f64::INFINITY
+        }
+    }
+}
