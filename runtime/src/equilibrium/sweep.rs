@@ -31,6 +31,15 @@ impl<const N: usize, const U: usize, const P: usize> Deref for Sweep<N, U, P> {
     }
 }
 
+impl<const N: usize, const U: usize, const P: usize> IntoIterator for Sweep<N, U, P> {
+    type Item = SweepPoint<N, U, P>;
+    type IntoIter = std::vec::IntoIter<Self::Item>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.points.into_iter()
+    }
+}
+
 impl<'a, const N: usize, const U: usize, const P: usize> IntoIterator for &'a Sweep<N, U, P> {
     type Item = &'a SweepPoint<N, U, P>;
     type IntoIter = core::slice::Iter<'a, SweepPoint<N, U, P>>;

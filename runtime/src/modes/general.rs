@@ -102,12 +102,3 @@ pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>,
     }
     Ok(roots)
 }
-
-/// All eigenvalues in the order of [`Roots`], conjugates included, as the linearisation gives them.
-pub(crate) fn eigenvalues<const N: usize>(
-    linear: &Linear<f64, N>,
-) -> Result<[[Complex64; 2]; N], Trouble> {
-    let mut values = [[Complex64::ZERO; 2]; N];
-    driver::eigenvalues(driver::Matrices::of(linear), values.as_flattened_mut())?;
-    Ok(values)
-}

@@ -1,6 +1,6 @@
 //! The same machine a million times smaller or larger: the shape of the answer does not change.
 
-use eigentol::{DesignVariable, Mechanism, Stability, Study};
+use eigentol::{DesignVariable, Family, Mechanism, Stability, Study};
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
 
@@ -85,8 +85,18 @@ fn sliders_of_every_size() {
                     near(y, 0.3 / 13.0 * length),
                     "{length:e} {force:e} {mass:e}: {y:e}"
                 );
-                let lambda = study.modes().expect("modes").modes[0].lambda;
+                let undamped = study.clone().family(Family::Undamped);
+                let lambda = undamped.modes().expect("modes").modes[0].lambda;
                 assert!(near(lambda, 64.0 * force / mass), "{lambda:e}");
+                let general = study.modes().expect("modes");
+                for (mode, expected) in general
+                    .modes
+                    .iter()
+                    .zip([5.791_190_506_937_825, 14.087_658_162_815_892])
+                {
+                    let omega = mode.frequency().expect("it oscillates");
+                    assert!(near(omega, expected * f64::sqrt(force / mass)), "{omega:e}");
+                }
             }
         }
     }

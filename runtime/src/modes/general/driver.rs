@@ -125,40 +125,6 @@ fn linear_values(
     aberth::symmetrise(values, open);
 }
 
-/// All `2 n` eigenvalues, in order.
-pub(super) fn eigenvalues(matrices: Matrices, values: &mut [Complex64]) -> Result<(), Trouble> {
-    let n = matrices.n;
-    if n == 0 {
-        return Ok(());
-    }
-    with_work(n, |work| {
-        let mut real = std::mem::take(&mut work.real);
-        let (pencil, _, rate) = scaled(matrices, &mut real)?;
-        let companion = take(&mut real, 4 * n * n);
-        let vector = take(&mut real, 2 * n);
-        Linearisation::new(&pencil, companion, take(&mut real, 3 * n * n + 2 * n))?;
-        let order = &mut work.indices[..2 * n];
-        let open = &mut work.flags[..2 * n];
-        linear_values(
-            &pencil,
-            companion,
-            vector,
-            work.complex,
-            order,
-            open,
-            values,
-        );
-        sort(values, |value| *value);
-        for value in values.iter_mut() {
-            *value *= rate;
-            if !(value.re.is_finite() && value.im.is_finite()) {
-                return Err(not_found());
-            }
-        }
-        Ok(())
-    })
-}
-
 /// Roots with `Im s >= 0`, their vectors as rows; returns their number.
 pub(super) fn solve(
     matrices: Matrices,

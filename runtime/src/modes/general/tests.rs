@@ -9,7 +9,7 @@ mod torture;
 
 use num_complex::Complex64;
 
-use super::{Root, Roots, eigenvalues, solve};
+use super::{Root, Roots, solve};
 use crate::Linear;
 use crate::modes::symmetric::Trouble;
 
@@ -35,18 +35,6 @@ fn diagonal<const N: usize>(elements: [f64; N]) -> [[f64; N]; N] {
         matrix[i][i] = elements[i];
     }
     matrix
-}
-
-fn product<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
-    let mut c = [[0.0; N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            for k in 0..N {
-                c[i][j] += a[i][k] * b[k][j];
-            }
-        }
-    }
-    c
 }
 
 /// Every root, conjugates written out.

@@ -96,12 +96,7 @@ fn check_integers<const N: usize>(damping: Matrix<N>, stiffness: Matrix<N>) -> R
 fn check_any<const N: usize>(pencil: &Linear<f64, N>) -> Result<(), String> {
     let describe = |what: String| format!("{what}\n{pencil:?}");
     let roots = solve(pencil).map_err(|trouble| describe(format!("{trouble:?}")))?;
-    check(pencil, &roots).map_err(describe)?;
-    let values = eigenvalues(pencil).map_err(|trouble| describe(format!("{trouble:?}")))?;
-    if values.iter().flatten().any(|s| !s.norm().is_finite()) {
-        return Err(describe("values".into()));
-    }
-    Ok(())
+    check(pencil, &roots).map_err(describe)
 }
 
 /// One pencil of each kind.
