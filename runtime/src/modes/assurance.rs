@@ -1,6 +1,7 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
 use super::{Family, Mode, PerMode};
+use crate::array::{dot, form, times};
 use crate::{Complex, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
@@ -59,6 +60,19 @@ fn weigh<const N: usize>(mass: &[[f64; N]; N], shape: &[Complex; N]) -> [Complex
     })
 }
 
+/// The assurance of two undamped modes.
+fn real_assurance<const N: usize>(from: &Mode<N>, to: &Mode<N>, mass: &[[f64; N]; N]) -> f64 {
+    let (x, y) = (from.real_shape(), to.real_shape());
+    let weighted = times(mass, &y);
+    let scale = form(&x, mass, &x) * dot(&y, &weighted);
+    let product = dot(&x, &weighted);
+    if scale > 0.0 {
+        product * product / scale
+    } else {
+        0.0
+    }
+}
+
 /// `x^H y`.
 fn product<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
     x.iter()
@@ -88,12 +102,16 @@ pub(crate) fn match_with_assurance<const N: usize>(
     if here < 2 && there < 2 {
         return from.modes.map(|_| Some((0, 1.0)));
     }
-    let table = assurance(from, to, mass);
-    // Shapes of one undamped set are orthogonal, so a row has at most one element above one half.
+    // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    if undamped && (0..here).all(|i| table[i][i] > CERTAIN) {
-        return PerMode::from_fn(here, |i| Some((i, table[i][i])));
+    if undamped {
+        let own: PerMode<f64, N> =
+            PerMode::from_fn(here, |i| real_assurance(&from.modes[i], &to.modes[i], mass));
+        if own.iter().all(|&same| same > CERTAIN) {
+            return PerMode::from_fn(here, |i| Some((i, own[i])));
+        }
     }
+    let table = assurance(from, to, mass);
     let mut found = from.modes.map(|_| None);
     let mut used = to.modes.map(|_| false);
     for _ in 0..here.min(there) {

@@ -14,18 +14,19 @@ pub struct PerMode<T, const N: usize> {
 impl<T: Copy, const N: usize> PerMode<T, N> {
     /// The first `count` of the values of `entry`, at least one and at most `2 N`; none when `N` is zero.
     pub(crate) fn from_fn(count: usize, mut entry: impl FnMut(usize) -> T) -> Self {
-        let count = count.clamp(N.min(1), 2 * N);
-        let mut filler = None;
-        let entries = core::array::from_fn(|i| {
-            core::array::from_fn(|k| match filler {
-                Some(filler) if 2 * i + k >= count => filler,
-                _ => {
-                    let made = entry(2 * i + k);
-                    filler = Some(made);
-                    made
-                }
-            })
-        });
+        if N == 0 {
+            let entries = core::array::from_fn(|_| unreachable!("no coordinate, no mode"));
+            return Self { entries, count: 0 };
+        }
+        let count = count.clamp(1, 2 * N);
+        let mut entries = [[entry(0); 2]; N];
+        for (r, place) in entries.as_flattened_mut()[..count]
+            .iter_mut()
+            .enumerate()
+            .skip(1)
+        {
+            *place = entry(r);
+        }
         Self { entries, count }
     }
 

@@ -27,7 +27,6 @@ pub use shift::{EquilibriumShift, equilibrium_shift};
 use crate::array::all_finite;
 use crate::modes::{Family, PerMode, clusters as clustered_modes, merged};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes};
-use quantity::eigenvalue_slope;
 
 /// How derivatives were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,7 +103,9 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         clustered: bool,
     ) -> Self {
         let moves = mode.s != Complex::new(0.0, 0.0);
-        let s = moves.then(|| lambda.map(|dlambda| eigenvalue_slope(mode.s, dlambda)));
+        // ds = -dlambda / (2 s)
+        let rate = -0.5 / mode.s;
+        let s = moves.then(|| lambda.map(|dlambda| rate * dlambda));
         Self::new(mode, lambda, s, clustered)
     }
 
