@@ -34,7 +34,7 @@ mechanism! {
         design width = 30 mm +/- 0.2 mm;
         design seal_x = 150 kN/m +/- 20%;
         design seal_y = 250 kN/m +/- 20%;
-        design seal_damping = 90 N*s/m +/- 30%;
+        design seal_damping = 80 N*s/m +/- 30%;
 
         let bending = modulus * pi * diameter^4 / 64;
         let shape = near^2 - near * far + far^2;
@@ -111,7 +111,7 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     };
     let title = "Rotor: frequencies near the running speed";
     for figure in [
-        whole.frequencies("campbell", "Rotor: Campbell diagram", 180.0),
+        whole.frequencies("campbell", "Rotor: Campbell diagram", 120.0),
         whole.damping_ratios("damping", "Rotor: damping ratios"),
         close.margin("margin", title, &risk),
     ] {

@@ -40,6 +40,8 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
     pub fn frequencies(&self, name: &str, title: &str, top: f64) -> Figure {
         let mut figure = self.figure((name, title), "frequency [Hz]", (0.0, top));
         figure.curves = self.curves(hertz);
+        figure.bands = self.bands(|mode| mode.frequency, 1.0 / HZ);
+        figure.note = self.about_bands();
         self.add_orders(&mut figure);
         let at = |event: &&RotorEvent<P>| (event.speed / RPM, event.s.im / HZ);
         let meeting = |forward: bool| {
@@ -74,6 +76,7 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
         let mut figure = self.figure((name, title), "damping ratio [%]", (0.0, 0.0));
         figure.curves = self.curves(percent);
         figure.bands = self.bands(|mode| mode.damping_ratio, 100.0);
+        figure.note = self.about_bands();
         let edges = figure.bands.iter().flat_map(|band| &band.edges);
         let (low, high) = edges.fold((0.0_f64, 0.0_f64), |(low, high), edge| {
             (low.min(edge.1), high.max(edge.2))
@@ -86,14 +89,15 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
             dashed: false,
             pieces: vec![vec![(figure.speeds.0, 0.0), (figure.speeds.1, 0.0)]],
         });
-        let below = (figure.speeds.1, -1.6 * room);
-        figure.labels.push((below, "unstable".to_owned()));
+        let below = (figure.speeds.0, 0.0);
+        let text = "unstable below this line".to_owned();
+        figure.labels.push((below, text));
         for event in self.onsets() {
             if let Ok(spread) = &event.spread {
                 let ends = [event.speed - spread.band, event.speed + spread.band];
                 figure.bands.push(Band {
                     label: format!("limit of stability, {} sigma", self.campbell.sigma_level),
-                    colour: BLACK,
+                    colour: GREY,
                     edges: ends
                         .map(|end| {
                             let speed = (end / RPM).clamp(figure.speeds.0, figure.speeds.1);
@@ -119,6 +123,7 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
         figure.range = (0.6 * running, 1.3 * running);
         figure.curves = self.curves(hertz);
         figure.bands = self.bands(|mode| mode.frequency, 1.0 / HZ);
+        figure.note = self.about_bands();
         figure.bands.push(Band {
             label: format!("within {} % of the speed", 100.0 * self.question.margin),
             colour: GREY,
@@ -137,9 +142,18 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
             Some([mean - level * sigma, mean, mean + level * sigma])
         });
         let points = sampled.flatten().map(|value| (figure.mark.0, value / HZ));
-        let label = format!("Monte Carlo mean, {level} sigma");
+        let label = format!("Monte Carlo: mean, {level} sigma");
         figure.markers = vec![markers(&label, Shape::Ring, points.collect())];
+        figure.curves.retain(|curve| {
+            let mut points = curve.pieces.iter().flatten();
+            points.any(|point| (figure.range.0..=figure.range.1).contains(&point.1))
+        });
         figure
+    }
+
+    fn about_bands(&self) -> String {
+        let level = self.campbell.sigma_level;
+        format!("Shaded along the curves: {level} standard deviations to either side.")
     }
 
     fn figure(&self, (name, title): (&str, &str), values: &str, range: (f64, f64)) -> Figure {
@@ -247,13 +261,16 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
         for &order in &self.question.orders {
             let value = |rpm: f64| order * rpm * RPM / HZ;
             let last = high.min(top * HZ / (order * RPM));
+            if last <= low {
+                continue;
+            }
             figure.curves.push(Curve {
                 label: String::new(),
                 colour: GREY,
                 dashed: true,
                 pieces: vec![vec![(low, value(low)), (high, value(high))]],
             });
-            let place = 0.97 * last;
+            let place = low + 0.85 * (last - low);
             figure
                 .labels
                 .push(((place, value(place)), format!("{order} x speed")));

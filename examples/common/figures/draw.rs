@@ -158,6 +158,8 @@ fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
         .set_all_tick_mark_size(5 * SCALE)
         .x_labels(9)
         .y_labels(8)
+        .x_label_formatter(&|value| tick(*value))
+        .y_label_formatter(&|value| tick(*value))
         .draw()?;
     // All else is drawn in pixels of the same area, where a dash and a marker have their true size.
     let origin = area.get_base_pixel();
@@ -198,9 +200,16 @@ fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     }
     for (point, text) in &figure.labels {
         let (x, y) = pixel(point);
-        write(area, text, (x - 6 * SCALE, y - 10 * SCALE), 15, HPos::Right)?;
+        write(area, text, (x + 6 * SCALE, y + 12 * SCALE), 15, HPos::Left)?;
     }
     Ok(())
+}
+
+/// The number beside a tick, without needless decimals.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
 }
 
 /// The thin vertical line.

@@ -41,7 +41,7 @@ pub struct Figure {
     pub curves: Vec<Curve>,
     /// Markers.
     pub markers: Vec<Markers>,
-    /// Words in the figure, to the left of the points they belong to and above.
+    /// Words in the figure, to the right of the points they belong to and below.
     pub labels: Vec<(Point, String)>,
 }
 

@@ -149,7 +149,7 @@ pub fn risk<const P: usize>(
     let head = [
         "quantity        ",
         "nominal",
-        "mean - nominal",
+        "mean shift 2nd",
         "MC",
         "std. error",
         "sigma 1st",
