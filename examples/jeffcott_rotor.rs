@@ -1,6 +1,10 @@
 //! A heavy disk on an elastic shaft, with gyroscopic moments, damping at rest and damping that turns: Campbell diagram,
 //! critical speeds and limit of stability with their tolerances, and the risks at the running speed.
 //!
+//! The machine runs above its critical speeds of first order. Two things can go wrong there: the backward whirl of the
+//! tilting disk, which the uneven seal lets the unbalance reach, may come within 10 % of the speed; and the damping of
+//! the shaft, which turns, may overcome that of the seal, which does not.
+//!
 //! `cargo run --release --example jeffcott_rotor`
 
 use std::ffi::OsString;
