@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use eigentol::{Mechanism, Study, mechanism};
 use eigentol_examples::figures::Whirling;
-use eigentol_examples::rotor::{RPM, Risk, events, print, record};
+use eigentol_examples::rotor::{RPM, Risk, events, record, tables};
 use eigentol_examples::{Failure, Options, RotorQuestion, program};
 
 mechanism! {
@@ -123,14 +123,14 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     }
 
     writeln!(out, "JEFFCOTT ROTOR, disk off the middle\n")?;
-    print::diagram(out, &campbell)?;
-    print::events(
+    tables::diagram(out, &campbell)?;
+    tables::events(
         out,
         &events,
         &study.tolerances()?,
         &JeffcottRotor::DESCRIPTION,
     )?;
-    print::risk(out, &risk, &question)?;
+    tables::risk(out, &risk, &question)?;
     options.print_directory(out)
 }
 

@@ -1,12 +1,12 @@
 //! What a rotor is asked over its speed, and the answers: Campbell diagram ([`eigentol::Campbell`]), critical speeds and
-//! onsets of instability ([`events`]), risks at the running speed ([`risk`]); printed by [`print`], written by [`record`].
+//! onsets of instability ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
 //!
 //! Engineers of rotating machinery count turns: speeds are shown in rpm, frequencies in Hz. Files are in SI units.
 
 pub mod events;
-pub mod print;
 pub mod record;
 pub mod risk;
+pub mod tables;
 
 pub use events::{Happening, RotorEvent};
 pub use risk::Risk;
