@@ -2,7 +2,8 @@
 //!
 //! An example file declares its mechanism and says what it wants to know; how that is gathered, drawn and written is
 //! here, in the order of a run:
-//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`figures`], [`record`], [`summary`].
+//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`figures`], [`record`], [`summary`]; for
+//! rotors [`options`], [`rotor`], [`figures`].
 
 pub mod analysis;
 pub mod cost;
@@ -14,6 +15,7 @@ pub mod program;
 pub mod progress;
 pub mod question;
 pub mod record;
+pub mod rotor;
 pub mod speeds;
 pub mod summary;
 pub mod sweep;
@@ -24,4 +26,5 @@ pub use failure::Failure;
 pub use options::Options;
 pub use program::program;
 pub use question::Question;
+pub use rotor::RotorQuestion;
 pub use sweep::Sweep;

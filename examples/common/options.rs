@@ -12,10 +12,10 @@ use crate::Failure;
 /// What the user may choose.
 #[derive(Clone, Debug, Parser)]
 pub struct Options {
-    /// Number of speeds of the sweep; some of them lie close to the critical speed
+    /// Number of speeds of the sweep
     #[arg(long, value_name = "N", default_value = "89", allow_negative_numbers = true, value_parser = whole::<1, 100_000>)]
     pub speeds: usize,
-    /// Monte Carlo samples at each speed and tolerance
+    /// Samples of every Monte Carlo run
     #[arg(long, value_name = "N", default_value = "3000", allow_negative_numbers = true, value_parser = whole::<2, 1_000_000_000>)]
     pub samples: usize,
     /// Seed of the samples: the same seed gives the same numbers

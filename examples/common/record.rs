@@ -97,7 +97,7 @@ fn fields(sweep: &Sweep, row: &Row) -> Vec<String> {
 }
 
 /// The shortest text that reads back as the same number.
-fn field(value: Option<f64>) -> String {
+pub(crate) fn field(value: Option<f64>) -> String {
     value
         .filter(|value| value.is_finite())
         .map_or_else(String::new, |value| format!("{value:?}"))

@@ -10,6 +10,11 @@ use std::path::{Path, PathBuf};
 use eigentol::tolerance::Sampling;
 use eigentol_examples::{Failure, Question, Sweep, record, summary};
 
+#[path = "programs/jeffcott.rs"]
+mod jeffcott;
+#[path = "../jeffcott_rotor.rs"]
+#[allow(dead_code, unreachable_pub)]
+mod jeffcott_rotor;
 #[path = "../rotating_double_pendulum.rs"]
 #[allow(dead_code, unreachable_pub)]
 mod rotating_double_pendulum;
@@ -21,6 +26,7 @@ type Run = fn(Vec<OsString>, &mut dyn Write) -> Result<(), Failure>;
 
 const SINGLE: Run = rotating_pendulum::run;
 const DOUBLE: Run = rotating_double_pendulum::run;
+const ROTOR: Run = jeffcott_rotor::run;
 
 /// 3 g / 2 for a bar of 1 m: the square of the critical speed.
 const W: f64 = 1.5 * 9.81;

@@ -317,6 +317,16 @@ fn every_result_prints() {
             .margin(0, Band::around(OMEGA, 0.1))
             .unwrap()
             .to_string(),
+        study
+            .margin(
+                0,
+                Band::Between {
+                    low: 900.0,
+                    high: 1000.0,
+                },
+            )
+            .unwrap()
+            .to_string(),
         study.branches(OMEGA, 1.0, 5.0).unwrap().to_string(),
     ]
     .join("\n");
@@ -332,6 +342,8 @@ fn every_result_prints() {
         "Campbell",
         "second order",
         "margin of frequency 1",
+        "probability by",
+        "No variable changes the probability",
     ] {
         assert!(text.contains(word), "{word} is missing from\n{text}");
     }

@@ -218,16 +218,17 @@ impl Sweeps<'_> {
         Figure {
             name: name.to_owned(),
             title: title.to_owned(),
-            note: String::new(),
+            speed: "drive speed [rad/s]".to_owned(),
             values: values.to_owned(),
             speeds: self.curve.question.range,
-            top: 1.05 * top,
+            range: (0.0, 1.05 * top),
             mark: (
                 self.critical,
                 format!("critical {:.3} rad/s", self.critical),
             ),
             curves,
             markers,
+            ..Figure::default()
         }
     }
 
@@ -245,8 +246,8 @@ impl Sweeps<'_> {
             markers,
         );
         let sampled = highest(figure.markers.iter().flat_map(|markers| &markers.points));
-        if 1.25 * sampled < figure.top && sampled > 0.0 {
-            figure.top = 1.25 * sampled;
+        if 1.25 * sampled < figure.range.1 && sampled > 0.0 {
+            figure.range.1 = 1.25 * sampled;
             figure.note =
                 "First order grows without bound at the critical speed and is cut off here; \
                            Monte Carlo stays finite."

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::clip::clip;
-use super::{Curve, Figure, Markers, Shape};
+use super::{Band, Curve, Figure, Markers, Shape};
 
 type Svg<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Outcome<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
@@ -54,7 +54,7 @@ pub(super) fn svg(figure: &Figure) -> Result<String, Box<dyn std::error::Error>>
 
 fn draw<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     area.fill(&WHITE)?;
-    let entries = figure.curves.len() + figure.markers.len() + 1;
+    let entries = named(figure).count() + shaded(figure).count() + figure.markers.len() + 1;
     let legend_height = LEGEND_HEIGHT * entries.div_ceil(LEGEND_COLUMNS) as i32;
     let note_height = if figure.note.is_empty() {
         NOTE_HEIGHT / 4
@@ -93,7 +93,17 @@ fn write<'a>(area: &Svg<'a>, text: &str, at: (i32, i32), size: i32, anchor: HPos
     area.draw(&Text::new(text, at, style))
 }
 
-/// Curves, then markers, then the vertical line, filled row by row.
+/// The curves of the legend.
+fn named(figure: &Figure) -> impl Iterator<Item = &Curve> {
+    figure.curves.iter().filter(|curve| !curve.label.is_empty())
+}
+
+/// The bands of the legend.
+fn shaded(figure: &Figure) -> impl Iterator<Item = &Band> {
+    figure.bands.iter().filter(|band| !band.label.is_empty())
+}
+
+/// Curves, then bands, markers and the vertical line, filled row by row.
 fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     let column = (WIDTH - LEFT) / LEGEND_COLUMNS as i32;
     let mut places = (0..).map(|index: usize| {
@@ -104,9 +114,17 @@ fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
     let label = |(x, y): (i32, i32), text: &str| {
         write(area, text, (x + SYMBOL + 8 * SCALE, y), 16, HPos::Left)
     };
-    for (curve, (x, y)) in figure.curves.iter().zip(&mut places) {
+    for (curve, (x, y)) in named(figure).zip(&mut places) {
         line(area, curve, vec![(x, y), (x + SYMBOL, y)])?;
         label((x, y), &curve.label)?;
+    }
+    for (band, (x, y)) in shaded(figure).zip(&mut places) {
+        let half = LEGEND_HEIGHT / 4;
+        area.draw(&Rectangle::new(
+            [(x, y - half), (x + SYMBOL, y + half)],
+            shade(band),
+        ))?;
+        label((x, y), &band.label)?;
     }
     for (markers, (x, y)) in figure.markers.iter().zip(&mut places) {
         area.draw(&marker(markers, (x + SYMBOL / 2, y)))?;
@@ -120,17 +138,17 @@ fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
 }
 
 fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
-    let (low, high) = figure.speeds;
+    let ((low, high), (bottom, top)) = (figure.speeds, figure.range);
     let mut chart = ChartBuilder::on(area)
         .margin_left(20 * SCALE)
         .margin_right(RIGHT)
         .margin_top(10 * SCALE)
         .x_label_area_size(56 * SCALE)
         .y_label_area_size(LEFT - 20 * SCALE)
-        .build_cartesian_2d(low..high, 0.0..figure.top)?;
+        .build_cartesian_2d(low..high, bottom..top)?;
     chart
         .configure_mesh()
-        .x_desc("drive speed [rad/s]")
+        .x_desc(figure.speed.as_str())
         .y_desc(figure.values.as_str())
         .axis_desc_style((FONT, 19 * SCALE))
         .label_style((FONT, 17 * SCALE))
@@ -140,6 +158,8 @@ fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
         .set_all_tick_mark_size(5 * SCALE)
         .x_labels(9)
         .y_labels(8)
+        .x_label_formatter(&|value| tick(*value))
+        .y_label_formatter(&|value| tick(*value))
         .draw()?;
     // All else is drawn in pixels of the same area, where a dash and a marker have their true size.
     let origin = area.get_base_pixel();
@@ -147,31 +167,59 @@ fn plot<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
         let (x, y) = chart.backend_coord(point);
         (x - origin.0, y - origin.1)
     };
+    for band in &figure.bands {
+        let lower = band.edges.iter().map(|&(speed, lower, _)| (speed, lower));
+        let upper = band
+            .edges
+            .iter()
+            .rev()
+            .map(|&(speed, _, upper)| (speed, upper));
+        let outline = lower.chain(upper);
+        let outline = outline.map(|(speed, value)| pixel(&(speed, value.clamp(bottom, top))));
+        area.draw(&Polygon::new(outline.collect::<Vec<_>>(), shade(band)))?;
+    }
     let position = figure.mark.0;
     if (low..=high).contains(&position) {
-        let ends = [(position, 0.0), (position, figure.top)].map(|point| pixel(&point));
+        let ends = [(position, bottom), (position, top)].map(|point| pixel(&point));
         area.draw(&PathElement::new(ends, mark()))?;
     }
     for curve in &figure.curves {
         for part in curve
             .pieces
             .iter()
-            .flat_map(|piece| clip(piece, 0.0, figure.top))
+            .flat_map(|piece| clip(piece, bottom, top))
         {
             line(area, curve, part.iter().map(pixel).collect())?;
         }
     }
     for markers in &figure.markers {
-        for point in markers.points.iter().filter(|point| point.1 <= figure.top) {
+        let shown = |point: &&(f64, f64)| (bottom..=top).contains(&point.1);
+        for point in markers.points.iter().filter(shown) {
             area.draw(&marker(markers, pixel(point)))?;
         }
     }
+    for (point, text) in &figure.labels {
+        let (x, y) = pixel(point);
+        write(area, text, (x + 6 * SCALE, y + 12 * SCALE), 15, HPos::Left)?;
+    }
     Ok(())
+}
+
+/// The number beside a tick, without needless decimals.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
 }
 
 /// The thin vertical line.
 fn mark() -> ShapeStyle {
     BLACK.mix(0.5).stroke_width(SCALE as u32)
+}
+
+/// The filling of a band.
+fn shade(band: &Band) -> ShapeStyle {
+    colour(band.colour).mix(0.2).filled()
 }
 
 fn line<'a>(area: &Svg<'a>, curve: &Curve, points: Vec<(i32, i32)>) -> Outcome<'a> {

@@ -1,9 +1,11 @@
 //! Figures over the speed, as SVG files.
 
+mod campbell;
 mod clip;
 mod content;
 mod draw;
 
+pub use campbell::Whirling;
 pub use content::{Sweeps, angles, contributions, deviations, frequencies, means};
 
 use std::fs;
@@ -14,8 +16,8 @@ use crate::Failure;
 /// A point of a figure: speed and value.
 pub type Point = (f64, f64);
 
-/// A figure: curves for what is computed, markers for what is sampled.
-#[derive(Clone, Debug, PartialEq)]
+/// A figure: curves for what is computed, markers for what is sampled or happens at one speed.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// Name of its file, without the ending.
     pub name: String,
@@ -23,24 +25,41 @@ pub struct Figure {
     pub title: String,
     /// A sentence below the figure; may be empty.
     pub note: String,
+    /// Name and unit of the speed.
+    pub speed: String,
     /// Name and unit of the values.
     pub values: String,
     /// Range of the speeds.
     pub speeds: (f64, f64),
-    /// Greatest value shown; curves are cut off there.
-    pub top: f64,
+    /// Range of the values; what lies outside is cut off.
+    pub range: (f64, f64),
     /// A thin vertical line, and what it marks.
     pub mark: (f64, String),
+    /// Shaded areas, behind everything else.
+    pub bands: Vec<Band>,
     /// Lines.
     pub curves: Vec<Curve>,
     /// Markers.
     pub markers: Vec<Markers>,
+    /// Words in the figure, to the right of the points they belong to and below.
+    pub labels: Vec<(Point, String)>,
+}
+
+/// A shaded area between two curves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// What it is; without a label it is not in the legend.
+    pub label: String,
+    /// Position in the palette.
+    pub colour: usize,
+    /// Speeds with the lower and the upper value.
+    pub edges: Vec<(f64, f64, f64)>,
 }
 
 /// A line, in pieces where values are missing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What it is.
+    /// What it is; without a label it is not in the legend.
     pub label: String,
     /// Position in the palette.
     pub colour: usize,

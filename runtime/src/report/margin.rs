@@ -52,6 +52,13 @@ impl<const P: usize> fmt::Display for MarginTable<'_, P> {
         let Some(slopes) = &margin.derivatives else {
             return writeln!(f, "  Without derivatives: nothing varies at first order.");
         };
+        let all = slopes.by_design.iter().chain(&slopes.by_half_width);
+        if all.copied().all(|slope| slope == 0.0) {
+            return writeln!(
+                f,
+                "  No variable changes the probability, within the range of a double."
+            );
+        }
         let mut table = Table::new(cells(["probability by", "nominal value", "half-width"]));
         for (k, info) in d.design.iter().enumerate().take(P) {
             table.row(vec![

@@ -1,0 +1,90 @@
+//! Speeds at which something happens to a rotor: a frequency meets an order, or an oscillation begins or ceases to grow.
+
+use eigentol::equilibrium::{Condition, Crossing};
+use eigentol::modes::{Whirl, whirls};
+use eigentol::tolerance::{EventSpread, crossing_tolerance};
+use eigentol::{Complex, Error, Mechanism, Study};
+
+use super::RotorQuestion;
+
+/// What happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Happening {
+    /// A frequency is this multiple of the speed.
+    Order(f64),
+    /// An oscillation begins or ceases to grow.
+    Onset,
+}
+
+/// Something that happens at a speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorEvent<const P: usize> {
+    /// What happens.
+    pub happening: Happening,
+    /// Number of the mode along the Campbell diagram, from 0.
+    pub mode: usize,
+    /// The speed, rad/s.
+    pub speed: f64,
+    /// Eigenvalue of the mode there, 1/s.
+    pub s: Complex,
+    /// How the mode whirls.
+    pub whirl: Option<Whirl>,
+    /// How the design moves the speed, or why it has no derivative.
+    pub spread: Result<EventSpread<P>, Error>,
+}
+
+impl<const P: usize> RotorEvent<P> {
+    /// Standard deviation of the speed, rad/s.
+    pub fn sigma(&self) -> Option<f64> {
+        self.spread.as_ref().ok().map(|spread| spread.sigma)
+    }
+
+    /// What happens, in words.
+    pub fn name(&self) -> String {
+        let mode = self.mode + 1;
+        match self.happening {
+            Happening::Order(order) => format!("mode {mode} meets {order} x speed"),
+            Happening::Onset => format!("mode {mode}: limit of stability"),
+        }
+    }
+}
+
+/// Everything that happens over the range of the question: the orders one by one, then the onsets.
+///
+/// # Errors
+/// Those of [`Study::crossings`], [`Study::flutter_onsets`] and [`Study::tolerances`].
+pub fn find<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    study: &Study<M, N, U, P, O>,
+    question: &RotorQuestion,
+) -> Result<Vec<RotorEvent<P>>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let (low, high) = question.range;
+    let mut crossings: Vec<Crossing<N, U, P>> = Vec::new();
+    for &order in &question.orders {
+        let mut found = study.crossings(question.speed, low, high, order)?;
+        found.sort_by(|a, b| a.value.total_cmp(&b.value));
+        crossings.append(&mut found);
+    }
+    crossings.extend(study.flutter_onsets(question.speed, low, high)?);
+
+    let tolerances = study.tolerances()?;
+    let mechanism = study.mechanism();
+    let event = |crossing: &Crossing<N, U, P>| {
+        let mode = crossing.modes.modes.get(crossing.mode)?;
+        let whirls = whirls(mechanism, &crossing.equilibrium, &crossing.modes);
+        Some(RotorEvent {
+            happening: match crossing.condition {
+                Condition::Line(line) => Happening::Order(line.ratio),
+                Condition::FlutterOnset => Happening::Onset,
+            },
+            mode: mode.label,
+            speed: crossing.value,
+            s: mode.s,
+            whirl: whirls[crossing.mode],
+            spread: crossing_tolerance(mechanism, crossing, &tolerances).spread,
+        })
+    };
+    Ok(crossings.iter().filter_map(event).collect())
+}

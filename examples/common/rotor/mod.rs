@@ -1,0 +1,77 @@
+//! What a rotor is asked over its speed, and the answers: Campbell diagram ([`eigentol::Campbell`]), critical speeds and
+//! onsets of instability ([`events`]), risks at the running speed ([`risk`]); printed by [`tables`], written by [`record`].
+//!
+//! Engineers of rotating machinery count turns: speeds are shown in rpm, frequencies in Hz. Files are in SI units.
+
+pub mod events;
+pub mod record;
+pub mod risk;
+pub mod tables;
+
+pub use events::{Happening, RotorEvent};
+pub use risk::Risk;
+
+use std::f64::consts::{PI, TAU};
+
+use eigentol::modes::{Sense, Whirl};
+use eigentol::{Campbell, Error, Input, Mechanism, Study};
+
+/// One turn per minute, rad/s.
+pub const RPM: f64 = PI / 30.0;
+/// One cycle per second, rad/s.
+pub const HZ: f64 = TAU;
+
+/// What is asked of a rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorQuestion {
+    /// The speed.
+    pub speed: Input,
+    /// Lowest and highest speed, rad/s.
+    pub range: (f64, f64),
+    /// Speed at which the machine runs, rad/s.
+    pub running: f64,
+    /// Orders that excite it: multiples of the speed.
+    pub orders: Vec<f64>,
+    /// Frequencies nearer to the running speed than this fraction of it are forbidden.
+    pub margin: f64,
+}
+
+impl RotorQuestion {
+    /// The Campbell diagram at `count` speeds, evenly from `low` to `high`, rad/s.
+    ///
+    /// # Errors
+    /// Those of [`Study::campbell`].
+    pub fn campbell<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &self,
+        study: &Study<M, N, U, P, O>,
+        (low, high): (f64, f64),
+        count: usize,
+    ) -> Result<Campbell<N, U, P>, Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let step = (high - low) / (count.max(2) - 1) as f64;
+        let speeds: Vec<f64> = (0..count)
+            .map(|k| (low + step * k as f64).min(high))
+            .collect();
+        study.campbell(self.speed, &speeds, &self.orders)
+    }
+
+    /// Ends of the forbidden band at the running speed, rad/s.
+    pub fn band(&self) -> (f64, f64) {
+        (
+            self.running * (1.0 - self.margin),
+            self.running * (1.0 + self.margin),
+        )
+    }
+}
+
+/// The sense of a whirl as one letter, `-` where there is none.
+pub fn letter(whirl: Option<Whirl>) -> &'static str {
+    match whirl.map(Whirl::sense) {
+        Some(Sense::Forward) => "F",
+        Some(Sense::Backward) => "B",
+        Some(Sense::Planar) => "P",
+        None => "-",
+    }
+}
