@@ -6,7 +6,7 @@ use crate::equilibrium::{
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::tolerance::{
-    EventTolerance, Spread, Tolerances, critical_tolerance, crossing_tolerance,
+    Event, EventTolerance, Spread, Tolerances, critical_tolerance, crossing_tolerance,
 };
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Mechanism};
 
@@ -49,7 +49,7 @@ pub struct Campbell<const N: usize, const U: usize, const P: usize> {
     pub points: Vec<CampbellPoint<N, U, P>>,
     /// The lines that crossings were looked for with.
     pub orders: Vec<Line>,
-    /// Where a frequency meets a line: value of the input, sensitivity and spread; in the order of discovery. The number of
+    /// Where a frequency meets a line: value of the input, sensitivity and spread; line by line. The number of
     /// the mode is its label.
     pub crossings: Vec<EventTolerance<P>>,
     /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::equilibrium::Sweep)).
@@ -149,6 +149,15 @@ where
             modes,
         });
     }
+    // Engine order by engine order; stable, so onsets stay as they were found.
+    let order = |event: &EventTolerance<P>| match event.event {
+        Event::Crossing {
+            condition: Condition::Line(line),
+            ..
+        } => orders.iter().position(|own| *own == line),
+        _ => None,
+    };
+    crossings.sort_by_key(order);
     let path = points.iter().map(|point| (point.value, &point.equilibrium));
     let critical = critical_states_on(mechanism, (u, b), following, input, path);
     let critical = critical

@@ -49,7 +49,7 @@
 //! | ... to second order? | `mode_curvature` | `sensitivity::mode_curvature` |
 //! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
 //! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
-//! | how probable is a forbidden band? | `margin` | `tolerance::frequency_margin` |
+//! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `tolerance::mode_margin` |
 //! | what happens along an input? | `sweep`, `campbell` | `equilibrium::sweep`, `campbell::campbell` |
 //! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `equilibrium::critical_state`, ... |
 #![cfg_attr(not(feature = "std"), no_std)]

@@ -103,14 +103,20 @@ fn a_resonance_has_a_spread() {
     let [crossing] = found.as_slice() else {
         panic!("{found:?}")
     };
-    let ratio = 1.0;
-    assert_eq!(
-        crossing.event,
-        Event::Crossing {
-            mode: 0,
-            condition: Condition::Line(ratio.into())
-        }
-    );
+    let Event::Crossing {
+        mode,
+        condition,
+        s,
+        whirl,
+    } = crossing.event
+    else {
+        panic!("{crossing:?}")
+    };
+    assert_eq!(mode, 0);
+    assert_eq!(condition, Condition::Line(1.0.into()));
+    close(s.im, crossing.value, 1e-12);
+    // One coordinate moves along a line.
+    assert_eq!(whirl.map(|whirl| whirl.sense()), None);
     let l = study.design_values()[LENGTH.0];
     close(crossing.value, (0.75 * 9.81 / l).sqrt(), 1e-12);
     close(crossing.sigma().unwrap(), 0.5 * crossing.value * 0.01, 1e-9);

@@ -4,8 +4,8 @@ use core::fmt;
 
 use super::margin::MarginTable;
 use super::table::{Table, cells, number};
-use crate::Unit;
-use crate::tolerance::{FrequencyMargin, SecondOrder};
+use crate::tolerance::{ModeMargin, SecondOrder};
+use crate::{Quantity, Unit};
 
 impl<const P: usize> fmt::Display for SecondOrder<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -48,13 +48,17 @@ impl<const P: usize> fmt::Display for SecondOrder<P> {
     }
 }
 
-impl<const U: usize, const P: usize> fmt::Display for FrequencyMargin<U, P> {
+impl<const U: usize, const P: usize> fmt::Display for ModeMargin<U, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let table = MarginTable {
             margin: &self.margin,
-            quantity: &format!("frequency {}", self.mode + 1),
+            quantity: &format!("{} {}", self.quantity, self.mode + 1),
             unit: Unit {
-                symbol: "rad/s",
+                symbol: match self.quantity {
+                    Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
+                    Quantity::DampingRatio => "",
+                    Quantity::Growth => "1/s",
+                },
                 scale: 1.0,
             },
             description: self.description,

@@ -48,6 +48,17 @@ fn pick<const U: usize, const P: usize>(
         .copied()
 }
 
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Frequency => "frequency",
+            Self::NaturalFrequency => "natural frequency",
+            Self::DampingRatio => "damping ratio",
+            Self::Growth => "growth",
+        })
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(

@@ -187,9 +187,15 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
         let (name, unit) = (info.name, info.unit);
         match self.event {
             Event::Critical => write!(f, "{}: critical at {name}", d.name)?,
-            Event::Crossing { mode, condition } => {
+            Event::Crossing {
+                mode,
+                condition,
+                whirl,
+                ..
+            } => {
                 let what = meeting(mode, condition, name);
-                write!(f, "{}: {what} at {name}", d.name)?;
+                let sense = whirl.map_or(String::new(), |whirl| format!(" ({})", whirl.sense()));
+                write!(f, "{}: {what}{sense} at {name}", d.name)?;
             }
         }
         let (value, symbol) = (in_unit(self.value, unit), unit.symbol);

@@ -7,10 +7,11 @@ use crate::equilibrium::{
 };
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
-    self, EquilibriumShift, ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity,
+    self, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
+    ShapeSensitivity,
 };
 use crate::tolerance::{
-    self, Band, ClusterTolerance, EventTolerance, FirstOrder, FrequencyMargin, MonteCarlo,
+    self, Band, ClusterTolerance, EventTolerance, FirstOrder, ModeMargin, MonteCarlo,
     OutputTolerances, Sampling, SecondOrder, Summary,
 };
 use crate::{Error, Input, Mechanism, Modes, modes};
@@ -204,15 +205,36 @@ where
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
-    /// ([`tolerance::frequency_margin`]).
+    /// ([`tolerance::mode_margin`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
-    pub fn margin(&self, mode: usize, band: Band) -> Result<FrequencyMargin<U, P>, Error> {
+    pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin<U, P>, Error> {
+        self.margin_of(mode, Quantity::Frequency, band)
+    }
+
+    /// As [`Study::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
+    /// probability that it is unstable.
+    ///
+    /// # Errors
+    /// As [`Study::margin`].
+    pub fn margin_of(
+        &self,
+        mode: usize,
+        quantity: Quantity,
+        band: Band,
+    ) -> Result<ModeMargin<U, P>, Error> {
         let tolerances = self.tolerances()?;
         let state = self.equilibrium()?;
         let found = self.modes_at(&state)?;
-        tolerance::frequency_margin(&self.mechanism, &state, &found, mode, &tolerances, band)
+        tolerance::mode_margin(
+            &self.mechanism,
+            &state,
+            &found,
+            (mode, quantity),
+            &tolerances,
+            band,
+        )
     }
 
     /// How each mode whirls ([`modes::whirls`]).

@@ -1,17 +1,18 @@
-//! How probable it is that a mode's frequency lies in a forbidden band, such as within 10 % of the running speed.
+//! How probable it is that a quantity of a mode lies in a forbidden band: a frequency within 10 % of the running speed, a
+//! growth above zero.
 
 use super::{Margin, Tolerances, margin};
 use crate::sensitivity::{Quantity, mode_curvature};
 use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
 
-/// A band of frequencies to keep clear of.
+/// A band of values to keep clear of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Band {
-    /// Between two frequencies, rad/s; either may be infinite.
+    /// Between two values, SI; either may be infinite.
     Between {
-        /// Low end, rad/s.
+        /// Low end, SI.
         low: f64,
-        /// High end, rad/s.
+        /// High end, SI.
         high: f64,
     },
     /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`.
@@ -66,36 +67,38 @@ impl Band {
     }
 }
 
-/// The margin of a mode's frequency against a forbidden band.
+/// The margin of a quantity of a mode against a forbidden band.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrequencyMargin<const U: usize, const P: usize> {
+pub struct ModeMargin<const U: usize, const P: usize> {
     /// Position of the mode, from 0.
     pub mode: usize,
+    /// What is looked at.
+    pub quantity: Quantity,
     /// What it keeps clear of.
     pub band: Band,
-    /// Probabilities, distance, derivatives by design variables and half-widths; rad/s.
+    /// Probabilities, distance, derivatives by design variables and half-widths; SI.
     pub margin: Margin<P>,
-    /// Total derivatives of the first-order probability by each input, by SI unit: the frequency, its standard deviation
+    /// Total derivatives of the first-order probability by each input, by SI unit: the quantity, its standard deviation
     /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<[f64; U]>,
     /// The mechanism it belongs to.
     pub description: &'static Description,
 }
 
-/// Probability that the frequency of mode number `mode` lies in a forbidden band, to first order and corrected, with its
-/// sensitivities.
+/// Probability that a quantity of mode number `mode` lies in a forbidden band, to first order and corrected, with its
+/// sensitivities. [`Quantity::Growth`] between zero and infinity is the probability that the mode is unstable.
 ///
 /// # Errors
-/// [`Error::NotOscillating`], [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
+/// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
 /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a band without sense.
-pub fn frequency_margin<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+pub fn mode_margin<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
     modes: &Modes<N>,
-    mode: usize,
+    (mode, quantity): (usize, Quantity),
     tolerances: &Tolerances<P>,
     band: Band,
-) -> Result<FrequencyMargin<U, P>, Error>
+) -> Result<ModeMargin<U, P>, Error>
 where
     M: Mechanism<N, U, P, O>,
 {
@@ -121,12 +124,11 @@ where
         });
     }
     let curvature = mode_curvature(mechanism, at, modes, mode)?;
-    let frequency = Quantity::Frequency;
     let lambda = modes.modes[mode].lambda;
     let silent = Error::NotOscillating { mode, lambda };
-    let model = curvature.quadratic(frequency).ok_or(silent.clone())?;
-    let first = curvature.first.of(frequency).ok_or(silent.clone())?;
-    let mixed = curvature.of(frequency).ok_or(silent)?.by_input_and_design;
+    let model = curvature.quadratic(quantity).ok_or(silent.clone())?;
+    let first = curvature.first.of(quantity).ok_or(silent.clone())?;
+    let mixed = curvature.of(quantity).ok_or(silent)?.by_input_and_design;
     let margin = margin(&model, tolerances, ends)?;
     let by_input = margin.derivatives.map(|derivatives| {
         core::array::from_fn(|k| {
@@ -135,8 +137,9 @@ where
             derivatives.along(first.by_input[k], sigma, low, high)
         })
     });
-    Ok(FrequencyMargin {
+    Ok(ModeMargin {
         mode,
+        quantity,
         band,
         margin,
         by_input,

@@ -2,9 +2,9 @@
 
 use super::Tolerances;
 use crate::equilibrium::{Condition, CriticalState, Crossing};
-use crate::modes::Family;
+use crate::modes::{Family, Whirl, whirls};
 use crate::sensitivity::{critical_sensitivity, crossing_sensitivity};
-use crate::{Description, Error, Input, Mechanism};
+use crate::{Complex, Description, Error, Input, Mechanism};
 
 /// What happens at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,10 @@ pub enum Event {
         mode: usize,
         /// What it meets.
         condition: Condition,
+        /// Its eigenvalue there, 1/s.
+        s: Complex,
+        /// How it whirls there; `None` where that does not apply.
+        whirl: Option<Whirl>,
     },
 }
 
@@ -100,6 +104,15 @@ where
         event: Event::Crossing {
             mode: crossing.mode,
             condition: crossing.condition,
+            s: crossing
+                .modes
+                .modes
+                .get(crossing.mode)
+                .map_or_else(Complex::default, |mode| mode.s),
+            whirl: whirls(mechanism, &crossing.equilibrium, &crossing.modes)
+                .get(crossing.mode)
+                .copied()
+                .flatten(),
         },
         input: crossing.input,
         value: crossing.value,

@@ -19,7 +19,7 @@ mod statistics;
 mod summary;
 mod trust;
 
-pub use band::{Band, FrequencyMargin, frequency_margin};
+pub use band::{Band, ModeMargin, mode_margin};
 pub use cluster_sampling::{
     ClusterSampling, ClusterSpread, MemberSpread, SortedSpread, sample_cluster,
 };
