@@ -13,8 +13,18 @@ use eigentol_tests::random::{Plan, Setting, on_plans};
 /// The only trees refused are those in which the oracle, too, finds a coordinate that nothing resists.
 #[test]
 fn the_compiler_agrees_with_the_oracle() {
+    agrees_on(40);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn the_compiler_agrees_with_the_oracle_on_many_trees() {
+    agrees_on(240);
+}
+
+fn agrees_on(trees: u32) {
     let compared = Cell::new(0);
-    on_plans(120, |plan| {
+    on_plans(trees, |plan| {
         let model = plan.model();
         match Compiled::new(&model) {
             Ok(compiled) => {
@@ -33,7 +43,8 @@ fn the_compiler_agrees_with_the_oracle() {
             }
         }
     });
-    assert!(compared.get() >= 90, "{} trees compared", compared.get());
+    let compared = compared.get();
+    assert!(compared >= trees * 3 / 4, "{compared} trees compared");
 }
 
 /// Whether `message` says that nothing resists a coordinate, and the oracle's column of `Khat` agrees.
@@ -208,7 +219,7 @@ impl Kernels for Faulty<'_> {
 fn every_fault_is_found() {
     let plan = Plan {
         setting: Setting::Spinning,
-        bodies: 4,
+        bodies: 3,
         rotor: false,
         seed: 11,
     };
