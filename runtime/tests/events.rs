@@ -9,7 +9,7 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Plate, Spring};
 use common::pendulum::{Pendulum, W};
-use eigentol::equilibrium::{Range, SpecialKind, critical_state, crossings, sweep};
+use eigentol::equilibrium::{Line, Range, SpecialKind, critical_state, crossings, sweep};
 use eigentol::{Error, Input, Policy};
 
 const BAR: [f64; 2] = [3.0, 1.0];
@@ -199,4 +199,24 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
         matches!(thrown, Err(Error::NotInRange { .. })),
         "{thrown:?}"
     );
+}
+
+/// Along the upper branch `omega^2 = 3 q^2 - 1` falls from 2 to 0 at the fold; the branch that follows has more than 3.
+#[test]
+fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
+    let range = Range {
+        input: Input(0),
+        low: 0.0,
+        high: 0.6,
+        steps: 7,
+    };
+    let line = Line {
+        ratio: 0.0,
+        offset: 0.9,
+    };
+    let snap = Derived(Snap);
+    let met = crossings(&snap, &[0.0], &[1.0], &[1.0], Policy::Stable, range, line).unwrap();
+    assert_eq!(met.len(), 1);
+    let q = (1.81_f64 / 3.0).sqrt();
+    close(met[0].value, q - q.powi(3), 1e-12);
 }
