@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use common::chain::{Bars, DOUBLE};
 use common::close;
 use common::derived::Derived;
-use common::models::{Plate, Spring};
+use common::models::{Plate, Spring, Supercritical};
 use common::pendulum::Pendulum;
 use eigentol::tolerance::{Band, Tolerances, output_tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Study};
@@ -336,4 +336,19 @@ fn every_result_prints() {
         assert!(text.contains(word), "{word} is missing from\n{text}");
     }
     assert!(text.contains("give a finite value"));
+}
+
+/// `x* = -e / (omega^2 - 1)` about; descent would run to the stable equilibria far outside.
+#[test]
+fn samples_stay_where_gyroscopic_forces_hold_them() {
+    let study = Study::new(Derived(Supercritical))
+        .input(OMEGA, 3.0)
+        .samples(200)
+        .threads(1)
+        .keep_samples(true);
+    let result = study.monte_carlo().unwrap();
+    assert_eq!((result.counts.stable, result.left_nominal_branch), (200, 0));
+    for sample in result.all.unwrap() {
+        assert!(sample.coordinates.unwrap()[0].abs() < 0.01);
+    }
 }
