@@ -7,9 +7,10 @@ mod common;
 use common::chain::DOUBLE;
 use common::close;
 use common::derived::Derived;
-use common::models::{Follower, Plate, Spring};
+use common::models::{Follower, Plate, Slipping, Spring, Supercritical};
 use common::pendulum::{Pendulum, W};
 use eigentol::equilibrium::{Search, equilibrium, find_equilibria};
+use eigentol::modes::modes;
 use eigentol::{Behaviour, Error, Policy, Stability};
 
 const BAR: [f64; 2] = [3.0, 1.0];
@@ -271,4 +272,41 @@ fn wrong_values_are_named() {
         matches!(overflow, Err(Error::OutsideDomain { .. })),
         "{overflow:?}"
     );
+}
+
+/// One negative direction beside a free one: no theorem makes that unstable, and it is not.
+#[test]
+fn a_free_direction_can_hold_one_without_stiffness() {
+    let b = [1.0, 10.0, 0.2];
+    for start in [2.0 / 15.0, 0.14] {
+        let found = equilibrium(
+            &Derived(Slipping),
+            &[5.0],
+            &b,
+            &[start, 0.3],
+            Policy::Stable,
+        );
+        let state = found.unwrap();
+        assert!((state.coordinates[0] - 2.0 / 15.0).abs() < 1e-13);
+        assert_eq!(state.stability, Stability::Neutral { zero: 1 });
+        let found = modes(&state).unwrap();
+        close(found.modes[2].frequency().unwrap(), 85_f64.sqrt(), 1e-13);
+    }
+}
+
+#[test]
+fn what_gyroscopic_forces_hold_was_not_left() {
+    let found = equilibrium(
+        &Derived(Supercritical),
+        &[3.0],
+        &[0.0],
+        &[0.0; 2],
+        Policy::Stable,
+    );
+    let state = found.unwrap();
+    assert_eq!(
+        state.stability,
+        Stability::GyroscopicallyStabilised { negative: 2 }
+    );
+    assert!(!state.left_unstable_region);
 }

@@ -7,9 +7,9 @@ use common::branching::{Away, Exchange, LopsidedSnap, Quintic, Rotor, Snap};
 use common::chain::DOUBLE;
 use common::close;
 use common::derived::Derived;
-use common::models::{Plate, Spring};
+use common::models::{Overdamped, Plate, Spring};
 use common::pendulum::{Pendulum, W};
-use eigentol::equilibrium::{Range, SpecialKind, critical_state, crossings, sweep};
+use eigentol::equilibrium::{Line, Range, SpecialKind, critical_state, crossings, sweep};
 use eigentol::{Error, Input, Policy};
 
 const BAR: [f64; 2] = [3.0, 1.0];
@@ -199,4 +199,50 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
         matches!(thrown, Err(Error::NotInRange { .. })),
         "{thrown:?}"
     );
+}
+
+/// Along the upper branch `omega^2 = 3 q^2 - 1` falls from 2 to 0 at the fold; the branch that follows has more than 3.
+#[test]
+fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
+    let range = Range {
+        input: Input(0),
+        low: 0.0,
+        high: 0.6,
+        steps: 7,
+    };
+    let line = Line {
+        ratio: 0.0,
+        offset: 0.9,
+    };
+    let snap = Derived(Snap);
+    let met = crossings(&snap, &[0.0], &[1.0], &[1.0], Policy::Stable, range, line).unwrap();
+    assert_eq!(met.len(), 1);
+    let q = (1.81_f64 / 3.0).sqrt();
+    close(met[0].value, q - q.powi(3), 1e-12);
+}
+
+#[test]
+fn a_mode_that_has_ended_does_not_lend_its_label_to_another() {
+    let values: Vec<f64> = (0..=40).map(|i| 0.1 * f64::from(i)).collect();
+    let points = sweep(
+        &Derived(Overdamped),
+        &[0.0],
+        &[],
+        &[0.0; 2],
+        Policy::Stable,
+        Input(0),
+        &values,
+    )
+    .unwrap();
+    let mut seen = [false; 2];
+    let mut owners = [None; 8];
+    for mode in points
+        .iter()
+        .flat_map(|point| point.modes.as_ref().unwrap().modes.iter())
+    {
+        let moves_y = usize::from(mode.shape[1].norm() > mode.shape[0].norm());
+        seen[moves_y] |= mode.frequency().is_none();
+        assert_eq!(*owners[mode.label].get_or_insert(moves_y), moves_y);
+    }
+    assert!(seen[0] && seen[1], "both are overdamped somewhere");
 }

@@ -8,15 +8,15 @@ use common::branching::{Exchange, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, 
 use common::chain::{Bars, DOUBLE};
 use common::close;
 use common::derived::Derived;
-use common::models::{Plate, Spring};
+use common::models::{Pair, Plate, Spring};
 use common::pendulum::{Pendulum, W};
 use eigentol::equilibrium::{Range, critical_state, crossings, equilibrium};
 use eigentol::modes::{modes, undamped_modes};
 use eigentol::motion::accelerations;
 use eigentol::sensitivity::{
-    critical_sensitivity, crossing_sensitivity, equilibrium_shift, output_sensitivities,
-    sensitivities, sensitivities_by_finite_difference, sensitivities_explicit,
-    sensitivities_with_frozen_equilibrium,
+    critical_sensitivity, crossing_sensitivity, equilibrium_shift, mode_curvature,
+    output_sensitivities, sensitivities, sensitivities_by_finite_difference,
+    sensitivities_explicit, sensitivities_with_frozen_equilibrium, shape_sensitivity,
 };
 use eigentol::{Error, Input, Mechanism, Policy};
 
@@ -348,4 +348,19 @@ fn accelerations_solve_the_equation_of_motion() {
     assert!(rest.iter().all(|value| value.abs() < 1e-12));
     let massless = accelerations(&Derived(Spring), &[0.0], &[0.0], &[1.0], &[0.0, 0.0, 1.0]);
     assert_eq!(massless, Err(Error::SingularMass { coordinate: "x" }));
+}
+
+#[test]
+fn modes_of_a_cluster_have_no_derivatives_beyond_the_first() {
+    let pair = Derived(Pair);
+    for (gap, clustered) in [(0.0, true), (1e-12, true), (1e-7, true), (1e-5, false)] {
+        let b = [100.0, 100.0 * (1.0 + gap), 0.0];
+        let state = equilibrium(&pair, &[], &b, &[0.0; 2], Policy::Stable).unwrap();
+        let found = modes(&state).unwrap();
+        let first = sensitivities(&pair, &state, &found).unwrap();
+        assert_eq!(first.modes[0].clustered, clustered);
+        let refused = Some(Error::ClusteredMode { mode: 0 }).filter(|_| clustered);
+        assert_eq!(mode_curvature(&pair, &state, &found, 0).err(), refused);
+        assert_eq!(shape_sensitivity(&pair, &state, &found, 0).err(), refused);
+    }
 }

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use common::chain::{Bars, DOUBLE};
 use common::close;
 use common::derived::Derived;
-use common::models::{Plate, Spring};
+use common::models::{Pair, Plate, Spring, Supercritical};
 use common::pendulum::Pendulum;
 use eigentol::tolerance::{Band, Tolerances, output_tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Study};
@@ -348,4 +348,51 @@ fn every_result_prints() {
         assert!(text.contains(word), "{word} is missing from\n{text}");
     }
     assert!(text.contains("give a finite value"));
+}
+
+/// `x* = -e / (omega^2 - 1)` about; descent would run to the stable equilibria far outside.
+#[test]
+fn samples_stay_where_gyroscopic_forces_hold_them() {
+    let study = Study::new(Derived(Supercritical))
+        .input(OMEGA, 3.0)
+        .samples(200)
+        .threads(1)
+        .keep_samples(true);
+    let result = study.monte_carlo().unwrap();
+    assert_eq!((result.counts.stable, result.left_nominal_branch), (200, 0));
+    for sample in result.all.unwrap() {
+        assert!(sample.coordinates.unwrap()[0].abs() < 0.01);
+    }
+}
+
+#[test]
+fn a_report_says_what_first_order_leaves_out() {
+    let equal = Study::new(Derived(Pair)).tolerance(DesignVariable(2), 0.0);
+    let text = equal.first_order().unwrap().to_string();
+    assert!(
+        text.contains("mode 2: it has nearly equal neighbours"),
+        "{text}"
+    );
+    assert!(!text.contains("inf standard deviations"), "{text}");
+
+    let damping = DesignVariable(3);
+    let plate = Study::new(Derived(Plate))
+        .input(OMEGA, 1.0)
+        .tolerance(damping, 0.01);
+    let said = |study: &Study<_, 2, 1, 4, 0>, words: &str| {
+        let first = study.first_order().unwrap().to_string();
+        let summary = study.summary().unwrap().to_string();
+        assert!(
+            first.contains(words) && summary.contains(words),
+            "{first}{summary}"
+        );
+    };
+    said(&plate, "the vibration neither decays nor grows");
+    let fed = plate.design(damping, -0.01);
+    said(&fed, "the vibration grows");
+    // Whether or not its growth varies.
+    let fixed = (0..4).fold(fed, |study, j| study.tolerance(DesignVariable(j), 0.0));
+    said(&fixed, "the vibration grows");
+    let first = fixed.first_order().unwrap();
+    assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }

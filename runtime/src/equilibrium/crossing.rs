@@ -6,7 +6,7 @@ use super::root::{Bracket, refine};
 use super::track::{Following, Tracked, Tracker};
 use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
-use crate::{Equilibrium, Error, Input, Mechanism, Modes};
+use crate::{Equilibrium, Error, Input, Mechanism, Mode, Modes};
 
 /// A line `ratio u + offset` that a frequency is compared with: an engine order, or a fixed excitation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,23 @@ impl Condition {
         })
     }
 
+    /// Whether a mode meets the condition, but for rounding: where the equilibrium jumps to another branch, its frequency
+    /// jumps across a line without meeting it.
+    fn is_met<const N: usize>(self, mode: &Mode<N>, value: f64) -> bool {
+        const ROUNDING: f64 = 1e-6;
+        let Some(omega) = mode.frequency() else {
+            return false;
+        };
+        match self {
+            Self::Line(line) => {
+                let (slope, offset) = (line.ratio * value, line.offset);
+                let size = omega + slope.abs() + offset.abs();
+                (omega - slope - offset).abs() <= ROUNDING * size
+            }
+            Self::FlutterOnset => mode.s.re.abs() <= mode.error.max(ROUNDING * mode.s.norm()),
+        }
+    }
+
     /// The quantity of the mode, and how the other side of the condition moves with the input.
     pub(crate) fn sides(self) -> (Quantity, f64) {
         match self {
@@ -92,7 +109,7 @@ impl Condition {
 
 /// Finds every value of an input in a range at which a frequency equals a line (a number is the multiple of the input),
 /// on the equilibria that are followed; modes keep their identity along the range. Points without an equilibrium or
-/// without modes are passed over.
+/// without modes are passed over, and a frequency that jumps across the line with the equilibrium does not meet it.
 ///
 /// # Errors
 /// [`Error::UnknownHandle`], [`Error::Setting`], and those of the first point.
@@ -202,7 +219,7 @@ pub(crate) fn between<M, const N: usize, const U: usize, const P: usize, const O
             .modes
             .modes
             .iter()
-            .position(|mode| mode.label == label);
+            .position(|mode| mode.label == label && condition.is_met(mode, root));
         if let Some(mode) = position {
             found.push(Crossing {
                 input: tracker.input,

@@ -64,7 +64,10 @@ where
             if M::DESCRIPTION.damping != DampingKind::Zero
                 && judge(problem.description(), &problem.linear(&q)?)?.holds()
             {
-                return Ok(found(q, residual, iterations));
+                return Ok(Found {
+                    left_unstable_region: departures > 0,
+                    ..found(q, residual, iterations)
+                });
             }
             departures += 1;
             if departures > MAX_DEPARTURES {

@@ -50,8 +50,8 @@ impl Stability {
 }
 
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
-/// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise by the general
-/// eigenvalues.
+/// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
+/// number of negative directions beside free ones, by the general eigenvalues.
 pub(super) fn judge<const N: usize>(
     description: &'static Description,
     linear: &Linear<f64, N>,
@@ -62,7 +62,7 @@ pub(super) fn judge<const N: usize>(
         return Ok(if negative {
             Stability::Divergent { negative: 1 }
         } else {
-            by_eigenvalues(description, linear, 0)
+            by_eigenvalues(description, linear, 0, 0)
         });
     }
     if let Err(row) = Cholesky::new(&linear.mass) {
@@ -80,22 +80,25 @@ pub(super) fn judge<const N: usize>(
     }
     let damped = description.damping != DampingKind::Zero
         && linear.damping.iter().flatten().any(|&value| value != 0.0);
-    Ok(if negative % 2 == 1 || (negative > 0 && !damped) {
-        Stability::Divergent { negative }
-    } else if negative > 0 || (damped && feeds_energy(linear)?) {
-        by_eigenvalues(description, linear, negative)
-    } else if zero > 0 {
-        Stability::Neutral { zero }
-    } else {
-        Stability::Stable
-    })
+    Ok(
+        if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
+            Stability::Divergent { negative }
+        } else if negative > 0 || (damped && feeds_energy(linear)?) {
+            by_eigenvalues(description, linear, negative, zero)
+        } else if zero > 0 {
+            Stability::Neutral { zero }
+        } else {
+            Stability::Stable
+        },
+    )
 }
 
-/// What the general eigenvalues say.
+/// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none.
 fn by_eigenvalues<const N: usize>(
     description: &'static Description,
     linear: &Linear<f64, N>,
     negative: usize,
+    free: usize,
 ) -> Stability {
     let Ok(found) = solve_modes(linear, Family::General, description) else {
         return Stability::Undecided;
@@ -115,7 +118,10 @@ fn by_eigenvalues<const N: usize>(
     } else if growing > 0 {
         Stability::Flutter { growing }
     } else if zero > 0 {
-        Stability::Neutral { zero }
+        // A direction that nothing resists has two zero eigenvalues `s`.
+        Stability::Neutral {
+            zero: if free > 0 { free } else { zero },
+        }
     } else if constant == 0 {
         Stability::Stable
     } else if negative > 0 && skew(&linear.damping) {

@@ -47,6 +47,8 @@ pub(crate) struct Tracker<'a, M, const N: usize, const U: usize, const P: usize>
     family: Family,
     /// Where the next solve starts.
     from: [f64; N],
+    /// The first label that no mode has had: one that has ended does not lend its label to another.
+    unused: usize,
     /// The last point that has modes.
     pub(crate) last: Option<Tracked<N, U, P>>,
 }
@@ -70,6 +72,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             policy: following.policy,
             family: following.family.unwrap_or(Family::of(&M::DESCRIPTION)),
             from: *start,
+            unused: 0,
             last: None,
         }
     }
@@ -109,7 +112,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         Ok(Tracked {
             value,
             equilibrium,
-            modes: found.continuing(&point.modes, &equilibrium.linear.mass),
+            modes: found.continuing(&point.modes, &equilibrium.linear.mass, self.unused),
         })
     }
 
@@ -157,7 +160,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             return self.halving(value, halvings - 1);
         }
         let order = order.map(|pair| pair.map(|(position, _)| position));
-        let found = found.arranged(&last.modes, &order);
+        let found = found.arranged(&last.modes, &order, self.unused);
         Ok(self.arrive(value, state, found))
     }
 
@@ -168,6 +171,8 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         modes: Modes<N>,
     ) -> (Equilibrium<N, U, P>, Result<Modes<N>, Error>) {
         self.from = equilibrium.coordinates;
+        let labels = modes.modes.iter().map(|mode| mode.label + 1);
+        self.unused = labels.fold(self.unused, usize::max);
         self.last = Some(Tracked {
             value,
             equilibrium,

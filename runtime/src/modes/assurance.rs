@@ -133,16 +133,17 @@ pub(crate) fn match_with_assurance<const N: usize>(
 
 impl<const N: usize> Modes<N> {
     /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
-    /// come last, under new labels.
-    pub(crate) fn continuing(&self, before: &Self, mass: &[[f64; N]; N]) -> Self {
-        self.arranged(before, &match_modes(before, self, mass))
+    /// come last, under labels from `next` on.
+    pub(crate) fn continuing(&self, before: &Self, mass: &[[f64; N]; N], next: usize) -> Self {
+        self.arranged(before, &match_modes(before, self, mass), next)
     }
 
-    pub(crate) fn arranged(&self, before: &Self, order: &PerMode<Option<usize>, N>) -> Self {
-        let mut next = before
-            .modes
-            .iter()
-            .fold(0, |most, mode| most.max(mode.label + 1));
+    pub(crate) fn arranged(
+        &self,
+        before: &Self,
+        order: &PerMode<Option<usize>, N>,
+        mut next: usize,
+    ) -> Self {
         let continued = order
             .iter()
             .zip(&before.modes)

@@ -221,7 +221,12 @@ impl fmt::Display for Doubt {
                  bound: believe Monte Carlo.",
                 number(*distance)
             ),
-            Self::NearInstability { distance } if *distance <= 0.0 => write!(
+            Self::NearInstability { distance: 0.0 } => write!(
+                f,
+                "the vibration neither decays nor grows. Sigma counts samples that are unstable: see the counts of Monte \
+                 Carlo."
+            ),
+            Self::NearInstability { distance } if *distance < 0.0 => write!(
                 f,
                 "the vibration grows. Sigma is that of the frequency of a motion that does not stay small."
             ),

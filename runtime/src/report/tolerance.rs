@@ -6,7 +6,7 @@ use super::equilibrium::meeting;
 use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
 use crate::modes::Family;
 use crate::tolerance::{
-    Counts, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
+    Counts, Doubt, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
 };
 use crate::{FirstOrder, MonteCarlo};
 
@@ -99,13 +99,29 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
             .enumerate()
             .filter(|(_, mode)| !mode.alone())
         {
-            writeln!(
-                f,
-                "  Not to be trusted for mode {}: samples mix it with another mode, {} standard \
-                 deviations away.",
-                r + 1,
-                number(mode.distance_to_neighbour)
-            )?;
+            write!(f, "  Not to be trusted for mode {}: ", r + 1)?;
+            match mode.clustered {
+                true => writeln!(
+                    f,
+                    "it has nearly equal neighbours and no derivative of its own."
+                )?,
+                false => writeln!(
+                    f,
+                    "samples mix it with another mode, {} standard deviations away.",
+                    number(mode.distance_to_neighbour)
+                )?,
+            }
+        }
+        for (r, mode) in self.modes.iter().enumerate() {
+            let distance = mode.distance_to_instability;
+            if distance < TRUSTED_DISTANCE {
+                writeln!(
+                    f,
+                    "  Mode {}: {}",
+                    r + 1,
+                    Doubt::NearInstability { distance }
+                )?;
+            }
         }
         if self.modes.len() > 1 {
             writeln!(

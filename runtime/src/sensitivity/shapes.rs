@@ -5,11 +5,12 @@
 //! phi)^H` added, which leaves the solution as it is but for its part along `phi`, and that part follows from the
 //! normalisation.
 
+use super::CLUSTER_GAP;
 use super::explicit::rate_of;
 use super::pencil::{pencil_slope_times, pencil_times, transposed};
 use super::shift::{directions, outside_domain};
 use crate::array::{Lu, dot_complex, largest_element, times_complex};
-use crate::modes::Family;
+use crate::modes::{Family, clusters};
 use crate::{Complex, Description, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
 /// Total derivatives of the shapes of one mode, normalised as the mode is: `phi^H Mhat phi = 1`, the largest component
@@ -92,6 +93,9 @@ impl<'a, const N: usize> Shapes<'a, N, ()> {
             });
         };
         let clustered = Error::ClusteredMode { mode: position };
+        if clusters(modes, CLUSTER_GAP)[position] {
+            return Err(clustered);
+        }
         let family = modes.family;
         let linear = &at.linear;
         let right = Side::new(linear, family, mode, &mode.shape).ok_or(clustered.clone())?;

@@ -67,8 +67,9 @@ pub struct ModeTolerance<const P: usize> {
     /// `|s|^2` for `lambda` of a general mode; not positive when the mode diverges, infinite when nothing moves it or when
     /// it has no derivative that would tell.
     pub distance_to_critical: f64,
-    /// Standard deviations between the growth of this mode and zero; not positive when it grows. Infinite when nothing
-    /// moves the growth beyond rounding, as for undamped modes.
+    /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it keeps its
+    /// amplitude though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
+    /// modes.
     pub distance_to_instability: f64,
     /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
@@ -221,14 +222,14 @@ fn distance_to_zero<const N: usize, const P: usize>(
     }
 }
 
-/// A positive value in standard deviations; infinite when nothing moves it.
+/// A value in standard deviations; infinite, with its sign, when nothing moves it.
 fn in_sigmas(value: f64, sigma: f64) -> f64 {
     if sigma > 0.0 {
         value / sigma
-    } else if value > 0.0 {
-        f64::INFINITY
-    } else {
+    } else if value == 0.0 {
         0.0
+    } else {
+        value.signum() * f64::INFINITY
     }
 }
 

@@ -157,7 +157,8 @@ pub struct MonteCarlo<const N: usize, const P: usize> {
 }
 
 /// Samples the design variables about those of `nominal` (normal, by `tolerances`), re-solves each sample from the
-/// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape.
+/// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape. Samples
+/// settle on a stable equilibrium whichever was wanted of the nominal one.
 ///
 /// # Errors
 /// [`Error::Threads`] when worker threads cannot be started. Samples that fail are counted, not errors.
@@ -289,7 +290,20 @@ where
         return (sample(Outcome::Unphysical, None), false);
     }
     let problem = Problem::unchecked(mechanism, &nominal.inputs, &design);
-    let state = match settle(&problem, &nominal.coordinates, Policy::Stable) {
+    // What gyroscopic forces hold is a saddle, which descent would leave.
+    let held = matches!(
+        nominal.stability,
+        Stability::GyroscopicallyStabilised { .. }
+    );
+    let near = held
+        .then(|| settle(&problem, &nominal.coordinates, Policy::Nearest).ok())
+        .flatten()
+        .filter(|state| state.stability.holds());
+    let settled = near.map_or_else(
+        || settle(&problem, &nominal.coordinates, Policy::Stable),
+        Ok,
+    );
+    let state = match settled {
         Ok(state) => state,
         Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),
         Err(Failure::OutsideDomain { .. } | Failure::SingularMass(_)) => {

@@ -77,7 +77,8 @@ pub enum Doubt {
         /// Standard deviations.
         distance: f64,
     },
-    /// The mode begins to grow this many standard deviations away; not positive when it grows.
+    /// The mode begins to grow this many standard deviations away; zero when it keeps its amplitude, negative when it
+    /// grows.
     NearInstability {
         /// Standard deviations.
         distance: f64,

@@ -250,3 +250,150 @@ impl Model<3, 0, 6, 0> for Triple {
         []
     }
 }
+
+/// A point mass on a plate that turns at `omega` about the origin, held by a pretensioned radial spring, `k (r + a)`, and free to
+/// slip about the axis. `r* = k a / (m omega^2 - k)`; with `omega^2 > k / m` its radial stiffness `k - m omega^2` is
+/// negative, and `s^2 = 0` or `-(k / m + 3 omega^2)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slipping;
+
+impl Model<2, 1, 3, 0> for Slipping {
+    const DESCRIPTION: Description = Description {
+        name: "Slipping",
+        coordinates: &[coordinate("r", METRE), coordinate("phi", RAD)],
+        inputs: &[input("omega", SPEED)],
+        design: &[
+            design("m", KILOGRAM, 1.0, 0.0),
+            design("k", STIFFNESS, 10.0, 0.0),
+            design("a", METRE, 0.2, 0.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Gyroscopic,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        v: &[T; 2],
+        q: &[T; 2],
+        u: &[T; 1],
+        b: &[T; 3],
+    ) -> [T; 2] {
+        let speed = u[0] + v[1];
+        let coriolis = T::constant(2.0) * v[0] * speed;
+        [
+            b[0] * (a[0] - q[0] * speed * speed),
+            b[0] * q[0] * (q[0] * a[1] + coriolis),
+        ]
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 3]) -> [T; 2] {
+        [-(b[1] * (q[0] + b[2])), T::constant(0.0)]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 3]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 3]) -> [T; 0] {
+        []
+    }
+}
+
+/// A unit mass on a plate that turns at `omega`, on springs of stiffness 1 that harden, `q_i + q_i^3`, in `x` about `e`. Beyond
+/// `omega = 1` gyroscopic forces alone hold it near the axis, `x* = -e / (omega^2 - 1)` about, and two stable equilibria
+/// lie far outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Supercritical;
+
+impl Model<2, 1, 1, 0> for Supercritical {
+    const DESCRIPTION: Description = Description {
+        name: "Supercritical",
+        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
+        inputs: &[input("omega", SPEED)],
+        design: &[design("e", METRE, 0.0, 0.03)],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Gyroscopic,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        v: &[T; 2],
+        q: &[T; 2],
+        u: &[T; 1],
+        _: &[T; 1],
+    ) -> [T; 2] {
+        let (two, square) = (T::constant(2.0), u[0] * u[0]);
+        [
+            a[0] - two * u[0] * v[1] - square * q[0],
+            a[1] + two * u[0] * v[0] - square * q[1],
+        ]
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 1]) -> [T; 2] {
+        let force = |x: T| -(x + x * x * x);
+        [force(q[0] - b[0]), force(q[1])]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 1]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 0] {
+        []
+    }
+}
+
+/// Two unit masses on stiffnesses 1 and 4 whose damping peaks at `u = 1` and `u = 3`: each is overdamped in a range of its
+/// own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overdamped;
+
+impl Model<2, 1, 0, 0> for Overdamped {
+    const DESCRIPTION: Description = Description {
+        name: "Overdamped",
+        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
+        inputs: &[input("u", NUMBER)],
+        design: &[],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::General,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 2],
+        _: &[T; 1],
+        _: &[T; 0],
+    ) -> [T; 2] {
+        *a
+    }
+
+    fn applied<T: Real>(&self, v: &[T; 2], q: &[T; 2], u: &[T; 1], _: &[T; 0]) -> [T; 2] {
+        let c = T::constant;
+        let bump = |peak: f64, at: f64| {
+            let away = u[0] - c(at);
+            c(peak) / (c(1.0) + c(4.0) * away * away)
+        };
+        [
+            -(q[0] + bump(4.0, 1.0) * v[0]),
+            -(c(4.0) * q[1] + bump(8.0, 3.0) * v[1]),
+        ]
+    }
+
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 0]) -> Option<Violation<T>> {
+        None
+    }
+
+    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 0]) -> [T; 0] {
+        []
+    }
+}
