@@ -54,7 +54,7 @@ pub struct Campbell<const N: usize, const U: usize, const P: usize> {
     pub crossings: Vec<EventTolerance<P>>,
     /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::equilibrium::Sweep)).
     pub critical: Vec<EventTolerance<P>>,
-    /// Where an oscillation begins or ceases to grow.
+    /// Where an oscillation begins or ceases to grow; undamped modes never do.
     pub flutter_onsets: Vec<EventTolerance<P>>,
     /// Standard deviations that a tolerance holds.
     pub sigma_level: f64,

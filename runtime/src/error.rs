@@ -65,8 +65,8 @@ pub enum Error {
     },
     /// The stiffness matrix is singular: the equilibrium is a critical state.
     #[error(
-        "the stiffness matrix is singular at this equilibrium (critical state): its shift by design \
-         variables is not defined; `critical_sensitivity` treats this state"
+        "the stiffness matrix is singular at this equilibrium: its shift by design variables is not defined. At a \
+         critical state `critical_sensitivity` has the answer; a direction without stiffness needs a spring or a drive"
     )]
     CriticalState,
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
@@ -78,7 +78,7 @@ pub enum Error {
         asymmetry: f64,
     },
     /// The eigenvalue iteration did not converge or gave a pair that fails its residual check.
-    #[error("mode {mode} was not found to working accuracy: relative residual {residual:.3e}")]
+    #[error("mode {} was not found to working accuracy: relative residual {residual:.3e}", .mode + 1)]
     ModesNotFound {
         /// Position of the worst pair, from 0.
         mode: usize,
@@ -86,7 +86,7 @@ pub enum Error {
         residual: f64,
     },
     /// A mode's frequency was asked for that does not oscillate.
-    #[error("mode {mode} does not oscillate (lambda = {lambda:.6e}): it has no frequency")]
+    #[error("mode {} does not oscillate (lambda = {lambda:.6e}): it has no frequency", .mode + 1)]
     NotOscillating {
         /// Position of the mode, from 0.
         mode: usize,
@@ -94,7 +94,7 @@ pub enum Error {
         lambda: f64,
     },
     /// A mode was asked for that does not exist.
-    #[error("there is no mode number {mode} (counted from 0): there are {count}")]
+    #[error("there is no mode {}: there are {count}", .mode + 1)]
     NoSuchMode {
         /// The position asked for.
         mode: usize,
@@ -103,7 +103,8 @@ pub enum Error {
     },
     /// A mode is one of a cluster of nearly equal eigenvalues: it has no derivative of its own.
     #[error(
-        "mode {mode} lies in a cluster of nearly equal eigenvalues: it has no derivative of its own"
+        "mode {} lies in a cluster of nearly equal eigenvalues: it has no derivative of its own",
+        .mode + 1
     )]
     ClusteredMode {
         /// Position of the mode, from 0.

@@ -1,16 +1,14 @@
 //! Stable equilibria of a mechanism with symmetric `Khat`: the residual is then the gradient of an amended potential,
 //! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
-//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle that gyroscopic
-//! forces do not hold.
+//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle.
 
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
-use super::stability::judge;
 use super::{Found, last_step};
+use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
 use crate::modes::neutral_threshold;
 use crate::modes::symmetric;
-use crate::{DampingKind, Mechanism};
 
 const MAX_ITERATIONS: usize = 300;
 const MAX_DEPARTURES: usize = 8;
@@ -61,14 +59,6 @@ where
             let Some((pairs, mass, true)) = curved else {
                 return Ok(found(q, residual, iterations));
             };
-            if M::DESCRIPTION.damping != DampingKind::Zero
-                && judge(problem.description(), &problem.linear(&q)?)?.holds()
-            {
-                return Ok(Found {
-                    left_unstable_region: departures > 0,
-                    ..found(q, residual, iterations)
-                });
-            }
             departures += 1;
             if departures > MAX_DEPARTURES {
                 return Err(failure(problem, "only unstable equilibria", &q, iterations));

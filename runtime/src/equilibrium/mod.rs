@@ -32,15 +32,16 @@ pub(crate) use track::Tracker;
 
 pub(crate) use problem::{Failure, Problem};
 
-use crate::array::{add_scaled, all_finite, largest};
-use crate::{Description, Error, Linear, Mechanism, PoseMargin};
+use crate::array::{Cholesky, add_scaled, all_finite, largest};
+use crate::{DampingKind, Description, Error, Linear, Mechanism, PoseMargin};
 use convergence::{ACCEPTED, TOLERANCE, relative_residual, settled};
 
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Policy {
     /// A stable one, by descent in the amended potential; where descent finds none, the nearest one, whose
-    /// [`Stability`] then says what it is. Needs a symmetric `Khat`; without it the same as `Nearest`.
+    /// [`Stability`] then says what it is. From a start without positive stiffness the nearest one is taken when
+    /// gyroscopic forces hold it. Needs a symmetric `Khat`; without it the same as `Nearest`.
     #[default]
     Stable,
     /// The one that Newton's method reaches from the start value, whatever its stability.
@@ -110,12 +111,35 @@ where
     if policy == Policy::Nearest || !M::DESCRIPTION.symmetric_stiffness {
         return newton::nearest(problem, start).and_then(|found| finish(problem, found));
     }
+    if let Some(state) = held(problem, start) {
+        return Ok(state);
+    }
     descent::stable(problem, start)
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
             _ => newton::nearest(problem, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
+}
+
+/// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
+fn held<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+) -> Option<Equilibrium<N, U, P>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    if M::DESCRIPTION.damping == DampingKind::Zero {
+        return None;
+    }
+    let (_, stiffness) = problem.evaluate(start)?;
+    if Cholesky::new(&stiffness).is_ok() {
+        return None;
+    }
+    let found = newton::nearest(problem, start).ok()?;
+    let state = finish(problem, found).ok()?;
+    matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
 
 /// What a solver found, before its stability is judged.

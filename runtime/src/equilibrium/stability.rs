@@ -56,6 +56,9 @@ pub(super) fn judge<const N: usize>(
     description: &'static Description,
     linear: &Linear<f64, N>,
 ) -> Result<Stability, Failure<N>> {
+    if let Err(row) = Cholesky::new(&linear.mass) {
+        return Err(Failure::SingularMass(row));
+    }
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
@@ -64,9 +67,6 @@ pub(super) fn judge<const N: usize>(
         } else {
             by_eigenvalues(description, linear, 0, 0)
         });
-    }
-    if let Err(row) = Cholesky::new(&linear.mass) {
-        return Err(Failure::SingularMass(row));
     }
     let (mut negative, mut zero) = (0, 0);
     if Cholesky::new(&linear.stiffness).is_err() {

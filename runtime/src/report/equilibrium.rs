@@ -11,6 +11,7 @@ impl fmt::Display for Stability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Stable => write!(f, "stable"),
+            Self::Neutral { zero: 1 } => write!(f, "neutral (one free direction)"),
             Self::Neutral { zero } => write!(f, "neutral ({zero} free directions)"),
             Self::Divergent { negative } => match negative {
                 1 => write!(f, "divergent (unstable in one direction)"),

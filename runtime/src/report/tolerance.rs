@@ -159,7 +159,7 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             "{}: Monte Carlo with re-solved equilibria, {} samples: {}",
             self.description.name, self.samples, self.counts
         )?;
-        let mut table = Table::new(cells([
+        let mut head = cells([
             "mode",
             "mean [rad/s]",
             "std. error",
@@ -167,11 +167,16 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             "min",
             "max",
             "samples",
-        ]));
+        ]);
+        let general = self.family == Family::General;
+        if general {
+            head.extend(cells(["damping ratio", "sigma"]));
+        }
+        let mut table = Table::new(head);
         for (r, mode) in self.modes.iter().enumerate() {
             let value =
                 |pick: fn(&Statistics) -> Option<f64>| optional(mode.as_ref().and_then(pick));
-            table.row(vec![
+            let mut row = vec![
                 (r + 1).to_string(),
                 value(|s| Some(s.mean)),
                 value(|s| s.standard_error),
@@ -179,10 +184,22 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
                 value(|s| Some(s.min)),
                 value(|s| Some(s.max)),
                 mode.as_ref().map_or(0, |s| s.count).to_string(),
-            ]);
+            ];
+            if general {
+                let damping = self.damping_ratios[r].as_ref();
+                row.push(optional(damping.map(|s| s.mean)));
+                row.push(optional(damping.and_then(|s| s.standard_deviation)));
+            }
+            table.row(row);
         }
         write!(f, "{table}")?;
         undamped(f, self.family, self.description)?;
+        if self.clustered {
+            writeln!(
+                f,
+                "  Some modes have equal nominal eigenvalues: which of them a sample counts for is arbitrary."
+            )?;
+        }
         if self.left_nominal_branch > 0 {
             writeln!(
                 f,

@@ -150,7 +150,9 @@ where
     };
     let second = result.lambda.by_design.iter().flatten();
     let mixed = result.lambda.by_input_and_design.iter().flatten();
-    if second.chain(mixed).all(|value| value.is_finite()) && result.first.finite() {
+    let inputs = result.lambda.by_input.iter().flatten();
+    let mut all = second.chain(mixed).chain(inputs);
+    if all.all(|value| value.is_finite()) && result.first.finite() {
         Ok(result)
     } else {
         Err(outside_domain(at))

@@ -7,7 +7,8 @@ use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
-use crate::modes::{Family, PerMode, match_modes, solve_modes};
+use crate::modes::{Family, PerMode, clusters, match_modes, solve_modes};
+use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
 
 /// Samples worked on by one thread at a time; fixed, so that sums are formed in the same order on any machine.
@@ -46,7 +47,7 @@ impl Default for Sampling<'_> {
 /// What became of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It has a stable equilibrium (or one with free directions).
+    /// It has a stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
     Stable,
     /// Its equilibrium is unstable without oscillation.
     Divergent,
@@ -148,6 +149,9 @@ pub struct MonteCarlo<const N: usize, const P: usize> {
     pub modes: PerMode<Option<Statistics>, N>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: PerMode<Option<Statistics>, N>,
+    /// Some nominal modes have equal eigenvalues: which of them a mode of a sample is taken for is arbitrary, and only
+    /// statistics of all of them together mean something ([`clusters`](crate::tolerance::clusters)).
+    pub clustered: bool,
     /// Every sample in order, when asked for.
     pub all: Option<Vec<Sample<N, P>>>,
     /// Which modes they belong to.
@@ -205,6 +209,7 @@ where
         left_nominal_branch,
         modes: frequencies.map(Moments::statistics),
         damping_ratios: damping_ratios.map(Moments::statistics),
+        clustered: clusters(modes, CLUSTER_GAP).contains(&true),
         all,
         family: modes.family,
         description: nominal.description,
@@ -290,19 +295,7 @@ where
         return (sample(Outcome::Unphysical, None), false);
     }
     let problem = Problem::unchecked(mechanism, &nominal.inputs, &design);
-    // What gyroscopic forces hold is a saddle, which descent would leave.
-    let held = matches!(
-        nominal.stability,
-        Stability::GyroscopicallyStabilised { .. }
-    );
-    let near = held
-        .then(|| settle(&problem, &nominal.coordinates, Policy::Nearest).ok())
-        .flatten()
-        .filter(|state| state.stability.holds());
-    let settled = near.map_or_else(
-        || settle(&problem, &nominal.coordinates, Policy::Stable),
-        Ok,
-    );
+    let settled = settle(&problem, &nominal.coordinates, Policy::Stable);
     let state = match settled {
         Ok(state) => state,
         Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),

@@ -77,3 +77,23 @@ fn turning_splits_a_double_frequency() {
         }
     }
 }
+
+/// A sweep keeps to what gyroscopic forces hold: the top sleeps on while its spin falls, until nothing holds it.
+#[test]
+fn a_sweep_follows_the_sleeping_top_until_it_falls() {
+    let study: Study<SleepingTop, 2, 1, 4, 0> = Study::new(SleepingTop);
+    let [m, h, transverse, polar] = *study.design_values();
+    let (a, weight) = (transverse + m * h * h, m * 9.81 * h);
+    let threshold = 2.0 * (a * weight).sqrt() / polar;
+    let spins: Vec<f64> = (0..20)
+        .map(|step| threshold * (2.0 - 0.06 * f64::from(step)))
+        .collect();
+    // Not exactly upright, as a start value from elsewhere would be.
+    let study = study.start(SleepingTop::alpha, 1e-9);
+    for point in &study.sweep(SleepingTop::spin, &spins).expect("a sweep") {
+        let state = point.equilibrium.as_ref().expect("an equilibrium");
+        let upright = state.coordinates.iter().all(|angle| angle.abs() < 1e-3);
+        assert_eq!(upright, point.value > threshold, "{}", point.value);
+        assert!(state.stability.holds());
+    }
+}
