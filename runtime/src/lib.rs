@@ -42,12 +42,13 @@
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
-//! | where does it stay? | `equilibrium`, `equilibria` | `equilibrium::equilibrium`, `find_equilibria` |
+//! | where does it stay, and what moves that? | `equilibrium`, `equilibria`, `equilibrium_shift` | `equilibrium::equilibrium`, ... |
 //! | which branches are there, where do they fold and fork? | `branches` | `equilibrium::branches` |
 //! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |
 //! | what moves frequencies, damping, shapes, outputs? | `sensitivities`, `shape_sensitivity`, `outputs` | `sensitivity::sensitivities`, ... |
 //! | ... to second order? | `mode_curvature` | `sensitivity::mode_curvature` |
 //! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
+//! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `tolerance::summary`, `tolerance::clusters` |
 //! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
 //! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `tolerance::mode_margin` |
 //! | what happens along an input? | `sweep`, `campbell` | `equilibrium::sweep`, `campbell::campbell` |

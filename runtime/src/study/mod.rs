@@ -1,5 +1,6 @@
 //! The front door: a mechanism, the values to study it at, and what to ask of it.
 
+mod along;
 mod questions;
 
 use crate::equilibrium::{Following, Policy};

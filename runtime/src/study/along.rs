@@ -1,0 +1,214 @@
+//! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
+
+use super::Study;
+use crate::campbell::{self, Campbell};
+use crate::equilibrium::{
+    self, Branches, Continuation, CriticalState, Crossing, Line, Range, Search, Sweep,
+};
+use crate::tolerance::{self, EventTolerance};
+use crate::{Error, Input, Mechanism};
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// Equilibria and modes at each value of one input, and the critical values on the way ([`equilibrium::sweep`]).
+    ///
+    /// # Errors
+    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn sweep(&self, input: Input, values: &[f64]) -> Result<Sweep<N, U, P>, Error> {
+        self.ready()?;
+        equilibrium::sweep(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            input,
+            values,
+        )
+    }
+
+    /// Campbell diagram along one input, with the crossings of lines: engine orders as numbers, or
+    /// [`Line`]s ([`campbell::campbell`]).
+    ///
+    /// # Errors
+    /// Those of the tolerances, [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn campbell(
+        &self,
+        input: Input,
+        values: &[f64],
+        orders: &[impl Into<Line> + Copy],
+    ) -> Result<Campbell<N, U, P>, Error> {
+        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        campbell::campbell(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            input,
+            values,
+            &orders,
+            &self.tolerances()?,
+        )
+    }
+
+    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches(&self, input: Input, low: f64, high: f64) -> Result<Branches<N, U, P>, Error> {
+        self.branches_with(&Continuation::new(input, low, high), None)
+    }
+
+    /// As [`Study::branches`], with other settings and with starts from many places.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches_with(
+        &self,
+        settings: &Continuation,
+        search: Option<&Search<N>>,
+    ) -> Result<Branches<N, U, P>, Error> {
+        self.ready()?;
+        equilibrium::branches(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            settings,
+            search,
+        )
+    }
+
+    /// First critical value of an input between `low` and `high`, SI ([`equilibrium::critical_state`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn critical_state(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<CriticalState<N, U, P>, Error> {
+        self.ready()?;
+        equilibrium::critical_state(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.range(input, low, high),
+        )
+    }
+
+    /// As [`Study::critical_state`], with its sensitivity and spread ([`tolerance::critical_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn critical_tolerance(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<EventTolerance<P>, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.critical_state(input, low, high)?;
+        Ok(tolerance::critical_tolerance(
+            &self.mechanism,
+            &state,
+            &tolerances,
+        ))
+    }
+
+    /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
+    /// `k u`, or a [`Line`]
+    /// ([`equilibrium::crossings`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn crossings(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+        line: impl Into<Line>,
+    ) -> Result<Vec<Crossing<N, U, P>>, Error> {
+        self.ready()?;
+        equilibrium::crossings(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            self.range(input, low, high),
+            line,
+        )
+    }
+
+    /// As [`Study::crossings`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn crossing_tolerances(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+        line: impl Into<Line>,
+    ) -> Result<Vec<EventTolerance<P>>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.crossings(input, low, high, line)?;
+        let spread =
+            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
+        Ok(found.iter().map(spread).collect())
+    }
+
+    /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
+    /// ([`equilibrium::flutter_onsets`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn flutter_onsets(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<Crossing<N, U, P>>, Error> {
+        self.ready()?;
+        equilibrium::flutter_onsets(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            self.following(),
+            self.range(input, low, high),
+        )
+    }
+
+    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::flutter_onsets`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn flutter_onset_tolerances(
+        &self,
+        input: Input,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<EventTolerance<P>>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.flutter_onsets(input, low, high)?;
+        let spread =
+            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
+        Ok(found.iter().map(spread).collect())
+    }
+
+    fn range(&self, input: Input, low: f64, high: f64) -> Range {
+        Range {
+            input,
+            low,
+            high,
+            steps: self.steps,
+        }
+    }
+}
