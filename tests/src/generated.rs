@@ -21,11 +21,6 @@ where
     let b = |k: usize| array::<T, P>(&arguments[k]);
     let scalar = |k: usize| arguments[k][0];
     Some(match kernel {
-        "residual" => vec![machine.residual(q(0), u(1), b(2)).to_vec()],
-        "residual_parts" => {
-            let parts = machine.residual_parts(q(0), u(1), b(2));
-            vec![parts.inertia.to_vec(), parts.applied.to_vec()]
-        }
         "motion_residual" => {
             vec![
                 machine
@@ -40,11 +35,6 @@ where
         "residual_and_stiffness" => {
             let (residual, stiffness) = machine.residual_and_stiffness(q(0), u(1), b(2));
             vec![residual.to_vec(), flat(&stiffness)]
-        }
-        "linear" => matrices(&[machine.linear(q(0), u(1), b(2))]),
-        "residual_partials" => {
-            let (by_input, by_design) = machine.residual_partials(q(0), u(1), b(2));
-            vec![flat(&by_input), flat(&by_design)]
         }
         "linear_partials" => {
             let partials = machine.linear_partials(q(0), u(1), b(2));
@@ -98,6 +88,38 @@ where
             q(7),
         )),
         "whirl" => vec![machine.whirl(q(0), u(1), b(2), q(3), q(4)).to_vec()],
+        other => return evaluate_at(machine, other, arguments),
+    })
+}
+
+/// As [`evaluate`], for the kernels of `q`, `u`, `b` alone that differentiate at most once: what another scalar can be tried
+/// on without rustc translating everything for it.
+///
+/// # Panics
+/// When the number or the lengths of the arguments are wrong.
+pub fn evaluate_at<T, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: &M,
+    kernel: &str,
+    arguments: &[Vec<T>],
+) -> Option<Vec<Vec<T>>>
+where
+    T: Real,
+    M: Mechanism<N, U, P, O>,
+{
+    let q = |k: usize| array::<T, N>(&arguments[k]);
+    let u = |k: usize| array::<T, U>(&arguments[k]);
+    let b = |k: usize| array::<T, P>(&arguments[k]);
+    Some(match kernel {
+        "residual" => vec![machine.residual(q(0), u(1), b(2)).to_vec()],
+        "residual_parts" => {
+            let parts = machine.residual_parts(q(0), u(1), b(2));
+            vec![parts.inertia.to_vec(), parts.applied.to_vec()]
+        }
+        "linear" => matrices(&[machine.linear(q(0), u(1), b(2))]),
+        "residual_partials" => {
+            let (by_input, by_design) = machine.residual_partials(q(0), u(1), b(2));
+            vec![flat(&by_input), flat(&by_design)]
+        }
         "outputs" => vec![machine.outputs(q(0), u(1), b(2)).to_vec()],
         "output_partials" => {
             let (by_coordinate, by_input, by_design) = machine.output_partials(q(0), u(1), b(2));

@@ -1,9 +1,14 @@
-//! Kernels in single precision, and in dual numbers, which differentiate what the compiler has differentiated already.
+//! Kernels in single precision as rustc compiles them, and in dual numbers, which differentiate what the compiler has
+//! differentiated already. Those are interpreted: generated code does the same to the last bit, and rustc would need
+//! minutes to translate every kernel once more.
 
 use eigentol::Mechanism;
+use eigentol_compiler::program;
+use eigentol_compiler::program::Program;
 use eigentol_tests::corpus::{Visitor, corpus, visit};
 use eigentol_tests::dual::Dual;
-use eigentol_tests::generated::evaluate;
+use eigentol_tests::generated::{evaluate, evaluate_at};
+use eigentol_tests::interpreter::interpret;
 
 use super::Numbers;
 
@@ -49,7 +54,7 @@ impl Visitor for SinglePrecision {
             .collect();
         for kernel in AT {
             let expected = evaluate(&machine, kernel, &arguments).expect("in the contract");
-            let found = evaluate(&machine, kernel, &single).expect("in the contract");
+            let found = evaluate_at(&machine, kernel, &single).expect("in the contract");
             assert_eq!(found.len(), expected.len(), "{name} {kernel}");
             // Arrays may cancel to nothing, but not all that a kernel returns.
             let tolerance = 1e-3 * largest(&expected);
@@ -75,15 +80,12 @@ struct Duals {
 }
 
 /// `d kernel / d argument[which][entry]`, all returned arrays in a row.
-fn slope<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: &M,
+fn slope(
+    program: &Program,
     kernel: &str,
     arguments: &[Vec<f64>],
     direction: &[Vec<f64>],
-) -> Vec<Vec<f64>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Vec<Vec<f64>> {
     let duals: Vec<Vec<Dual>> = arguments
         .iter()
         .zip(direction)
@@ -95,7 +97,9 @@ where
                 .collect()
         })
         .collect();
-    let arrays = evaluate(machine, kernel, &duals).expect("in the contract");
+    let slices: Vec<&[Dual]> = duals.iter().map(Vec::as_slice).collect();
+    let kernel = program.kernel(kernel).expect("in the contract");
+    let arrays = interpret(kernel, &slices);
     arrays
         .iter()
         .map(|array| array.iter().map(|value| value.slope()).collect())
@@ -134,12 +138,14 @@ impl Visitor for Duals {
     fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         &mut self,
         name: &'static str,
-        _: &'static str,
+        declaration: &'static str,
         machine: M,
     ) where
         M: Mechanism<N, U, P, O> + Copy,
     {
         const TIGHT: f64 = 1e-12;
+        let tokens = declaration.parse().expect("the text has tokens");
+        let program = program(tokens).expect("a declaration of the corpus");
         let mut numbers = Numbers::new(4);
         let sizes = [N, U, P];
         let at = numbers.arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
@@ -153,7 +159,7 @@ impl Visitor for Duals {
             let lengths: Vec<usize> = arguments.iter().map(Vec::len).collect();
             let columns: Vec<Vec<f64>> = (0..lengths[which])
                 .map(|entry| {
-                    slope(&machine, kernel, arguments, &unit(&lengths, which, entry)).swap_remove(0)
+                    slope(&program, kernel, arguments, &unit(&lengths, which, entry)).swap_remove(0)
                 })
                 .collect();
             let rows = value(kernel, arguments)[0].len();
@@ -196,7 +202,7 @@ impl Visitor for Duals {
         let explicit = value("linear_partials", &at);
         for (which, matrices) in explicit.chunks(3).enumerate() {
             for entry in 0..sizes[which] {
-                let found = slope(&machine, "linear", &at, &unit(&sizes, which, entry));
+                let found = slope(&program, "linear", &at, &unit(&sizes, which, entry));
                 for (found, expected) in found.iter().zip(matrices) {
                     let expected = &expected[entry * N * N..(entry + 1) * N * N];
                     let what = format!("{name} linear_partials {which} {entry}");
@@ -205,7 +211,7 @@ impl Visitor for Duals {
             }
         }
         let along: Vec<Vec<f64>> = sizes.iter().map(|&size| numbers.list(size)).collect();
-        let found = slope(&machine, "linear", &at, &along);
+        let found = slope(&program, "linear", &at, &along);
         let expected = value("linear_along", &[at.clone(), along.clone()].concat());
         for (found, expected) in found.iter().zip(&expected) {
             assert_close(found, expected, TIGHT, &format!("{name} linear_along"));
@@ -223,9 +229,9 @@ impl Visitor for Duals {
             let mut pulled = Vec::new();
             for entry in 0..sizes[which] {
                 let direction = unit(&sizes, which, entry);
-                let change = slope(&machine, "linear", &at, &direction);
+                let change = slope(&program, "linear", &at, &direction);
                 found.push(form(&change[2], &phi) - lambda * form(&change[0], &phi));
-                pulled.push(dot(&slope(&machine, "residual", &at, &direction)[0], &w));
+                pulled.push(dot(&slope(&program, "residual", &at, &direction)[0], &w));
             }
             assert_close_to(
                 &found,
@@ -243,7 +249,7 @@ impl Visitor for Duals {
         let (dphi, dlambda, dw) = (numbers.list(N), numbers.next(), numbers.list(N));
         let mode = [at.clone(), vec![phi, vec![lambda]]].concat();
         let mode_along = [along.clone(), vec![dphi, vec![dlambda]]].concat();
-        let found = slope(&machine, "mode_gradient", &mode, &mode_along);
+        let found = slope(&program, "mode_gradient", &mode, &mode_along);
         let expected = value("mode_gradient_along", &[mode, mode_along].concat());
         for (found, expected) in found.iter().zip(&expected) {
             assert_close(
@@ -276,7 +282,7 @@ impl Visitor for Duals {
         }
         let vectors_along = (0..4).map(|_| numbers.list(N)).collect();
         let pencil_along = [along.clone(), vectors_along].concat();
-        let found = slope(&machine, "pencil_gradient", &pencil, &pencil_along);
+        let found = slope(&program, "pencil_gradient", &pencil, &pencil_along);
         let expected = value("pencil_gradient_along", &[pencil, pencil_along].concat());
         for (found, expected) in found.iter().zip(&expected) {
             let what = format!("{name} pencil_gradient_along");
@@ -284,7 +290,7 @@ impl Visitor for Duals {
         }
         let residual = [at, vec![w]].concat();
         let residual_along = [along, vec![dw]].concat();
-        let found = slope(&machine, "residual_gradient", &residual, &residual_along);
+        let found = slope(&program, "residual_gradient", &residual, &residual_along);
         let expected = value(
             "residual_gradient_along",
             &[residual, residual_along].concat(),
