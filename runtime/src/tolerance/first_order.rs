@@ -165,17 +165,44 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
     tolerances: &Tolerances<P>,
 ) -> ModeTolerance<P> {
     let mode = &modes.modes[r];
+    let (lambda_sigma, lambda_shares) = match (modes.family, own.s) {
+        (Family::General, None) => (f64::INFINITY, [0.0; P]),
+        _ => tolerances.spread(&own.lambda_by_design),
+    };
+    // Undamped, `s` is a root of `lambda`: every spread is that of `lambda`, or nothing.
+    let of_lambda = |quantity: Quantity| {
+        own.s?;
+        let mean = quantity.of(mode)?;
+        let moves = match quantity {
+            Quantity::Frequency | Quantity::NaturalFrequency => true,
+            Quantity::DampingRatio => {
+                mode.frequency()?;
+                false
+            }
+            Quantity::Growth => mode.frequency().is_none(),
+        };
+        let sigma = if moves {
+            lambda_sigma / (2.0 * mode.s.norm())
+        } else {
+            0.0
+        };
+        Some(Spread {
+            mean,
+            sigma,
+            band: tolerances.sigma_level() * sigma,
+            variance_shares: if moves { lambda_shares } else { [0.0; P] },
+        })
+    };
     let of = |quantity: Quantity| {
+        if modes.family == Family::Undamped {
+            return of_lambda(quantity);
+        }
         let slopes = own.of(quantity)?;
         Some(Spread::new(
             quantity.of(mode)?,
             &slopes.by_design,
             tolerances,
         ))
-    };
-    let (lambda_sigma, lambda_shares) = match (modes.family, own.s) {
-        (Family::General, None) => (f64::INFINITY, [0.0; P]),
-        _ => tolerances.spread(&own.lambda_by_design),
     };
     let (frequency, natural_frequency) = (of(Quantity::Frequency), of(Quantity::NaturalFrequency));
     let growth = of(Quantity::Growth);
