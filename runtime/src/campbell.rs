@@ -87,28 +87,41 @@ impl<const N: usize, const U: usize, const P: usize> Campbell<N, U, P> {
     }
 }
 
-/// Draws a Campbell diagram: solves equilibrium and modes at each of `values` of one input, follows every mode, and locates
+/// What a Campbell diagram is drawn of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes<'a> {
+    /// The input along which it is drawn.
+    pub input: Input,
+    /// The values of the input, SI.
+    pub values: &'a [f64],
+    /// Lines that crossings are looked for with.
+    pub orders: &'a [Line],
+}
+
+/// Draws a Campbell diagram: solves equilibrium and modes at each of the values of one input, follows every mode, and locates
 /// the crossings with `orders` and the onsets of flutter between neighbouring values.
 ///
 /// Arguments as for [`sweep`](crate::equilibrium::sweep).
 ///
 /// # Errors
 /// [`Error::UnknownHandle`]; a point that fails carries its own error.
-#[allow(clippy::too_many_arguments)]
 pub fn campbell<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     u: &[f64; U],
     b: &[f64; P],
     start: &[f64; N],
     following: impl Into<Following>,
-    input: Input,
-    values: &[f64],
-    orders: &[Line],
+    axes: &Axes<'_>,
     tolerances: &Tolerances<P>,
 ) -> Result<Campbell<N, U, P>, Error>
 where
     M: Mechanism<N, U, P, O>,
 {
+    let Axes {
+        input,
+        values,
+        orders,
+    } = *axes;
     check_input::<U>(input, M::DESCRIPTION.name)?;
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);

@@ -396,3 +396,33 @@ fn a_report_says_what_first_order_leaves_out() {
     let first = fixed.first_order().unwrap();
     assert_eq!(first.modes[0].distance_to_instability, f64::NEG_INFINITY);
 }
+
+/// All that a margin's probability depends on, against differences of the whole chain at moved inputs and designs.
+#[test]
+fn a_margin_moves_with_speed_and_design() {
+    let study = |speed: f64, length: f64| {
+        pendulum(speed, 0.03)
+            .design(DesignVariable(1), length)
+            .tolerance(DesignVariable(1), 0.03)
+    };
+    let band = Band::around(OMEGA, 0.2);
+    let margin = study(5.0, 1.0).margin(0, band).unwrap();
+    let first_order = |speed: f64, length: f64| {
+        let margin = study(speed, length).margin(0, band).unwrap();
+        margin.margin.first_order
+    };
+    let step = 1e-4;
+    let by_speed = (first_order(5.0 + step, 1.0) - first_order(5.0 - step, 1.0)) / (2.0 * step);
+    let by_length = (first_order(5.0, 1.0 + step) - first_order(5.0, 1.0 - step)) / (2.0 * step);
+    let found = margin.by_input.unwrap()[0];
+    assert!(by_speed.abs() > 0.1 && by_length.abs() > 0.1);
+    assert!(
+        (found - by_speed).abs() < 1e-4 * by_speed.abs(),
+        "{found} {by_speed}"
+    );
+    let found = margin.margin.derivatives.unwrap().by_design[1];
+    assert!(
+        (found - by_length).abs() < 1e-4 * by_length.abs(),
+        "{found} {by_length}"
+    );
+}

@@ -1,7 +1,7 @@
 //! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
 
 use super::Study;
-use crate::campbell::{self, Campbell};
+use crate::campbell::{self, Axes, Campbell};
 use crate::equilibrium::{
     self, Branches, Continuation, CriticalState, Crossing, Line, Range, Search, Sweep,
 };
@@ -47,9 +47,11 @@ where
             &self.design,
             &self.start,
             self.following(),
-            input,
-            values,
-            &orders,
+            &Axes {
+                input,
+                values,
+                orders: &orders,
+            },
             &self.tolerances()?,
         )
     }

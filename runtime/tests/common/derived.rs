@@ -26,9 +26,14 @@ pub trait Model<const N: usize, const U: usize, const P: usize, const O: usize>:
 
     fn applied<T: Real>(&self, velocity: &[T; N], q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; N];
 
-    fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>>;
+    fn violation<T: Real + PartialOrd>(&self, _: &[T; U], _: &[T; P]) -> Option<Violation<T>> {
+        None
+    }
 
-    fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
+    /// A model with outputs says what they are.
+    fn outputs<T: Real>(&self, _: &[T; N], _: &[T; U], _: &[T; P]) -> [T; O] {
+        from_fn(|_| T::constant(f64::NAN))
+    }
 }
 
 /// The mechanism of a model.

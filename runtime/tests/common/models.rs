@@ -57,10 +57,6 @@ impl Model<2, 1, 4, 0> for Plate {
             (b[2], "stiffness ky"),
         ])
     }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 4]) -> [T; 0] {
-        []
-    }
 }
 
 /// One coordinate with a given stiffness, a cubic spring and a constant force:
@@ -97,14 +93,6 @@ impl Model<1, 1, 3, 0> for Spring {
 
     fn applied<T: Real>(&self, _: &[T; 1], q: &[T; 1], u: &[T; 1], b: &[T; 3]) -> [T; 1] {
         [b[2] - u[0] * q[0] - b[1] * q[0] * q[0] * q[0]]
-    }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 3]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 1], _: &[T; 1], _: &[T; 3]) -> [T; 0] {
-        []
     }
 }
 
@@ -146,10 +134,6 @@ impl Model<2, 1, 1, 0> for Follower {
     fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], b: &[T; 1]) -> Option<Violation<T>> {
         positive(&[(b[0], "stiffness")])
     }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 0] {
-        []
-    }
 }
 
 /// Two unit masses: `Khat = [[k1, c], [c, k2]]`, so that `c` mixes the two coordinates.
@@ -185,14 +169,6 @@ impl Model<2, 0, 3, 0> for Pair {
 
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 0], b: &[T; 3]) -> [T; 2] {
         [-(b[0] * q[0] + b[2] * q[1]), -(b[2] * q[0] + b[1] * q[1])]
-    }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 0], _: &[T; 3]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 0], _: &[T; 3]) -> [T; 0] {
-        []
     }
 }
 
@@ -241,14 +217,6 @@ impl Model<3, 0, 6, 0> for Triple {
             -(b[4] * q[0] + b[5] * q[1] + b[2] * q[2]),
         ]
     }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 0], _: &[T; 6]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 3], _: &[T; 0], _: &[T; 6]) -> [T; 0] {
-        []
-    }
 }
 
 /// A point mass on a plate that turns at `omega` about the origin, held by a pretensioned radial spring, `k (r + a)`, and free to
@@ -292,14 +260,6 @@ impl Model<2, 1, 3, 0> for Slipping {
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 3]) -> [T; 2] {
         [-(b[1] * (q[0] + b[2])), T::constant(0.0)]
     }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 3]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 3]) -> [T; 0] {
-        []
-    }
 }
 
 /// A unit mass on a plate that turns at `omega`, on springs of stiffness 1 that harden, `q_i + q_i^3`, in `x` about `e`. Beyond
@@ -338,14 +298,6 @@ impl Model<2, 1, 1, 0> for Supercritical {
     fn applied<T: Real>(&self, _: &[T; 2], q: &[T; 2], _: &[T; 1], b: &[T; 1]) -> [T; 2] {
         let force = |x: T| -(x + x * x * x);
         [force(q[0] - b[0]), force(q[1])]
-    }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 1]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 1]) -> [T; 0] {
-        []
     }
 }
 
@@ -387,13 +339,5 @@ impl Model<2, 1, 0, 0> for Overdamped {
             -(q[0] + bump(4.0, 1.0) * v[0]),
             -(c(4.0) * q[1] + bump(8.0, 3.0) * v[1]),
         ]
-    }
-
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; 1], _: &[T; 0]) -> Option<Violation<T>> {
-        None
-    }
-
-    fn outputs<T: Real>(&self, _: &[T; 2], _: &[T; 1], _: &[T; 0]) -> [T; 0] {
-        []
     }
 }

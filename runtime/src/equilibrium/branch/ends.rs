@@ -12,6 +12,10 @@ pub(super) const STRAY: f64 = 1e-9;
 /// Local distance on which a branch is its tangent to rounding.
 const BESIDE: f64 = 1e-7;
 
+/// A last station, unless the walk already stands there, and how the branch ends.
+type LastStep<const N: usize, const U: usize, const P: usize> =
+    (Option<Station<N, U, P>>, BranchEnd);
+
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
 where
     M: Mechanism<N, U, P, O>,
@@ -99,11 +103,7 @@ where
 
     /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
     /// is there.
-    #[allow(clippy::type_complexity)]
-    pub(super) fn last_step(
-        &self,
-        at: &Station<N, U, P>,
-    ) -> Option<(Option<Station<N, U, P>>, BranchEnd)> {
+    pub(super) fn last_step(&self, at: &Station<N, U, P>) -> Option<LastStep<N, U, P>> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();
         let bound = if away(least).abs() < away(most).abs() {

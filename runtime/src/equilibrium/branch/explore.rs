@@ -16,6 +16,10 @@ use crate::{Equilibrium, Error, Mechanism};
 /// Share of the range by which a start on a singular state is moved.
 const NUDGE: f64 = 1e-6;
 
+/// A branch and the branch points passed on it, each with whether the branch is an arm that ends there.
+type Followed<const N: usize, const U: usize, const P: usize> =
+    (Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>);
+
 /// What is still to be followed.
 enum Lead<const N: usize, const U: usize, const P: usize> {
     /// Both ways from a regular point.
@@ -138,10 +142,7 @@ where
     }
 
     /// The branch through a station, and the junctions on it.
-    fn both_ways(
-        &self,
-        station: &Station<N, U, P>,
-    ) -> (Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>) {
+    fn both_ways(&self, station: &Station<N, U, P>) -> Followed<N, U, P> {
         let front = self.walk(station, &station.place, |_, _| false);
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
@@ -157,7 +158,7 @@ where
         back: Walk<N, U, P>,
         start: Option<BranchPoint<N, U, P>>,
         front: Walk<N, U, P>,
-    ) -> (Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>) {
+    ) -> Followed<N, U, P> {
         let mut points: Vec<_> = back
             .points
             .into_iter()
@@ -243,12 +244,7 @@ where
     }
 
     /// The branch of a lead; `None` where there is none or it is known.
-    #[allow(clippy::type_complexity)]
-    fn follow(
-        &self,
-        lead: &Lead<N, U, P>,
-        known: &[Branch<N, U, P>],
-    ) -> Option<(Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>)> {
+    fn follow(&self, lead: &Lead<N, U, P>, known: &[Branch<N, U, P>]) -> Option<Followed<N, U, P>> {
         let fresh = |station: &Station<N, U, P>| !self.known(known, &station.place);
         let from = |junction: &Junction<N, U, P>, station: &Station<N, U, P>| {
             let mut walk = self.walk(station, &junction.frame.origin, |_, _| false);
