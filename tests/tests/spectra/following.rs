@@ -55,20 +55,21 @@ fn uncoupled_modes_cross() {
     }
 }
 
-/// Coupled, the two never meet: the lower one turns from the first slider to the second. A sweep of eleven points finds
-/// the same as one of a thousand, because unrecognised modes are followed in smaller steps.
+/// Coupled, the two never meet: the lower one turns from the first slider to the second. A sweep of four points finds the
+/// same as one of a thousand: across the middle each shape resembles the other mode's more (0.69) than its own (0.31), and
+/// modes that are not recognised are followed in smaller steps.
 #[test]
 fn coupled_modes_veer() {
     let study = pair(2.0);
     let fine: Vec<f64> = (0..=1000)
         .map(|step| 50.0 + 0.1 * f64::from(step))
         .collect();
-    let coarse: Vec<f64> = fine.iter().copied().step_by(100).collect();
+    let coarse = [50.0, 94.0, 106.0, 150.0];
     for (label, first_share) in [(0, true), (1, false)] {
         let fine = branch(&study, &fine, label);
         let coarse = branch(&study, &coarse, label);
         assert!((fine[0].0 - coarse[0].0).abs() < 1e-12);
-        assert!((fine[1000].0 - coarse[10].0).abs() < 1e-12);
+        assert!((fine[1000].0 - coarse[3].0).abs() < 1e-12);
         assert_eq!(fine[0].1 > 0.9, first_share);
         assert_eq!(fine[1000].1 > 0.9, !first_share);
         assert!(fine.windows(2).all(|pair| pair[0].0 < pair[1].0));
