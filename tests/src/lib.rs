@@ -26,6 +26,7 @@ pub mod interpreter;
 pub mod kernels;
 pub mod machines;
 pub mod model;
+mod num_dual;
 pub mod oracle;
 pub mod random;
 pub mod resolved;
