@@ -83,7 +83,7 @@ pub use eigentol_macros::mechanism;
 pub use mechanism::{Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
     CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo, Linear,
-    LinearPartials, Mechanism, OutputInfo, PoseMargin, RestParts, Unit, Violation,
+    LinearPartials, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Unit, Violation,
 };
 pub use real::Real;
 

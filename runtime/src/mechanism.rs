@@ -317,7 +317,7 @@ pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
 pub struct Description {
     /// Name of the declared type.
     pub name: &'static str,
-    /// Free coordinates, in the order of `q`.
+    /// Unknowns, in the order of `q`: the free coordinates and, where there are any, speeds and reactions.
     pub coordinates: &'static [CoordinateInfo],
     /// Inputs, in the order of `u`.
     pub inputs: &'static [InputInfo],
@@ -353,13 +353,43 @@ pub struct Unit {
     pub scale: f64,
 }
 
-/// A free coordinate.
+/// An unknown of the steady motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoordinateInfo {
-    /// Declared name.
+    /// Declared name; of a reaction the constraint's, with the component where it has several: `pin.x`.
     pub name: &'static str,
-    /// `rad` or `m`.
+    /// Of a coordinate `rad` or `m`, of a speed `rad/s` or `m/s`, of a reaction `N` or `N*m`.
     pub unit: Unit,
+    /// What it is.
+    pub role: Role,
+}
+
+/// What an unknown is, and with it the equation in the same place of the residual.
+///
+/// The unknowns stand in this order: coordinates, speeds, reactions of constraints on positions, reactions of
+/// constraints on velocities. With `q` the coordinates, `v` the speeds, `mu` the reactions the residual is
+///
+/// ```text
+/// g(qddot, vdot, qdot, q, v) + Phi_q^T mu_1 + A_q^T mu_2     by coordinate
+/// g_v(qddot, vdot, qdot, q, v) + A_v^T mu_2                  by speed
+/// Phi(q)                                                     by constraint on positions
+/// A_q(q) qdot + A_v(q) v + a(q)                              by constraint on velocities
+/// ```
+///
+/// In the arguments `velocity` and `acceleration` of [`Mechanism::motion_residual`] the place of a speed `v` holds `vdot`
+/// and nothing, that of a reaction nothing; so `Mhat`, `Chat`, `Khat` are the derivatives of the whole by the second, first
+/// and no time derivative of all unknowns. Without speeds and constraints on velocities
+/// `Khat = [[K_c, Phi_q^T], [Phi_q, 0]]`, `K_c = d(g + Phi_q^T mu)/dq`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A coordinate that rests in steady motion; the equation is that of its motion.
+    Position,
+    /// The speed of a coordinate that runs at a constant rate, on which nothing depends; the equation is that of its motion.
+    Speed,
+    /// The multiplier of a constraint `Phi(q) = 0` on positions, which is the equation.
+    PositionReaction,
+    /// The multiplier of a constraint on velocities, which is the equation: rolling, or the coupling of running coordinates.
+    VelocityReaction,
 }
 
 /// An input: an operating parameter chosen at run time.

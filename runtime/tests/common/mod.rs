@@ -8,7 +8,7 @@ pub mod dual;
 pub mod models;
 pub mod pendulum;
 
-use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Unit, Violation};
+use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Role, Unit, Violation};
 
 pub const RAD: Unit = Unit {
     symbol: "rad",
@@ -39,7 +39,11 @@ pub const NUMBER: Unit = Unit {
 pub const GRAVITY: f64 = 9.81;
 
 pub const fn coordinate(name: &'static str, unit: Unit) -> CoordinateInfo {
-    CoordinateInfo { name, unit }
+    CoordinateInfo {
+        name,
+        unit,
+        role: Role::Position,
+    }
 }
 
 pub const fn input(name: &'static str, unit: Unit) -> InputInfo {

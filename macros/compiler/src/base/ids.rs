@@ -38,6 +38,8 @@ id! {
     PointId;
     /// A force element.
     ForceId;
+    /// A constraint.
+    ConstraintId;
     /// An output.
     OutputId;
     /// A node of the expression graph.

@@ -24,6 +24,7 @@ pub(super) fn description(
             ::eigentol::CoordinateInfo {
                 name: #name,
                 unit: ::eigentol::Unit { symbol: #symbol, scale: 1.0 },
+                role: ::eigentol::Role::Position,
             }
         }
     });

@@ -107,6 +107,7 @@ impl<'a> Values<'a> {
             | Expr::Length
             | Expr::LengthRate
             | Expr::Reaction(..)
+            | Expr::ConstraintReaction(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => state.leaf(value),
             Expr::Add(a, b) => binary(g, Operator::Add, a, b),

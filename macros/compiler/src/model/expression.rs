@@ -2,7 +2,9 @@
 
 use std::rc::Rc;
 
-use crate::base::ids::{ConstantId, CoordinateId, DesignId, InputId, JointId, PointId};
+use crate::base::ids::{
+    ConstantId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId,
+};
 
 /// A scalar value in SI; dimensions have been checked and are gone.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,12 @@ pub enum Expr {
     /// Component of what a joint transmits at rest (in outputs): 0 to 2 the force, 3 to 5 the moment at the joint, by
     /// the `from` side on the `to` side, along the axes of the joint frame on the `from` side.
     Reaction(JointId, usize),
+    /// Component of what a constraint exerts at rest (in outputs). Coincident: 0 to 2 the force of `from` on `to`, along the
+    /// axes of `from`. Aligned: 3 to 5 the moment of `from` on `to`, likewise. Distance: 0 the tension, positive when it pulls
+    /// the ends together. Equation: 0 the generalised force in the direction in which the expression grows. Rolling: 0 to 2
+    /// the force of the plane on the wheel, forward (axle cross normal), sideways (normal cross forward) and along the
+    /// normal; of a ball along the axes of `on`, of which z is the normal where that is given as z.
+    ConstraintReaction(ConstraintId, usize),
     /// Kinetic energy in steady motion (in outputs).
     KineticEnergy,
     /// Energy of gravity, springs and potentials, zero at the ground's origin and at free lengths (in outputs).

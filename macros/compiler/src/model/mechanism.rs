@@ -32,6 +32,8 @@ pub struct Mechanism {
     pub points: Vec<Point>,
     /// Force elements.
     pub forces: Vec<Force>,
+    /// Constraints, besides those of joints that close loops.
+    pub constraints: Vec<Constraint>,
     /// Outputs.
     pub outputs: Vec<Output>,
 }
@@ -230,6 +232,8 @@ pub struct Joint {
     pub from_placement: Placement,
     /// Joint frame in `to`.
     pub to_placement: Placement,
+    /// Declared as the one that closes a loop: it has no coordinates, its motions become equations.
+    pub cut: bool,
 }
 
 /// An elementary motion.
@@ -286,6 +290,8 @@ pub enum Motion {
     Free,
     /// Prescribed constant speed, rad/s or m/s: an expression of inputs and design variables.
     Driven(Expr),
+    /// Constant speed that the equations of motion determine; nothing depends on the coordinate itself.
+    Coasting,
 }
 
 /// A named point, with axes, fixed in a frame.
@@ -398,6 +404,66 @@ pub enum ForceLaw {
         damping: Expr,
         /// N m s/rad.
         turning_damping: Expr,
+    },
+}
+
+/// A constraint.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// Declared name.
+    pub name: Ident,
+    /// What it demands.
+    pub law: ConstraintLaw,
+}
+
+/// Kinds of constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConstraintLaw {
+    /// Two points coincide, as seen along the chosen axes of `from`.
+    Coincident {
+        /// One point.
+        from: PointId,
+        /// The other.
+        to: PointId,
+        /// Which of the axes x, y, z of `from`.
+        along: [bool; 3],
+    },
+    /// The axes of two points agree.
+    Aligned {
+        /// One point.
+        from: PointId,
+        /// The other.
+        to: PointId,
+        /// Only this direction, a unit vector in the axes of either point; all three axes when not given.
+        axis: Option<Vector>,
+    },
+    /// Two points keep a distance.
+    Distance {
+        /// One end.
+        from: PointId,
+        /// The other end.
+        to: PointId,
+        /// m.
+        length: Expr,
+    },
+    /// An expression of coordinates and points is zero. Of coordinates only, it may hold running ones (a gear): then its
+    /// rate is zero.
+    Equation {
+        /// The expression.
+        zero: Expr,
+    },
+    /// A wheel (a thin disk, or a ball) rolls without slip on a plane.
+    Rolling {
+        /// The centre of the wheel.
+        wheel: PointId,
+        /// The axle, a unit vector in the axes of `wheel`; a ball when not given.
+        axis: Option<Vector>,
+        /// m.
+        radius: Expr,
+        /// A point of the plane.
+        on: PointId,
+        /// The normal of the plane towards the wheel, a unit vector in the axes of `on`.
+        normal: Vector,
     },
 }
 

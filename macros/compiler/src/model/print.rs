@@ -57,6 +57,9 @@ impl Display for Mechanism {
         for coordinate in &self.coordinates {
             match &coordinate.motion {
                 Motion::Free => writeln!(f, "free {}: {:?}", coordinate.name, coordinate.quantity)?,
+                Motion::Coasting => {
+                    writeln!(f, "coasting {}: {:?}", coordinate.name, coordinate.quantity)?;
+                }
                 Motion::Driven(speed) => writeln!(
                     f,
                     "driven {}: {:?} at {}",
@@ -104,6 +107,10 @@ impl Names<'_> {
                 let kind = ["force", "moment"][component / 3];
                 let name = &self.0.joints[id.index()].name;
                 format!("reaction_{kind}({name}).{}", AXES[component % 3])
+            }
+            Expr::ConstraintReaction(id, component) => {
+                let name = &self.0.constraints[id.index()].name;
+                format!("reaction({name}).{component}")
             }
             Expr::KineticEnergy => "kinetic_energy()".to_owned(),
             Expr::PotentialEnergy => "potential_energy()".to_owned(),

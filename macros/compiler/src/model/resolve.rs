@@ -72,6 +72,7 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
         coordinates: resolver.declared_coordinates,
         points,
         forces,
+        constraints: Vec::new(),
         outputs,
     };
     if resolver.diagnostics.is_empty() && !is_complete(ast, &mechanism) {

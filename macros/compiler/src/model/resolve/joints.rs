@@ -54,6 +54,7 @@ impl Resolver<'_> {
             to,
             from_placement: from_placement.unwrap_or_else(unplaced),
             to_placement: to_placement.unwrap_or_else(unplaced),
+            cut: false,
         })
     }
 

@@ -51,6 +51,7 @@ impl Resolver<'_> {
             | Expr::Length
             | Expr::LengthRate
             | Expr::Reaction(..)
+            | Expr::ConstraintReaction(..)
             | Expr::KineticEnergy
             | Expr::PotentialEnergy => true,
             Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.moves(a),
