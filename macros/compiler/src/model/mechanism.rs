@@ -283,6 +283,16 @@ pub enum CoordinateQuantity {
     Displacement,
 }
 
+impl CoordinateQuantity {
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad",
+            Self::Displacement => "m",
+        }
+    }
+}
+
 /// How a coordinate moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
@@ -451,6 +461,8 @@ pub enum ConstraintLaw {
     Equation {
         /// The expression.
         zero: Expr,
+        /// Its SI unit.
+        unit: Unit,
     },
     /// A wheel (a thin disk, or a ball) rolls without slip on a plane.
     Rolling {
