@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use rustc_hash::FxHashSet;
+
 use crate::base::ids::{
     ConstantId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId,
 };
@@ -58,6 +60,32 @@ pub enum Expr {
     Call(Function, Rc<Expr>),
     /// `atan2(y, x)`.
     Atan2(Rc<Expr>, Rc<Expr>),
+}
+
+impl Expr {
+    /// Whether `test` is true of any of the values that this one is made of, down to names and numbers.
+    pub fn any_leaf(&self, test: impl Fn(&Expr) -> bool) -> bool {
+        self.search(&test, &mut FxHashSet::default())
+    }
+
+    /// Parts may be shared: `visited` holds those that have been searched, by address.
+    fn search(&self, test: &impl Fn(&Expr) -> bool, visited: &mut FxHashSet<*const Expr>) -> bool {
+        if !visited.insert(std::ptr::from_ref(self)) {
+            return false;
+        }
+        match self {
+            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => {
+                a.search(test, visited)
+            }
+            Expr::Add(a, b)
+            | Expr::Subtract(a, b)
+            | Expr::Multiply(a, b)
+            | Expr::Divide(a, b)
+            | Expr::Power(a, b)
+            | Expr::Atan2(a, b) => a.search(test, visited) || b.search(test, visited),
+            leaf => test(leaf),
+        }
+    }
 }
 
 /// Elementary functions of one argument.
