@@ -62,7 +62,6 @@ impl Compilation {
     pub fn emit(&self) -> TokenStream {
         emit(
             &self.mechanism,
-            &self.topology,
             &self.functions,
             &self.program,
         )

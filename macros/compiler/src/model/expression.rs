@@ -63,28 +63,27 @@ pub enum Expr {
 }
 
 impl Expr {
-    /// Whether `test` is true of any of the values that this one is made of, down to names and numbers.
-    pub fn any_leaf(&self, test: impl Fn(&Expr) -> bool) -> bool {
-        self.search(&test, &mut FxHashSet::default())
-    }
-
-    /// Parts may be shared: `visited` holds those that have been searched, by address.
-    fn search(&self, test: &impl Fn(&Expr) -> bool, visited: &mut FxHashSet<*const Expr>) -> bool {
-        if !visited.insert(std::ptr::from_ref(self)) {
-            return false;
-        }
-        match self {
-            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => {
-                a.search(test, visited)
+    /// The leaves, each part that occurs several times looked at once.
+    pub fn leaves(&self) -> Vec<&Expr> {
+        let mut leaves = Vec::new();
+        let mut seen = FxHashSet::default();
+        let mut waiting = vec![self];
+        while let Some(expr) = waiting.pop() {
+            if !seen.insert(std::ptr::from_ref(expr)) {
+                continue;
             }
-            Expr::Add(a, b)
-            | Expr::Subtract(a, b)
-            | Expr::Multiply(a, b)
-            | Expr::Divide(a, b)
-            | Expr::Power(a, b)
-            | Expr::Atan2(a, b) => a.search(test, visited) || b.search(test, visited),
-            leaf => test(leaf),
+            match expr {
+                Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => waiting.push(a),
+                Expr::Add(a, b)
+                | Expr::Subtract(a, b)
+                | Expr::Multiply(a, b)
+                | Expr::Divide(a, b)
+                | Expr::Power(a, b)
+                | Expr::Atan2(a, b) => waiting.extend([&**a, &**b]),
+                leaf => leaves.push(leaf),
+            }
         }
+        leaves
     }
 }
 

@@ -283,6 +283,16 @@ pub enum CoordinateQuantity {
     Displacement,
 }
 
+impl CoordinateQuantity {
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad",
+            Self::Displacement => "m",
+        }
+    }
+}
+
 /// How a coordinate moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
@@ -292,6 +302,17 @@ pub enum Motion {
     Driven(Expr),
     /// Constant speed that the equations of motion determine; nothing depends on the coordinate itself.
     Coasting,
+}
+
+impl Motion {
+    /// The coordinate keeps moving in steady motion: coasting, or driven and not held at zero.
+    pub fn runs(&self) -> bool {
+        match self {
+            Motion::Free => false,
+            Motion::Driven(speed) => *speed != Expr::Number(0.0),
+            Motion::Coasting => true,
+        }
+    }
 }
 
 /// A named point, with axes, fixed in a frame.
@@ -451,6 +472,8 @@ pub enum ConstraintLaw {
     Equation {
         /// The expression.
         zero: Expr,
+        /// Its SI unit.
+        unit: Unit,
     },
     /// A wheel (a thin disk, or a ball) rolls without slip on a plane.
     Rolling {

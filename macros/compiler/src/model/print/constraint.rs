@@ -27,7 +27,9 @@ impl Names<'_> {
                     point(to)
                 )
             }
-            ConstraintLaw::Equation { zero } => format!("equation zero {}", self.scalar(zero)),
+            ConstraintLaw::Equation { zero, unit } => {
+                format!("equation zero {}{}", self.scalar(zero), super::unit(unit))
+            }
             ConstraintLaw::Rolling {
                 wheel,
                 axis,

@@ -10,7 +10,7 @@ use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{ConstraintLaw, CoordinateQuantity, Motion};
+use crate::model::mechanism::{ConstraintLaw, CoordinateQuantity};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::Value;
@@ -32,8 +32,8 @@ impl Resolver<'_> {
         let (of, with) = (Expr::Coordinate(of), Expr::Coordinate(with));
         let driving = simplify::multiply(ratio?, with);
         let zero = simplify::subtract(simplify::subtract(of, driving), offset?);
-        let exerted = self.per_unit(coordinates::dimension(quantity), arguments.get("of")?)?;
-        Some((ConstraintLaw::Equation { zero }, exerted))
+        let dimension = coordinates::dimension(quantity);
+        self.zero(zero, dimension, arguments.get("of")?)
     }
 
     /// The two coordinates, which are different.
@@ -113,7 +113,7 @@ impl Resolver<'_> {
     pub(super) fn equation(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
         let value = arguments.get("zero")?;
         let (zero, quantity) = self.scalar(value, Place::Equation)?;
-        let unknown = zero.any_leaf(|leaf| match leaf {
+        let unknown = zero.leaves().into_iter().any(|leaf| match leaf {
             Expr::Coordinate(id) => !self.is_driven(*id),
             Expr::Position(point, _) => self.point_moves(*point),
             _ => false,
@@ -127,21 +127,18 @@ impl Resolver<'_> {
             return None;
         }
         self.runs_without_points(&zero, value.extent)?;
-        let exerted = self.per_unit(quantity.dimension(), value)?;
-        Some((ConstraintLaw::Equation { zero }, exerted))
+        self.zero(zero, quantity.dimension(), value)
     }
 
     /// What runs forever has no place: such an equation holds for rates, which points do not have.
     fn runs_without_points(&mut self, zero: &Expr, extent: Extent) -> Option<()> {
-        let holds_points = zero.any_leaf(|leaf| matches!(leaf, Expr::Position(..)));
-        if !holds_points {
-            return Some(());
-        }
-        let ids = (0..self.coordinates.len()).map(CoordinateId::new);
-        let mut running = ids.filter(|id| self.runs(*id));
-        let running = running
-            .find(|id| zero.any_leaf(|leaf| matches!(leaf, Expr::Coordinate(own) if own == id)));
-        let Some(id) = running else {
+        let leaves = zero.leaves();
+        let has_points = leaves.iter().any(|leaf| matches!(leaf, Expr::Position(..)));
+        let mut running = leaves.into_iter().filter_map(|leaf| match leaf {
+            Expr::Coordinate(id) if self.runs(*id) => Some(*id),
+            _ => None,
+        });
+        let Some(id) = running.next().filter(|_| has_points) else {
             return Some(());
         };
         let name = self.coordinates.get(id.index())?.name;
@@ -153,11 +150,18 @@ impl Resolver<'_> {
         None
     }
 
-    /// The reaction does work on the change of an expression of this dimension.
-    fn per_unit(&mut self, dimension: Dimension, value: &Value) -> Option<Exerted> {
+    /// The reaction does work on the change of the expression.
+    fn zero(
+        &mut self,
+        zero: Expr,
+        dimension: Dimension,
+        value: &Value,
+    ) -> Option<(ConstraintLaw, Exerted)> {
         let work = Dimension::MOMENT.over(dimension);
         let quantity = self.in_range(work, value.extent)?;
-        Some(Exerted::Number(quantity.dimension()))
+        let unit = self.unit_of(&zero, dimension);
+        let exerted = Exerted::Number(quantity.dimension());
+        Some((ConstraintLaw::Equation { zero, unit }, exerted))
     }
 
     fn is_driven(&self, id: CoordinateId) -> bool {
@@ -165,16 +169,13 @@ impl Resolver<'_> {
         declared.is_some_and(|own| own.motion == DeclaredMotion::Driven)
     }
 
-    /// It keeps moving in steady motion: coasting, or driven at another speed than zero.
+    /// It keeps moving in steady motion.
     fn runs(&self, id: CoordinateId) -> bool {
         let Some(declared) = self.coordinates.get(id.index()) else {
             return false;
         };
-        let locked = self.declared_coordinates.iter().any(|own| {
-            own.joint == declared.joint
-                && own.name == *declared.name
-                && own.motion == Motion::Driven(Expr::Number(0.0))
-        });
-        declared.motion != DeclaredMotion::Free && !locked
+        let mut resolved = self.declared_coordinates.iter();
+        let own = resolved.find(|own| own.joint == declared.joint && own.name == *declared.name);
+        own.is_some_and(|own| own.motion.runs())
     }
 }

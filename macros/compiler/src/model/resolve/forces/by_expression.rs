@@ -41,7 +41,7 @@ impl Resolver<'_> {
 
     /// The value changes with the motion.
     fn moves(&self, value: &Expr) -> bool {
-        value.any_leaf(|leaf| match leaf {
+        value.leaves().into_iter().any(|leaf| match leaf {
             Expr::Coordinate(_) => true,
             Expr::Position(point, _) => self.point_moves(*point),
             _ => false,
