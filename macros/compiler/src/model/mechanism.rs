@@ -313,6 +313,17 @@ pub enum Motion {
     Coasting,
 }
 
+impl Motion {
+    /// The coordinate keeps moving in steady motion: coasting, or driven and not held at zero.
+    pub fn runs(&self) -> bool {
+        match self {
+            Motion::Free => false,
+            Motion::Driven(speed) => *speed != Expr::Number(0.0),
+            Motion::Coasting => true,
+        }
+    }
+}
+
 /// A named point, with axes, fixed in a frame.
 #[derive(Clone, Debug)]
 pub struct Point {
