@@ -25,7 +25,7 @@ machine! {
         joint rocker_angle: revolute(-y) from table to rocker_bar at [100 mm + spacing, 0, 0];
         joint close: revolute(y) from coupler_bar to rocker_bar at [coupler, 0, 0], at [rocker, 0, 0] on rocker_bar, cut;
         point pivot: table at [100 mm, 0, 0];
-        point corner: rocker_bar at [rocker, 0, 0];
+        point corner: coupler_bar at [coupler, 0, 0];
         force diagonal: spring_damper(from: pivot, to: corner, stiffness: stiffness, damping: damping, length: free_length);
         output close_force = norm(reaction_force(close));
         output diagonal_length = distance(pivot, corner);

@@ -27,6 +27,7 @@ machine! {
         point rotor_center: rotor_disk;
         force air: drag(at: rotor_center, turning_damping: drag);
         output tooth_torque = reaction(mesh);
-        output drive_torque = reaction_moment(spin).z;
+        // The gear acts on the coordinates it couples: part of what the joint transmits along its axis.
+        output drive_torque = reaction_moment(spin).z - ratio * reaction(mesh);
     }
 }

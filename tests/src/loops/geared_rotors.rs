@@ -29,6 +29,6 @@ machine! {
         point rotor_center: rotor_disk;
         force resistance: load(at: rotor_center, moment: [0 N*m, 0 N*m, -load]);
         output tooth_torque = reaction(mesh);
-        output drive_torque = reaction_moment(spin_in).z;
+        output stored = potential_energy();
     }
 }
