@@ -1,5 +1,6 @@
 //! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with `M` symmetric positive
-//! definite and any real `C` and `K`, by code that is compiled once in this crate.
+//! definite and any real `C` and `K`, by code that is compiled once in this crate; the same for `A phi = s phi`, which is
+//! the case `M = 0`, `C = I`, `K = -A`.
 //!
 //! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
 //! digits from the pencil itself ([`pair`]); what the pencil cannot tell apart is merged ([`cluster`]), every error is
@@ -31,6 +32,8 @@ mod scratch;
 mod tests;
 
 use num_complex::Complex64;
+
+pub(super) use driver::{Eigenproblem, Numbers, solve as solve_on};
 
 use super::symmetric::Trouble;
 use crate::Linear;
@@ -79,11 +82,11 @@ pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>,
         }; 2]; N],
         count: 0,
     };
-    let mut numbers = [[driver::Numbers::NONE; 2]; N];
+    let mut numbers = [[Numbers::NONE; 2]; N];
     let mut right = [[[Complex64::ZERO; N]; 2]; N];
     let mut left = right;
     roots.count = driver::solve(
-        driver::Matrices::of(linear),
+        Eigenproblem::of(linear),
         numbers.as_flattened_mut(),
         right.as_flattened_mut().as_flattened_mut(),
         left.as_flattened_mut().as_flattened_mut(),

@@ -321,9 +321,9 @@ fn damped<const N: usize>(
 }
 
 /// Below this size an eigenvalue cannot be told from zero: the rounding of the greatest one.
-pub(crate) fn neutral_threshold<const N: usize>(lambda: &[f64; N]) -> f64 {
-    if N < 2 {
+pub(crate) fn neutral_threshold(lambda: &[f64]) -> f64 {
+    if lambda.len() < 2 {
         return 0.0;
     }
-    4.0 * N as f64 * f64::EPSILON * crate::array::largest(lambda)
+    4.0 * lambda.len() as f64 * f64::EPSILON * symmetric::largest(lambda)
 }
