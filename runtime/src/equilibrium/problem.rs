@@ -1,6 +1,7 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
 use crate::array::{Square, all_finite, all_finite_square};
+use crate::constraints::{Structure, fix_gauge};
 use crate::modes::symmetric::Trouble;
 use crate::{Description, Error, Linear, Mechanism};
 
@@ -17,6 +18,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     const DESCRIPTION: &'static Description = &M::DESCRIPTION;
+    pub(crate) const STRUCTURE: Structure = Structure::of(&M::DESCRIPTION);
 
     /// Checks that the values are finite and describe bodies that can exist.
     pub(crate) fn new(
@@ -71,12 +73,18 @@ where
         Ok(())
     }
 
-    /// Residual and stiffness; `None` when either is not finite.
+    /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
-        let (residual, stiffness) =
+        let (residual, mut stiffness) =
             self.mechanism
                 .residual_and_stiffness(q, self.inputs, self.design);
-        (all_finite(&residual) && all_finite_square(&stiffness)).then_some((residual, stiffness))
+        if !all_finite(&residual) || !all_finite_square(&stiffness) {
+            return None;
+        }
+        if const { !Self::STRUCTURE.open() } {
+            fix_gauge(&mut stiffness, Self::STRUCTURE);
+        }
+        Some((residual, stiffness))
     }
 
     pub(crate) fn evaluate_start(&self, q: &[f64; N]) -> Result<([f64; N], Square<N>), Failure<N>> {
@@ -86,8 +94,9 @@ where
         })
     }
 
+    /// The linearised mechanism, its gauge fixed.
     pub(crate) fn linear(&self, q: &[f64; N]) -> Result<Linear<f64, N>, Failure<N>> {
-        let linear = self.mechanism.linear(q, self.inputs, self.design);
+        let mut linear = self.mechanism.linear(q, self.inputs, self.design);
         for (what, matrix) in [
             ("the mass matrix", &linear.mass),
             ("the damping matrix", &linear.damping),
@@ -99,6 +108,9 @@ where
                     coordinates: *q,
                 });
             }
+        }
+        if const { !Self::STRUCTURE.open() } {
+            fix_gauge(&mut linear.stiffness, Self::STRUCTURE);
         }
         Ok(linear)
     }

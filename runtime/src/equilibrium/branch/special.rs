@@ -109,9 +109,7 @@ where
         (frame, tangent): (&Frame<N>, &Place<N>),
         zero: usize,
     ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
-        let linear = self
-            .mechanism
-            .linear(&place.q, &self.inputs_at(place.p), self.design);
+        let linear = self.linear(place)?;
         let softest = symmetric_to_rounding(&linear, Self::DESCRIPTION)
             .then(|| symmetric::solve(&linear.stiffness, &linear.mass).ok())
             .flatten()
