@@ -63,15 +63,7 @@ pub(crate) struct Roots<const N: usize> {
 }
 
 impl<const N: usize> Roots<N> {
-    /// Ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
-    pub(crate) fn as_slice(&self) -> &[Root<N>] {
-        &self.roots.as_flattened()[..self.count]
-    }
-}
-
-/// Solves the general eigenproblem of `linear`.
-pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>, Trouble> {
-    let mut roots = Roots {
+    pub(super) const EMPTY: Self = Self {
         roots: [[Root {
             s: Complex64::ZERO,
             right: [Complex64::ZERO; N],
@@ -82,6 +74,24 @@ pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>,
         }; 2]; N],
         count: 0,
     };
+
+    /// Adds one of at most `2 N`.
+    pub(super) fn push(&mut self, root: Root<N>) {
+        if let Some(place) = self.roots.as_flattened_mut().get_mut(self.count) {
+            *place = root;
+            self.count += 1;
+        }
+    }
+
+    /// Ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
+    pub(crate) fn as_slice(&self) -> &[Root<N>] {
+        &self.roots.as_flattened()[..self.count]
+    }
+}
+
+/// Solves the general eigenproblem of `linear`.
+pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>, Trouble> {
+    let mut roots = Roots::EMPTY;
     let mut numbers = [[Numbers::NONE; 2]; N];
     let mut right = [[[Complex64::ZERO; N]; 2]; N];
     let mut left = right;
