@@ -109,6 +109,11 @@ pub enum Error {
         /// Greatest difference of mirrored elements relative to the greatest element.
         asymmetry: f64,
     },
+    /// Undamped modes were asked for, but speeds or constraints on velocities make motions of first order.
+    #[error(
+        "speeds and constraints on velocities have no undamped symmetric modes: ask for general modes"
+    )]
+    NoUndampedModes,
     /// The eigenvalue iteration did not converge or gave a pair that fails its residual check.
     #[error("mode {} was not found to working accuracy: relative residual {residual:.3e}", .mode + 1)]
     ModesNotFound {

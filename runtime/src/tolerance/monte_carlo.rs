@@ -321,7 +321,7 @@ where
     let Ok(found) = solve_modes(&state.linear, modes.family, state.description) else {
         return (sample(Outcome::NoModes, Some(state.coordinates)), false);
     };
-    let order = match_modes(modes, &found, &state.linear.mass);
+    let order = match_modes(modes, &found, &state.linear);
     let own = order.map(|position| position.and_then(|position| found.modes.get(position)));
     let solved = Sample {
         eigenvalues: own.map(|mode| mode.map(|mode| mode.s)),
