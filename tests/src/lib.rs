@@ -24,6 +24,7 @@ pub mod generated;
 pub mod hyper;
 pub mod interpreter;
 pub mod kernels;
+pub mod loops;
 pub mod machines;
 pub mod model;
 mod num_dual;
