@@ -128,7 +128,7 @@ fn a_lead_is_travel_per_turn() {
 fn drives_are_those_of_their_coordinates() {
     let mechanism = mechanism();
     let speed = |name: &str| match &coordinate(&mechanism, name).motion {
-        Motion::Free => None,
+        Motion::Free | Motion::Coasting => None,
         Motion::Driven(speed) => Some(value(&mechanism, speed)),
     };
     assert_eq!(speed("spin"), Some(7.0));

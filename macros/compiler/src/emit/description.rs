@@ -3,28 +3,30 @@
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
-use crate::mechanics::{Damping, Properties};
-use crate::model::mechanism::{CoordinateQuantity, Mechanism, Unit};
+use crate::mechanics::{Damping, Functions, Role, Unknown};
+use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
-use crate::topology::Topology;
 
 /// `const DESCRIPTION`.
 pub(super) fn description(
     mechanism: &Mechanism,
-    topology: &Topology,
-    properties: Properties,
+    functions: &Functions,
     program: &Program,
 ) -> TokenStream {
     let name = mechanism.name.to_string();
-    let coordinates = topology.free.iter().map(|id| {
-        let coordinate = &mechanism.coordinates[id.index()];
-        let name = coordinate.name.to_string();
-        let symbol = coordinate_unit(coordinate.quantity);
+    let coordinates = functions.unknowns.iter().map(|unknown| {
+        let Unknown { name, unit, role } = unknown;
+        let role = match role {
+            Role::Position(_) => quote!(Position),
+            Role::Speed(_) => quote!(Speed),
+            Role::PositionReaction => quote!(PositionReaction),
+            Role::VelocityReaction => quote!(VelocityReaction),
+        };
         quote! {
             ::eigentol::CoordinateInfo {
                 name: #name,
-                unit: ::eigentol::Unit { symbol: #symbol, scale: 1.0 },
-                role: ::eigentol::Role::Position,
+                unit: ::eigentol::Unit { symbol: #unit, scale: 1.0 },
+                role: ::eigentol::Role::#role,
             }
         }
     });
@@ -43,8 +45,8 @@ pub(super) fn description(
         let (name, unit) = (output.name.to_string(), unit(&output.unit));
         quote! { ::eigentol::OutputInfo { name: #name, unit: #unit } }
     });
-    let symmetric = properties.symmetric_stiffness;
-    let damping = match properties.damping {
+    let symmetric = functions.properties.symmetric_stiffness;
+    let damping = match functions.properties.damping {
         Damping::Zero => quote!(Zero),
         Damping::Gyroscopic => quote!(Gyroscopic),
         Damping::General => quote!(General),
@@ -72,7 +74,7 @@ pub(super) fn description(
 
 /// One constant per name of the declaration, spelled as declared and at its span, so that editors complete it and jump
 /// to it.
-pub(super) fn handles(mechanism: &Mechanism, topology: &Topology) -> TokenStream {
+pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStream {
     let visibility = &mechanism.visibility;
     let handle = |name: &proc_macro2::Ident, kind: &str, index: usize, doc: String| {
         let kind = proc_macro2::Ident::new(kind, proc_macro2::Span::call_site());
@@ -82,10 +84,15 @@ pub(super) fn handles(mechanism: &Mechanism, topology: &Topology) -> TokenStream
         }
     };
     let mut handles = TokenStream::new();
-    for (index, id) in topology.free.iter().enumerate() {
-        let coordinate = &mechanism.coordinates[id.index()];
-        let doc = format!("Free coordinate, {}.", coordinate_unit(coordinate.quantity));
-        handles.extend(handle(&coordinate.name, "Coordinate", index, doc));
+    for (index, unknown) in functions.unknowns.iter().enumerate() {
+        let (id, kind) = match unknown.role {
+            Role::Position(id) => (id, "Free coordinate"),
+            Role::Speed(id) => (id, "Speed of a coasting coordinate"),
+            Role::PositionReaction | Role::VelocityReaction => continue,
+        };
+        let name = &mechanism.coordinates[id.index()].name;
+        let doc = format!("{kind}, {}.", unknown.unit);
+        handles.extend(handle(name, "Coordinate", index, doc));
     }
     for (index, input) in mechanism.inputs.iter().enumerate() {
         let doc = with_docs(
@@ -134,11 +141,4 @@ fn shown(unit: &Unit) -> &str {
 fn unit(unit: &Unit) -> TokenStream {
     let Unit { symbol, scale } = unit;
     quote! { ::eigentol::Unit { symbol: #symbol, scale: #scale } }
-}
-
-fn coordinate_unit(quantity: CoordinateQuantity) -> &'static str {
-    match quantity {
-        CoordinateQuantity::Angle => "rad",
-        CoordinateQuantity::Displacement => "m",
-    }
 }

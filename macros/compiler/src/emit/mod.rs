@@ -32,17 +32,11 @@ use quote::quote;
 use crate::mechanics::Functions;
 use crate::model::mechanism::Mechanism;
 use crate::program::Program;
-use crate::topology::Topology;
 
 /// Generates the type, its handles and its implementation of the runtime's contract.
-pub fn emit(
-    mechanism: &Mechanism,
-    topology: &Topology,
-    functions: &Functions,
-    program: &Program,
-) -> TokenStream {
+pub fn emit(mechanism: &Mechanism, functions: &Functions, program: &Program) -> TokenStream {
     let sizes = contract::Sizes {
-        coordinates: topology.free.len(),
+        coordinates: functions.unknowns.len(),
         inputs: mechanism.inputs.len(),
         design: mechanism.design.len(),
         outputs: mechanism.outputs.len(),
@@ -68,8 +62,8 @@ pub fn emit(
         attributes,
         ..
     } = mechanism;
-    let handles = description::handles(mechanism, topology);
-    let description = description::description(mechanism, topology, functions.properties, program);
+    let handles = description::handles(mechanism, functions);
+    let description = description::description(mechanism, functions, program);
     let contract::Sizes {
         coordinates,
         inputs,

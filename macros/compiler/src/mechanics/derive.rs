@@ -6,7 +6,8 @@ use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
 
-use super::functions::{Functions, Limits, Pose, Requirement};
+use super::constraints::{self, Row};
+use super::functions::{Functions, Limits, Pose, Requirement, Role, Unknown};
 use super::kernels::{kernels, parameter};
 use super::kinematics::{CoordinateMotion, Kinematics};
 use super::linearise::{Jacobians, Linear, at_rest};
@@ -32,11 +33,23 @@ pub fn derive(
     let g = &mut graph;
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
+    let unconstrained = Problem {
+        mechanism,
+        topology,
+        symbols: &symbols,
+        values: &values,
+        rows: &[],
+    };
+    let rows = constraints::rows(g, &unconstrained);
+    let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
+    let symbols = symbols.clone().with_reactions(g, &labels);
+    let values = Values::new(g, mechanism, &symbols);
     let problem = Problem {
         mechanism,
         topology,
         symbols: &symbols,
         values: &values,
+        rows: &rows,
     };
 
     steady_state::check(g, &problem)?;
@@ -44,20 +57,49 @@ pub fn derive(
     let jacobians = Jacobians::new(g, &symbols, &equations);
     properties::check(g, &problem, &jacobians)?;
     let properties = properties::establish(g, &problem, &jacobians);
-    let linear = Linear::new(g, &jacobians, properties, &problem.outward_order());
+    let linear = Linear::new(g, &jacobians, properties, &problem);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
     functions.extend(whirl(g, &problem).map(|values| whirl_of(values, &symbols)));
     let requirements = requirements(g, mechanism, &values);
     functions.push(check_of(&requirements, &symbols));
     let poses = poses(g, &problem);
     functions.push(margins_of(&poses, &symbols));
+    let unknowns = unknowns(&problem);
     Ok(Functions {
+        unknowns,
         graph,
         functions,
         requirements,
         poses,
         properties,
     })
+}
+
+/// What the entries of `q` are.
+fn unknowns(problem: &Problem) -> Vec<Unknown> {
+    let (mechanism, topology) = (problem.mechanism, problem.topology);
+    let of = |id: CoordinateId, per_second: &str, role: fn(CoordinateId) -> Role| {
+        let coordinate = &mechanism.coordinates[id.index()];
+        Unknown {
+            name: coordinate.name.to_string(),
+            unit: format!("{}{per_second}", coordinate.quantity.unit()),
+            role: role(id),
+        }
+    };
+    let free = topology.free.iter().map(|&id| of(id, "", Role::Position));
+    let coasting = topology
+        .coasting
+        .iter()
+        .map(|&id| of(id, "/s", Role::Speed));
+    let reactions = problem.rows.iter().map(|row| Unknown {
+        name: row.label.clone(),
+        unit: row.unit.clone(),
+        role: match row.of_velocities {
+            false => Role::PositionReaction,
+            true => Role::VelocityReaction,
+        },
+    });
+    free.chain(coasting).chain(reactions).collect()
 }
 
 /// The function whose results have to be positive.
@@ -117,11 +159,30 @@ pub(super) struct Problem<'a> {
     pub(super) topology: &'a Topology,
     pub(super) symbols: &'a Symbols,
     pub(super) values: &'a Values<'a>,
+    /// The equations of constraints.
+    pub(super) rows: &'a [Row],
 }
 
 impl Problem<'_> {
-    /// Motion of every frame while the driven coordinates stand at `driven`.
-    pub(super) fn kinematics(&self, g: &mut Graph, driven: &[ExprId]) -> Kinematics {
+    /// Numbers of free coordinates, and of coordinates with an equation of motion: free and coasting.
+    pub(super) fn moving(&self) -> (usize, usize) {
+        let free = self.topology.free.len();
+        (free, free + self.topology.coasting.len())
+    }
+
+    /// The multiplier of an equation of a constraint.
+    pub(super) fn multiplier(&self, row: usize) -> ExprId {
+        self.symbols.q.values[self.moving().1 + row]
+    }
+
+    /// Motion of every frame while the running coordinates stand at zero.
+    pub(super) fn kinematics_at_zero(&self, g: &mut Graph) -> Kinematics {
+        let zero = g.zero();
+        self.kinematics(g, &vec![zero; self.symbols.running.ids.len()])
+    }
+
+    /// Motion of every frame while the running coordinates stand at `running`.
+    pub(super) fn kinematics(&self, g: &mut Graph, running: &[ExprId]) -> Kinematics {
         let zero = g.zero();
         let still = CoordinateMotion {
             position: zero,
@@ -142,17 +203,25 @@ impl Problem<'_> {
                 let velocity = self.values.scalar(g, speed);
                 g.set_name(velocity, || format!("speed_{}", coordinate.name));
                 coordinates[id.index()] = CoordinateMotion {
-                    position: driven[k],
+                    position: running[k],
                     velocity,
                     acceleration: zero,
                 };
             }
         }
+        let (free, driven) = (self.moving().0, self.topology.driven.len());
+        for (k, id) in self.topology.coasting.iter().enumerate() {
+            coordinates[id.index()] = CoordinateMotion {
+                position: running[driven + k],
+                velocity: self.symbols.q.values[free + k],
+                acceleration: self.symbols.velocity.values[free + k],
+            };
+        }
         Kinematics::new(g, self.mechanism, self.topology, self.values, coordinates)
     }
 
-    /// For each free coordinate, the position of its joint on the way from the ground to the leaves.
-    fn outward_order(&self) -> Vec<usize> {
+    /// For each unknown, the position of its joint on the way from the ground to the leaves; reactions stand behind them.
+    pub(super) fn outward_order(&self) -> Vec<usize> {
         let place = |id: &CoordinateId| {
             let joint = self.mechanism.coordinates[id.index()].joint;
             self.topology
@@ -161,26 +230,28 @@ impl Problem<'_> {
                 .position(|branch| branch.joint == joint)
                 .unwrap_or(0)
         };
-        self.topology.free.iter().map(place).collect()
+        let reactions = self.rows.iter().map(|_| usize::MAX);
+        let moving = self.topology.free.iter().chain(&self.topology.coasting);
+        moving.map(place).chain(reactions).collect()
     }
 
-    /// The residual along the free coordinates.
+    /// The residual: along free and coasting coordinates, then the equations of constraints.
     pub(super) fn residual(
         &self,
         g: &mut Graph,
         kinematics: &Kinematics,
         sources: Sources,
     ) -> Vec<ExprId> {
-        let all = dynamics(g, self, kinematics, sources).residual;
-        self.topology
-            .free
-            .iter()
-            .map(|id| all[id.index()])
+        let all = dynamics(g, self, kinematics, sources);
+        let moving = self.topology.free.iter().chain(&self.topology.coasting);
+        moving
+            .map(|id| all.residual[id.index()])
+            .chain(all.constraints)
             .collect()
     }
 }
 
-/// The equations with the driven coordinates at zero, which a steady state allows.
+/// The equations with the running coordinates at zero, which a steady state allows.
 pub(super) struct Equations {
     /// `g(qddot, qdot, q; u, b)`.
     pub(super) motion: Vec<ExprId>,
@@ -200,7 +271,7 @@ impl Equations {
     fn new(g: &mut Graph, problem: &Problem) -> Self {
         let zero = g.zero();
         let symbols = problem.symbols;
-        let kinematics = problem.kinematics(g, &vec![zero; problem.topology.driven.len()]);
+        let kinematics = problem.kinematics_at_zero(g);
         let zeros = vec![zero; symbols.q.ids.len()];
         let motion = problem.residual(g, &kinematics, Sources::ALL);
         let inertia = problem.residual(g, &kinematics, Sources::INERTIA);

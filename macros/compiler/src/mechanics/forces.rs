@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use crate::algebra::{Graph, Matrix3, Vector3, gradient};
 use crate::base::ids::{ExprId, ForceId, PointId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Force, ForceLaw, Frame};
+use crate::model::mechanism::{Force, ForceLaw, Frame, Placement};
 
+use super::closure::{Pair, Side};
+use super::constraints::constraints;
 use super::derive::Problem;
 use super::kinematics::{Kinematics, PointMotion};
 use super::path::Tree;
@@ -55,16 +57,54 @@ pub(super) struct AppliedForces {
     pub(super) on_bodies: Vec<Loads>,
     /// Generalised force by coordinate id.
     pub(super) on_coordinates: Vec<ExprId>,
+    /// Values of the equations of constraints; zero where these are left out.
+    pub(super) constraints: Vec<ExprId>,
 }
 
-/// What every force law reads.
-struct Setting<'a> {
-    problem: &'a Problem<'a>,
-    kinematics: &'a Kinematics,
+/// What every force law and constraint reads.
+pub(super) struct Setting<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) kinematics: &'a Kinematics,
     tree: Tree,
 }
 
-impl Setting<'_> {
+impl<'a> Setting<'a> {
+    pub(super) fn new(problem: &'a Problem<'a>, kinematics: &'a Kinematics) -> Self {
+        Self {
+            problem,
+            kinematics,
+            tree: Tree::new(problem.mechanism, problem.topology),
+        }
+    }
+
+    /// A named point as one side of a constraint.
+    pub(super) fn side(&self, point: PointId) -> Side {
+        Side {
+            frame: self.frame(point),
+            at: self.point(point),
+        }
+    }
+
+    /// A place in a frame as one side of a constraint.
+    pub(super) fn placed(&self, g: &mut Graph, frame: Frame, placement: &Placement) -> Side {
+        let at = self
+            .kinematics
+            .place(g, self.problem.values, frame, placement);
+        Side { frame, at }
+    }
+
+    /// Velocity of the second of two frames relative to the first, at a position.
+    pub(super) fn relative_velocity(
+        &self,
+        g: &mut Graph,
+        (from, to): (Frame, Frame),
+        position: Vector3,
+    ) -> Vector3 {
+        let closing = self.tree.common_ancestor(from, to);
+        let [from, to] = [from, to].map(|frame| self.velocity(g, frame, position, closing).0);
+        to.sub(g, from)
+    }
+
     fn frame(&self, point: PointId) -> Frame {
         self.problem.mechanism.points[point.index()].frame
     }
@@ -98,17 +138,16 @@ impl AppliedForces {
         let mut this = Self {
             on_bodies: vec![Loads::new(); mechanism.bodies.len()],
             on_coordinates: vec![g.zero(); mechanism.coordinates.len()],
+            constraints: vec![g.zero(); problem.rows.len()],
         };
-        let tree = Tree::new(mechanism, problem.topology);
-        let setting = Setting {
-            problem,
-            kinematics,
-            tree,
-        };
+        let setting = Setting::new(problem, kinematics);
         for (index, force) in mechanism.forces.iter().enumerate() {
             if sources.forces.contains(ForceId::new(index)) {
                 this.act(g, &setting, force);
             }
+        }
+        if sources.constraints {
+            this.constraints = constraints(g, &setting, &mut this);
         }
         this
     }
@@ -157,7 +196,8 @@ impl AppliedForces {
             // Q_i = -dV/dq_i
             ForceLaw::Potential { energy } => {
                 let energy = values.scalar_at(g, energy, kinematics);
-                let slopes = gradient(g, energy, &problem.symbols.q.ids);
+                let free = problem.topology.free.len();
+                let slopes = gradient(g, energy, &problem.symbols.q.ids[..free]);
                 for (id, slope) in problem.topology.free.iter().zip(slopes) {
                     let slot = &mut self.on_coordinates[id.index()];
                     *slot = g.sub(*slot, slope);
@@ -318,11 +358,42 @@ impl AppliedForces {
         closing: Frame,
     ) {
         let frame = setting.frame(point);
+        let arm = setting.point(point).arm;
+        self.apply_at(g, (frame, arm), load, closing);
+    }
+
+    /// A force and a moment on one side of a constraint, the opposite on the other side at the same place.
+    pub(super) fn apply_pair(
+        &mut self,
+        g: &mut Graph,
+        setting: &Setting,
+        pair: &Pair,
+        load: Wrench,
+    ) {
+        let Pair {
+            from, to, reach, ..
+        } = pair;
+        let closing = setting.tree.common_ancestor(from.frame, to.frame);
+        let arm = to.at.arm.add(g, *reach);
+        self.apply_at(g, (to.frame, arm), load, closing);
+        let gap = pair.gap(g);
+        let arm = from.at.arm.add(g, gap);
+        let opposite = load.neg(g);
+        self.apply_at(g, (from.frame, arm), opposite, closing);
+    }
+
+    /// Applies a force and a moment at an arm from the origin of a frame.
+    fn apply_at(
+        &mut self,
+        g: &mut Graph,
+        (frame, arm): (Frame, Vector3),
+        load: Wrench,
+        closing: Frame,
+    ) {
         let Frame::Body(body) = frame else { return };
         if frame == closing {
             return;
         }
-        let arm = setting.point(point).arm;
         let lever = arm.cross(g, load.force);
         let load = Wrench {
             force: load.force,

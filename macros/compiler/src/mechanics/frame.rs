@@ -118,6 +118,27 @@ impl FrameMotion {
         }
     }
 
+    /// The frame after a translation whose rate along `direction`, which turns with the frame, is the coordinate's:
+    /// `v += d qdot`, `a += d qddot + omega x d qdot`.
+    pub(super) fn glided(
+        self,
+        g: &mut Graph,
+        direction: Vector3,
+        motion: CoordinateMotion,
+    ) -> Self {
+        let travel = direction.scale(g, motion.position);
+        let speed = direction.scale(g, motion.velocity);
+        let growth = direction.scale(g, motion.acceleration);
+        let turning = self.angular_velocity.cross(g, speed);
+        let second_rate = growth.add(g, turning);
+        Self {
+            offset: self.offset.add(g, travel),
+            velocity: self.velocity.add(g, speed),
+            acceleration: self.acceleration.add(g, second_rate),
+            ..self
+        }
+    }
+
     /// The frame after a rotation about its own unit vector `axis`, which is `direction` in the common frame:
     /// `omega += d qdot`, `alpha += d qddot + omega x d qdot`.
     pub(super) fn turned(

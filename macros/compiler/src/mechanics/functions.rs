@@ -1,11 +1,13 @@
 //! What mechanics hands on: the functions to generate, and what was proved about them.
 
 use crate::algebra::{Function, Graph};
-use crate::base::ids::ExprId;
+use crate::base::ids::{CoordinateId, ExprId};
 
 /// The equations of a mechanism and all that is derived from them, over one graph.
 #[derive(Clone, Debug)]
 pub struct Functions {
+    /// The unknowns, in the order of `q`.
+    pub unknowns: Vec<Unknown>,
     /// Holds every expression.
     pub graph: Graph,
     /// The kernels, in the order of the runtime's contract.
@@ -16,6 +18,30 @@ pub struct Functions {
     pub poses: Vec<Pose>,
     /// What holds for every design, input and position.
     pub properties: Properties,
+}
+
+/// An unknown of the steady motion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unknown {
+    /// Declared name; of a reaction the constraint's, with the component where it has several.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// What it is.
+    pub role: Role,
+}
+
+/// What an unknown is: see the runtime's contract.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A free coordinate.
+    Position(CoordinateId),
+    /// The speed of a coasting coordinate.
+    Speed(CoordinateId),
+    /// The reaction of a constraint on positions.
+    PositionReaction,
+    /// The reaction of a constraint on velocities.
+    VelocityReaction,
 }
 
 /// Bounds on what is generated.

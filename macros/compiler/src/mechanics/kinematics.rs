@@ -6,7 +6,7 @@
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, CoordinateId, ExprId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Frame, Joint, Mechanism, StepMotion};
+use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
 use crate::topology::Topology;
 
 use super::frame::FrameMotion;
@@ -121,25 +121,34 @@ impl Kinematics {
             let parent = *this.frame(branch.parent);
             let name = mechanism.bodies[branch.body.index()].name.to_string();
             let joint = &mechanism.joints[branch.joint.index()];
-            let motion = this.body(g, values, joint, branch.reversed, &parent, &name);
+            let gliding = mechanism.glides(joint);
+            let motion = this.body(g, values, joint, (branch.reversed, gliding), &parent, &name);
             this.bodies[branch.body.index()] = motion;
         }
         for point in &mechanism.points {
-            let frame = *this.frame(point.frame);
-            let (offset, rotation) = values.placement(g, &point.placement);
-            let arm = frame.orientation.express(g, offset);
-            let position = frame
-                .position
-                .add(g, arm)
-                .set_name(g, &point.name.to_string());
-            let axes = frame.orientation.then_fixed(g, rotation).axes;
-            this.points.push(PointMotion {
-                arm,
-                position,
-                axes,
-            });
+            let place = this.place(g, values, point.frame, &point.placement);
+            place.position.set_name(g, &point.name.to_string());
+            this.points.push(place);
         }
         this
+    }
+
+    /// A place fixed in a frame.
+    pub(super) fn place(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        frame: Frame,
+        placement: &Placement,
+    ) -> PointMotion {
+        let frame = *self.frame(frame);
+        let (offset, rotation) = values.placement(g, placement);
+        let arm = frame.orientation.express(g, offset);
+        PointMotion {
+            arm,
+            position: frame.position.add(g, arm),
+            axes: frame.orientation.then_fixed(g, rotation).axes,
+        }
     }
 
     /// Motion of a frame.
@@ -162,7 +171,7 @@ impl Kinematics {
         g: &mut Graph,
         values: &Values,
         joint: &Joint,
-        reversed: bool,
+        (reversed, gliding): (bool, bool),
         parent: &FrameMotion,
         name: &str,
     ) -> BodyMotion {
@@ -183,7 +192,10 @@ impl Kinematics {
             false => joint.steps.iter().collect(),
             true => joint.steps.iter().rev().collect(),
         };
-        for step in order {
+        if gliding {
+            (moving, steps) = self.glide(g, values, joint, moving, name);
+        }
+        for step in order.into_iter().filter(|_| !gliding) {
             let axis = values.vector(g, &step.axis);
             let axis = if reversed { axis.neg(g) } else { axis };
             let motion = self.coordinates[step.coordinate.index()];
@@ -236,6 +248,43 @@ impl Kinematics {
             from_origin,
             steps,
         }
+    }
+}
+
+impl Kinematics {
+    /// A motion in a plane that nothing depends on, by its speeds along the turned axes: quasi-velocities, with
+    /// `a = vdot + omega x v`.
+    fn glide(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        joint: &Joint,
+        start: FrameMotion,
+        name: &str,
+    ) -> (FrameMotion, Vec<StepAxis>) {
+        let mut moving = start;
+        let mut steps = Vec::new();
+        for step in joint.steps.iter().rev() {
+            let axis = values.vector(g, &step.axis);
+            let motion = self.coordinates[step.coordinate.index()];
+            let direction = moving.orientation.express(g, axis);
+            let turns = step.motion == StepMotion::Turn;
+            moving = if turns {
+                moving.turned(g, (axis, direction), motion, name)
+            } else {
+                moving.glided(g, direction, motion)
+            };
+            steps.push(StepAxis {
+                coordinate: step.coordinate,
+                turn: turns.then_some(direction),
+                slide: (!turns).then_some(direction),
+                point: moving.offset,
+            });
+        }
+        for step in &mut steps {
+            step.point = moving.offset;
+        }
+        (moving, steps)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::algebra::{Array, Direction, Graph, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};
 
-use super::derive::Equations;
+use super::derive::{Equations, Problem};
 use super::functions::{Damping, Properties};
 use super::symbols::{SymbolList, Symbols};
 
@@ -61,13 +61,13 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// `order[i]` grows from the ground to the leaves.
     pub(super) fn new(
         g: &mut Graph,
         jacobians: &Jacobians,
         properties: Properties,
-        order: &[usize],
+        problem: &Problem,
     ) -> Self {
+        let order = problem.outward_order();
         let n = order.len();
         let zero = g.zero();
         // Of two equal entries, the one that differentiates by the coordinate nearer to the leaves is cheaper: less
@@ -103,8 +103,13 @@ impl Linear {
             true => symmetric(&jacobians.stiffness),
             false => general(&jacobians.stiffness),
         };
+        // The acceleration of a coasting coordinate is the rate of an unknown.
+        let mass = match problem.topology.coasting.is_empty() {
+            true => symmetric(&jacobians.mass),
+            false => general(&jacobians.mass),
+        };
         let this = Self {
-            mass: symmetric(&jacobians.mass),
+            mass,
             damping,
             stiffness,
         };

@@ -4,6 +4,8 @@
 //! The only bridge between the wing that knows mechanisms and the wing that knows expressions.
 
 mod adjoint;
+mod closure;
+mod constraints;
 mod derive;
 mod energy;
 mod forces;
@@ -21,6 +23,7 @@ mod poses;
 mod print;
 mod properties;
 mod requirements;
+mod rolling;
 mod sources;
 mod steady_state;
 mod symbols;
@@ -28,4 +31,4 @@ mod values;
 mod whirl;
 
 pub use derive::derive;
-pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement};
+pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, Role, Unknown};

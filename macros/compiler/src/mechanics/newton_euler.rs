@@ -16,6 +16,8 @@ use super::sources::Sources;
 pub(super) struct Dynamics {
     /// `g(qddot, qdot, q; u, b)` by coordinate id (eq. 12): inertia less applied forces along each coordinate.
     pub(super) residual: Vec<ExprId>,
+    /// By row: the equations of constraints.
+    pub(super) constraints: Vec<ExprId>,
     /// By body id: what the parent exerts on the body and all it carries, about the body's origin.
     pub(super) transmitted: Vec<Wrench>,
 }
@@ -80,6 +82,7 @@ pub(super) fn dynamics(
     }
     Dynamics {
         residual,
+        constraints: applied.constraints,
         transmitted,
     }
 }

@@ -1,11 +1,14 @@
 //! Outputs: what they may refer to beyond coordinates and points.
 
 use crate::algebra::{Graph, Vector3};
-use crate::base::ids::{ExprId, JointId};
+use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::model::expression::Expr;
+use crate::model::mechanism::ConstraintLaw;
 
+use super::constraints::{Source, held};
 use super::derive::Problem;
 use super::energy::{kinetic, potential};
+use super::forces::{Setting, Wrench};
 use super::kinematics::Kinematics;
 use super::newton_euler::dynamics;
 use super::sources::Sources;
@@ -16,6 +19,7 @@ pub(super) fn outputs(g: &mut Graph, problem: &Problem, kinematics: &Kinematics)
     let state = Everything {
         kinematics,
         reactions: reactions(g, problem, kinematics),
+        constraints: constraint_reactions(g, problem, kinematics),
         kinetic: kinetic(g, problem, kinematics),
         potential: potential(g, problem, kinematics),
     };
@@ -31,6 +35,8 @@ struct Everything<'a> {
     kinematics: &'a Kinematics,
     /// By joint id: force and moment.
     reactions: Vec<[Vector3; 2]>,
+    /// By constraint id.
+    constraints: Vec<[ExprId; 6]>,
     kinetic: ExprId,
     potential: ExprId,
 }
@@ -45,6 +51,7 @@ impl State for Everything<'_> {
     fn leaf(&self, leaf: &Expr) -> ExprId {
         match leaf {
             Expr::Reaction(joint, component) => self.reaction(*joint, *component),
+            Expr::ConstraintReaction(id, component) => self.constraints[id.index()][*component],
             Expr::KineticEnergy => self.kinetic,
             Expr::PotentialEnergy => self.potential,
             _ => self.kinematics.leaf(leaf),
@@ -67,5 +74,49 @@ fn reactions(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<[
         let to_axes = motion.from_axes.transpose();
         reactions[branch.joint.index()] = [to_axes.apply(g, load.force), to_axes.apply(g, moment)];
     }
+    let setting = Setting::new(problem, kinematics);
+    for &joint in &problem.topology.cut {
+        if let Some(load) = held(g, &setting, Source::Joint(joint)) {
+            reactions[joint.index()] = [load.force, load.moment];
+        }
+    }
     reactions
+}
+
+/// What each constraint exerts; see [`Expr::ConstraintReaction`].
+fn constraint_reactions(
+    g: &mut Graph,
+    problem: &Problem,
+    kinematics: &Kinematics,
+) -> Vec<[ExprId; 6]> {
+    let setting = Setting::new(problem, kinematics);
+    let zero = g.zero();
+    let ids = (0..problem.mechanism.constraints.len()).map(ConstraintId::new);
+    ids.map(|id| {
+        let source = Source::Constraint(id);
+        let law = &problem.mechanism.constraints[id.index()].law;
+        let multiplier = |component: usize| {
+            let row = problem.row(source, component);
+            row.map_or(zero, |row| problem.multiplier(row))
+        };
+        match law {
+            ConstraintLaw::Distance { .. } => [multiplier(0), zero, zero, zero, zero, zero],
+            ConstraintLaw::Equation { .. } => {
+                let force = g.neg(multiplier(0));
+                [force, zero, zero, zero, zero, zero]
+            }
+            ConstraintLaw::Rolling { .. } => {
+                let [normal, forward, lateral] = [0, 1, 2].map(multiplier).map(|mu| g.neg(mu));
+                [forward, lateral, normal, zero, zero, zero]
+            }
+            ConstraintLaw::Coincident { .. } | ConstraintLaw::Aligned { .. } => {
+                let Some(Wrench { force, moment }) = held(g, &setting, source) else {
+                    return [zero; 6];
+                };
+                let ([a, b, c], [d, e, f]) = (force.0, moment.0);
+                [a, b, c, d, e, f]
+            }
+        }
+    })
+    .collect()
 }

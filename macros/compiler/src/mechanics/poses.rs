@@ -7,8 +7,7 @@ use super::functions::Pose;
 
 /// Every joint with three turns.
 pub(super) fn poses(g: &mut Graph, problem: &Problem) -> Vec<Pose> {
-    let zero = g.zero();
-    let kinematics = problem.kinematics(g, &vec![zero; problem.topology.driven.len()]);
+    let kinematics = problem.kinematics_at_zero(g);
     let mut poses = Vec::new();
     for branch in &problem.topology.branches {
         let motion = kinematics.of(branch.body);

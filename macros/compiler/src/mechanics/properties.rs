@@ -38,14 +38,24 @@ pub(super) fn vanish(g: &Graph, problem: &Problem, roots: &[ExprId]) -> Vec<bool
         .collect()
 }
 
-/// Rejects a mechanism whose mass matrix is singular, or in which nothing resists a coordinate.
+/// Rejects a mechanism whose mass matrix is singular, in which nothing resists a coordinate, or with a constraint that
+/// nothing can meet.
 pub(super) fn check(
     g: &Graph,
     problem: &Problem,
     jacobians: &Jacobians,
 ) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let name = |k: usize| &problem.mechanism.coordinates[problem.topology.free[k].index()].name;
+    let (free, moving) = problem.moving();
+    let name = |k: usize| {
+        let coordinates = problem
+            .topology
+            .free
+            .iter()
+            .chain(&problem.topology.coasting);
+        let id = coordinates.copied().nth(k).expect("it moves");
+        &problem.mechanism.coordinates[id.index()].name
+    };
     let without_inertia = coordinate_without_inertia(g, problem, jacobians);
     if let Some(k) = without_inertia {
         diagnostics.error_with_help(
@@ -58,8 +68,25 @@ pub(super) fn check(
         );
     }
     for (k, column) in jacobians.stiffness.iter().enumerate() {
-        let free = vanish(g, problem, column).into_iter().all(|zero| zero);
-        if free && without_inertia != Some(k) {
+        let idle = vanish(g, problem, column).into_iter().all(|zero| zero);
+        if !idle || without_inertia == Some(k) {
+            continue;
+        }
+        if k >= moving {
+            let row = &problem.rows[k - moving];
+            let source = row.source.name(problem.mechanism);
+            diagnostics.error_with_help(
+                source.span(),
+                format!("no coordinate changes what `{}` demands", row.label),
+                "remove it, or let it hold between things that move against each other",
+            );
+        } else if k >= free {
+            diagnostics.error_with_help(
+                name(k).span(),
+                format!("nothing determines the speed of `{}`", name(k)),
+                "drive it, or let a constraint or a damper decide how fast it runs",
+            );
+        } else {
             diagnostics.error_with_help(
                 name(k).span(),
                 format!(
@@ -101,20 +128,59 @@ pub(super) fn establish(g: &mut Graph, problem: &Problem, jacobians: &Jacobians)
     }
 }
 
-/// The first coordinate that leaves the mass matrix singular at every probed state.
+/// The first coordinate, free or coasting, that leaves the mass matrix singular at every probed state. Where constraints
+/// hold, only motions that they admit must move mass: along all others `A^T A` stands for it, `A` the derivatives of the
+/// constraints by the speeds.
 fn coordinate_without_inertia(
     g: &Graph,
     problem: &Problem,
     jacobians: &Jacobians,
 ) -> Option<usize> {
-    let n = jacobians.mass.len();
-    let mass = jacobians.mass.concat();
-    let singular: Vec<Option<usize>> = probe(g, problem, &mass)
+    let (free, n) = problem.moving();
+    let by_rate = |matrix: &[Vec<ExprId>], next: &[Vec<ExprId>], row: usize| -> Vec<ExprId> {
+        let coordinates = matrix[..free].iter();
+        let speeds = next[free..n].iter();
+        coordinates
+            .chain(speeds)
+            .map(|column| column[row])
+            .collect()
+    };
+    let mut roots: Vec<ExprId> = (0..n)
+        .flat_map(|row| by_rate(&jacobians.mass, &jacobians.damping, row))
+        .collect();
+    for (k, row) in problem.rows.iter().enumerate() {
+        let demands = if row.of_velocities {
+            &jacobians.damping
+        } else {
+            &jacobians.stiffness
+        };
+        roots.extend(by_rate(demands, &jacobians.stiffness, n + k));
+    }
+    let singular: Vec<Option<usize>> = probe(g, problem, &roots)
         .iter()
-        .map(|values| first_zero_pivot(n, &values.iter().map(|v| v.value).collect::<Vec<_>>()))
+        .map(|values| {
+            let values: Vec<f64> = values.iter().map(|v| v.value).collect();
+            let (mass, constraints) = values.split_at(n * n);
+            first_zero_pivot(n, &with_constraints(n, mass, constraints))
+        })
         .collect();
     let first = singular.first().copied().flatten()?;
     singular.iter().all(Option::is_some).then_some(first)
+}
+
+/// `M + m sum a a^T / |a|^2`, `m` the greatest mass.
+fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
+    let mut sum = mass.to_vec();
+    let most = (0..n).fold(0.0_f64, |most, i| most.max(mass[i * n + i]));
+    for a in constraints.chunks_exact(n.max(1)) {
+        let square: f64 = a.iter().map(|x| x * x).sum();
+        if square > 0.0 {
+            for (k, entry) in sum.iter_mut().enumerate() {
+                *entry += most * a[k / n] * a[k % n] / square;
+            }
+        }
+    }
+    sum
 }
 
 /// Position of the first pivot of a symmetric matrix that vanishes against its diagonal entry.
@@ -151,8 +217,8 @@ fn state(problem: &Problem, seed: u64, symbol: SymbolId) -> f64 {
     if position(&symbols.u.ids).is_some() {
         return 1.5 + signed;
     }
-    if let Some(k) = position(&symbols.q.ids) {
-        let coordinate = &problem.mechanism.coordinates[problem.topology.free[k].index()];
+    if let Some(id) = position(&symbols.q.ids).and_then(|k| problem.topology.free.get(k)) {
+        let coordinate = &problem.mechanism.coordinates[id.index()];
         return match coordinate.quantity {
             CoordinateQuantity::Angle => 1.2 * signed,
             CoordinateQuantity::Displacement => 0.3 * signed,

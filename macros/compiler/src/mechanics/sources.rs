@@ -8,6 +8,7 @@ pub(super) struct Sources {
     pub(super) inertia: Selection<BodyId>,
     pub(super) forces: Selection<ForceId>,
     pub(super) gravity: bool,
+    pub(super) constraints: bool,
 }
 
 /// All of a kind, one, or none.
@@ -34,17 +35,20 @@ impl Sources {
         inertia: Selection::All,
         forces: Selection::All,
         gravity: true,
+        constraints: true,
     };
     /// Inertia alone.
     pub(super) const INERTIA: Self = Self {
         inertia: Selection::All,
         forces: Selection::None,
         gravity: false,
+        constraints: false,
     };
     /// Everything that is not inertia.
     pub(super) const APPLIED: Self = Self {
         inertia: Selection::None,
         forces: Selection::All,
         gravity: true,
+        constraints: true,
     };
 }

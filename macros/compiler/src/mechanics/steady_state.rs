@@ -1,8 +1,10 @@
-//! A steady state exists only if the equations do not change while the driven coordinates turn.
+//! A steady state exists only if the equations do not change while the running coordinates, driven or coasting, go on.
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
+
+use crate::model::mechanism::Motion;
 
 use super::derive::Problem;
 use super::kinematics::Kinematics;
@@ -11,20 +13,25 @@ use super::outputs::outputs;
 use super::properties::vanish;
 use super::sources::{Selection, Sources};
 
-/// Rejects a mechanism whose equations or outputs depend on a driven coordinate, naming the cause.
+/// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
 pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let kinematics = problem.kinematics(g, &problem.symbols.driven.values);
+    let kinematics = problem.kinematics(g, &problem.symbols.running.values);
     let residual = problem.residual(g, &kinematics, Sources::ALL);
     let outputs = outputs(g, problem, &kinematics);
     let outputs = at_rest(g, problem.symbols, &outputs);
-    for (k, &symbol) in problem.symbols.driven.ids.iter().enumerate() {
-        let coordinate = problem.topology.driven[k];
+    let running: Vec<_> = problem.topology.running().collect();
+    for (&symbol, id) in problem.symbols.running.ids.iter().zip(running) {
         // Driven at a speed of zero is locked: the equations hold where it stands.
-        if g.is(kinematics.coordinates[coordinate.index()].velocity, 0.0) {
+        if g.is(kinematics.coordinates[id.index()].velocity, 0.0) {
             continue;
         }
-        let name = &problem.mechanism.coordinates[problem.topology.driven[k].index()].name;
+        let coordinate = &problem.mechanism.coordinates[id.index()];
+        let name = &coordinate.name;
+        let (motion, drive) = match coordinate.motion {
+            Motion::Coasting => ("coasting", "motion"),
+            _ => ("driven", "drive"),
+        };
         if depends(g, problem, &residual, symbol) {
             let mut causes = causes(g, problem, &kinematics, symbol);
             if causes.is_empty() {
@@ -35,10 +42,10 @@ pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics>
             diagnostics.error_with_help(
                 name.span(),
                 format!(
-                    "the equations of motion depend on the driven coordinate `{name}`, so there is no steady state: {}",
+                    "the equations of motion depend on the {motion} coordinate `{name}`, so there is no steady state: {}",
                     causes.join("; ")
                 ),
-                "make what it names symmetric about the axis of the drive, or attach it to what turns with the drive",
+                format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it"),
             );
         }
         for (&value, output) in outputs.iter().zip(&problem.mechanism.outputs) {
@@ -46,10 +53,10 @@ pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics>
                 diagnostics.error_with_help(
                     output.name.span(),
                     format!(
-                        "output `{}` depends on the driven coordinate `{name}` and is not constant in steady motion",
+                        "output `{}` depends on the {motion} coordinate `{name}` and is not constant in steady motion",
                         output.name
                     ),
-                    "use a quantity that the drive leaves unchanged: a height, a distance, a distance from the axis",
+                    "use a quantity that this motion leaves unchanged: a height, a distance, a distance from the axis",
                 );
             }
         }
@@ -73,6 +80,7 @@ fn causes(
         inertia: Selection::None,
         forces: Selection::None,
         gravity: false,
+        constraints: false,
     };
     let mut candidates = vec![(
         Sources {
@@ -103,5 +111,18 @@ fn causes(
         let part = problem.residual(g, kinematics, *sources);
         depends(g, problem, &part, symbol)
     });
-    candidates.into_iter().map(|(_, cause)| cause).collect()
+    let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
+    let constraints = Sources {
+        constraints: true,
+        ..none
+    };
+    let values = problem.residual(g, kinematics, constraints);
+    for (row, &value) in problem.rows.iter().zip(&values[problem.moving().1..]) {
+        if depends(g, problem, &[value], symbol) {
+            let source = row.source.name(problem.mechanism);
+            causes.push(format!("the constraint `{source}` changes with it"));
+        }
+    }
+    causes.dedup();
+    causes
 }

@@ -1,8 +1,8 @@
 //! The symbols that the equations are written in.
 
 use crate::algebra::{Graph, Stage};
-use crate::base::ids::{ExprId, SymbolId};
-use crate::model::mechanism::{Mechanism, Motion};
+use crate::base::ids::{CoordinateId, ExprId, SymbolId};
+use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
 /// A list of symbols with their expressions, one per entry of an array.
@@ -58,14 +58,14 @@ impl Pencil {
 /// Every symbol of a mechanism's equations.
 #[derive(Clone, Debug)]
 pub(super) struct Symbols {
-    /// Free coordinates.
+    /// The unknowns: free coordinates, speeds of coasting ones, reactions of constraints.
     pub(super) q: SymbolList,
     /// Their rates.
     pub(super) velocity: SymbolList,
     /// Their second derivatives.
     pub(super) acceleration: SymbolList,
-    /// Driven coordinates; they occur only while the steady state is being checked.
-    pub(super) driven: SymbolList,
+    /// Running coordinates, driven and coasting; they occur only while the steady state is being checked.
+    pub(super) running: SymbolList,
     /// Inputs.
     pub(super) u: SymbolList,
     /// Design variables.
@@ -93,12 +93,22 @@ pub(super) struct Symbols {
 }
 
 impl Symbols {
+    /// Without reactions of constraints.
     pub(super) fn new(g: &mut Graph, mechanism: &Mechanism, topology: &Topology) -> Self {
-        let coordinate = |id: &crate::base::ids::CoordinateId| {
-            mechanism.coordinates[id.index()].name.to_string()
-        };
-        let free: Vec<String> = topology.free.iter().map(coordinate).collect();
-        let driven: Vec<String> = topology.driven.iter().map(coordinate).collect();
+        let coordinate = |id: CoordinateId| mechanism.coordinates[id.index()].name.to_string();
+        let free: Vec<String> = topology
+            .free
+            .iter()
+            .copied()
+            .map(coordinate)
+            .chain(
+                topology
+                    .coasting
+                    .iter()
+                    .map(|&id| format!("speed_{}", coordinate(id))),
+            )
+            .collect();
+        let running: Vec<String> = topology.running().map(coordinate).collect();
         let inputs: Vec<String> = mechanism
             .inputs
             .iter()
@@ -113,16 +123,11 @@ impl Symbols {
         let named = |prefix: &str, names: &[String]| -> Vec<String> {
             names.iter().map(|name| format!("{prefix}{name}")).collect()
         };
-        debug_assert!(
-            topology.driven.iter().all(|id| {
-                matches!(mechanism.coordinates[id.index()].motion, Motion::Driven(_))
-            })
-        );
         Self {
             b: SymbolList::new(g, Stage::Design, design.clone()),
             u: SymbolList::new(g, Stage::Input, inputs.clone()),
             q: SymbolList::new(g, Stage::Configuration, free.clone()),
-            driven: SymbolList::new(g, Stage::Configuration, driven),
+            running: SymbolList::new(g, Stage::Configuration, running),
             velocity: SymbolList::new(g, Stage::Rate, named("rate_", &free)),
             acceleration: SymbolList::new(g, Stage::Rate, named("acceleration_", &free)),
             phi: SymbolList::new(g, Stage::Rate, named("phi_", &free)),
@@ -139,5 +144,37 @@ impl Symbols {
             real: SymbolList::new(g, Stage::Rate, named("real_", &free)),
             imaginary: SymbolList::new(g, Stage::Rate, named("imaginary_", &free)),
         }
+    }
+
+    /// With the reactions of constraints among the unknowns.
+    pub(super) fn with_reactions(mut self, g: &mut Graph, reactions: &[String]) -> Self {
+        let mut extend = |list: &mut SymbolList, stage: Stage, prefix: &str| {
+            let names = reactions.iter().map(|name| format!("{prefix}{name}"));
+            let more = SymbolList::new(g, stage, names);
+            list.ids.extend(more.ids);
+            list.values.extend(more.values);
+        };
+        extend(&mut self.q, Stage::Configuration, "reaction_");
+        extend(&mut self.velocity, Stage::Rate, "rate_");
+        extend(&mut self.acceleration, Stage::Rate, "acceleration_");
+        extend(&mut self.phi, Stage::Rate, "phi_");
+        extend(&mut self.w, Stage::Rate, "w_");
+        extend(&mut self.dq, Stage::Rate, "d_");
+        extend(&mut self.dphi, Stage::Rate, "d_phi_");
+        extend(&mut self.dw, Stage::Rate, "d_w_");
+        extend(&mut self.real, Stage::Rate, "real_");
+        extend(&mut self.imaginary, Stage::Rate, "imaginary_");
+        for (pencil, prefix) in [(&mut self.pencil, ""), (&mut self.dpencil, "d_")] {
+            let lists = [
+                (&mut pencil.left, "left"),
+                (&mut pencil.acceleration, "acceleration"),
+                (&mut pencil.velocity, "velocity"),
+                (&mut pencil.position, "position"),
+            ];
+            for (list, vector) in lists {
+                extend(list, Stage::Rate, &format!("{prefix}{vector}_"));
+            }
+        }
+        self
     }
 }

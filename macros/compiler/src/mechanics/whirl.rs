@@ -23,7 +23,7 @@ use super::values::Values;
 /// `moment` and `size`; `None` where no massive body turns in the state of rest.
 pub(super) fn whirl(g: &mut Graph, problem: &Problem) -> Option<[ExprId; 2]> {
     let zero = g.zero();
-    let kinematics = problem.kinematics(g, &vec![zero; problem.topology.driven.len()]);
+    let kinematics = problem.kinematics_at_zero(g);
     let symbols = problem.symbols;
     let vectors: Vec<ExprId> = kinematics
         .bodies

@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use rustc_hash::FxHashSet;
+
 use crate::base::ids::{
     ConstantId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId,
 };
@@ -58,6 +60,31 @@ pub enum Expr {
     Call(Function, Rc<Expr>),
     /// `atan2(y, x)`.
     Atan2(Rc<Expr>, Rc<Expr>),
+}
+
+impl Expr {
+    /// The leaves, each part that occurs several times looked at once.
+    pub fn leaves(&self) -> Vec<&Expr> {
+        let mut leaves = Vec::new();
+        let mut seen = FxHashSet::default();
+        let mut waiting = vec![self];
+        while let Some(expr) = waiting.pop() {
+            if !seen.insert(std::ptr::from_ref(expr)) {
+                continue;
+            }
+            match expr {
+                Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => waiting.push(a),
+                Expr::Add(a, b)
+                | Expr::Subtract(a, b)
+                | Expr::Multiply(a, b)
+                | Expr::Divide(a, b)
+                | Expr::Power(a, b)
+                | Expr::Atan2(a, b) => waiting.extend([&**a, &**b]),
+                leaf => leaves.push(leaf),
+            }
+        }
+        leaves
+    }
 }
 
 /// Elementary functions of one argument.

@@ -38,6 +38,15 @@ pub struct Mechanism {
     pub outputs: Vec<Output>,
 }
 
+impl Mechanism {
+    /// Whether a joint is a planar one that coasts: its speeds are those along its turned axes.
+    pub fn glides(&self, joint: &Joint) -> bool {
+        let coasts =
+            |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
+        joint.word == "planar" && joint.steps.iter().all(coasts)
+    }
+}
+
 /// A unit as declared: a value in SI is the value in this unit times `scale`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
@@ -283,6 +292,16 @@ pub enum CoordinateQuantity {
     Displacement,
 }
 
+impl CoordinateQuantity {
+    /// SI unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad",
+            Self::Displacement => "m",
+        }
+    }
+}
+
 /// How a coordinate moves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
@@ -292,6 +311,17 @@ pub enum Motion {
     Driven(Expr),
     /// Constant speed that the equations of motion determine; nothing depends on the coordinate itself.
     Coasting,
+}
+
+impl Motion {
+    /// The coordinate keeps moving in steady motion: coasting, or driven and not held at zero.
+    pub fn runs(&self) -> bool {
+        match self {
+            Motion::Free => false,
+            Motion::Driven(speed) => *speed != Expr::Number(0.0),
+            Motion::Coasting => true,
+        }
+    }
 }
 
 /// A named point, with axes, fixed in a frame.
@@ -451,6 +481,8 @@ pub enum ConstraintLaw {
     Equation {
         /// The expression.
         zero: Expr,
+        /// Its SI unit.
+        unit: Unit,
     },
     /// A wheel (a thin disk, or a ball) rolls without slip on a plane.
     Rolling {

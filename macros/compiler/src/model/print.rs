@@ -1,5 +1,6 @@
 //! A mechanism as text, for snapshots: every value in SI with its names resolved.
 
+mod constraint;
 mod law;
 mod shape;
 
@@ -45,16 +46,20 @@ impl Display for Mechanism {
         for joint in &self.joints {
             writeln!(
                 f,
-                "joint {}: {} from {}{} to {}{}",
+                "joint {}: {} from {}{} to {}{}{}",
                 joint.name,
                 names.joint(joint),
                 names.frame(joint.from),
                 names.placement(&joint.from_placement),
                 names.frame(joint.to),
-                names.placement(&joint.to_placement)
+                names.placement(&joint.to_placement),
+                if joint.cut { ", cut" } else { "" }
             )?;
         }
         for coordinate in &self.coordinates {
+            if self.joints[coordinate.joint.index()].cut {
+                continue;
+            }
             match &coordinate.motion {
                 Motion::Free => writeln!(f, "free {}: {:?}", coordinate.name, coordinate.quantity)?,
                 Motion::Coasting => {
@@ -77,6 +82,10 @@ impl Display for Mechanism {
         }
         for force in &self.forces {
             writeln!(f, "force {}: {}", force.name, names.law(&force.law))?;
+        }
+        for constraint in &self.constraints {
+            let law = names.constraint(&constraint.law);
+            writeln!(f, "constraint {}: {law}", constraint.name)?;
         }
         for output in &self.outputs {
             let value = names.scalar(&output.value);

@@ -4,6 +4,7 @@
 mod arguments;
 mod bodies;
 mod constants;
+mod constraints;
 mod coordinates;
 mod directions;
 mod expected;
@@ -15,6 +16,7 @@ mod operators;
 mod outputs;
 mod parameters;
 mod placements;
+mod point_arguments;
 mod references;
 mod scope;
 mod tension;
@@ -22,7 +24,8 @@ mod typed;
 mod units;
 mod values;
 
-use self::coordinates::Declared;
+use self::constraints::Exerted;
+use self::coordinates::{Declared, DeclaredMotion};
 use self::joints::kinds::Kind;
 use self::parameters::Nominal;
 use self::scope::Scope;
@@ -50,6 +53,7 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
     let joints = resolver.joints();
     let points = resolver.points();
     let forces = resolver.forces();
+    let constraints = resolver.constraints();
     let outputs = resolver.outputs();
     presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
     physical::check(
@@ -72,7 +76,7 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
         coordinates: resolver.declared_coordinates,
         points,
         forces,
-        constraints: Vec::new(),
+        constraints,
         outputs,
     };
     if resolver.diagnostics.is_empty() && !is_complete(ast, &mechanism) {
@@ -97,6 +101,7 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
         && mechanism.coordinates.len() == coordinates::declared(ast).len()
         && mechanism.points.len() == count(|kind| matches!(kind, ItemKind::Point(_)))
         && mechanism.forces.len() == count(|kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism.constraints.len() == count(|kind| matches!(kind, ItemKind::Constraint(_)))
         && mechanism.outputs.len() == count(|kind| matches!(kind, ItemKind::Output(_)))
 }
 
@@ -111,6 +116,7 @@ struct Resolver<'a> {
     constants: Vec<Constant>,
     coordinates: Vec<Declared<'a>>,
     declared_coordinates: Vec<Coordinate>,
+    exerted: Vec<Option<Exerted>>,
     requirements: Vec<Requirement>,
 }
 
@@ -131,6 +137,7 @@ impl<'a> Resolver<'a> {
             constants: Vec::new(),
             coordinates,
             declared_coordinates: Vec::new(),
+            exerted: Vec::new(),
             requirements: Vec::new(),
         }
     }
@@ -159,10 +166,11 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Some coordinate is free. A joint of an unknown kind gets the benefit of the doubt.
+    /// Some coordinate is free or coasting. A joint of an unknown kind gets the benefit of the doubt.
     fn can_move(&self) -> bool {
         let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
-        self.coordinates.iter().any(|coordinate| !coordinate.driven)
-            || coordinates::joints(self.ast).any(unknown)
+        let moves =
+            |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
+        self.coordinates.iter().any(moves) || coordinates::joints(self.ast).any(unknown)
     }
 }

@@ -45,6 +45,8 @@ pub enum ItemKind {
     Point(Point),
     /// `force NAME: LAW;`
     Force(Force),
+    /// `constraint NAME: KIND(...);`
+    Constraint(Constraint),
     /// `output NAME = VALUE;`
     Output(Named),
 }
@@ -61,6 +63,7 @@ impl ItemKind {
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),
             ItemKind::Force(force) => Some(&force.name),
+            ItemKind::Constraint(constraint) => Some(&constraint.name),
         }
     }
 }
@@ -174,7 +177,7 @@ pub struct Joint {
     pub from: Ident,
     /// Frame after `to`.
     pub to: Ident,
-    /// Placements and drives in order.
+    /// Placements, drives and what else is said of the joint, in order.
     pub clauses: Vec<JointClause>,
 }
 
@@ -199,6 +202,19 @@ pub enum JointClause {
     },
     /// `COORDINATE driven at SPEED`.
     Drive(Drive),
+    /// `COORDINATE coasting`.
+    Coast(Coast),
+    /// `cut`.
+    Cut(Extent),
+}
+
+/// A coordinate that runs at a speed of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coast {
+    /// Its name; all coordinates of the joint when absent.
+    pub coordinate: Option<Ident>,
+    /// The word `coasting`.
+    pub keyword: Extent,
 }
 
 /// A coordinate whose motion is prescribed.
@@ -240,6 +256,15 @@ pub struct Force {
     /// Name.
     pub name: Ident,
     /// The law with its arguments.
+    pub law: NamedCall,
+}
+
+/// A constraint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// Name.
+    pub name: Ident,
+    /// The kind with its arguments.
     pub law: NamedCall,
 }
 

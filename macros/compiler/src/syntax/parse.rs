@@ -107,6 +107,9 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Item> {
                 ItemKind::Design(_) if tokens.peek_sign('%') => {
                     Box::new(error.with_help("a tolerance is written `+/- 3%`"))
                 }
+                ItemKind::Constraint(_) if tokens.peek_word("from") => Box::new(
+                    error.with_help("what connects two bodies is a `joint`; it may close a loop"),
+                ),
                 _ => error,
             });
         }

@@ -86,6 +86,9 @@ fn item(kind: &ItemKind) -> String {
         },
         ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),
+        ItemKind::Constraint(constraint) => {
+            format!("constraint {}: {}", constraint.name, call(&constraint.law))
+        }
         ItemKind::Point(point) => format!(
             "point {}: {}{}",
             point.name,
@@ -119,8 +122,8 @@ fn joint(joint: &Joint) -> String {
     }
     let _ = write!(text, " from {} to {}", joint.from, joint.to);
     for (index, clause) in joint.clauses.iter().enumerate() {
-        let is_drive = matches!(clause, JointClause::Drive(_));
-        if index > 0 || is_drive {
+        let is_placement = matches!(clause, JointClause::Placement { .. });
+        if index > 0 || !is_placement {
             text.push(',');
         }
         match clause {
@@ -136,6 +139,13 @@ fn joint(joint: &Joint) -> String {
                 }
                 let _ = write!(text, " driven at {}", value(&drive.speed));
             }
+            JointClause::Coast(coast) => {
+                if let Some(coordinate) = &coast.coordinate {
+                    let _ = write!(text, " {coordinate}");
+                }
+                text.push_str(" coasting");
+            }
+            JointClause::Cut(_) => text.push_str(" cut"),
         }
     }
     text

@@ -1,8 +1,8 @@
-//! Joints to spanning forest: cuts nothing yet, so a closed loop is an error.
+//! Joints to spanning forest; joints that close loops are cut.
 
 use std::collections::VecDeque;
 
-use super::{Branch, Topology, massless};
+use super::{Branch, Topology, cut, massless};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{BodyId, CoordinateId, JointId};
 use crate::model::mechanism::{Frame, Mechanism, Motion};
@@ -10,26 +10,46 @@ use crate::model::mechanism::{Frame, Mechanism, Motion};
 /// Finds how every body hangs on the ground.
 pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let graph = Graph::new(mechanism, &mut diagnostics);
+    let (graph, cut) = Graph::new(mechanism, &mut diagnostics);
     let branches = graph.branches_from(0);
     report_unreached(mechanism, &graph, &branches, &mut diagnostics);
-    let (free, driven) = coordinates(mechanism);
+    let of_tree = |id: &CoordinateId| {
+        let joint = mechanism.coordinates[id.index()].joint;
+        !cut.contains(&joint)
+    };
+    let with = |is: fn(&Motion) -> bool| {
+        (0..mechanism.coordinates.len())
+            .map(CoordinateId::new)
+            .filter(of_tree)
+            .filter(|id| is(&mechanism.coordinates[id.index()].motion))
+            .collect()
+    };
     let topology = Topology {
         branches,
-        free,
-        driven,
+        free: with(|motion| *motion == Motion::Free),
+        coasting: with(|motion| *motion == Motion::Coasting),
+        driven: with(|motion| matches!(motion, Motion::Driven(_))),
+        cut,
     };
-    if diagnostics.is_empty() {
+    for branch in &topology.branches {
+        let joint = &mechanism.joints[branch.joint.index()];
+        if mechanism.glides(joint) && (branch.parent != Frame::Ground || branch.reversed) {
+            diagnostics.error_with_help(
+                &joint.name,
+                "a planar joint can coast on the ground only",
+                format!(
+                    "declare it `from ground to {}`",
+                    mechanism.bodies[branch.body.index()].name
+                ),
+            );
+        }
+    }
+    // Where loops close, a massless link may carry masses through the constraint.
+    let open = topology.cut.is_empty() && mechanism.constraints.is_empty();
+    if diagnostics.is_empty() && open {
         massless::check(mechanism, &topology, &mut diagnostics);
     }
     diagnostics.into_result(topology)
-}
-
-fn coordinates(mechanism: &Mechanism) -> (Vec<CoordinateId>, Vec<CoordinateId>) {
-    let is_free = |id: &CoordinateId| mechanism.coordinates[id.index()].motion == Motion::Free;
-    (0..mechanism.coordinates.len())
-        .map(CoordinateId::new)
-        .partition(is_free)
 }
 
 /// Frames and the joints that keep them a forest. The ground is node 0, body `i` node `i + 1`.
@@ -53,33 +73,45 @@ fn frame(node: usize) -> Frame {
 }
 
 impl Graph {
-    /// Takes joints in order of declaration; one that closes a loop is reported and left out.
-    fn new(mechanism: &Mechanism, diagnostics: &mut Diagnostics) -> Self {
+    /// Takes joints in order of declaration, and of every loop cuts one: the forest and the joints that are not in it.
+    fn new(mechanism: &Mechanism, diagnostics: &mut Diagnostics) -> (Self, Vec<JointId>) {
         let mut graph = Self {
             joints: vec![Vec::new(); mechanism.bodies.len() + 1],
         };
+        let mut cut = Vec::new();
+        let needed = cut::needed(mechanism);
         for (index, joint) in mechanism.joints.iter().enumerate() {
             let (from, to) = (node(joint.from), node(joint.to));
-            if let Some(path) = graph.path(from, to) {
-                let mut closing = path;
-                closing.push(JointId::new(index));
-                closing.sort();
-                let names: Vec<String> = closing
-                    .into_iter()
-                    .map(|id| format!("`{}`", mechanism.joints[id.index()].name))
-                    .collect();
-                diagnostics.error_with_help(
-                    &joint.name,
-                    format!("the joints {} close a loop", names.join(", ")),
-                    "closed loops are not supported yet: remove one of these joints",
-                );
+            let id = JointId::new(index);
+            if joint.cut {
+                cut.push(id);
                 continue;
             }
-            let id = JointId::new(index);
+            if let Some(path) = graph.path(from, to) {
+                let mut closing = path;
+                closing.push(id);
+                match cut::choose(mechanism, &closing, &needed, diagnostics) {
+                    None => continue,
+                    Some(chosen) => {
+                        cut.push(chosen);
+                        if chosen == id {
+                            continue;
+                        }
+                        graph.remove(chosen);
+                    }
+                }
+            }
             graph.joints[from].push((id, to, false));
             graph.joints[to].push((id, from, true));
         }
-        graph
+        cut.sort();
+        (graph, cut)
+    }
+
+    fn remove(&mut self, joint: JointId) {
+        for list in &mut self.joints {
+            list.retain(|&(id, ..)| id != joint);
+        }
     }
 
     /// The joints between two nodes, when they are connected.
@@ -151,6 +183,22 @@ fn report_unreached(
         }
         seen[index] = true;
         let name = &mechanism.bodies[index].name;
+        if let Some(joint) = mechanism
+            .joints
+            .iter()
+            .filter(|joint| joint.cut)
+            .find(|joint| [joint.from, joint.to].contains(&Frame::Body(BodyId::new(index))))
+        {
+            diagnostics.error_with_help(
+                name,
+                format!(
+                    "only the cut joint `{}` leads from body `{name}` to the ground",
+                    joint.name
+                ),
+                "a cut joint closes a loop and carries nothing: remove `cut`",
+            );
+            continue;
+        }
         let mut others = Vec::new();
         for branch in graph.branches_from(index + 1) {
             seen[branch.body.index()] = true;

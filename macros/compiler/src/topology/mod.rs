@@ -1,6 +1,8 @@
-//! The computed spanning forest: which body hangs on which, in an order that visits parents first.
+//! The computed spanning forest: which body hangs on which, in an order that visits parents first, and which joints close
+//! loops on it.
 
 pub mod build;
+mod cut;
 mod massless;
 mod print;
 
@@ -14,8 +16,19 @@ pub struct Topology {
     pub branches: Vec<Branch>,
     /// Free coordinates in order of declaration: the order of `q`.
     pub free: Vec<CoordinateId>,
+    /// Coasting coordinates in order of declaration.
+    pub coasting: Vec<CoordinateId>,
     /// Driven coordinates in order of declaration.
     pub driven: Vec<CoordinateId>,
+    /// Joints that close loops, in order of declaration: they are no branches, and have no coordinates.
+    pub cut: Vec<JointId>,
+}
+
+impl Topology {
+    /// Coordinates that run in steady motion: driven ones, then coasting ones.
+    pub fn running(&self) -> impl Iterator<Item = CoordinateId> + '_ {
+        self.driven.iter().chain(&self.coasting).copied()
+    }
 }
 
 /// How a body hangs on the body nearer to the ground.

@@ -11,10 +11,21 @@ impl Topology {
     pub fn describe(&self, mechanism: &Mechanism) -> String {
         let mut text = String::from("ground\n");
         self.describe_below(mechanism, Frame::Ground, 1, &mut text);
-        for (kind, list) in [("free", &self.free), ("driven", &self.driven)] {
+        let lists = [
+            ("free", &self.free),
+            ("coasting", &self.coasting),
+            ("driven", &self.driven),
+        ];
+        for (kind, list) in lists {
+            if kind == "coasting" && list.is_empty() {
+                continue;
+            }
             let name = |id: &CoordinateId| mechanism.coordinates[id.index()].name.to_string();
             let names: Vec<String> = list.iter().map(name).collect();
             let _ = writeln!(text, "{kind}: {}", names.join(", "));
+        }
+        for joint in &self.cut {
+            let _ = writeln!(text, "cut: {}", mechanism.joints[joint.index()].name);
         }
         text
     }

@@ -23,7 +23,7 @@ enum Choice {
 }
 
 /// What other tools call arguments; only what a signature knows is ever suggested.
-const SYNONYMS: [(&str, &str); 28] = [
+const SYNONYMS: [(&str, &str); 47] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("rho", "density"),
@@ -52,6 +52,25 @@ const SYNONYMS: [(&str, &str); 28] = [
     ("expression", "law"),
     ("force", "value"),
     ("force", "law"),
+    ("axes", "along"),
+    ("directions", "along"),
+    ("distance", "length"),
+    ("first", "of"),
+    ("driven", "of"),
+    ("second", "with"),
+    ("driver", "with"),
+    ("gear_ratio", "ratio"),
+    ("value", "zero"),
+    ("expression", "zero"),
+    ("equation", "zero"),
+    ("hub", "wheel"),
+    ("disk", "wheel"),
+    ("center", "wheel"),
+    ("axle", "axis"),
+    ("plane", "on"),
+    ("ground", "on"),
+    ("road", "on"),
+    ("up", "normal"),
 ];
 
 impl Signature {

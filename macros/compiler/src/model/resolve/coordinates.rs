@@ -16,7 +16,17 @@ pub(super) struct Declared<'a> {
     pub(super) joint: JointId,
     /// Nothing when the joint is wrong.
     pub(super) quantity: Option<CoordinateQuantity>,
-    pub(super) driven: bool,
+    pub(super) motion: DeclaredMotion,
+    /// Its joint closes a loop and has no coordinates.
+    pub(super) cut: bool,
+}
+
+/// How a coordinate is said to move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DeclaredMotion {
+    Free,
+    Driven,
+    Coasting,
 }
 
 /// The dimension of a coordinate.
@@ -55,7 +65,8 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
                 name: &joint.name,
                 joint: id,
                 quantity: motions.first().map(|motion| motion.quantity()),
-                driven: is_driven(joint, None) || is_driven(joint, Some(&joint.name)),
+                motion: motion(joint, &joint.name, true),
+                cut: is_cut(joint),
             });
             continue;
         }
@@ -67,17 +78,33 @@ pub(super) fn declared(ast: &Ast) -> Vec<Declared<'_>> {
                 name,
                 joint: id,
                 quantity: motions.get(place).map(|motion| motion.quantity()),
-                driven: is_driven(joint, Some(name)),
+                motion: motion(joint, name, false),
+                cut: is_cut(joint),
             });
         }
     }
     coordinates
 }
 
-/// A clause drives the coordinate of this name, or the only one.
-fn is_driven(joint: &Joint, name: Option<&Ident>) -> bool {
-    joint.clauses.iter().any(|clause| match clause {
-        JointClause::Drive(drive) => drive.coordinate.as_ref() == name,
-        JointClause::Placement { .. } => false,
-    })
+/// What the first clause about a coordinate says of it. A drive without a name means the only coordinate, `coasting`
+/// without a name all of them.
+fn motion(joint: &Joint, name: &Ident, is_only: bool) -> DeclaredMotion {
+    let said = joint.clauses.iter().find_map(|clause| match clause {
+        JointClause::Drive(drive) => {
+            let meant = drive.coordinate.as_ref().map_or(is_only, |own| own == name);
+            meant.then_some(DeclaredMotion::Driven)
+        }
+        JointClause::Coast(coast) => {
+            let meant = coast.coordinate.as_ref().is_none_or(|own| own == name);
+            meant.then_some(DeclaredMotion::Coasting)
+        }
+        JointClause::Placement { .. } | JointClause::Cut(_) => None,
+    });
+    said.unwrap_or(DeclaredMotion::Free)
+}
+
+/// The joint is declared as one that closes a loop.
+pub(super) fn is_cut(joint: &Joint) -> bool {
+    let mut clauses = joint.clauses.iter();
+    clauses.any(|clause| matches!(clause, JointClause::Cut(_)))
 }

@@ -33,6 +33,19 @@ impl Expected {
         Self::named(Dimension::MOMENT, "an energy", "J")
     }
 
+    pub(super) fn ratio() -> Self {
+        Self::named(Dimension::NONE, "a plain number", "1")
+    }
+
+    pub(super) fn travel_per_angle() -> Self {
+        Self::named(Dimension::LENGTH, "a travel per angle", "m/rad")
+    }
+
+    pub(super) fn angle_per_travel() -> Self {
+        let per_length = Dimension::new(-1, 0, 0);
+        Self::named(per_length, "an angle per travel", "rad/m")
+    }
+
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
         Self {
             dimension,

@@ -10,7 +10,6 @@ use super::arguments::{Arguments, Signature};
 use super::expected::Expected;
 use super::placements::zero;
 use super::typed::Place;
-use crate::base::ids::PointId;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
 use crate::syntax::ast::{self, ItemKind};
@@ -139,7 +138,7 @@ impl Resolver<'_> {
     }
 
     /// A required argument of a dimension that is unknown when the coordinate is: then only the value is checked.
-    fn coefficient(
+    pub(super) fn coefficient(
         &mut self,
         arguments: &Arguments,
         name: &str,
@@ -157,7 +156,7 @@ impl Resolver<'_> {
     }
 
     /// As `coefficient`; zero when not given.
-    fn coefficient_or_zero(
+    pub(super) fn coefficient_or_zero(
         &mut self,
         arguments: &Arguments,
         name: &str,
@@ -180,20 +179,5 @@ impl Resolver<'_> {
             Some(value) => self.vector_of(value, expected, &format!("`{name}`")),
             None => Some(zero()),
         }
-    }
-
-    /// An argument that must be the name of a point.
-    fn point_argument(&mut self, arguments: &Arguments, name: &str) -> Option<PointId> {
-        let point = self.name_of(arguments.get(name)?, "point")?;
-        self.point_named(point)
-    }
-
-    /// The frame of each point as written.
-    fn point_frame(&self, point: PointId) -> Option<String> {
-        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
-            ItemKind::Point(point) => Some(point.frame.to_string()),
-            _ => None,
-        });
-        points.nth(point.index())
     }
 }

@@ -1,6 +1,7 @@
 //! Functions: their table, and those that need to know nothing of the motion.
 
 mod motion;
+mod reactions;
 
 use proc_macro2::Ident;
 
@@ -28,7 +29,7 @@ enum Needs {
 use Needs::{Arguments, Places, Rates, Solution};
 
 /// Every function with its arguments.
-const SIGNATURES: [(&str, &[&str], Needs); 22] = [
+const SIGNATURES: [(&str, &[&str], Needs); 23] = [
     ("sqrt", &["x"], Arguments),
     ("sin", &["angle"], Arguments),
     ("cos", &["angle"], Arguments),
@@ -49,12 +50,13 @@ const SIGNATURES: [(&str, &[&str], Needs); 22] = [
     ("rate", &["coordinate"], Rates),
     ("reaction_force", &["joint"], Solution),
     ("reaction_moment", &["joint"], Solution),
+    ("reaction", &["constraint"], Solution),
     ("kinetic_energy", &[], Solution),
     ("potential_energy", &[], Solution),
 ];
 
 /// What other tools and languages call them.
-const SYNONYMS: [(&str, &str); 16] = [
+const SYNONYMS: [(&str, &str); 18] = [
     ("arcsin", "asin"),
     ("arccos", "acos"),
     ("arctan", "atan"),
@@ -67,7 +69,9 @@ const SYNONYMS: [(&str, &str); 16] = [
     ("velocity", "rate"),
     ("speed", "rate"),
     ("der", "rate"),
-    ("reaction", "reaction_force"),
+    ("multiplier", "reaction"),
+    ("lambda", "reaction"),
+    ("constraint_force", "reaction"),
     ("reaction_torque", "reaction_moment"),
     ("force", "reaction_force"),
     ("energy", "potential_energy"),
@@ -185,9 +189,10 @@ impl Resolver<'_> {
 /// Why a function cannot stand where it does.
 fn refusal(name: &str, needs: Needs, place: Place) -> Option<(String, Option<String>)> {
     let message = match (needs, place) {
-        (Arguments, _) | (Rates, Place::GeneralizedForce) | (Solution, Place::Output) => {
-            return None;
-        }
+        // Whether a rate is an output depends on the coordinate.
+        (Arguments, _)
+        | (Rates, Place::GeneralizedForce | Place::Output)
+        | (Solution, Place::Output) => return None,
         (Places, place) if place.knows_places() => return None,
         (Rates, Place::Tension) => {
             let message = "in a tension, `rate` is the rate of the distance of its two ends";
@@ -197,20 +202,21 @@ fn refusal(name: &str, needs: Needs, place: Place) -> Option<(String, Option<Str
         (_, Place::Tension) => {
             format!("`{name}` cannot be used here: a tension depends on `length` and `rate` only")
         }
-        (Rates, Place::Output) => {
-            "a rate is no output: outputs are values in steady motion, where every free coordinate is at rest"
-                .to_string()
-        }
         (Rates, Place::Energy) => {
             let message = "a potential energy depends on places, not on rates".to_string();
             let help = "a force that depends on rates is `generalized`".to_string();
+            return Some((message, Some(help)));
+        }
+        (Rates, Place::Equation) => {
+            let message = "an equation ties places, not rates".to_string();
+            let help = "the rates of coasting coordinates are tied by `coupling`".to_string();
             return Some((message, Some(help)));
         }
         (Rates, _) => {
             format!("`{name}` depends on the motion; only generalized forces may use it")
         }
         (Places, _) => format!(
-            "`{name}` depends on the motion; only outputs, generalized forces and potentials may use it"
+            "`{name}` depends on the motion; only outputs, generalized forces, potentials and equations may use it"
         ),
         (Solution, _) => {
             format!("`{name}` is known only when the motion is; only outputs may use it")

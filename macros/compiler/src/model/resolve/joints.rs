@@ -1,6 +1,7 @@
 //! Joints: their frames, and how one side moves relative to the other.
 
 mod axes;
+mod cut;
 mod drives;
 pub(super) mod kinds;
 
@@ -34,9 +35,11 @@ impl Resolver<'_> {
         let apart = self.distinct(joint, from, to);
         let sides = self.placements(joint);
         let motions = self.drives(joint, id, kind);
+        let cut = self.cut(joint, kind);
         let (kind, [from_placement, to_placement]) = (kind?, sides?);
         let (from, to, steps) = (from?, to?, steps?);
         apart?;
+        let cut = cut?;
         for (step, motion) in steps.iter().zip(motions?) {
             let declared = self.coordinates.get(step.coordinate.index())?;
             self.declared_coordinates.push(Coordinate {
@@ -54,7 +57,7 @@ impl Resolver<'_> {
             to,
             from_placement: from_placement.unwrap_or_else(unplaced),
             to_placement: to_placement.unwrap_or_else(unplaced),
-            cut: false,
+            cut,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::Resolver;
 use super::typed::Place;
-
+use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{CoordinateQuantity, Output, Point, Unit};
 use crate::syntax::ast::ItemKind;
@@ -34,20 +34,26 @@ impl Resolver<'_> {
                 continue;
             };
             if let Some((value, quantity)) = self.scalar(&output.value, Place::Output) {
-                let symbol = match self.measure(&value) {
-                    Some(Measure::Angle) => "rad".to_string(),
-                    Some(Measure::Energy) => "J".to_string(),
-                    None => quantity.dimension().si_symbol(),
-                };
+                let unit = self.unit_of(&value, quantity.dimension());
                 outputs.push(Output {
                     name: output.name.clone(),
                     docs: item.docs.clone(),
-                    unit: Unit { symbol, scale: 1.0 },
+                    unit,
                     value,
                 });
             }
         }
         outputs
+    }
+
+    /// The SI unit of a value.
+    pub(super) fn unit_of(&self, value: &Expr, dimension: Dimension) -> Unit {
+        let symbol = match self.measure(value) {
+            Some(Measure::Angle) => "rad".to_string(),
+            Some(Measure::Energy) => "J".to_string(),
+            None => dimension.si_symbol(),
+        };
+        Unit { symbol, scale: 1.0 }
     }
 
     /// What the dimension does not tell. Only terms of a sum and what is scaled by a number keep their measure.

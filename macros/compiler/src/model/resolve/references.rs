@@ -37,15 +37,19 @@ impl Resolver<'_> {
         }
     }
 
-    /// A joint.
-    pub(super) fn joint_named(&mut self, name: &Ident) -> Option<JointId> {
+    /// A joint; `kind` says in messages what is expected.
+    pub(super) fn joint_named(&mut self, name: &Ident, kind: &str) -> Option<JointId> {
         match self.scope.find(&name.to_string()) {
             Some(Meaning::Joint(id)) => Some(id),
             Some(Meaning::OnlyCoordinate(id)) => Some(self.coordinates.get(id.index())?.joint),
             found => {
-                let is_joint =
-                    |meaning| matches!(meaning, Meaning::Joint(_) | Meaning::OnlyCoordinate(_));
-                self.wrong_reference(name, "joint", found, is_joint);
+                let is_right = |meaning| {
+                    matches!(
+                        meaning,
+                        Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Constraint(_)
+                    )
+                };
+                self.wrong_reference(name, kind, found, is_right);
                 None
             }
         }
@@ -58,7 +62,13 @@ impl Resolver<'_> {
     ) -> Option<(CoordinateId, CoordinateQuantity)> {
         match self.scope.find(&name.to_string()) {
             Some(Meaning::OnlyCoordinate(id) | Meaning::Coordinate(id)) => {
-                let quantity = self.coordinates.get(id.index())?.quantity?;
+                let declared = self.coordinates.get(id.index())?;
+                let quantity = declared.quantity?;
+                if declared.cut {
+                    let joint = declared.joint;
+                    self.coordinate_of_cut_joint(name, joint);
+                    return None;
+                }
                 Some((id, quantity))
             }
             Some(Meaning::Joint(id)) => {
@@ -70,6 +80,22 @@ impl Resolver<'_> {
                 None
             }
         }
+    }
+
+    /// The motions of a cut joint are equations: there is nothing to refer to.
+    fn coordinate_of_cut_joint(&mut self, name: &Ident, id: JointId) {
+        let Some(joint) = coordinates::joints(self.ast).nth(id.index()) else {
+            return;
+        };
+        let message = match joint.name == *name {
+            true => format!("`{name}` is cut, so it has no coordinate"),
+            false => format!(
+                "`{name}` belongs to the cut joint `{}`, which has no coordinates",
+                joint.name
+            ),
+        };
+        let help = "cut another joint of the loop, or leave out `cut`: then one that nothing refers to is chosen";
+        self.diagnostics.error_with_help(name, message, help);
     }
 
     /// A fixed joint, or one with several coordinates; of an unknown kind nothing more can be said.
@@ -92,7 +118,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn wrong_reference(
+    pub(super) fn wrong_reference(
         &mut self,
         name: &Ident,
         kind: &str,
@@ -106,7 +132,7 @@ impl Resolver<'_> {
                 Meaning::Body(_) if kind == "point" => Some(format!(
                     "declare a point of the body: `point p: {name} at [0, 0, 0];`"
                 )),
-                Meaning::Coordinate(id) if kind == "joint" => self
+                Meaning::Coordinate(id) if kind.starts_with("joint") => self
                     .coordinates
                     .get(id.index())
                     .and_then(|own| coordinates::joints(self.ast).nth(own.joint.index()))

@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 
 use super::coordinates::Declared;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{BodyId, CoordinateId, DesignId, InputId, JointId, PointId};
+use crate::base::ids::{BodyId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId};
 use crate::base::nearest::nearest;
 use crate::syntax::ast::{Ast, ItemKind};
 
@@ -26,6 +26,7 @@ pub(super) enum Meaning {
     Coordinate(CoordinateId),
     Point(PointId),
     Force,
+    Constraint(ConstraintId),
     Output,
 }
 
@@ -46,6 +47,7 @@ impl Meaning {
             Meaning::Coordinate(_) => "a coordinate",
             Meaning::Point(_) => "a point",
             Meaning::Force => "a force",
+            Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
         }
     }
@@ -66,7 +68,7 @@ impl Scope {
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let mut scope = Self::default();
-        let mut counts = [0; 6];
+        let mut counts = [0; 7];
         let mut next = |table: usize| {
             counts[table] += 1;
             counts[table] - 1
@@ -84,6 +86,7 @@ impl Scope {
                 }
                 ItemKind::Point(_) => Meaning::Point(PointId::new(next(5))),
                 ItemKind::Force(_) => Meaning::Force,
+                ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
                 ItemKind::Gravity(_) => continue,
             };

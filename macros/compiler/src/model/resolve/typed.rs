@@ -67,7 +67,9 @@ pub(super) enum Place {
     GeneralizedForce,
     /// A potential energy: also coordinates and points.
     Energy,
-    /// An output: also coordinates, points, reactions and energies.
+    /// An expression that is to be zero: also coordinates and points.
+    Equation,
+    /// An output: also coordinates, points, reactions, energies and the rates of coasting coordinates.
     Output,
 }
 
@@ -76,7 +78,7 @@ impl Place {
     pub(super) fn knows_places(self) -> bool {
         matches!(
             self,
-            Place::GeneralizedForce | Place::Energy | Place::Output
+            Place::GeneralizedForce | Place::Energy | Place::Equation | Place::Output
         )
     }
 }

@@ -3,12 +3,13 @@
 use proc_macro2::Ident;
 
 use super::Resolver;
-use super::coordinates;
+use super::coordinates::{self, DeclaredMotion};
 use super::expected::Expected;
 use super::scope::Meaning;
 use super::tension;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
+use crate::base::ids::CoordinateId;
 use crate::base::nearest::nearest;
 use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
@@ -94,15 +95,7 @@ impl Resolver<'_> {
             Meaning::Let(index) => self.lets.get(index)?.clone(),
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) | Meaning::Coordinate(_) => {
                 let (coordinate, quantity) = self.coordinate(name)?;
-                if !place.knows_places() {
-                    let reason = match place {
-                        Place::Tension => "a tension depends on `length` and `rate` only",
-                        _ => "only outputs, generalized forces and potentials may use coordinates",
-                    };
-                    let message = format!("`{text}` is a coordinate; {reason}");
-                    self.diagnostics.error(name, message);
-                    return None;
-                }
+                self.coordinate_is_usable(name, coordinate, place)?;
                 Some(Typed::Scalar(
                     Expr::Coordinate(coordinate),
                     Quantity::Of(coordinates::dimension(quantity)),
@@ -124,13 +117,44 @@ impl Resolver<'_> {
                 );
                 None
             }
-            Meaning::Body(_) | Meaning::Point(_) | Meaning::Force => {
+            Meaning::Body(_) | Meaning::Point(_) | Meaning::Force | Meaning::Constraint(_) => {
                 let kind = meaning.describe();
                 self.diagnostics
                     .error(name, format!("`{text}` is {kind}, not a value"));
                 None
             }
         }
+    }
+
+    /// Where coordinates stand, and a coasting one: only its rate is constant in steady motion.
+    fn coordinate_is_usable(
+        &mut self,
+        name: &Ident,
+        coordinate: CoordinateId,
+        place: Place,
+    ) -> Option<()> {
+        let reason = match place {
+            place if place.knows_places() => None,
+            Place::Tension => Some("a tension depends on `length` and `rate` only"),
+            _ => Some(
+                "only outputs, generalized forces, potentials and equations may use coordinates",
+            ),
+        };
+        if let Some(reason) = reason {
+            let message = format!("`{name}` is a coordinate; {reason}");
+            self.diagnostics.error(name, message);
+            return None;
+        }
+        let motion = self.coordinates.get(coordinate.index())?.motion;
+        if motion == DeclaredMotion::Coasting && place != Place::Equation {
+            let rate = format!("use `rate({name})`");
+            let help = (place != Place::Energy).then_some(rate);
+            let message =
+                format!("`{name}` is coasting: nothing may depend on how far it has gone");
+            self.report(name, message, help);
+            return None;
+        }
+        Some(())
     }
 
     fn unknown_value(&mut self, name: &Ident, place: Place) {

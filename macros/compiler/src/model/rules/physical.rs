@@ -38,6 +38,8 @@ pub(crate) enum Demand {
     BelowOuter,
     /// The travel of a screw per turn.
     Lead,
+    /// The ratio of a coupling.
+    Ratio,
     /// Two unit vectors that are not parallel.
     Distinct,
     /// Three unit vectors that are not in one plane.
@@ -146,6 +148,10 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<String> {
         (Demand::Lead, [0.0]) => {
             Some("is zero; a joint that turns without travel is `revolute`".to_string())
         }
+        (Demand::Ratio, [0.0]) => Some(
+            "is zero; a coordinate is held in its place by an `equation`, or by a drive at 0"
+                .to_string(),
+        ),
         (Demand::Distinct, axes) => parallel(axes)
             .then(|| "are parallel: the second motion would repeat the first".to_string()),
         (Demand::Spanning, axes) => in_one_plane(axes)

@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::super::ast::{
-    Design, Force, Gravity, Input, ItemKind, Named, Point, Tolerance, ToleranceKind,
+    Constraint, Design, Force, Gravity, Input, ItemKind, Named, Point, Tolerance, ToleranceKind,
 };
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
@@ -16,12 +16,21 @@ use crate::base::nearest::suggestion;
 use crate::base::span::Extent;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 9] = [
-    "input", "design", "let", "gravity", "body", "joint", "point", "force", "output",
+pub(super) const KEYWORDS: [&str; 10] = [
+    "input",
+    "design",
+    "let",
+    "gravity",
+    "body",
+    "joint",
+    "point",
+    "force",
+    "constraint",
+    "output",
 ];
 
 /// What other tools and languages call an item.
-const SYNONYMS: [(&str, &str); 13] = [
+const SYNONYMS: [(&str, &str); 17] = [
     ("param", "design"),
     ("parameter", "design"),
     ("variable", "design"),
@@ -32,7 +41,11 @@ const SYNONYMS: [(&str, &str); 13] = [
     ("marker", "point"),
     ("frame", "point"),
     ("site", "point"),
-    ("constraint", "joint"),
+    ("loop", "constraint"),
+    ("closure", "constraint"),
+    ("coupling", "constraint"),
+    ("equality", "constraint"),
+    ("contact", "constraint"),
     ("element", "force"),
     ("result", "output"),
 ];
@@ -51,6 +64,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "joint" => joint,
         "point" => point,
         "force" => force,
+        "constraint" => constraint,
         "output" => |tokens| named(tokens).map(ItemKind::Output),
         unknown => {
             let message = format!("unknown item `{unknown}`");
@@ -157,6 +171,13 @@ fn force(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens)?;
     let law = named_call(tokens, "a law such as `spring`")?;
     Ok(ItemKind::Force(Force { name, law }))
+}
+
+fn constraint(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let name = declared_name(tokens)?;
+    colon(tokens)?;
+    let law = named_call(tokens, "a constraint such as `coincident`")?;
+    Ok(ItemKind::Constraint(Constraint { name, law }))
 }
 
 fn point(tokens: &mut Tokens) -> Parsed<ItemKind> {

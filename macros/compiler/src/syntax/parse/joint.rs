@@ -1,8 +1,8 @@
-//! Joints: a kind with its axes, two frames, placements and drives.
+//! Joints: a kind with its axes, two frames, placements, drives and what else is said of it.
 
 use proc_macro2::Delimiter;
 
-use super::super::ast::{Drive, ItemKind, Joint, JointArgument, JointClause};
+use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause};
 use super::super::tokens::{Parsed, Tokens};
 use super::item::{colon, declared_name};
 use super::placement::placement;
@@ -26,7 +26,9 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
         let comma = tokens.sign(',').is_some();
         match clause(tokens)? {
             Some(clause) => clauses.push(clause),
-            None if comma => return tokens.expected("`at`, `rotated` or `driven`"),
+            None if comma => {
+                return tokens.expected("`at`, `rotated`, `driven`, `coasting` or `cut`");
+            }
             None => break,
         }
     }
@@ -69,11 +71,22 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
         return Ok(Some(JointClause::Placement { placement, on }));
     }
     let mut ahead = *tokens;
-    let is_named = ahead.ident().is_some() && ahead.peek_word("driven");
+    let is_named =
+        ahead.ident().is_some() && (ahead.peek_word("driven") || ahead.peek_word("coasting"));
     let coordinate = match is_named {
         true => Some(tokens.name("a coordinate")?),
         false => None,
     };
+    if let Some(keyword) = tokens.word("coasting") {
+        let coast = Coast {
+            coordinate,
+            keyword,
+        };
+        return Ok(Some(JointClause::Coast(coast)));
+    }
+    if let Some(keyword) = tokens.word("cut") {
+        return Ok(Some(JointClause::Cut(keyword)));
+    }
     let Some(keyword) = tokens.word("driven") else {
         return Ok(None);
     };

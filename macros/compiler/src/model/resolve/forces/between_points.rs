@@ -56,21 +56,9 @@ impl Resolver<'_> {
         })
     }
 
-    /// Between two points of one body nothing ever changes, so the element does nothing; `reason` says so.
+    /// The two ends of an element.
     fn ends(&mut self, arguments: &Arguments, reason: &str) -> Option<(PointId, PointId)> {
-        let from = self.point_argument(arguments, "from");
-        let to = self.point_argument(arguments, "to");
-        let (from, to) = (from?, to?);
-        let frame = self.point_frame(from);
-        let message = if from == to {
-            "both ends of this element are the same point".to_string()
-        } else if frame == self.point_frame(to) {
-            let frame = frame?;
-            format!("both ends of this element are fixed in `{frame}`: {reason}")
-        } else {
-            return Some((from, to));
-        };
-        self.diagnostics.error(arguments.get("to")?.extent, message);
-        None
+        let whole = "both ends of this element";
+        self.point_pair(arguments, ["from", "to"], whole, reason)
     }
 }

@@ -41,26 +41,10 @@ impl Resolver<'_> {
 
     /// The value changes with the motion.
     fn moves(&self, value: &Expr) -> bool {
-        match value {
-            Expr::Number(_) | Expr::Design(_) | Expr::Input(_) | Expr::Constant(_) => false,
-            Expr::Position(point, _) => self
-                .point_frame(*point)
-                .is_some_and(|frame| frame != "ground"),
-            Expr::Coordinate(_)
-            | Expr::Rate(_)
-            | Expr::Length
-            | Expr::LengthRate
-            | Expr::Reaction(..)
-            | Expr::ConstraintReaction(..)
-            | Expr::KineticEnergy
-            | Expr::PotentialEnergy => true,
-            Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => self.moves(a),
-            Expr::Add(a, b)
-            | Expr::Subtract(a, b)
-            | Expr::Multiply(a, b)
-            | Expr::Divide(a, b)
-            | Expr::Power(a, b)
-            | Expr::Atan2(a, b) => self.moves(a) || self.moves(b),
-        }
+        value.leaves().into_iter().any(|leaf| match leaf {
+            Expr::Coordinate(_) => true,
+            Expr::Position(point, _) => self.point_moves(*point),
+            _ => false,
+        })
     }
 }

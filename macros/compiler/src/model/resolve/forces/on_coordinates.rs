@@ -2,6 +2,7 @@
 
 use super::super::Resolver;
 use super::super::arguments::Arguments;
+use super::super::coordinates::DeclaredMotion;
 use super::super::expected::Expected;
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
@@ -40,7 +41,8 @@ impl Resolver<'_> {
         })
     }
 
-    /// A force on a driven coordinate changes no motion: the drive takes whatever force it needs.
+    /// A force on a driven coordinate changes no motion: the drive takes whatever force it needs. A spring on a coasting
+    /// one has no steady state.
     pub(super) fn free_coordinate(
         &mut self,
         word: &str,
@@ -48,14 +50,24 @@ impl Resolver<'_> {
     ) -> Option<(CoordinateId, CoordinateQuantity)> {
         let name = self.name_of(arguments.get("on")?, "coordinate")?;
         let found = self.coordinate(name)?;
-        if self.coordinates.get(found.0.index())?.driven {
-            self.diagnostics.error_with_help(
-                name,
-                format!("`{name}` is driven; a {word} on it has no effect on the motion"),
-                format!("remove the {word}, or the drive"),
-            );
-            return None;
+        match self.coordinates.get(found.0.index())?.motion {
+            DeclaredMotion::Driven => {
+                self.diagnostics.error_with_help(
+                    name,
+                    format!("`{name}` is driven; a {word} on it has no effect on the motion"),
+                    format!("remove the {word}, or the drive"),
+                );
+                None
+            }
+            DeclaredMotion::Coasting if word == "spring" => {
+                self.diagnostics.error_with_help(
+                    name,
+                    format!("`{name}` is coasting: nothing may depend on how far it has gone"),
+                    "a `damper` or a `generalized` force may act on it",
+                );
+                None
+            }
+            _ => Some(found),
         }
-        Some(found)
     }
 }

@@ -2,9 +2,11 @@
 
 use proc_macro2::Ident;
 
+use super::super::Resolver;
+use super::super::coordinates::{self, DeclaredMotion};
 use super::super::typed::{Place, Quantity, Typed};
-use super::super::{Resolver, coordinates};
 use crate::base::dimension::Dimension;
+use crate::base::ids::CoordinateId;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Value, ValueKind};
@@ -37,19 +39,14 @@ impl Resolver<'_> {
             ("rate", [coordinate]) => {
                 let name = self.name_of(coordinate, "coordinate")?;
                 let (coordinate, quantity) = self.coordinate(name)?;
+                if place == Place::Output {
+                    self.rate_is_constant(function, name, coordinate)?;
+                }
                 let rate = Quantity::Of(coordinates::rate_dimension(quantity));
                 Typed::Scalar(Expr::Rate(coordinate), rate)
             }
-            ("reaction_force" | "reaction_moment", [joint]) => {
-                let name_of_joint = self.name_of(joint, "joint")?;
-                let joint = self.joint_named(name_of_joint)?;
-                let (first, quantity) = match name {
-                    "reaction_force" => (0, Quantity::Of(Dimension::FORCE)),
-                    _ => (3, Quantity::Of(Dimension::MOMENT)),
-                };
-                let vector = [0, 1, 2].map(|axis| Expr::Reaction(joint, first + axis));
-                Typed::Vector(vector, quantity)
-            }
+            ("reaction_force" | "reaction_moment", [joint]) => self.reaction_vector(name, joint)?,
+            ("reaction", [constraint]) => self.reaction_number(constraint)?,
             ("kinetic_energy", []) => Typed::Scalar(Expr::KineticEnergy, energy),
             ("potential_energy", []) => {
                 self.energy_is_known(function)?;
@@ -58,6 +55,23 @@ impl Resolver<'_> {
             // The number of arguments has been checked.
             _ => return None,
         })
+    }
+
+    /// In steady motion a free coordinate is at rest, and the speed of a driven one is no result.
+    fn rate_is_constant(
+        &mut self,
+        function: &Ident,
+        name: &Ident,
+        coordinate: CoordinateId,
+    ) -> Option<()> {
+        let reason = match self.coordinates.get(coordinate.index())?.motion {
+            DeclaredMotion::Coasting => return Some(()),
+            DeclaredMotion::Driven => "it is the speed of the drive",
+            DeclaredMotion::Free => "in steady motion it is zero",
+        };
+        let message = format!("the rate of `{name}` is no output: {reason}");
+        self.diagnostics.error(function, message);
+        None
     }
 
     /// An expression of a force does not tell its potential.

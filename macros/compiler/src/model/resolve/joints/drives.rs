@@ -1,51 +1,132 @@
-//! Drives: which coordinates of a joint are free, and at what speed the others move.
+//! How the coordinates of a joint move: free, driven at a speed, or coasting.
 
+use proc_macro2::Ident;
+
+use super::super::coordinates::DeclaredMotion;
 use super::super::typed::Place;
 use super::super::{Resolver, coordinates};
 use super::kinds::Kind;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::nearest;
+use crate::base::span::Extent;
 use crate::model::mechanism::Motion;
-use crate::syntax::ast::{Drive, Joint, JointClause};
+use crate::syntax::ast::{Coast, Drive, Joint, JointClause};
+
+/// The coordinates of a joint while its clauses are read.
+struct Motions {
+    ids: Vec<CoordinateId>,
+    /// What a clause has said of each.
+    said: Vec<DeclaredMotion>,
+    motions: Vec<Motion>,
+}
 
 impl Resolver<'_> {
-    /// Every coordinate of the joint free, or driven at its one declared speed.
+    /// Every coordinate of the joint free, driven at its one declared speed, or coasting.
     pub(super) fn drives(
         &mut self,
         joint: &Joint,
         id: JointId,
         kind: Option<&'static Kind>,
     ) -> Option<Vec<Motion>> {
-        let coordinates = self.coordinates_of(id);
-        let mut motions = vec![Motion::Free; coordinates.len()];
-        let mut driven = vec![false; coordinates.len()];
+        let ids = self.coordinates_of(id);
+        let count = ids.len();
+        let mut motions = Motions {
+            ids,
+            said: vec![DeclaredMotion::Free; count],
+            motions: vec![Motion::Free; count],
+        };
         let mut right = Some(());
         for clause in &joint.clauses {
-            let JointClause::Drive(drive) = clause else {
-                continue;
+            let clause = match clause {
+                JointClause::Drive(drive) => self.drive(joint, kind, drive, &mut motions),
+                JointClause::Coast(coast) => self.coast(joint, kind, coast, &mut motions),
+                JointClause::Placement { .. } | JointClause::Cut(_) => Some(()),
             };
-            let place = kind.and_then(|kind| self.driven_place(joint, kind, drive, &coordinates));
-            let Some(place) = place else {
-                // Its value may be wrong as well.
-                self.scalar(&drive.speed, Place::Parameter);
-                right = None;
-                continue;
-            };
-            if std::mem::replace(&mut driven[place], true) {
-                let message = match &drive.coordinate {
-                    Some(name) => format!("`{name}` is driven twice"),
-                    None => "this joint is driven twice".to_string(),
-                };
-                self.diagnostics.error(drive.keyword, message);
-                right = None;
-                continue;
-            }
-            match self.motion(drive, coordinates[place]) {
-                Some(motion) => motions[place] = motion,
-                None => right = None,
-            }
+            right = right.and(clause);
         }
-        right.map(|()| motions)
+        right.map(|()| motions.motions)
+    }
+
+    fn drive(
+        &mut self,
+        joint: &Joint,
+        kind: Option<&Kind>,
+        drive: &Drive,
+        motions: &mut Motions,
+    ) -> Option<()> {
+        let place = kind.and_then(|kind| self.driven_place(joint, kind, drive, &motions.ids));
+        let Some(place) = place else {
+            // Its value may be wrong as well.
+            self.scalar(&drive.speed, Place::Parameter);
+            return None;
+        };
+        let name = drive.coordinate.as_ref();
+        self.say(motions, place, DeclaredMotion::Driven, name, drive.keyword)?;
+        motions.motions[place] = self.motion(drive, motions.ids[place])?;
+        Some(())
+    }
+
+    /// Without a name all coordinates coast.
+    fn coast(
+        &mut self,
+        joint: &Joint,
+        kind: Option<&Kind>,
+        coast: &Coast,
+        motions: &mut Motions,
+    ) -> Option<()> {
+        self.has_motions(kind?, "coast", coast.keyword)?;
+        let places = match &coast.coordinate {
+            Some(name) => {
+                let place = self.place_named(name, &motions.ids)?;
+                place..=place
+            }
+            // Without coordinates the axes are wrong, and that has been reported.
+            None => 0..=motions.ids.len().checked_sub(1)?,
+        };
+        self.is_not_cut(joint, "coast", coast.keyword)?;
+        let name = coast.coordinate.as_ref();
+        for place in places {
+            self.say(
+                motions,
+                place,
+                DeclaredMotion::Coasting,
+                name,
+                coast.keyword,
+            )?;
+            motions.motions[place] = Motion::Coasting;
+        }
+        Some(())
+    }
+
+    /// A coordinate moves in one way: that is said once.
+    fn say(
+        &mut self,
+        motions: &mut Motions,
+        place: usize,
+        motion: DeclaredMotion,
+        name: Option<&Ident>,
+        keyword: Extent,
+    ) -> Option<()> {
+        let before = std::mem::replace(&mut motions.said[place], motion);
+        if before == DeclaredMotion::Free {
+            return Some(());
+        }
+        if before != motion {
+            let name = self.coordinates.get(motions.ids[place].index())?.name;
+            self.diagnostics.error_with_help(
+                keyword,
+                format!("`{name}` is both driven and coasting"),
+                "a drive prescribes the speed, a coasting coordinate finds its own: keep one of them",
+            );
+            return None;
+        }
+        let what = name.map_or("this joint".to_string(), |name| format!("`{name}`"));
+        let message = match motion {
+            DeclaredMotion::Coasting => format!("{what} is said to coast twice"),
+            _ => format!("{what} is driven twice"),
+        };
+        self.diagnostics.error(keyword, message);
+        None
     }
 
     /// The place in the joint of the coordinate that a clause drives.
@@ -54,44 +135,74 @@ impl Resolver<'_> {
         joint: &Joint,
         kind: &Kind,
         drive: &Drive,
-        coordinates: &[CoordinateId],
+        ids: &[CoordinateId],
     ) -> Option<usize> {
-        if kind.motions.is_empty() {
-            let message = "a fixed joint cannot be driven";
-            self.diagnostics.error(drive.keyword, message);
-            return None;
-        }
-        let names: Vec<String> = coordinates
-            .iter()
-            .filter_map(|id| self.coordinates.get(id.index()))
-            .map(|coordinate| coordinate.name.to_string())
-            .collect();
-        let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-        let Some(name) = &drive.coordinate else {
-            if names.len() == 1 {
-                return Some(0);
-            }
-            // Without coordinates the axes are wrong, and that has been reported.
-            if let Some(first) = names.first() {
+        self.has_motions(kind, "be driven", drive.keyword)?;
+        let place = match &drive.coordinate {
+            Some(name) => self.place_named(name, ids)?,
+            None if ids.len() == 1 => 0,
+            None => {
+                let (names, quoted) = self.names_of(ids);
+                // Without coordinates the axes are wrong, and that has been reported.
+                let first = names.first()?;
                 self.diagnostics.error_with_help(
                     drive.keyword,
-                    format!("`{}` has the coordinates {}", joint.name, quoted.join(", ")),
+                    format!("`{}` has the coordinates {quoted}", joint.name),
                     format!("say which one is driven: `{first} driven at ...`"),
                 );
+                return None;
             }
-            return None;
         };
+        self.is_not_cut(joint, "be driven", drive.keyword)?;
+        Some(place)
+    }
+
+    fn has_motions(&mut self, kind: &Kind, verb: &str, keyword: Extent) -> Option<()> {
+        if kind.motions.is_empty() {
+            let message = format!("a fixed joint cannot {verb}");
+            self.diagnostics.error(keyword, message);
+            return None;
+        }
+        Some(())
+    }
+
+    fn is_not_cut(&mut self, joint: &Joint, verb: &str, keyword: Extent) -> Option<()> {
+        if coordinates::is_cut(joint) {
+            self.diagnostics.error_with_help(
+                keyword,
+                format!("a cut joint cannot {verb}: it has no coordinates"),
+                "cut another joint of the loop",
+            );
+            return None;
+        }
+        Some(())
+    }
+
+    /// The place in the joint of the coordinate of this name.
+    fn place_named(&mut self, name: &Ident, ids: &[CoordinateId]) -> Option<usize> {
+        let (names, quoted) = self.names_of(ids);
         let text = name.to_string();
         let place = names.iter().position(|other| *other == text);
         if place.is_none() && !names.is_empty() {
             let message = format!("`{text}` is no coordinate of this joint");
             let help = match nearest(&text, names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("it has {}", quoted.join(", ")),
+                None => format!("it has {quoted}"),
             };
             self.diagnostics.error_with_help(name, message, help);
         }
         place
+    }
+
+    /// Names of coordinates, and their list for messages.
+    fn names_of(&self, ids: &[CoordinateId]) -> (Vec<String>, String) {
+        let names: Vec<String> = ids
+            .iter()
+            .filter_map(|id| self.coordinates.get(id.index()))
+            .map(|coordinate| coordinate.name.to_string())
+            .collect();
+        let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        (names, quoted.join(", "))
     }
 
     fn motion(&mut self, drive: &Drive, coordinate: CoordinateId) -> Option<Motion> {

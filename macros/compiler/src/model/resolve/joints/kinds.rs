@@ -97,7 +97,7 @@ const KINDS: &[Kind] = &[
 ];
 
 /// What other tools call them.
-pub(super) const SYNONYMS: [(&str, &str); 28] = [
+pub(in crate::model::resolve) const SYNONYMS: [(&str, &str); 28] = [
     ("hinge", "revolute"),
     ("pin", "revolute"),
     ("rotational", "revolute"),
@@ -142,6 +142,11 @@ impl Kind {
     /// The only coordinate has the name of the joint.
     pub(crate) fn has_one_coordinate(&self) -> bool {
         self.motions.len() == 1
+    }
+
+    /// It leaves all six motions.
+    pub(super) fn is_free(&self) -> bool {
+        self.motions.len() == 6
     }
 
     /// It needs `lead`.

@@ -1,0 +1,180 @@
+//! Constraints: the table of their kinds. Each family of kinds has a file of its own.
+
+mod along;
+mod between_points;
+mod of_expressions;
+mod rolling;
+
+use super::Resolver;
+use super::arguments::{Arguments, Signature};
+use super::joints::kinds::{self, Kind};
+use super::typed::Place;
+use crate::base::dimension::Dimension;
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{Constraint, ConstraintLaw};
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::syntax::ast::{self, ItemKind};
+
+const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
+
+const KINDS: &[Signature] = &[
+    Signature::new("coincident", &["from", "to"], "coincident(from: p, to: q)")
+        .optional(&["along"]),
+    Signature::new("aligned", &["from", "to"], "aligned(from: p, to: q)").optional(&["axis"]),
+    Signature::new(
+        "distance",
+        &["from", "to", "length"],
+        "distance(from: p, to: q, length: 1 m)",
+    )
+    .refusing(&[(
+        "stiffness",
+        "an elastic connection is the force `spring_damper`",
+    )]),
+    Signature::new(
+        "coupling",
+        &["of", "with", "ratio"],
+        "coupling(of: theta1, with: theta2, ratio: -2)",
+    )
+    .optional(&["offset"])
+    .refusing(&[("from", OF_COORDINATES), ("to", OF_COORDINATES)]),
+    Signature::new("equation", &["zero"], "equation(zero: position(p).z - 1 m)"),
+    Signature::new(
+        "rolling",
+        &["wheel", "radius", "on"],
+        "rolling(wheel: hub, axis: y, radius: 30 cm, on: road)",
+    )
+    .optional(&["axis", "normal"]),
+];
+
+/// What other tools call them.
+const SYNONYMS: [(&str, &str); 33] = [
+    ("point_to_point", "coincident"),
+    ("point_on_point", "coincident"),
+    ("point_on_line", "coincident"),
+    ("point_on_plane", "coincident"),
+    ("connect", "coincident"),
+    ("attach", "coincident"),
+    ("orientation", "aligned"),
+    ("parallel", "aligned"),
+    ("rod", "distance"),
+    ("link", "distance"),
+    ("bar", "distance"),
+    ("strut", "distance"),
+    ("rope", "distance"),
+    ("gear", "coupling"),
+    ("gears", "coupling"),
+    ("belt", "coupling"),
+    ("chain", "coupling"),
+    ("pulley", "coupling"),
+    ("rack", "coupling"),
+    ("rack_and_pinion", "coupling"),
+    ("mimic", "coupling"),
+    ("ratio", "coupling"),
+    ("equality", "equation"),
+    ("expression", "equation"),
+    ("condition", "equation"),
+    ("holonomic", "equation"),
+    ("wheel", "rolling"),
+    ("disk", "rolling"),
+    ("tire", "rolling"),
+    ("roll", "rolling"),
+    ("no_slip", "rolling"),
+    ("contact", "rolling"),
+    ("nonholonomic", "rolling"),
+];
+
+/// What a constraint exerts, which decides what its reaction is called.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Exerted {
+    /// Three components in N.
+    Force,
+    /// Three components in N m.
+    Moment,
+    /// One number of this dimension.
+    Number(Dimension),
+}
+
+impl Resolver<'_> {
+    pub(super) fn constraints(&mut self) -> Vec<Constraint> {
+        let mut constraints = Vec::new();
+        for item in &self.ast.items {
+            let ItemKind::Constraint(constraint) = &item.kind else {
+                continue;
+            };
+            let (law, exerted) = self.constraint(constraint).unzip();
+            self.exerted.push(exerted);
+            constraints.extend(law.map(|law| Constraint {
+                name: constraint.name.clone(),
+                law,
+            }));
+        }
+        constraints
+    }
+
+    fn constraint(&mut self, constraint: &ast::Constraint) -> Option<(ConstraintLaw, Exerted)> {
+        self.is_no_joint(constraint)?;
+        let signature = self.signature(&constraint.law, "constraint", KINDS, &SYNONYMS)?;
+        let arguments = self.arguments(&constraint.law, signature);
+        let force = |law| (law, Exerted::Force);
+        match signature.word {
+            "coincident" => self.coincident(&arguments).map(force),
+            "aligned" => self.aligned(&arguments).map(|law| (law, Exerted::Moment)),
+            "distance" => {
+                let law = self.distance(constraint, &arguments)?;
+                Some((law, Exerted::Number(Dimension::FORCE)))
+            }
+            "coupling" => self.coupling(&arguments),
+            "equation" => self.equation(&arguments),
+            _ => self.rolling(constraint, &arguments).map(force),
+        }
+    }
+
+    /// A joint may close a loop as it is; it is no constraint of that name.
+    fn is_no_joint(&mut self, constraint: &ast::Constraint) -> Option<()> {
+        let word = constraint.law.word.to_string();
+        let is_constraint = KINDS.iter().any(|known| known.word == word)
+            || SYNONYMS.iter().any(|(theirs, _)| *theirs == word);
+        let mut synonyms = kinds::SYNONYMS.iter();
+        let joint = Kind::find(&word).map(|kind| kind.word).or_else(|| {
+            let (_, ours) = synonyms.find(|(theirs, _)| *theirs == word)?;
+            Some(*ours)
+        });
+        let Some(joint) = joint.filter(|_| !is_constraint) else {
+            return Some(());
+        };
+        let kind = Kind::find(joint)?;
+        self.diagnostics.error_with_help(
+            &constraint.law.word,
+            format!("unknown constraint `{word}`"),
+            format!(
+                "it is a joint, and a joint may close a loop: `joint {}: {} from BODY to BODY;`",
+                constraint.name, kind.example
+            ),
+        );
+        None
+    }
+
+    /// A required length above zero; `what` names it.
+    fn positive_length(
+        &mut self,
+        constraint: &ast::Constraint,
+        arguments: &Arguments,
+        name: &str,
+    ) -> Option<Expr> {
+        let value = arguments.get(name)?;
+        let length = self.scalar_of(value, Dimension::LENGTH, &format!("`{name}`"))?;
+        self.requirements.push(Requirement {
+            what: format!("the {name} of `{}`", constraint.name),
+            values: vec![length.clone()],
+            demand: Demand::Positive(Dimension::LENGTH),
+            extent: value.extent,
+        });
+        Some(length)
+    }
+
+    /// An argument that is a direction, if given: nothing inside when it is wrong.
+    fn optional_direction(&mut self, arguments: &Arguments, name: &str) -> Option<Option<Vector>> {
+        let value = arguments.get(name)?;
+        Some(self.direction(value, Place::Parameter))
+    }
+}

@@ -1,0 +1,181 @@
+//! Constraints that are expressions: couplings of two coordinates, and equations of the user's own.
+
+use super::super::Resolver;
+use super::super::arguments::Arguments;
+use super::super::coordinates::{self, DeclaredMotion};
+use super::super::expected::Expected;
+use super::super::typed::Place;
+use super::Exerted;
+use crate::base::dimension::Dimension;
+use crate::base::ids::CoordinateId;
+use crate::base::span::Extent;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{ConstraintLaw, CoordinateQuantity};
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::model::simplify;
+use crate::syntax::ast::Value;
+
+type Found = (CoordinateId, CoordinateQuantity);
+
+impl Resolver<'_> {
+    /// `of = ratio * with + offset`.
+    pub(super) fn coupling(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
+        let (of, with) = self.coupled(arguments);
+        let ratio = self.ratio(arguments, of, with);
+        let offset = of.map(|(_, quantity)| match quantity {
+            CoordinateQuantity::Angle => Expected::angle(),
+            CoordinateQuantity::Displacement => Dimension::LENGTH.into(),
+        });
+        let offset = self.coefficient_or_zero(arguments, "offset", offset);
+        let ((of, quantity), (with, _)) = (of?, with?);
+        self.coupled_motions(arguments, of, with)?;
+        let (of, with) = (Expr::Coordinate(of), Expr::Coordinate(with));
+        let driving = simplify::multiply(ratio?, with);
+        let zero = simplify::subtract(simplify::subtract(of, driving), offset?);
+        let dimension = coordinates::dimension(quantity);
+        self.zero(zero, dimension, arguments.get("of")?)
+    }
+
+    /// The two coordinates, which are different.
+    fn coupled(&mut self, arguments: &Arguments) -> (Option<Found>, Option<Found>) {
+        let mut find = |name| {
+            let name = self.name_of(arguments.get(name)?, "coordinate")?;
+            self.coordinate(name)
+        };
+        let (of, with) = (find("of"), find("with"));
+        if let (Some((first, _)), Some((second, _)), Some(value)) =
+            (of, with, arguments.get("with"))
+            && first == second
+        {
+            let message = "a coordinate cannot be coupled with itself";
+            self.diagnostics.error(value.extent, message);
+            return (None, None);
+        }
+        (of, with)
+    }
+
+    /// How far `of` moves when `with` moves by one.
+    fn ratio(
+        &mut self,
+        arguments: &Arguments,
+        of: Option<Found>,
+        with: Option<Found>,
+    ) -> Option<Expr> {
+        use CoordinateQuantity::{Angle, Displacement};
+        let expected = of.zip(with).map(|((_, of), (_, with))| match (of, with) {
+            (Angle, Angle) | (Displacement, Displacement) => Expected::ratio(),
+            (Displacement, Angle) => Expected::travel_per_angle(),
+            (Angle, Displacement) => Expected::angle_per_travel(),
+        });
+        let ratio = self.coefficient(arguments, "ratio", expected)?;
+        let extent = arguments.get("ratio")?.extent;
+        self.requirements.push(Requirement {
+            what: "this ratio".to_string(),
+            values: vec![ratio.clone()],
+            demand: Demand::Ratio,
+            extent,
+        });
+        Some(ratio)
+    }
+
+    /// Coordinates that run can be coupled with each other, those at rest too; the drives of two would contradict.
+    fn coupled_motions(
+        &mut self,
+        arguments: &Arguments,
+        of: CoordinateId,
+        with: CoordinateId,
+    ) -> Option<()> {
+        let extent = arguments.get("with")?.extent;
+        let name = |id: CoordinateId| Some(self.coordinates.get(id.index())?.name.to_string());
+        let (first, second) = (name(of)?, name(with)?);
+        if self.is_driven(of) && self.is_driven(with) {
+            self.diagnostics.error_with_help(
+                extent,
+                format!("`{first}` and `{second}` are both driven: nothing is left to couple"),
+                "leave out one of the drives, and let that coordinate be `coasting`",
+            );
+            return None;
+        }
+        let (running, at_rest) = match (self.runs(of), self.runs(with)) {
+            (true, false) => (first, second),
+            (false, true) => (second, first),
+            _ => return Some(()),
+        };
+        self.diagnostics.error_with_help(
+            extent,
+            format!("`{running}` runs, but `{at_rest}` is at rest in steady motion"),
+            format!("let `{at_rest}` be `coasting`"),
+        );
+        None
+    }
+
+    /// An expression of coordinates and points.
+    pub(super) fn equation(&mut self, arguments: &Arguments) -> Option<(ConstraintLaw, Exerted)> {
+        let value = arguments.get("zero")?;
+        let (zero, quantity) = self.scalar(value, Place::Equation)?;
+        let unknown = zero.leaves().into_iter().any(|leaf| match leaf {
+            Expr::Coordinate(id) => !self.is_driven(*id),
+            Expr::Position(point, _) => self.point_moves(*point),
+            _ => false,
+        });
+        if !unknown {
+            self.diagnostics.error_with_help(
+                value.extent,
+                "this equation ties nothing: no free coordinate enters it",
+                "write it with coordinates, or with positions of points",
+            );
+            return None;
+        }
+        self.runs_without_points(&zero, value.extent)?;
+        self.zero(zero, quantity.dimension(), value)
+    }
+
+    /// What runs forever has no place: such an equation holds for rates, which points do not have.
+    fn runs_without_points(&mut self, zero: &Expr, extent: Extent) -> Option<()> {
+        let leaves = zero.leaves();
+        let has_points = leaves.iter().any(|leaf| matches!(leaf, Expr::Position(..)));
+        let mut running = leaves.into_iter().filter_map(|leaf| match leaf {
+            Expr::Coordinate(id) if self.runs(*id) => Some(*id),
+            _ => None,
+        });
+        let Some(id) = running.next().filter(|_| has_points) else {
+            return Some(());
+        };
+        let name = self.coordinates.get(id.index())?.name;
+        self.diagnostics.error_with_help(
+            extent,
+            format!("`{name}` runs, so it has no place that could be tied to a point"),
+            "an equation of running coordinates holds no points",
+        );
+        None
+    }
+
+    /// The reaction does work on the change of the expression.
+    fn zero(
+        &mut self,
+        zero: Expr,
+        dimension: Dimension,
+        value: &Value,
+    ) -> Option<(ConstraintLaw, Exerted)> {
+        let work = Dimension::MOMENT.over(dimension);
+        let quantity = self.in_range(work, value.extent)?;
+        let unit = self.unit_of(&zero, dimension);
+        let exerted = Exerted::Number(quantity.dimension());
+        Some((ConstraintLaw::Equation { zero, unit }, exerted))
+    }
+
+    fn is_driven(&self, id: CoordinateId) -> bool {
+        let declared = self.coordinates.get(id.index());
+        declared.is_some_and(|own| own.motion == DeclaredMotion::Driven)
+    }
+
+    /// It keeps moving in steady motion.
+    fn runs(&self, id: CoordinateId) -> bool {
+        let Some(declared) = self.coordinates.get(id.index()) else {
+            return false;
+        };
+        let mut resolved = self.declared_coordinates.iter();
+        let own = resolved.find(|own| own.joint == declared.joint && own.name == *declared.name);
+        own.is_some_and(|own| own.motion.runs())
+    }
+}

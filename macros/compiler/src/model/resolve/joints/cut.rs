@@ -1,0 +1,40 @@
+//! Joints that are declared to close a loop.
+
+use super::super::Resolver;
+use super::kinds::Kind;
+use crate::syntax::ast::{Joint, JointClause};
+
+impl Resolver<'_> {
+    /// Whether the joint is cut: then its motions become equations, which not every kind has.
+    pub(super) fn cut(&mut self, joint: &Joint, kind: Option<&Kind>) -> Option<bool> {
+        let mut clauses = joint.clauses.iter().filter_map(|clause| match clause {
+            JointClause::Cut(keyword) => Some(*keyword),
+            _ => None,
+        });
+        let Some(first) = clauses.next() else {
+            return Some(false);
+        };
+        if let Some(second) = clauses.next() {
+            self.diagnostics.error(second, "this joint is cut twice");
+            return None;
+        }
+        let kind = kind?;
+        if kind.is_screw() {
+            self.diagnostics.error_with_help(
+                first,
+                "a screw joint cannot be cut",
+                "cut another joint of the loop",
+            );
+            return None;
+        }
+        if kind.is_free() {
+            self.diagnostics.error_with_help(
+                first,
+                "a free joint holds nothing, so that it closes no loop",
+                "leave the joint out",
+            );
+            return None;
+        }
+        Some(true)
+    }
+}

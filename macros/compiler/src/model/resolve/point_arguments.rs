@@ -1,0 +1,55 @@
+//! Points as arguments of forces and constraints.
+
+use super::Resolver;
+use super::arguments::Arguments;
+use crate::base::ids::PointId;
+use crate::syntax::ast::ItemKind;
+
+impl Resolver<'_> {
+    /// An argument that must be the name of a point.
+    pub(super) fn point_argument(&mut self, arguments: &Arguments, name: &str) -> Option<PointId> {
+        let point = self.name_of(arguments.get(name)?, "point")?;
+        self.point_named(point)
+    }
+
+    /// The frame of a point as written.
+    pub(super) fn point_frame(&self, point: PointId) -> Option<String> {
+        let mut points = self.ast.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Point(point) => Some(point.frame.to_string()),
+            _ => None,
+        });
+        points.nth(point.index())
+    }
+
+    /// The point is fixed in a body.
+    pub(super) fn point_moves(&self, point: PointId) -> bool {
+        self.point_frame(point)
+            .is_some_and(|frame| frame != "ground")
+    }
+
+    /// Two arguments that must be points of different bodies: between two points of one body nothing ever changes.
+    /// `whole` names both in messages, and `reason` says what does not change.
+    pub(super) fn point_pair(
+        &mut self,
+        arguments: &Arguments,
+        [first, second]: [&str; 2],
+        whole: &str,
+        reason: &str,
+    ) -> Option<(PointId, PointId)> {
+        let from = self.point_argument(arguments, first);
+        let to = self.point_argument(arguments, second);
+        let (from, to) = (from?, to?);
+        let frame = self.point_frame(from);
+        let message = if from == to {
+            format!("{whole} are the same point")
+        } else if frame == self.point_frame(to) {
+            let frame = frame?;
+            format!("{whole} are fixed in `{frame}`: {reason}")
+        } else {
+            return Some((from, to));
+        };
+        self.diagnostics
+            .error(arguments.get(second)?.extent, message);
+        None
+    }
+}

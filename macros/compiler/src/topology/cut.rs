@@ -1,0 +1,92 @@
+//! Which joint of a loop is cut.
+
+use crate::base::diagnostics::Diagnostics;
+use crate::base::ids::JointId;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
+
+/// Kinds of joint that can be written as equations, with the number of motions they leave.
+pub(crate) const CLOSING: [&str; 7] = [
+    "fixed",
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "universal",
+    "planar",
+    "spherical",
+];
+
+/// The joints, by id, whose coordinates something else in the declaration uses: cutting would take them away.
+pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
+    let mut needed = vec![false; mechanism.joints.len()];
+    let mut of_coordinate = |id: crate::base::ids::CoordinateId| {
+        needed[mechanism.coordinates[id.index()].joint.index()] = true;
+    };
+    let mut values: Vec<&Expr> = mechanism
+        .outputs
+        .iter()
+        .map(|output| &output.value)
+        .collect();
+    for force in &mechanism.forces {
+        match &force.law {
+            ForceLaw::CoordinateSpring { coordinate, .. }
+            | ForceLaw::CoordinateDamper { coordinate, .. } => of_coordinate(*coordinate),
+            ForceLaw::Generalized { coordinate, value } => {
+                of_coordinate(*coordinate);
+                values.push(value);
+            }
+            ForceLaw::Potential { energy } => values.push(energy),
+            _ => {}
+        }
+    }
+    for constraint in &mechanism.constraints {
+        if let ConstraintLaw::Equation { zero, .. } = &constraint.law {
+            values.push(zero);
+        }
+    }
+    for value in values {
+        for leaf in value.leaves() {
+            if let Expr::Coordinate(id) | Expr::Rate(id) = leaf {
+                of_coordinate(*id);
+            }
+        }
+    }
+    for (index, joint) in mechanism.joints.iter().enumerate() {
+        let moves_itself = mechanism
+            .coordinates
+            .iter()
+            .any(|own| own.joint.index() == index && own.motion != Motion::Free);
+        needed[index] |= moves_itself || !CLOSING.contains(&joint.word);
+    }
+    needed
+}
+
+/// The joint of a loop that leaves most freedom, and with it fewest equations; of equals the last declared.
+pub(super) fn choose(
+    mechanism: &Mechanism,
+    joints: &[JointId],
+    needed: &[bool],
+    diagnostics: &mut Diagnostics,
+) -> Option<JointId> {
+    let mut joints = joints.to_vec();
+    joints.sort();
+    let freedom = |id: &JointId| mechanism.joints[id.index()].steps.len();
+    let free = joints.iter().filter(|id| !needed[id.index()]);
+    let chosen = free.max_by_key(|id| freedom(id)).copied();
+    if chosen.is_none() {
+        let names: Vec<String> = joints
+            .iter()
+            .map(|id| format!("`{}`", mechanism.joints[id.index()].name))
+            .collect();
+        let last = joints.last()?;
+        diagnostics.error_with_help(
+            &mechanism.joints[last.index()].name,
+            format!(
+                "the joints {} close a loop, and none of them can be cut: each is driven, coasting, a screw, or its coordinate is used",
+                names.join(", ")
+            ),
+            "a cut joint has no coordinates: let forces and outputs use points, or the coordinates of other joints",
+        );
+    }
+    chosen
+}
