@@ -4,3 +4,5 @@
 mod common;
 #[path = "loops/kernels.rs"]
 mod kernels;
+#[path = "loops/study.rs"]
+mod study;

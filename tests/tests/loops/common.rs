@@ -41,10 +41,7 @@ impl Case {
         Self {
             name,
             variables: texts(truth.get("variables")),
-            design: design
-                .iter()
-                .map(|one| one.get("value").number())
-                .collect(),
+            design: design.iter().map(|one| one.get("value").number()).collect(),
             truth,
         }
     }

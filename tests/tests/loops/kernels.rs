@@ -185,13 +185,7 @@ fn check_point(machine: &Loop, case: &Case, point: &Point) {
     check_outputs(machine, case, point, x.as_slice(), &along);
 }
 
-fn check_outputs(
-    machine: &Loop,
-    case: &Case,
-    point: &Point,
-    x: &[f64],
-    along: &[[Vec<f64>; 3]],
-) {
+fn check_outputs(machine: &Loop, case: &Case, point: &Point, x: &[f64], along: &[[Vec<f64>; 3]]) {
     let (u, b) = ([point.input], &case.design[..]);
     let values = &machine.evaluate("outputs", &[x, &u, b])[0];
     let partials = machine.evaluate("output_partials", &[x, &u, b]);
@@ -229,7 +223,10 @@ fn equations_hold_in_minimal_coordinates() {
         let design: Vec<String> = machine.design.iter().map(|one| one.0.clone()).collect();
         assert_eq!(design, case.variables[..design.len()], "{name}");
         for (own, expected) in machine.design.iter().zip(&case.design) {
-            assert!((own.1 - expected).abs() <= 1e-15 * expected.abs(), "{own:?}");
+            assert!(
+                (own.1 - expected).abs() <= 1e-15 * expected.abs(),
+                "{own:?}"
+            );
         }
         for point in case.points() {
             check_point(&machine, &case, &point);

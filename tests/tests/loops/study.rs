@@ -1,0 +1,248 @@
+//! The whole chain through the front door: assembly and equilibrium from rough values, modes, total derivatives in both ways,
+//! second derivatives, outputs with reactions among them, and first-order spreads.
+
+use eigentol::equilibrium::Stability;
+use eigentol::sensitivity::{
+    EquilibriumShift, SecondDerivatives, Slopes, equilibrium_shift, sensitivities,
+    sensitivities_explicit,
+};
+use eigentol::{Complex, Coordinate, Equilibrium, Input, Mechanism, Mode, Modes, Role, Study};
+use eigentol_tests::loops::{
+    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
+    SliderCrank,
+};
+use eigentol_tests::truth::Truth;
+
+use super::common::{Case, Point, assert_close, assert_near, complex};
+
+/// A study of a point that starts from angles to the nearest tenth of a radian and displacements to the nearest centimetre,
+/// so that no loop is closed; speeds start from zero.
+fn study<M, const N: usize, const P: usize, const O: usize>(
+    machine: M,
+    point: &Point,
+) -> Study<M, N, 1, P, O>
+where
+    M: Mechanism<N, 1, P, O>,
+{
+    let mut study = Study::new(machine).input(Input(0), point.input).threads(1);
+    for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
+        if unknown.role == Role::Position {
+            let value = point.truth.get("coordinates").get(unknown.name).number();
+            let step = if unknown.unit.symbol == "rad" {
+                0.1
+            } else {
+                0.01
+            };
+            study = study.start(Coordinate(i), (value / step).round() * step);
+        }
+    }
+    study
+}
+
+/// By design variable, then by the input.
+fn joined<T: Copy, const P: usize>(slopes: &Slopes<T, 1, P>) -> Vec<T> {
+    [&slopes.by_design[..], &slopes.by_input].concat()
+}
+
+fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &'static str)
+where
+    M: Mechanism<N, 1, P, O> + Copy,
+{
+    let case = Case::new(name);
+    for (info, truth) in M::DESCRIPTION
+        .design
+        .iter()
+        .zip(case.truth.get("design").list())
+    {
+        assert_eq!(info.name, truth.get("name").text());
+        let tolerance = truth.get("tolerance").number();
+        assert!((info.tolerance - tolerance).abs() < 1e-15 + 1e-14 * tolerance);
+    }
+    for point in case.points() {
+        let study = study(machine, &point);
+        let at = study
+            .equilibrium()
+            .unwrap_or_else(|error| panic!("{}: {error}", point.what));
+        check_equilibrium(&machine, &case, &point, &at);
+        check_outputs(&study, &case, &point);
+        check_modes(&study, &case, &point, &at);
+    }
+}
+
+fn check_equilibrium<M, const N: usize, const P: usize, const O: usize>(
+    machine: &M,
+    case: &Case,
+    point: &Point,
+    at: &Equilibrium<N, 1, P>,
+) where
+    M: Mechanism<N, 1, P, O>,
+{
+    assert_eq!(at.stability, Stability::Stable, "{}", point.what);
+    let shift: EquilibriumShift<N, 1, P> = equilibrium_shift(machine, at).expect("a shift");
+    for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
+        if !matches!(unknown.role, Role::Position | Role::Speed) {
+            continue;
+        }
+        let what = format!("{}: {}", point.what, unknown.name);
+        let expected = point.truth.get("coordinates").get(unknown.name).number();
+        assert_close(at.coordinates[i], expected, 1e-3, &what);
+        let slopes = point.truth.get("coordinates_by").get(unknown.name);
+        let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
+        for (j, variable) in case.variables.iter().enumerate() {
+            let what = format!("{what} by {variable}");
+            let expected = slopes.get(variable).number();
+            assert_close(found[j], expected, point.scale(1.0, &[j]), &what);
+        }
+    }
+}
+
+fn check_outputs<M, const N: usize, const P: usize, const O: usize>(
+    study: &Study<M, N, 1, P, O>,
+    case: &Case,
+    point: &Point,
+) where
+    M: Mechanism<N, 1, P, O>,
+{
+    let found = study.outputs().expect("outputs");
+    let spread = study.output_tolerances().expect("spreads of outputs");
+    let truth = |field: &str, name| point.truth.get(field).get(name);
+    for (k, output) in M::DESCRIPTION.outputs.iter().enumerate() {
+        let what = format!("{}: {}", point.what, output.name);
+        let expected = truth("outputs", output.name).number();
+        assert_close(found.values[k], expected, 1e-2, &what);
+        let size = expected.abs().max(1e-2);
+        let by_design = found.by_design[k].expect("derivatives");
+        let by_input = found.by_input[k].expect("derivatives");
+        let slopes = [&by_design[..], &by_input].concat();
+        for (j, variable) in case.variables.iter().enumerate() {
+            let what = format!("{what} by {variable}");
+            let expected = truth("outputs_by", output.name).get(variable).number();
+            assert_close(slopes[j], expected, point.scale(size, &[j]), &what);
+        }
+        let sigma = truth("outputs_sigma", output.name).number();
+        let found = spread.outputs[k].sigma.expect("a standard deviation");
+        assert_close(found, sigma, 1e-4 * size, &what);
+    }
+}
+
+/// The mode of an eigenvalue, which is nowhere near another.
+fn place_of<const N: usize>(modes: &Modes<N>, s: Complex, what: &str) -> usize {
+    let apart = |mode: &Mode<N>| (mode.s - s).norm();
+    let near = |&place: &usize| apart(&modes.modes[place]) < 1e-6 * s.norm();
+    let places: Vec<usize> = (0..modes.modes.len()).filter(near).collect();
+    let &[place] = &places[..] else {
+        panic!("{what}: {s} is found {} times", places.len());
+    };
+    place
+}
+
+fn check_modes<M, const N: usize, const P: usize, const O: usize>(
+    study: &Study<M, N, 1, P, O>,
+    case: &Case,
+    point: &Point,
+    at: &Equilibrium<N, 1, P>,
+) where
+    M: Mechanism<N, 1, P, O>,
+{
+    let machine = study.mechanism();
+    let modes = study.modes().expect("modes");
+    let truths = point.modes();
+    assert_eq!(modes.modes.len(), truths.len(), "{}", point.what);
+    let adjoint = sensitivities(machine, at, &modes).expect("derivatives");
+    let explicit = sensitivities_explicit(machine, at, &modes).expect("derivatives");
+    let spread = study.first_order().expect("a spread");
+    for truth in &truths {
+        let s = complex(&truth.get("s"));
+        let what = format!("{}: {s}", point.what);
+        let r = place_of(&modes, s, &what);
+        assert_near(modes.modes[r].s, s, 0.0, &what);
+        for (way, found) in [("adjoint", &adjoint), ("explicit", &explicit)] {
+            let found = joined(&found.modes[r].s.expect("derivatives"));
+            for (j, variable) in case.variables.iter().enumerate() {
+                let what = format!("{what} by {variable}, {way}");
+                let expected = complex(&truth.get("s_by").get(variable));
+                assert_near(found[j], expected, point.scale(s.norm(), &[j]), &what);
+            }
+        }
+        let curvature = study.mode_curvature(r).expect("second derivatives");
+        assert!(
+            curvature.asymmetry < 1e-9,
+            "{what}: {}",
+            curvature.asymmetry
+        );
+        let second = curvature.eigenvalue.expect("second derivatives");
+        check_second(case, point, &second, truth, s, &what);
+
+        let own = &spread.modes[r];
+        let sigma = truth.get("sigma_frequency").number();
+        let frequency = own.sigma.unwrap_or(0.0);
+        assert_close(frequency, sigma, 1e-4 * s.norm(), &format!("{what}, sigma"));
+        let sigma = truth.get("sigma_growth").number();
+        let growth = own.growth.map_or(0.0, |growth| growth.sigma);
+        assert_close(growth, sigma, 1e-4 * s.norm(), &format!("{what}, growth"));
+    }
+}
+
+fn check_second<const P: usize>(
+    case: &Case,
+    point: &Point,
+    found: &SecondDerivatives<Complex, 1, P>,
+    truth: &Truth,
+    s: Complex,
+    what: &str,
+) {
+    for (i, row) in truth.get("s_second").list().iter().enumerate() {
+        for (j, expected) in row.list().iter().enumerate() {
+            let found = match (i < P, j < P) {
+                (true, _) => found.by_design[i][j],
+                (false, true) => found.by_input_and_design[0][j],
+                (false, false) => found.by_input[0][0],
+            };
+            let [one, other] = [i, j].map(|k| &case.variables[k]);
+            let what = format!("{what} by {one} and {other}");
+            let scale = point.scale(s.norm(), &[i, j]);
+            assert_near(found, complex(expected), scale, &what);
+        }
+    }
+}
+
+#[test]
+fn governor() {
+    check(Governor, "governor");
+}
+
+#[test]
+fn porter_governor() {
+    check(PorterGovernor, "porter_governor");
+}
+
+#[test]
+fn slider_crank() {
+    check(SliderCrank, "slider_crank");
+}
+
+#[test]
+fn five_bar() {
+    check(FiveBar, "five_bar");
+}
+
+#[test]
+fn four_bar_in_both_modes() {
+    check(FourBar, "four_bar_open");
+    check(FourBar, "four_bar_crossed");
+}
+
+#[test]
+fn geared_rotors() {
+    check(GearedRotors, "geared_rotors");
+}
+
+#[test]
+fn geared_coasting() {
+    check(GearedCoasting, "geared_coasting");
+}
+
+#[test]
+fn geared_motor() {
+    check(GearedMotor, "geared_motor");
+}
