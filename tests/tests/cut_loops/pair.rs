@@ -1,0 +1,341 @@
+//! A tree and the same with one joint cut.
+
+use std::fmt::{self, Display};
+
+use eigentol_compiler::compile;
+use eigentol_compiler::mechanics::{Limits, Role};
+use eigentol_compiler::program::Program;
+use eigentol_tests::agreement::Case;
+use eigentol_tests::declaration::declaration;
+use eigentol_tests::model::{Expr, ForceLaw, Joint, Model, Motion, Placement, Step, Word};
+use eigentol_tests::random::{Plan, Random};
+use nalgebra::DMatrix;
+
+use super::pose::{Embedding, embedding};
+
+struct Compiled {
+    program: Program,
+    /// The coordinates among the unknowns, then the reactions.
+    names: Vec<String>,
+    reactions: usize,
+}
+
+impl Compiled {
+    fn new(text: &str) -> Result<Self, Vec<String>> {
+        let tokens = text.parse().expect("tokens");
+        let none = Limits {
+            explicit_partials: 0,
+        };
+        let found = compile(tokens, none).map_err(|mistakes| {
+            let messages = mistakes.iter().map(|mistake| mistake.message.clone());
+            messages.collect::<Vec<_>>()
+        })?;
+        let unknowns = &found.functions.unknowns;
+        let is_reaction = |role: &Role| matches!(role, Role::PositionReaction);
+        Ok(Self {
+            names: unknowns.iter().map(|one| one.name.clone()).collect(),
+            reactions: unknowns.iter().filter(|one| is_reaction(&one.role)).count(),
+            program: found.program,
+        })
+    }
+
+    /// Every array that is compared, each a matrix with one row for each unknown.
+    fn arrays(&self, x: &[f64], u: &[f64], b: &[f64]) -> [DMatrix<f64>; 6] {
+        let evaluate = |kernel: &str| {
+            let found = self.program.evaluate(kernel, &[x, u, b]);
+            found.unwrap_or_else(|| panic!("there is a kernel {kernel}"))
+        };
+        let matrix = |array: &[f64]| {
+            let columns = array.len() / x.len();
+            DMatrix::from_row_slice(x.len(), columns, array)
+        };
+        let residual = evaluate("residual");
+        let linear = evaluate("linear");
+        let partials = evaluate("residual_partials");
+        [
+            &residual[0],
+            &linear[0],
+            &linear[1],
+            &linear[2],
+            &partials[0],
+            &partials[1],
+        ]
+        .map(|array| matrix(array))
+    }
+}
+
+/// A tree, the joint that is cut in its double, and both compiled.
+pub(crate) struct Pair {
+    model: Model,
+    joint: usize,
+    placed: bool,
+    case: Case,
+    embedding: Embedding,
+    open: Compiled,
+    cut: Compiled,
+    text: String,
+}
+
+impl Pair {
+    /// `None` where no joint can be cut, or where nothing resists a coordinate without the forces on the cut joint.
+    pub(crate) fn new(plan: Plan, placed: bool) -> Option<Self> {
+        let mut random = Random::new(plan.seed);
+        let tree = plan.model();
+        let closing = |joint: &Joint| {
+            let driven = joint.steps.iter().any(|step| step.drive.is_some());
+            !driven && !matches!(joint.word, Word::Screw | Word::Free)
+        };
+        let places: Vec<usize> = (0..tree.joints.len())
+            .filter(|&place| closing(&tree.joints[place]))
+            .collect();
+        if places.is_empty() {
+            return None;
+        }
+        let joint = places[random.below(places.len())];
+        let model = without_forces_on(tree, joint);
+        if model.free().is_empty() {
+            return None;
+        }
+        let open = match Compiled::new(&declaration(&model)) {
+            Ok(open) => open,
+            Err(mistakes) => {
+                let unresisted = |mistake: &String| mistake.starts_with("nothing resists");
+                assert!(mistakes.iter().all(unresisted), "{mistakes:?}");
+                return None;
+            }
+        };
+
+        let case = Case::random(&model, plan.seed);
+        let free = model.free();
+        let own: Vec<f64> = free
+            .iter()
+            .zip(&case.at[0])
+            .filter(|(coordinate, _)| coordinate.joint == joint)
+            .map(|(_, &q)| q)
+            .collect();
+        let embedding = embedding(&model.joints[joint], &own, &case.at[2], placed);
+        let text = cut_text(&model, joint, &embedding, placed);
+        let cut = Compiled::new(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}\n{text}"));
+        Some(Self {
+            model,
+            joint,
+            placed,
+            case,
+            embedding,
+            open,
+            cut,
+            text,
+        })
+    }
+
+    /// `dQ/dq`, one row for each coordinate of the double.
+    fn tangent(&self) -> DMatrix<f64> {
+        let free = self.model.free();
+        let positions = self.cut.names.len() - self.cut.reactions;
+        let mut tangent = DMatrix::zeros(positions, free.len());
+        for (column, &coordinate) in free.iter().enumerate() {
+            if coordinate.joint != self.joint {
+                let row = self.row(&self.model.step(coordinate).name);
+                tangent[(row, column)] = 1.0;
+                continue;
+            }
+            for (k, slope) in self.embedding.slope[coordinate.step].iter().enumerate() {
+                tangent[(self.row(LOOSE[k]), column)] = *slope;
+            }
+        }
+        tangent
+    }
+
+    fn row(&self, name: &str) -> usize {
+        let place = self.cut.names.iter().position(|other| other == name);
+        place.unwrap_or_else(|| panic!("{name} is an unknown: {self}"))
+    }
+
+    /// The assembled state with random reactions.
+    fn state(&self, seed: u64) -> Vec<f64> {
+        let mut random = Random::new(seed ^ 0xC0FF_EE00);
+        let mut x: Vec<f64> = self
+            .cut
+            .names
+            .iter()
+            .map(|_| random.between(-9.0, 9.0))
+            .collect();
+        let free = self.model.free();
+        for (coordinate, q) in free.iter().zip(&self.case.at[0]) {
+            if coordinate.joint != self.joint {
+                x[self.row(&self.model.step(*coordinate).name)] = *q;
+            }
+        }
+        for (name, value) in LOOSE.iter().zip(self.embedding.value) {
+            x[self.row(name)] = value;
+        }
+        x
+    }
+
+    /// `sum_i r_i d2 Q_i / dq dq`, `r` the residual.
+    fn curvature(&self, residual: &DMatrix<f64>) -> DMatrix<f64> {
+        let free = self.model.free();
+        DMatrix::from_fn(free.len(), free.len(), |i, j| {
+            let [one, other] = [free[i], free[j]];
+            if one.joint != self.joint || other.joint != self.joint {
+                return 0.0;
+            }
+            let own = &self.embedding.curvature[one.step][other.step];
+            let terms = LOOSE.iter().zip(own);
+            terms
+                .map(|(name, second)| residual[(self.row(name), 0)] * second)
+                .sum()
+        })
+    }
+
+    /// What the joint that is cut is called.
+    pub(crate) fn word(&self) -> Word {
+        self.model.joints[self.joint].word
+    }
+
+    /// The largest error relative to the size of the terms; every difference where they disagree.
+    pub(crate) fn compare(&self, seed: u64) -> Result<f64, String> {
+        let freedom = self.cut.names.len() - 2 * self.cut.reactions;
+        let n = self.open.names.len();
+        let motions = self.model.joints[self.joint].steps.len();
+        if freedom != n || self.cut.reactions != 6 - motions {
+            return Err(format!("freedom {freedom}, not {n}"));
+        }
+        let [q, u, b] = &self.case.at;
+        let x = self.state(seed);
+        let open = self.open.arrays(q, u, b);
+        let cut = self.cut.arrays(&x, u, b);
+        let positions = x.len() - self.cut.reactions;
+        let tangent = self.tangent();
+
+        let mut report = Report::default();
+        let gaps = cut[0].rows_range(positions..).into_owned();
+        report.compare("gaps", &gaps, &(0.0 * &gaps), 1.0);
+        let jacobian = cut[3].view((positions, 0), (self.cut.reactions, positions));
+        let motion = jacobian * &tangent;
+        let size = jacobian.amax() * tangent.amax();
+        report.compare("Phi_q P", &motion, &(0.0 * &motion), size);
+
+        let names = [
+            "residual",
+            "mass",
+            "damping",
+            "stiffness",
+            "by input",
+            "by design",
+        ];
+        // Where the free joint has no placements, the state itself moves with the design.
+        let compared = if self.placed { 6 } else { 5 };
+        for k in 0..compared {
+            let rows = cut[k].rows_range(..positions);
+            let square = (1..=3).contains(&k);
+            let inner = match square {
+                true => rows.columns_range(..positions) * &tangent,
+                false => rows.into_owned(),
+            };
+            let mut reduced = tangent.transpose() * &inner;
+            if k == 3 {
+                reduced += self.curvature(&cut[0]);
+            }
+            let terms = rows.amax() * tangent.amax().powi(if square { 2 } else { 1 });
+            report.compare(names[k], &reduced, &open[k], terms.max(cut[0].amax()));
+        }
+        report.outcome()
+    }
+}
+
+#[derive(Default)]
+struct Report {
+    worst: f64,
+    text: String,
+}
+
+impl Report {
+    fn compare(&mut self, what: &str, found: &DMatrix<f64>, expected: &DMatrix<f64>, size: f64) {
+        if found.shape() != expected.shape() {
+            self.text += &format!("{what}: {:?}, not {:?}\n", found.shape(), expected.shape());
+            return;
+        }
+        for (one, other) in found.iter().zip(expected) {
+            let error = (one - other).abs() / size.max(expected.amax()).max(1e-3);
+            // NaN is no agreement.
+            if !(error <= super::TOLERANCE) {
+                self.text += &format!("{what}: {one:e}, not {other:e}\n");
+            }
+            self.worst = self.worst.max(error);
+        }
+    }
+
+    fn outcome(self) -> Result<f64, String> {
+        match self.text.is_empty() {
+            true => Ok(self.worst),
+            false => Err(self.text),
+        }
+    }
+}
+
+impl Display for Pair {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", declaration(&self.model), self.text)
+    }
+}
+
+const LOOSE: [&str; 6] = [
+    "loose_x", "loose_y", "loose_z", "loose_a", "loose_b", "loose_c",
+];
+
+/// The declaration with the joint cut, and a free joint in its place.
+fn cut_text(model: &Model, joint: usize, embedding: &Embedding, placed: bool) -> String {
+    let original = &model.joints[joint];
+    let start = format!("joint {}:", original.name);
+    let open = declaration(model);
+    let line = open
+        .lines()
+        .map(str::trim)
+        .find(|line| line.starts_with(&start));
+    let line = line.expect("the joint is declared");
+    let closing = format!("{}, cut;", line.trim_end_matches(';'));
+
+    let slides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        .map(|axis| Step::new(Motion::Slide, axis));
+    let turns = embedding
+        .turns
+        .axes()
+        .map(|axis| Step::new(Motion::Turn, axis));
+    let steps = slides.into_iter().chain(turns).zip(LOOSE);
+    let steps = steps.map(|(step, name)| step.named(name)).collect();
+    let mut double = model.clone();
+    let mut loose = Joint::new("loose", Word::Free, steps, original.from, original.to);
+    if placed {
+        loose.from_placement = original.from_placement.clone();
+        loose.to_placement = original.to_placement.clone();
+    } else {
+        loose.from_placement = Placement::NONE;
+        loose.to_placement = Placement::NONE;
+    }
+    double.joints[joint] = loose;
+    let text = declaration(&double);
+    let end = text.rfind('}').expect("a closing brace");
+    format!("{}    {closing}\n}}\n", &text[..end])
+}
+
+fn without_forces_on(mut model: Model, joint: usize) -> Model {
+    let on = |value: &Expr| {
+        let mut found = false;
+        value.leaves(&mut |leaf| {
+            if let Expr::Coordinate(one) | Expr::Rate(one) = leaf {
+                found |= one.joint == joint;
+            }
+        });
+        found
+    };
+    model.forces.retain(|force| match &force.law {
+        ForceLaw::Spring { coordinate, .. } | ForceLaw::Damper { coordinate, .. } => {
+            coordinate.joint != joint
+        }
+        ForceLaw::Generalized { coordinate, value } => coordinate.joint != joint && !on(value),
+        ForceLaw::Potential { energy } => !on(energy),
+        _ => true,
+    });
+    model
+}
