@@ -60,10 +60,6 @@ impl Compilation {
 
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
-        emit(
-            &self.mechanism,
-            &self.functions,
-            &self.program,
-        )
+        emit(&self.mechanism, &self.functions, &self.program)
     }
 }

@@ -34,11 +34,7 @@ use crate::model::mechanism::Mechanism;
 use crate::program::Program;
 
 /// Generates the type, its handles and its implementation of the runtime's contract.
-pub fn emit(
-    mechanism: &Mechanism,
-    functions: &Functions,
-    program: &Program,
-) -> TokenStream {
+pub fn emit(mechanism: &Mechanism, functions: &Functions, program: &Program) -> TokenStream {
     let sizes = contract::Sizes {
         coordinates: functions.unknowns.len(),
         inputs: mechanism.inputs.len(),

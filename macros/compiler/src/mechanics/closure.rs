@@ -102,16 +102,10 @@ pub(super) fn aligned(
 
 /// The three small rotations between two sets of axes. Each is an angle, so that only equal axes satisfy all three.
 fn turns(g: &mut Graph, from: Matrix3, to: Matrix3) -> Vec<Demand> {
-    [
-        ("about_x", 2, 1),
-        ("about_y", 0, 2),
-        ("about_z", 1, 0),
-    ]
-    .into_iter()
-    .map(|(label, across, along)| {
-        angle(g, label, from.0[across], from.0[along], to.0[along])
-    })
-    .collect()
+    [("about_x", 2, 1), ("about_y", 0, 2), ("about_z", 1, 0)]
+        .into_iter()
+        .map(|(label, across, along)| angle(g, label, from.0[across], from.0[along], to.0[along]))
+        .collect()
 }
 
 /// The two small rotations that tilt a direction.
@@ -163,7 +157,11 @@ pub(super) fn perpendiculars(g: &mut Graph, axis: Vector3) -> [Vector3; 2] {
         None => 0.5,
     };
     let least = (0..3).fold(0, |least, k| {
-        if leaning(g, k) < leaning(g, least) { k } else { least }
+        if leaning(g, k) < leaning(g, least) {
+            k
+        } else {
+            least
+        }
     });
     let unit = Matrix3::identity(g).0[least];
     let along = axis.scale(g, axis.0[least]);
@@ -212,7 +210,11 @@ pub(super) fn joint_demands(g: &mut Graph, setting: &Setting, joint: &Joint) -> 
         .map(|step| setting.problem.values.vector(g, &step.axis))
         .collect();
     let mut demands = Vec::new();
-    let every = [("x", from.at.axes.0[0]), ("y", from.at.axes.0[1]), ("z", from.at.axes.0[2])];
+    let every = [
+        ("x", from.at.axes.0[0]),
+        ("y", from.at.axes.0[1]),
+        ("z", from.at.axes.0[2]),
+    ];
     let directions: Vec<(&'static str, Vector3)> = match joint.word {
         "prismatic" | "cylindrical" => {
             let across = perpendiculars(g, axes[0]);

@@ -42,10 +42,14 @@ pub(super) struct Row {
 
 /// All equations that do not hold whatever the mechanism does: those of positions first.
 pub(super) fn rows(g: &mut Graph, problem: &Problem) -> Vec<Row> {
+    let sources = sources(problem);
+    if sources.is_empty() {
+        return Vec::new();
+    }
     let kinematics = problem.kinematics_at_zero(g);
     let setting = Setting::new(problem, &kinematics);
     let mut rows = Vec::new();
-    for source in sources(problem) {
+    for source in sources {
         let name = source.name(problem.mechanism);
         let Some(pair) = geometric(g, &setting, source) else {
             let (zero, unit) = problem.equation(source);
@@ -133,13 +137,13 @@ fn geometric(g: &mut Graph, setting: &Setting, source: Source) -> Option<Pair> {
     };
     let Constraint { law, .. } = &mechanism.constraints[id.index()];
     Some(match law {
-        ConstraintLaw::Coincident { from, to, along } => coincident(g, setting, (*from, *to), *along),
+        ConstraintLaw::Coincident { from, to, along } => {
+            coincident(g, setting, (*from, *to), *along)
+        }
         ConstraintLaw::Aligned { from, to, axis } => {
             aligned(g, setting, (*from, *to), axis.as_ref())
         }
-        ConstraintLaw::Distance { from, to, length } => {
-            distance(g, setting, (*from, *to), length)
-        }
+        ConstraintLaw::Distance { from, to, length } => distance(g, setting, (*from, *to), length),
         ConstraintLaw::Rolling {
             wheel,
             axis,
@@ -153,9 +157,7 @@ fn geometric(g: &mut Graph, setting: &Setting, source: Source) -> Option<Pair> {
 
 /// Whether an expression holds a coordinate that runs in steady motion.
 fn has_running(problem: &Problem, value: &Expr) -> bool {
-    let runs = |id: CoordinateId| {
-        problem.mechanism.coordinates[id.index()].motion != Motion::Free
-    };
+    let runs = |id: CoordinateId| problem.mechanism.coordinates[id.index()].motion != Motion::Free;
     let leaves = value.leaves();
     leaves
         .into_iter()
@@ -175,7 +177,9 @@ pub(super) fn constraints(
             Some(pair) => {
                 let mut load = Wrench::zero(g);
                 for (component, demand) in pair.demands.iter().enumerate() {
-                    let Some(row) = problem.row(source, component) else { continue };
+                    let Some(row) = problem.row(source, component) else {
+                        continue;
+                    };
                     values[row] = demand.value;
                     let held = demand.held_by(g, problem.multiplier(row));
                     load = load.add(g, held);
@@ -183,13 +187,17 @@ pub(super) fn constraints(
                 forces.apply_pair(g, setting, &pair, load);
             }
             None => {
-                let Some(row) = problem.row(source, 0) else { continue };
+                let Some(row) = problem.row(source, 0) else {
+                    continue;
+                };
                 values[row] = equation(g, setting, source, problem.multiplier(row), forces);
             }
         }
     }
     for (value, row) in values.iter().zip(problem.rows) {
-        g.set_name(*value, || format!("constraint_{}", row.label.replace('.', "_")));
+        g.set_name(*value, || {
+            format!("constraint_{}", row.label.replace('.', "_"))
+        });
     }
     values
 }
@@ -226,7 +234,10 @@ fn equation(
     } = *setting;
     let (symbols, topology) = (problem.symbols, problem.topology);
     let (zero, _) = problem.equation(source);
-    let state = Running { problem, kinematics };
+    let state = Running {
+        problem,
+        kinematics,
+    };
     let value = problem.values.scalar_at(g, zero, &state);
     let free = topology.free.len();
     let ids: Vec<_> = symbols.q.ids[..free]
@@ -235,7 +246,12 @@ fn equation(
         .copied()
         .collect();
     let slopes = gradient(g, value, &ids);
-    let coordinates: Vec<_> = topology.free.iter().copied().chain(topology.running()).collect();
+    let coordinates: Vec<_> = topology
+        .free
+        .iter()
+        .copied()
+        .chain(topology.running())
+        .collect();
     let positions: Vec<_> = topology
         .running()
         .map(|id| kinematics.coordinates[id.index()].position)

@@ -41,10 +41,7 @@ pub fn derive(
         rows: &[],
     };
     let rows = constraints::rows(g, &unconstrained);
-    let labels: Vec<String> = rows
-        .iter()
-        .map(|row| row.label.replace('.', "_"))
-        .collect();
+    let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
     let symbols = symbols.clone().with_reactions(g, &labels);
     let values = Values::new(g, mechanism, &symbols);
     let problem = Problem {
@@ -90,7 +87,10 @@ fn unknowns(problem: &Problem) -> Vec<Unknown> {
         }
     };
     let free = topology.free.iter().map(|&id| of(id, "", Role::Position));
-    let coasting = topology.coasting.iter().map(|&id| of(id, "/s", Role::Speed));
+    let coasting = topology
+        .coasting
+        .iter()
+        .map(|&id| of(id, "/s", Role::Speed));
     let reactions = problem.rows.iter().map(|row| Unknown {
         name: row.label.clone(),
         unit: row.unit.clone(),

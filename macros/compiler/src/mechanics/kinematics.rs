@@ -6,7 +6,7 @@
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, CoordinateId, ExprId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Frame, Joint, JointStep, Mechanism, Motion, Placement, StepMotion};
+use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
 use crate::topology::Topology;
 
 use super::frame::FrameMotion;
@@ -121,7 +121,7 @@ impl Kinematics {
             let parent = *this.frame(branch.parent);
             let name = mechanism.bodies[branch.body.index()].name.to_string();
             let joint = &mechanism.joints[branch.joint.index()];
-            let gliding = glides(mechanism, joint);
+            let gliding = mechanism.glides(joint);
             let motion = this.body(g, values, joint, (branch.reversed, gliding), &parent, &name);
             this.bodies[branch.body.index()] = motion;
         }
@@ -286,14 +286,6 @@ impl Kinematics {
         }
         (moving, steps)
     }
-}
-
-/// Whether all of a planar joint coasts.
-pub(crate) fn glides(mechanism: &Mechanism, joint: &Joint) -> bool {
-    let coasts = |step: &JointStep| {
-        mechanism.coordinates[step.coordinate.index()].motion == Motion::Coasting
-    };
-    joint.word == "planar" && joint.steps.iter().all(coasts)
 }
 
 impl State for Kinematics {

@@ -48,7 +48,11 @@ pub(super) fn check(
     let mut diagnostics = Diagnostics::new();
     let (free, moving) = problem.moving();
     let name = |k: usize| {
-        let coordinates = problem.topology.free.iter().chain(&problem.topology.coasting);
+        let coordinates = problem
+            .topology
+            .free
+            .iter()
+            .chain(&problem.topology.coasting);
         let id = coordinates.copied().nth(k).expect("it moves");
         &problem.mechanism.coordinates[id.index()].name
     };
@@ -136,7 +140,10 @@ fn coordinate_without_inertia(
     let by_rate = |matrix: &[Vec<ExprId>], next: &[Vec<ExprId>], row: usize| -> Vec<ExprId> {
         let coordinates = matrix[..free].iter();
         let speeds = next[free..n].iter();
-        coordinates.chain(speeds).map(|column| column[row]).collect()
+        coordinates
+            .chain(speeds)
+            .map(|column| column[row])
+            .collect()
     };
     let mut roots: Vec<ExprId> = (0..n)
         .flat_map(|row| by_rate(&jacobians.mass, &jacobians.damping, row))

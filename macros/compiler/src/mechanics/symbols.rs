@@ -101,7 +101,12 @@ impl Symbols {
             .iter()
             .copied()
             .map(coordinate)
-            .chain(topology.coasting.iter().map(|&id| format!("speed_{}", coordinate(id))))
+            .chain(
+                topology
+                    .coasting
+                    .iter()
+                    .map(|&id| format!("speed_{}", coordinate(id))),
+            )
             .collect();
         let running: Vec<String> = topology.running().map(coordinate).collect();
         let inputs: Vec<String> = mechanism

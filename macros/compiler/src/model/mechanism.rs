@@ -38,6 +38,15 @@ pub struct Mechanism {
     pub outputs: Vec<Output>,
 }
 
+impl Mechanism {
+    /// Whether a joint is a planar one that coasts: its speeds are those along its turned axes.
+    pub fn glides(&self, joint: &Joint) -> bool {
+        let coasts =
+            |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
+        joint.word == "planar" && joint.steps.iter().all(coasts)
+    }
+}
+
 /// A unit as declared: a value in SI is the value in this unit times `scale`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {

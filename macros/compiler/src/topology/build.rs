@@ -31,6 +31,19 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
         driven: with(|motion| matches!(motion, Motion::Driven(_))),
         cut,
     };
+    for branch in &topology.branches {
+        let joint = &mechanism.joints[branch.joint.index()];
+        if mechanism.glides(joint) && (branch.parent != Frame::Ground || branch.reversed) {
+            diagnostics.error_with_help(
+                &joint.name,
+                "a planar joint can coast on the ground only",
+                format!(
+                    "declare it `from ground to {}`",
+                    mechanism.bodies[branch.body.index()].name
+                ),
+            );
+        }
+    }
     // Where loops close, a massless link may carry masses through the constraint.
     let open = topology.cut.is_empty() && mechanism.constraints.is_empty();
     if diagnostics.is_empty() && open {
@@ -178,7 +191,10 @@ fn report_unreached(
         {
             diagnostics.error_with_help(
                 name,
-                format!("only the cut joint `{}` leads from body `{name}` to the ground", joint.name),
+                format!(
+                    "only the cut joint `{}` leads from body `{name}` to the ground",
+                    joint.name
+                ),
                 "a cut joint closes a loop and carries nothing: remove `cut`",
             );
             continue;

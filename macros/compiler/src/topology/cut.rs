@@ -22,7 +22,11 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut of_coordinate = |id: crate::base::ids::CoordinateId| {
         needed[mechanism.coordinates[id.index()].joint.index()] = true;
     };
-    let mut values: Vec<&Expr> = mechanism.outputs.iter().map(|output| &output.value).collect();
+    let mut values: Vec<&Expr> = mechanism
+        .outputs
+        .iter()
+        .map(|output| &output.value)
+        .collect();
     for force in &mechanism.forces {
         match &force.law {
             ForceLaw::CoordinateSpring { coordinate, .. }
