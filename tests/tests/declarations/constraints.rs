@@ -17,10 +17,7 @@ fn law<'a>(mechanism: &'a Mechanism, name: &str) -> &'a ConstraintLaw {
 }
 
 fn point(mechanism: &Mechanism, name: &str) -> PointId {
-    let place = mechanism
-        .points
-        .iter()
-        .position(|point| point.name == name);
+    let place = mechanism.points.iter().position(|point| point.name == name);
     PointId::new(place.expect("a point"))
 }
 
@@ -142,10 +139,30 @@ fn a_coupling_is_the_equation_of_its_coordinates() {
             0.5 + 35.0 / 20.0 * 0.3 - 5f64.to_radians(),
             "rad",
         ),
-        ("rack", [("slide", 0.1), ("turn1", 0.5)], 0.1 - 0.03 * 0.5, "m"),
-        ("pinion", [("turn1", 0.5), ("slide", 0.1)], 0.5 - 50.0 * 0.1, "rad"),
-        ("tandem", [("slide", 0.1), ("lift", 0.4)], 0.1 - 0.4 + 0.02, "m"),
-        ("belt", [("spin", 0.5), ("idle", 0.25)], 0.5 - 2.0 * 0.25, "rad"),
+        (
+            "rack",
+            [("slide", 0.1), ("turn1", 0.5)],
+            0.1 - 0.03 * 0.5,
+            "m",
+        ),
+        (
+            "pinion",
+            [("turn1", 0.5), ("slide", 0.1)],
+            0.5 - 50.0 * 0.1,
+            "rad",
+        ),
+        (
+            "tandem",
+            [("slide", 0.1), ("lift", 0.4)],
+            0.1 - 0.4 + 0.02,
+            "m",
+        ),
+        (
+            "belt",
+            [("spin", 0.5), ("idle", 0.25)],
+            0.5 - 2.0 * 0.25,
+            "rad",
+        ),
     ] {
         let (value, symbol) = equation_at(&mechanism, name, at);
         assert!(near(value, expected), "{name}: {value} {expected}");
@@ -156,7 +173,12 @@ fn a_coupling_is_the_equation_of_its_coordinates() {
 #[test]
 fn an_equation_may_have_any_dimension() {
     let mechanism = resolved(CLOSED_MECHANISM);
-    for (name, unit) in [("slot", "m"), ("area", "m^2"), ("pure", "1"), ("sum", "rad")] {
+    for (name, unit) in [
+        ("slot", "m"),
+        ("area", "m^2"),
+        ("pure", "1"),
+        ("sum", "rad"),
+    ] {
         let ConstraintLaw::Equation { unit: own, .. } = law(&mechanism, name) else {
             panic!("an equation");
         };
@@ -228,7 +250,10 @@ fn reactions_are_those_of_joints_and_constraints() {
         assert_eq!(output.value, expected, "{output_name}");
         assert_eq!(output.unit.symbol, unit, "{output_name}");
     }
-    let lower = mechanism.joints.iter().position(|joint| joint.name == "lower");
+    let lower = mechanism
+        .joints
+        .iter()
+        .position(|joint| joint.name == "lower");
     let lower = JointId::new(lower.expect("a joint"));
     assert_eq!(output(&mechanism, "o9").value, Expr::Reaction(lower, 3));
     let pull = output(&mechanism, "pull").value.leaves().len();
@@ -278,9 +303,9 @@ fn the_words_of_clauses_are_names_too() {
         joint j: cylindrical(cut: y, coasting: y) from ground to a cut coasting, coasting driven at 0;
         joint k: cylindrical(u: y, v: y) from a to b at [0, 0, 1 m], v coasting;
         joint l: revolute(y) from b to ground cut at [0, 0, 1 m];
-        joint m: revolute(y) from b to c at [0, 0, l] coasting;
+        joint m: revolute(y) from b to c at [0, 0, high] coasting;
         joint n: revolute(y) from c to ground at [0, 0, 0] cut;
-        let l = 1 m;
+        let high = 1 m;
     }";
     let ast = read(source);
     let text = print(&ast);
@@ -290,7 +315,7 @@ fn the_words_of_clauses_are_names_too() {
         "from a to b at [0.0, 0.0, 1.0 m], v coasting;",
         "from b to ground, cut, at [0.0, 0.0, 1.0 m];",
         "from c to ground at [0.0, 0.0, 0.0], cut;",
-        "from b to c at [0.0, 0.0, l], coasting;",
+        "from b to c at [0.0, 0.0, high], coasting;",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
