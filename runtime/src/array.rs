@@ -113,6 +113,16 @@ impl<const N: usize> Cholesky<N> {
         Ok(Self { lower })
     }
 
+    /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T`.
+    pub(crate) fn orthonormalise(&self, vectors: &mut [[f64; N]]) {
+        for i in 0..vectors.len() {
+            for k in 0..i {
+                vectors[i] = add_scaled(&vectors[i], -self.lower[i][k], &vectors[k]);
+            }
+            vectors[i] = vectors[i].map(|value| value / self.lower[i][i]);
+        }
+    }
+
     pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
         let mut x = *right;
         for i in 0..N {

@@ -63,6 +63,8 @@ mod array;
 #[cfg(feature = "std")]
 pub mod campbell;
 #[cfg(feature = "std")]
+mod constraints;
+#[cfg(feature = "std")]
 pub mod equilibrium;
 #[cfg(feature = "std")]
 mod error;

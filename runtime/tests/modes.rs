@@ -260,7 +260,12 @@ fn matching_follows_shapes_and_is_a_permutation() {
         )
         .unwrap()
     };
-    let order = match_modes(&diagonal(1.0, 2.0, 3.0), &diagonal(5.0, 4.0, 3.0), &mass);
+    let zero = [[0.0; 3]; 3];
+    let order = match_modes(
+        &diagonal(1.0, 2.0, 3.0),
+        &diagonal(5.0, 4.0, 3.0),
+        &pencil(zero, mass),
+    );
     assert_eq!(*order, [Some(2), Some(1), Some(0)]);
     let near = diagonal(1.0, 1.0 + 1e-9, 3.0);
     assert_eq!(*clusters(&near, 1e-6), [true, true, false]);

@@ -5,7 +5,7 @@
 //! thought of, [`examples`] holds the ones with known answers ([`truth`]). [`agreement`] compares anything that offers
 //! the [`kernels`] of generated code with the oracle.
 //!
-//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms; [`generated`] calls their
+//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms, [`wheels`] those that roll; [`generated`] calls their
 //! kernels by name, [`dual`] and [`hyper`] differentiate them, [`interpreter`] runs them without rustc. [`resolved`] solves a
 //! whole problem again in hyper-dual numbers: total derivatives of equilibria, eigenvalues and mode shapes.
 //!
@@ -24,6 +24,7 @@ pub mod generated;
 pub mod hyper;
 pub mod interpreter;
 pub mod kernels;
+pub mod loops;
 pub mod machines;
 pub mod model;
 mod num_dual;
@@ -32,3 +33,4 @@ pub mod random;
 pub mod resolved;
 pub mod truth;
 pub mod unheld;
+pub mod wheels;

@@ -118,9 +118,8 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     let at = equilibrium(&machine, &u, &b, &start, Policy::Stable).expect("a state");
     assert_eq!(allocations(|| modes(&at)), 0, "modes of {name}");
     let found = modes(&at).expect("modes");
-    let mass = &at.linear.mass;
     assert_eq!(
-        allocations(|| match_modes(&found, &found, mass)),
+        allocations(|| match_modes(&found, &found, &at.linear)),
         0,
         "matching of {name}"
     );

@@ -130,7 +130,7 @@ fn legend<'a>(figure: &Figure, area: &Svg<'a>) -> Outcome<'a> {
         area.draw(&marker(markers, (x + SYMBOL / 2, y)))?;
         label((x, y), &markers.label)?;
     }
-    if let Some((x, y)) = places.next() {
+    if let Some((x, y)) = places.next().filter(|_| !figure.mark.1.is_empty()) {
         area.draw(&PathElement::new([(x, y), (x + SYMBOL, y)], mark()))?;
         label((x, y), &figure.mark.1)?;
     }

@@ -4,9 +4,11 @@ mod campbell;
 mod clip;
 mod content;
 mod draw;
+mod eigenvalues;
 
 pub use campbell::Whirling;
 pub use content::{Sweeps, angles, contributions, deviations, frequencies, means};
+pub use eigenvalues::eigenvalues;
 
 use std::fs;
 use std::path::Path;
@@ -33,7 +35,7 @@ pub struct Figure {
     pub speeds: (f64, f64),
     /// Range of the values; what lies outside is cut off.
     pub range: (f64, f64),
-    /// A thin vertical line, and what it marks.
+    /// A thin vertical line, and what it marks; none without words.
     pub mark: (f64, String),
     /// Shaded areas, behind everything else.
     pub bands: Vec<Band>,

@@ -112,7 +112,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         Ok(Tracked {
             value,
             equilibrium,
-            modes: found.continuing(&point.modes, &equilibrium.linear.mass, self.unused),
+            modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
         })
     }
 
@@ -147,7 +147,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         let Some(last) = self.last else {
             return Ok(self.arrive(value, state, found));
         };
-        let order = match_with_assurance(&last.modes, &found, &state.linear.mass);
+        let order = match_with_assurance(&last.modes, &found, &state.linear);
         // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
         let repeated = clusters(&found, CLUSTER_GAP);
         let doubtful = order

@@ -1,8 +1,9 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
 use super::{Family, Mode, PerMode};
-use crate::array::{dot, form, times};
-use crate::{Complex, Modes};
+use crate::array::{Square, dot, form, times};
+use crate::constraints::Structure;
+use crate::{Complex, Linear, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
 const EIGENVALUE_SHARE: f64 = 0.05;
@@ -11,14 +12,17 @@ const CERTAIN: f64 = 0.6;
 
 /// How much mode `j` of `to` is the same motion as mode `i` of `from`, from 0 to 1: `table[i][j]`.
 ///
-/// For undamped modes the modal assurance criterion: the squared cosine between the shapes, weighted with a mass matrix.
+/// For undamped modes the modal assurance criterion: the squared cosine between the shapes, weighted with the mass matrix
+/// of `linear`; with speeds, with that of the kinetic energy, displacements brought to velocities by the greatest `|s|`.
 /// General modes are motions of positions and velocities: the phase of the eigenvalue counts as well, and of modes with
 /// equal shapes the one with the nearer eigenvalue has up to 5 % more.
 pub fn assurance<const N: usize>(
     from: &Modes<N>,
     to: &Modes<N>,
-    mass: &[[f64; N]; N],
+    linear: &Linear<f64, N>,
 ) -> PerMode<PerMode<f64, N>, N> {
+    let own = kinetic(from, to, linear);
+    let mass = own.as_ref().unwrap_or(&linear.mass);
     let general = from.family == Family::General || to.family == Family::General;
     let weighted = to.modes.map(|mode| weigh(mass, &mode.shape));
     let size = |mode: &Mode<N>| product(&mode.shape, &weigh(mass, &mode.shape)).norm();
@@ -49,6 +53,54 @@ fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
     let sum = a.norm() + b.norm();
     let distance = if sum > 0.0 { (a - b).norm() / sum } else { 0.0 };
     phase * (1.0 - EIGENVALUE_SHARE * distance)
+}
+
+/// The weights of shapes that have speeds; `None` where `Mhat` weighs all that moves.
+fn kinetic<const N: usize>(
+    from: &Modes<N>,
+    to: &Modes<N>,
+    linear: &Linear<f64, N>,
+) -> Option<Square<N>> {
+    /// Share of the greatest possible weight below which a shape counts as massless.
+    const MASSLESS: f64 = 1e-12;
+    let structure = Structure::of(to.description);
+    if structure.holonomic() {
+        return None;
+    }
+    let all = || from.modes.iter().chain(&to.modes);
+    let rate = all().fold(0.0, |most: f64, mode| most.max(mode.s.norm()));
+    let rate = if rate > 0.0 { rate } else { 1.0 };
+    let (q, v) = (structure.coordinates, structure.speed_range());
+    let mut weight = [[0.0; N]; N];
+    for i in 0..v.end {
+        for j in 0..v.end {
+            weight[i][j] = match (i < q, j < q) {
+                (true, true) => linear.mass[i][j] * rate * rate,
+                (true, false) => linear.damping[i][j] * rate,
+                (false, true) => linear.mass[i][j] * rate,
+                (false, false) => linear.damping[i][j],
+            };
+        }
+    }
+    let greatest = crate::array::largest_element(&weight);
+    let massless = |mode: &Mode<N>| {
+        let shape: [Complex; N] = core::array::from_fn(|i| {
+            if i < v.end {
+                mode.shape[i]
+            } else {
+                Complex::default()
+            }
+        });
+        let most = greatest * product(&shape, &shape).re;
+        !(product(&shape, &weigh(&weight, &shape)).re > MASSLESS * most)
+    };
+    if all().any(massless) {
+        weight = [[0.0; N]; N];
+        for i in 0..v.end {
+            weight[i][i] = if i < q { rate * rate } else { 1.0 };
+        }
+    }
+    Some(weight)
 }
 
 fn weigh<const N: usize>(mass: &[[f64; N]; N], shape: &[Complex; N]) -> [Complex; N] {
@@ -87,31 +139,33 @@ fn product<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
 pub fn match_modes<const N: usize>(
     from: &Modes<N>,
     to: &Modes<N>,
-    mass: &[[f64; N]; N],
+    linear: &Linear<f64, N>,
 ) -> PerMode<Option<usize>, N> {
-    match_with_assurance(from, to, mass).map(|found| found.map(|(position, _)| position))
+    match_with_assurance(from, to, linear).map(|found| found.map(|(position, _)| position))
 }
 
 /// As [`match_modes`], with the assurance of each pair.
 pub(crate) fn match_with_assurance<const N: usize>(
     from: &Modes<N>,
     to: &Modes<N>,
-    mass: &[[f64; N]; N],
+    linear: &Linear<f64, N>,
 ) -> PerMode<Option<(usize, f64)>, N> {
     let (here, there) = (from.modes.len(), to.modes.len());
-    if here < 2 && there < 2 {
+    if here == 1 && there == 1 {
         return from.modes.map(|_| Some((0, 1.0)));
     }
     // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
-    if undamped {
+    if undamped && here <= there {
         let own: PerMode<f64, N> =
-            PerMode::from_fn(here, |i| real_assurance(&from.modes[i], &to.modes[i], mass));
+            PerMode::from_fn(here, |i| {
+                real_assurance(&from.modes[i], &to.modes[i], &linear.mass)
+            });
         if own.iter().all(|&same| same > CERTAIN) {
             return PerMode::from_fn(here, |i| Some((i, own[i])));
         }
     }
-    let table = assurance(from, to, mass);
+    let table = assurance(from, to, linear);
     let mut found = from.modes.map(|_| None);
     let mut used = to.modes.map(|_| false);
     for _ in 0..here.min(there) {
@@ -134,8 +188,8 @@ pub(crate) fn match_with_assurance<const N: usize>(
 impl<const N: usize> Modes<N> {
     /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
     /// come last, under labels from `next` on.
-    pub(crate) fn continuing(&self, before: &Self, mass: &[[f64; N]; N], next: usize) -> Self {
-        self.arranged(before, &match_modes(before, self, mass), next)
+    pub(crate) fn continuing(&self, before: &Self, linear: &Linear<f64, N>, next: usize) -> Self {
+        self.arranged(before, &match_modes(before, self, linear), next)
     }
 
     pub(crate) fn arranged(

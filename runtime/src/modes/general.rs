@@ -1,5 +1,6 @@
 //! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with `M` symmetric positive
-//! definite and any real `C` and `K`, by code that is compiled once in this crate.
+//! definite and any real `C` and `K`, by code that is compiled once in this crate; the same for `A phi = s phi`, which is
+//! the case `M = 0`, `C = I`, `K = -A`.
 //!
 //! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
 //! digits from the pencil itself ([`pair`]); what the pencil cannot tell apart is merged ([`cluster`]), every error is
@@ -32,6 +33,8 @@ mod tests;
 
 use num_complex::Complex64;
 
+pub(super) use driver::{Eigenproblem, Numbers, solve as solve_on};
+
 use super::symmetric::Trouble;
 use crate::Linear;
 
@@ -60,15 +63,7 @@ pub(crate) struct Roots<const N: usize> {
 }
 
 impl<const N: usize> Roots<N> {
-    /// Ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
-    pub(crate) fn as_slice(&self) -> &[Root<N>] {
-        &self.roots.as_flattened()[..self.count]
-    }
-}
-
-/// Solves the general eigenproblem of `linear`.
-pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>, Trouble> {
-    let mut roots = Roots {
+    pub(super) const EMPTY: Self = Self {
         roots: [[Root {
             s: Complex64::ZERO,
             right: [Complex64::ZERO; N],
@@ -79,11 +74,29 @@ pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>,
         }; 2]; N],
         count: 0,
     };
-    let mut numbers = [[driver::Numbers::NONE; 2]; N];
+
+    /// Adds one of at most `2 N`.
+    pub(super) fn push(&mut self, root: Root<N>) {
+        if let Some(place) = self.roots.as_flattened_mut().get_mut(self.count) {
+            *place = root;
+            self.count += 1;
+        }
+    }
+
+    /// Ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
+    pub(crate) fn as_slice(&self) -> &[Root<N>] {
+        &self.roots.as_flattened()[..self.count]
+    }
+}
+
+/// Solves the general eigenproblem of `linear`.
+pub(crate) fn solve<const N: usize>(linear: &Linear<f64, N>) -> Result<Roots<N>, Trouble> {
+    let mut roots = Roots::EMPTY;
+    let mut numbers = [[Numbers::NONE; 2]; N];
     let mut right = [[[Complex64::ZERO; N]; 2]; N];
     let mut left = right;
     roots.count = driver::solve(
-        driver::Matrices::of(linear),
+        Eigenproblem::of(linear),
         numbers.as_flattened_mut(),
         right.as_flattened_mut().as_flattened_mut(),
         left.as_flattened_mut().as_flattened_mut(),

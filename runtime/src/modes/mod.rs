@@ -3,8 +3,12 @@
 //! Undamped modes solve `Khat phi = lambda Mhat phi`; they are complete where `Chat` is zero and `Khat` symmetric.
 //! Everything else has general modes, `(s^2 Mhat + s Chat + Khat) phi = 0` with left vectors
 //! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. Both are described by one type: an undamped mode is one with `s^2 = -lambda`.
+//!
+//! With constraints and speeds the same equations hold for all unknowns, reactions included; there are as many modes as
+//! the constraints leave free ([`constrained`]).
 
 mod assurance;
+mod constrained;
 mod general;
 mod per_mode;
 mod refine;
@@ -13,10 +17,12 @@ mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged};
+pub(crate) use constrained::{Normalisation, free_pairs};
 pub use per_mode::PerMode;
 pub use whirl::{Sense, Whirl, whirls};
 
 use crate::array::asymmetry;
+use crate::constraints::Structure;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
 use symmetric::Trouble;
 
@@ -61,10 +67,12 @@ pub struct Mode<const N: usize> {
     /// `-Re s^2`, 1/s^2. Of an undamped mode the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the frequency,
     /// negative for divergence.
     pub lambda: f64,
-    /// Right vector `phi`, by coordinate: `phi^H Mhat phi = 1`, its largest component real and positive. Real for an
-    /// undamped mode.
+    /// Right vector `phi`, by unknown, the reactions of constraints included: `phi^H Mhat phi = 1`, its largest component
+    /// of a coordinate real and positive. With speeds or constraints on velocities, where a mode may move speeds only, the
+    /// largest component of a coordinate or speed is one. Real for an undamped mode.
     pub shape: [Complex; N],
-    /// Left vector `psi`, normalised alike; of an undamped mode the same as `shape`.
+    /// Left vector `psi`, normalised alike; with speeds or constraints on velocities its largest component of all is one.
+    /// Of an undamped mode the same as `shape`.
     pub left: [Complex; N],
     /// What `s` means.
     pub behaviour: Behaviour,
@@ -195,6 +203,8 @@ pub fn modes_of<const N: usize>(
 /// A failure that owns nothing.
 pub(crate) enum ModesFailure {
     Asymmetric(f64),
+    /// Undamped modes were asked for where speeds or constraints on velocities leave none.
+    NotHolonomic,
     Pencil(Trouble),
 }
 
@@ -202,6 +212,7 @@ impl ModesFailure {
     pub(crate) fn explain(self, description: &'static Description) -> Error {
         match self {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
+            Self::NotHolonomic => Error::NoUndampedModes,
             Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
                 coordinate: description
                     .coordinates
@@ -248,10 +259,13 @@ fn undamped<const N: usize>(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    let pairs = symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
-    let threshold = neutral_threshold(&pairs.lambda);
-    Ok(PerMode::from_fn(N, |r| {
-        let lambda = pairs.lambda[r];
+    if !Structure::of(description).holonomic() {
+        return Err(ModesFailure::NotHolonomic);
+    }
+    let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
+    let threshold = pairs.threshold;
+    Ok(PerMode::from_fn(pairs.lambda().len(), |r| {
+        let lambda = pairs.lambda()[r];
         let rate = lambda.abs().sqrt();
         let (s, behaviour) = if lambda > threshold {
             (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
@@ -260,14 +274,14 @@ fn undamped<const N: usize>(
         } else {
             (Complex::new(0.0, 0.0), Behaviour::Neutral)
         };
-        let shape = pairs.shapes[r].map(Complex::from);
+        let shape = pairs.shapes()[r].map(Complex::from);
         Mode {
             s,
             lambda,
             shape,
             left: shape,
             behaviour,
-            residual: pairs.residuals[r],
+            residual: pairs.residuals()[r],
             error: if rate > 0.0 {
                 (threshold / rate).min(threshold.sqrt())
             } else {
@@ -283,7 +297,12 @@ fn damped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
 ) -> Result<PerMode<Mode<N>, N>, Trouble> {
-    let roots = general::solve(linear)?;
+    let structure = Structure::of(description);
+    let roots = if structure.open() {
+        general::solve(linear)?
+    } else {
+        constrained::general_roots(linear, structure)?
+    };
     let roots = roots.as_slice();
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
@@ -320,10 +339,22 @@ fn damped<const N: usize>(
     }))
 }
 
+/// Position of the component that tells the phase of a vector: the greatest; a margin keeps the choice when two are equal
+/// but for rounding.
+pub(crate) fn lead(x: &[Complex]) -> usize {
+    let mut lead = 0;
+    for (i, value) in x.iter().enumerate().skip(1) {
+        if value.norm() > x[lead].norm() * (1.0 + 1e-9) {
+            lead = i;
+        }
+    }
+    lead
+}
+
 /// Below this size an eigenvalue cannot be told from zero: the rounding of the greatest one.
-pub(crate) fn neutral_threshold<const N: usize>(lambda: &[f64; N]) -> f64 {
-    if N < 2 {
+pub(crate) fn neutral_threshold(lambda: &[f64]) -> f64 {
+    if lambda.len() < 2 {
         return 0.0;
     }
-    4.0 * N as f64 * f64::EPSILON * crate::array::largest(lambda)
+    4.0 * lambda.len() as f64 * f64::EPSILON * symmetric::largest(lambda)
 }

@@ -2,23 +2,26 @@
 
 use core::ops::{Deref, DerefMut};
 
-/// One entry for each mode. `N` coordinates have from `N` modes (each a conjugate pair of eigenvalues) to `2 N` (each
-/// eigenvalue real, a motion of its own). Reads as a slice.
+/// One entry for each mode. `N` free coordinates have from `N` modes (each a conjugate pair of eigenvalues) to `2 N` (each
+/// eigenvalue real, a motion of its own); where constraints hold some of `N` unknowns there are fewer, or none. Reads as
+/// a slice.
 #[derive(Clone, Copy)]
 pub struct PerMode<T, const N: usize> {
-    /// Entries from `count` on are copies without meaning.
-    entries: [[T; 2]; N],
+    /// Entries from `count` on are copies without meaning; `None` without modes.
+    entries: Option<[[T; 2]; N]>,
     count: usize,
 }
 
 impl<T: Copy, const N: usize> PerMode<T, N> {
-    /// The first `count` of the values of `entry`, at least one and at most `2 N`; none when `N` is zero.
+    /// The first `count` of the values of `entry`, at most `2 N`.
     pub(crate) fn from_fn(count: usize, mut entry: impl FnMut(usize) -> T) -> Self {
-        if N == 0 {
-            let entries = core::array::from_fn(|_| unreachable!("no coordinate, no mode"));
-            return Self { entries, count: 0 };
+        let count = count.min(2 * N);
+        if count == 0 {
+            return Self {
+                entries: None,
+                count,
+            };
         }
-        let count = count.clamp(1, 2 * N);
         let mut entries = [[entry(0); 2]; N];
         for (r, place) in entries.as_flattened_mut()[..count]
             .iter_mut()
@@ -27,12 +30,15 @@ impl<T: Copy, const N: usize> PerMode<T, N> {
         {
             *place = entry(r);
         }
-        Self { entries, count }
+        Self {
+            entries: Some(entries),
+            count,
+        }
     }
 
     /// A list of equal length made from each entry.
     pub fn map<R: Copy>(&self, mut entry: impl FnMut(&T) -> R) -> PerMode<R, N> {
-        PerMode::from_fn(self.count, |r| entry(&self.entries.as_flattened()[r]))
+        PerMode::from_fn(self.count, |r| entry(&self[r]))
     }
 }
 
@@ -40,13 +46,19 @@ impl<T, const N: usize> Deref for PerMode<T, N> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
-        &self.entries.as_flattened()[..self.count]
+        match &self.entries {
+            Some(entries) => &entries.as_flattened()[..self.count],
+            None => &[],
+        }
     }
 }
 
 impl<T, const N: usize> DerefMut for PerMode<T, N> {
     fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.entries.as_flattened_mut()[..self.count]
+        match &mut self.entries {
+            Some(entries) => &mut entries.as_flattened_mut()[..self.count],
+            None => &mut [],
+        }
     }
 }
 

@@ -4,7 +4,6 @@
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
-use crate::array::{largest, largest_element};
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,29 +33,43 @@ pub(crate) fn solve<const N: usize>(
     stiffness: &[[f64; N]; N],
     mass: &[[f64; N]; N],
 ) -> Result<Pairs<N>, Trouble> {
-    let mut lambda = [0.0; N];
-    let mut shapes = [[0.0; N]; N];
-    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
-    let vectors = shapes.as_flattened_mut();
-    match N {
-        0 => {}
-        1 => one(k, m, &mut lambda, vectors)?,
-        2 => two(k, m, &mut lambda, vectors)?,
-        3 => small_3(k, m, &mut lambda, vectors)?,
-        4 => small_4(k, m, &mut lambda, vectors)?,
-        5 => small_5(k, m, &mut lambda, vectors)?,
-        6 => small_6(k, m, &mut lambda, vectors)?,
-        7 => small_7(k, m, &mut lambda, vectors)?,
-        8 => small_8(k, m, &mut lambda, vectors)?,
-        _ => large(N, k, m, &mut lambda, vectors)?,
-    }
     let mut pairs = Pairs {
-        lambda,
-        shapes,
+        lambda: [0.0; N],
+        shapes: [[0.0; N]; N],
         residuals: [0.0; N],
     };
-    finish(stiffness, mass, &mut pairs)?;
+    solve_on(
+        N,
+        (stiffness.as_flattened(), mass.as_flattened()),
+        &mut pairs.lambda,
+        pairs.shapes.as_flattened_mut(),
+        &mut pairs.residuals,
+    )?;
     Ok(pairs)
+}
+
+/// As [`solve`] for matrices of size `n`, row by row; shape `r` is row `r` of `shapes`.
+#[inline]
+pub(crate) fn solve_on(
+    n: usize,
+    (k, m): (&[f64], &[f64]),
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    residuals: &mut [f64],
+) -> Result<(), Trouble> {
+    match n {
+        0 => {}
+        1 => one(k, m, lambda, shapes)?,
+        2 => two(k, m, lambda, shapes)?,
+        3 => small_3(k, m, lambda, shapes)?,
+        4 => small_4(k, m, lambda, shapes)?,
+        5 => small_5(k, m, lambda, shapes)?,
+        6 => small_6(k, m, lambda, shapes)?,
+        7 => small_7(k, m, lambda, shapes)?,
+        8 => small_8(k, m, lambda, shapes)?,
+        _ => large(n, k, m, lambda, shapes)?,
+    }
+    finish(&Matrices { n, k, m }, lambda, shapes, residuals)
 }
 
 fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
@@ -190,116 +203,122 @@ fn large(
     Ok(())
 }
 
+/// Stiffness and mass, row by row.
+pub(super) struct Matrices<'a> {
+    pub(super) n: usize,
+    pub(super) k: &'a [f64],
+    pub(super) m: &'a [f64],
+}
+
 /// Sorts, refines where needed, fixes signs and checks each residual.
-fn finish<const N: usize>(
-    stiffness: &[[f64; N]; N],
-    mass: &[[f64; N]; N],
-    pairs: &mut Pairs<N>,
+#[inline]
+fn finish(
+    matrices: &Matrices,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    residuals: &mut [f64],
 ) -> Result<(), Trouble> {
-    sort(pairs);
-    let residual = |lambda: f64, phi: &[f64; N]| relative_residual(stiffness, mass, lambda, phi);
+    let n = matrices.n;
+    sort(n, lambda, shapes, residuals);
     let mut refined = false;
-    for r in 0..N {
-        pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
-        if pairs.residuals[r] > INACCURATE {
-            refine(
-                stiffness,
-                mass,
-                &mut pairs.lambda,
-                &mut pairs.shapes,
-                r,
-                residual,
-            );
-            pairs.residuals[r] = residual(pairs.lambda[r], &pairs.shapes[r]);
+    for r in 0..n {
+        let own = r * n..(r + 1) * n;
+        residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
+        if residuals[r] > INACCURATE {
+            refine(matrices, lambda, shapes, r);
+            residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
             refined = true;
         }
-        if pairs.residuals[r].is_nan() || pairs.residuals[r] > ACCEPTED {
-            if !is_rounding(stiffness, mass, pairs.lambda[r], &pairs.shapes[r]) {
+        if residuals[r].is_nan() || residuals[r] > ACCEPTED {
+            if !matrices.is_rounding(lambda[r], &shapes[own]) {
                 return Err(Trouble::Inaccurate {
                     mode: r,
-                    residual: pairs.residuals[r],
+                    residual: residuals[r],
                 });
             }
             // Relative to the matrices instead of to terms that are rounding themselves.
-            pairs.residuals[r] = ROUNDING;
+            residuals[r] = ROUNDING;
         }
     }
     if refined {
-        sort(pairs);
+        sort(n, lambda, shapes, residuals);
     }
-    pairs.shapes.iter_mut().for_each(fix_sign);
+    for r in 0..n {
+        fix_sign(&mut shapes[r * n..(r + 1) * n]);
+    }
     Ok(())
 }
 
-fn sort<const N: usize>(pairs: &mut Pairs<N>) {
-    for i in 1..N {
+#[inline]
+fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], residuals: &mut [f64]) {
+    for i in 1..n {
         let mut j = i;
-        while j > 0 && pairs.lambda[j] < pairs.lambda[j - 1] {
-            pairs.lambda.swap(j, j - 1);
-            pairs.shapes.swap(j, j - 1);
-            pairs.residuals.swap(j, j - 1);
+        while j > 0 && lambda[j] < lambda[j - 1] {
+            lambda.swap(j, j - 1);
+            residuals.swap(j, j - 1);
+            for k in 0..n {
+                shapes.swap(j * n + k, (j - 1) * n + k);
+            }
             j -= 1;
         }
     }
 }
 
 /// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
-fn fix_sign<const N: usize>(shape: &mut [f64; N]) {
+#[inline]
+pub(super) fn fix_sign(shape: &mut [f64]) {
     let mut lead = 0;
-    for i in 1..N {
+    for i in 1..shape.len() {
         if shape[i].abs() > shape[lead].abs() * (1.0 + 1e-9) {
             lead = i;
         }
     }
-    if shape[lead] < 0.0 {
-        *shape = shape.map(|value| -value);
+    if !shape.is_empty() && shape[lead] < 0.0 {
+        shape.iter_mut().for_each(|value| *value = -*value);
     }
 }
 
-/// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
-fn relative_residual<const N: usize>(
-    stiffness: &[[f64; N]; N],
-    mass: &[[f64; N]; N],
-    lambda: f64,
-    phi: &[f64; N],
-) -> f64 {
-    let (most, size) = residual_and_terms(stiffness, mass, lambda, phi);
-    if most == 0.0 { 0.0 } else { most / size }
+/// Greatest absolute value.
+#[inline]
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
-/// that act, and their terms are no measure.
-fn is_rounding<const N: usize>(
-    stiffness: &[[f64; N]; N],
-    mass: &[[f64; N]; N],
-    lambda: f64,
-    phi: &[f64; N],
-) -> bool {
-    let (most, _) = residual_and_terms(stiffness, mass, lambda, phi);
-    let matrices = largest_element(stiffness) + lambda.abs() * largest_element(mass);
-    most <= ROUNDING * matrices * largest(phi)
-}
-
-/// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
-fn residual_and_terms<const N: usize>(
-    stiffness: &[[f64; N]; N],
-    mass: &[[f64; N]; N],
-    lambda: f64,
-    phi: &[f64; N],
-) -> (f64, f64) {
-    let (mut most, mut size) = (0.0_f64, 0.0_f64);
-    for i in 0..N {
-        let (mut sum, mut terms) = (0.0, 0.0);
-        for j in 0..N {
-            let (k, m) = (stiffness[i][j] * phi[j], lambda * mass[i][j] * phi[j]);
-            sum += k - m;
-            terms += k.abs() + m.abs();
-        }
-        if sum.is_nan() {
-            return (f64::NAN, size);
-        }
-        most = most.max(sum.abs());
-        size = size.max(terms);
+impl Matrices<'_> {
+    /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+    #[inline]
+    pub(super) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
+        let (most, size) = self.residual_and_terms(lambda, phi);
+        if most == 0.0 { 0.0 } else { most / size }
     }
-    (most, size)
+
+    /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
+    /// that act, and their terms are no measure.
+    fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
+        let (most, _) = self.residual_and_terms(lambda, phi);
+        let matrices = largest(self.k) + lambda.abs() * largest(self.m);
+        most <= ROUNDING * matrices * largest(phi)
+    }
+
+    /// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
+    #[inline]
+    fn residual_and_terms(&self, lambda: f64, phi: &[f64]) -> (f64, f64) {
+        let n = self.n;
+        let (mut most, mut size) = (0.0_f64, 0.0_f64);
+        for i in 0..n {
+            let (mut sum, mut terms) = (0.0, 0.0);
+            let (k, m) = (&self.k[i * n..(i + 1) * n], &self.m[i * n..(i + 1) * n]);
+            for ((k, m), phi) in k.iter().zip(m).zip(phi) {
+                let (k, m) = (k * phi, lambda * m * phi);
+                sum += k - m;
+                terms += k.abs() + m.abs();
+            }
+            if sum.is_nan() {
+                return (f64::NAN, size);
+            }
+            most = most.max(sum.abs());
+            size = size.max(terms);
+        }
+        (most, size)
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::sensitivities;
 use super::shift::outside_domain;
-use crate::array::{all_finite, dot, largest, times, transpose};
+use crate::array::{all_finite, dot, times, transpose};
+use crate::constraints::Structure;
 use crate::equilibrium::branch::Bordered;
 use crate::equilibrium::{Condition, CriticalState, Crossing, SpecialKind};
 use crate::{Equilibrium, Error, Gradient, Mechanism};
@@ -183,7 +184,9 @@ impl<const N: usize, const P: usize> Crossed<N, P> {
                 reason: "the stiffness does not depend on the input",
             });
         }
-        let motion = 1.0 / largest(&critical.v);
+        let motions = Structure::of(at.description).motions();
+        let most = critical.v[..motions.min(N)].iter();
+        let motion = 1.0 / most.fold(0.0, |most: f64, value| most.max(value.abs()));
         let mut result = [0.0; P];
         for (j, force) in forces.iter().enumerate() {
             let (shift, _) = self.factors.solve(&force.map(|value| -value), [0.0]);

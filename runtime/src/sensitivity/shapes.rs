@@ -1,20 +1,19 @@
 //! Total derivatives of mode shapes, left and right, by a bordered solve (Nelson 1976).
 //!
 //! With `Q phi = 0`, `Q = Khat - lambda Mhat` or `s^2 Mhat + s Chat + Khat`, a change of the matrices gives
-//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular in the direction of `phi` only; it is solved with `alpha (Q' phi) (Mhat
-//! phi)^H` added, which leaves the solution as it is but for its part along `phi`, and that part follows from the
-//! normalisation.
+//! `Q dphi = -(dQ + Q' ds) phi`. `Q` is singular in the direction of `phi` only; it is solved with `alpha (Q' phi) c^H`
+//! added, which leaves the solution as it is but for its part along `phi`, and that part follows from the normalisation:
+//! `c = Mhat phi`, or the unit vector of the component that is one ([`Normalisation`]).
 
 use super::CLUSTER_GAP;
 use super::explicit::rate_of;
 use super::pencil::{pencil_slope_times, pencil_times, transposed};
 use super::shift::{directions, outside_domain};
 use crate::array::{Lu, dot_complex, largest_element, times_complex};
-use crate::modes::{Family, clusters};
+use crate::modes::{Family, Normalisation, clusters, lead};
 use crate::{Complex, Description, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
-/// Total derivatives of the shapes of one mode, normalised as the mode is: `phi^H Mhat phi = 1`, the largest component
-/// real.
+/// Total derivatives of the shapes of one mode, normalised as the mode is ([`Mode::shape`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeSensitivity<const N: usize, const U: usize, const P: usize> {
     /// `right_by_input[j]`: derivative of `phi` by input `j`.
@@ -98,11 +97,17 @@ impl<'a, const N: usize> Shapes<'a, N, ()> {
         }
         let family = modes.family;
         let linear = &at.linear;
-        let right = Side::new(linear, family, mode, &mode.shape).ok_or(clustered.clone())?;
+        let (size, leading) = Normalisation::of(at.description);
+        let normalised = (size, leading.right);
+        let right =
+            Side::new(linear, family, mode, &mode.shape, normalised).ok_or(clustered.clone())?;
         let left = match family {
             Family::Undamped => None,
             Family::General => {
-                Some(Side::new(&transposed(linear), family, mode, &mode.left).ok_or(clustered)?)
+                let normalised = (size, leading.left);
+                let transposed = transposed(linear);
+                let side = Side::new(&transposed, family, mode, &mode.left, normalised);
+                Some(side.ok_or(clustered)?)
             }
         };
         Ok(Shapes {
@@ -167,7 +172,8 @@ fn eigenvalue_slope_times<const N: usize>(
 /// The deflated pencil on one side of a mode.
 struct Side<const N: usize> {
     shape: [Complex; N],
-    /// `Mhat phi`.
+    size: Normalisation,
+    /// `c`.
     weighted: [Complex; N],
     lead: usize,
     factors: Lu<Complex, N>,
@@ -179,8 +185,15 @@ impl<const N: usize> Side<N> {
         family: Family,
         mode: &Mode<N>,
         shape: &[Complex; N],
+        (normalisation, leading): (Normalisation, usize),
     ) -> Option<Self> {
-        let weighted = times_complex(&linear.mass, shape);
+        let lead = lead(&shape[..leading.min(N)]);
+        let weighted = match normalisation {
+            Normalisation::Mass => times_complex(&linear.mass, shape),
+            Normalisation::Largest => {
+                core::array::from_fn(|i| if i == lead { 1.0 } else { 0.0 }.into())
+            }
+        };
         let slope = eigenvalue_slope_times(linear, family, mode, shape);
         let (s, lambda) = (mode.s, mode.lambda);
         let pencil: [[Complex; N]; N] = core::array::from_fn(|i| {
@@ -208,14 +221,9 @@ impl<const N: usize> Side<N> {
         let deflated = core::array::from_fn(|i| {
             core::array::from_fn(|j| pencil[i][j] + added * slope[i] * weighted[j].conj())
         });
-        let mut lead = 0;
-        for i in 1..N {
-            if shape[i].norm() > shape[lead].norm() * (1.0 + 1e-9) {
-                lead = i;
-            }
-        }
         Some(Self {
             shape: *shape,
+            size: normalisation,
             weighted,
             lead,
             factors: Lu::new(&deflated)?,
@@ -226,6 +234,10 @@ impl<const N: usize> Side<N> {
     fn solve(&self, right: &[Complex; N], mass_change: &[Complex; N]) -> [Complex; N] {
         let conj = |vector: &[Complex; N]| vector.map(|value| value.conj());
         let across = self.factors.solve(right);
+        if self.size == Normalisation::Largest {
+            let part = -across[self.lead] / self.shape[self.lead];
+            return core::array::from_fn(|i| across[i] + part * self.shape[i]);
+        }
         let size_change = dot_complex(&conj(&self.shape), mass_change).re;
         let along = -0.5 * size_change - dot_complex(&conj(&self.weighted), &across).re;
         let turn = -across[self.lead].im / self.shape[self.lead].re;

@@ -226,10 +226,7 @@ where
         v: &Place<N>,
     ) -> Result<Option<bool>, Trouble<N>> {
         let place = frame.place(at);
-        let mass = self
-            .mechanism
-            .linear(&place.q, &self.inputs_at(place.p), self.design)
-            .mass;
+        let mass = self.linear(&place)?.mass;
         let parts = borders.normals.each_ref().map(|normal| normal.dot(v));
         let probe = |distance: f64| -> Result<(f64, f64), Trouble<N>> {
             let mut local = at.plus(distance, v);

@@ -1,13 +1,14 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
 use super::super::convergence::{ACCEPTED, relative_residual};
-use super::super::stability::judge;
+use super::super::stability::{Stability, judge};
 use super::super::{Failure, Problem};
 use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
-use crate::array::{all_finite, all_finite_square};
-use crate::{Description, Equilibrium, Error, Mechanism};
+use crate::array::all_finite;
+use crate::constraints::ConstraintState;
+use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
 /// A mechanism of which one input varies.
 pub(crate) struct Curve<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
@@ -70,16 +71,23 @@ where
         core::array::from_fn(|j| if j == input { p } else { self.inputs[j] })
     }
 
+    /// The linearised mechanism at a place.
+    pub(crate) fn linear(&self, at: &Place<N>) -> Result<Linear<f64, N>, Trouble<N>> {
+        Problem::unchecked(self.mechanism, &self.inputs_at(at.p), self.design)
+            .linear(&at.q)
+            .map_err(Trouble::Refused)
+    }
+
     pub(crate) fn system(&self, at: &Place<N>) -> Result<System<N>, Trouble<N>> {
         let inputs = self.inputs_at(at.p);
-        let (residual, stiffness) =
-            self.mechanism
-                .residual_and_stiffness(&at.q, &inputs, self.design);
+        let (residual, stiffness) = Problem::unchecked(self.mechanism, &inputs, self.design)
+            .evaluate(&at.q)
+            .ok_or(Trouble::OutsideDomain(at.q))?;
         let (by_inputs, _) = self
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
         let by_input = by_inputs.map(|row| row[self.settings.input.0]);
-        if all_finite(&residual) && all_finite_square(&stiffness) && all_finite(&by_input) {
+        if all_finite(&by_input) {
             Ok(System {
                 residual,
                 stiffness,
@@ -154,11 +162,19 @@ where
                 relative,
             }));
         }
+        let constraints =
+            ConstraintState::new(self.mechanism, (&at.q, &inputs, self.design), &linear);
+        let stability = if constraints.singular {
+            Stability::Undecided
+        } else {
+            judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?
+        };
         Ok(Equilibrium {
             coordinates: at.q,
             inputs,
             design: *self.design,
-            stability: judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?,
+            stability,
+            constraints,
             linear,
             residual: system.residual,
             relative_residual: relative,

@@ -5,7 +5,7 @@ use super::curve::{Curve, Trouble};
 use super::special::{Located, SpecialKind};
 use super::station::{Signs, Station};
 use crate::Mechanism;
-use crate::modes::symmetric;
+use crate::modes::free_pairs;
 
 /// Local distance below which events are not told apart.
 const NARROW: f64 = 1e-7;
@@ -165,11 +165,8 @@ where
             .map_or(0, |(a, b)| a.min(b));
         let zero = changes.negative.unwrap_or(0).max(1);
         let mean = |station: &crate::Equilibrium<N, U, P>| {
-            let linear = &station.linear;
-            let lambda = symmetric::solve(&linear.stiffness, &linear.mass)
-                .ok()?
-                .lambda;
-            let sum: f64 = lambda.iter().skip(first).take(zero).sum();
+            let pairs = free_pairs(&station.linear, Self::DESCRIPTION).ok()?;
+            let sum: f64 = pairs.lambda().iter().skip(first).take(zero).sum();
             Some(sum)
         };
         let mut fraction = 0.5;

@@ -5,7 +5,8 @@ use super::curve::{Curve, Trouble};
 use super::frame::{Frame, Place};
 use super::station::symmetric_to_rounding;
 use crate::array::{dot, form, largest, times};
-use crate::modes::symmetric;
+use crate::constraints::Structure;
+use crate::modes::free_pairs;
 use crate::{DampingKind, Description, Input, Linear, Mechanism};
 
 /// What happens where `Khat` is singular.
@@ -84,7 +85,8 @@ where
             ..*place
         };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
-        let (v, w) = normalised(&equilibrium.linear, v, w)
+        let motions = Structure::of(Self::DESCRIPTION).motions();
+        let (v, w) = normalised(&equilibrium.linear, motions, v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
         equilibrium.stability = at_critical(
             equilibrium.stability,
@@ -109,16 +111,14 @@ where
         (frame, tangent): (&Frame<N>, &Place<N>),
         zero: usize,
     ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
-        let linear = self
-            .mechanism
-            .linear(&place.q, &self.inputs_at(place.p), self.design);
+        let linear = self.linear(place)?;
         let softest = symmetric_to_rounding(&linear, Self::DESCRIPTION)
-            .then(|| symmetric::solve(&linear.stiffness, &linear.mass).ok())
+            .then(|| free_pairs(&linear, Self::DESCRIPTION).ok())
             .flatten()
             .and_then(|pairs| {
-                let size = |r: &usize| pairs.lambda[*r].abs();
-                let least = (0..N).min_by(|a, b| size(a).total_cmp(&size(b)))?;
-                Some(pairs.shapes[least])
+                let shapes = pairs.lambda().iter().zip(pairs.shapes());
+                let (_, least) = shapes.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+                Some(*least)
             });
         let v = softest.unwrap_or(tangent.q);
         let residual = largest(&frame.weights(&self.system(place)?.residual));
@@ -132,14 +132,18 @@ where
     }
 }
 
-/// `v^T M v = 1` with the largest component positive, `w^T M v = 1`.
+/// `v^T M v = 1` with the largest of the first components positive, `w^T M v = 1`.
 fn normalised<const N: usize>(
     linear: &Linear<f64, N>,
+    motions: usize,
     v: &[f64; N],
     w: &[f64; N],
 ) -> Option<([f64; N], [f64; N])> {
-    let most = largest(v);
-    let lead = v
+    let motion = &v[..motions.min(N)];
+    let most = motion
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let lead = motion
         .iter()
         .copied()
         .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
@@ -162,10 +166,12 @@ pub(crate) fn at_critical<const N: usize>(
     if flutters || !symmetric_to_rounding(linear, description) {
         return judged;
     }
-    let Ok(pairs) = symmetric::solve(&linear.stiffness, &linear.mass) else {
+    let Ok(pairs) = free_pairs(linear, description) else {
         return judged;
     };
-    let mut lambda = pairs.lambda;
+    let mut all = [0.0; N];
+    let lambda = &mut all[..pairs.lambda().len()];
+    lambda.copy_from_slice(pairs.lambda());
     lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let negative = lambda
         .iter()

@@ -4,7 +4,8 @@ use super::super::Equilibrium;
 use super::curve::{Curve, Trouble, plane};
 use super::frame::{Frame, Place, System};
 use crate::array::{Cholesky, asymmetry};
-use crate::modes::symmetric;
+use crate::constraints::Structure;
+use crate::modes::free_pairs;
 use crate::{Description, Linear, Mechanism};
 
 /// A regular point of a branch.
@@ -25,9 +26,9 @@ pub(crate) struct Signs {
     pub(crate) falling: bool,
     /// The input stands still along the branch.
     pub(crate) vertical: bool,
-    /// `det [Khat dg/du; t^T] < 0`: changes where branches cross.
+    /// `det [Khat dg/du; t^T] < 0` where as many constraints as there are change no sign: changes where branches cross.
     pub(crate) crossed: bool,
-    /// Number of negative eigenvalues of a symmetric `Khat`.
+    /// Number of negative eigenvalues of a symmetric `Khat`, along the directions that constraints leave free.
     pub(crate) negative: Option<usize>,
 }
 
@@ -58,13 +59,15 @@ where
         let (q, [p]) = factors.solve(&[0.0; N], [1.0]);
         let tangent = Place { q, p }.unit().ok_or(singular)?;
         let vertical = tangent.p.abs() <= VERTICAL;
+        let constraints = Structure::of(Self::DESCRIPTION).constraints();
         let signs = Signs {
             falling: match before {
                 Some(before) if vertical => before.falling,
                 _ => tangent.p < 0.0,
             },
             vertical,
-            crossed: factors.negative_determinant(),
+            // Each constraint turns the sign: its multiplier adds a negative eigenvalue.
+            crossed: factors.negative_determinant() != (constraints % 2 == 1),
             negative: if vertical {
                 None
             } else {
@@ -136,7 +139,7 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
         }
     }
 
-    /// Whether the determinant of `Khat`, and where it is symmetric every eigenvalue, is positive.
+    /// Whether the determinant of `Khat` (reduced by constraints), and where it is symmetric every eigenvalue, is positive.
     pub(crate) fn stiff(&self) -> bool {
         self.signs.falling == self.signs.crossed
             && self.signs.negative.is_none_or(|count| count == 0)
@@ -148,23 +151,22 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
     }
 }
 
-/// Negative eigenvalues of a symmetric `Khat`.
+/// Negative eigenvalues of a symmetric `Khat` along the directions that constraints leave free.
 fn negative<const N: usize>(linear: &Linear<f64, N>, description: &Description) -> Option<usize> {
     if !symmetric_to_rounding(linear, description) {
         return None;
     }
-    if Cholesky::new(&linear.stiffness).is_ok() {
+    if Structure::of(description).open() && Cholesky::new(&linear.stiffness).is_ok() {
         return Some(0);
     }
-    let lambda = symmetric::solve(&linear.stiffness, &linear.mass)
-        .ok()?
-        .lambda;
-    Some(lambda.iter().filter(|&&value| value < 0.0).count())
+    Some(free_pairs(linear, description).ok()?.negative())
 }
 
+/// Whether `Khat` has modes of its own: it is symmetric, and nothing in it belongs to speeds.
 pub(crate) fn symmetric_to_rounding<const N: usize>(
     linear: &Linear<f64, N>,
     description: &Description,
 ) -> bool {
-    description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11
+    Structure::of(description).holonomic()
+        && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
 }

@@ -67,7 +67,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         if distance < FAR * error {
             let parallel = vector(found, j)
                 .iter()
-                .zip(solver.of_right.mass.iter())
+                .zip(solver.pencil.weighed(&solver.of_right))
                 .map(|(x, mass)| if conjugate { x * mass } else { x.conj() * mass })
                 .sum::<Complex64>();
             if modulus(parallel) > PARALLEL {

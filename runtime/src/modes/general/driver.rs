@@ -7,44 +7,55 @@ use super::linearisation::Linearisation;
 use super::measure::Pair;
 use super::order::{finish, sort};
 use super::pair::Solver;
-use super::pencil::{Pencil, Products};
-use super::scaling::{largest, scale};
+use super::pencil::{Degree, Pencil, Products};
+use super::scaling::{largest, scale, scale_first_order};
 use super::scratch::{Work, take, with_work};
 use super::{aberth, accuracy, cluster, hessenberg, schur};
 use crate::Linear;
 use crate::modes::symmetric::Trouble;
 
-/// The three matrices, row by row.
+/// An eigenproblem, its matrices row by row.
 #[derive(Clone, Copy)]
-pub(super) struct Matrices<'a> {
-    n: usize,
-    mass: &'a [f64],
-    damping: &'a [f64],
-    stiffness: &'a [f64],
+pub(in crate::modes) enum Eigenproblem<'a> {
+    /// `(s^2 mass + s damping + stiffness) phi = 0`.
+    Quadratic {
+        n: usize,
+        mass: &'a [f64],
+        damping: &'a [f64],
+        stiffness: &'a [f64],
+    },
+    /// `matrix phi = s phi`.
+    FirstOrder { n: usize, matrix: &'a [f64] },
 }
 
-impl<'a> Matrices<'a> {
+impl<'a> Eigenproblem<'a> {
     pub(super) fn of<const N: usize>(linear: &'a Linear<f64, N>) -> Self {
-        Self {
+        Self::Quadratic {
             n: N,
             mass: linear.mass.as_flattened(),
             damping: linear.damping.as_flattened(),
             stiffness: linear.stiffness.as_flattened(),
         }
     }
+
+    fn size(&self) -> usize {
+        match *self {
+            Self::Quadratic { n, .. } | Self::FirstOrder { n, .. } => n,
+        }
+    }
 }
 
 /// What is known of a root besides its vectors.
 #[derive(Clone, Copy)]
-pub(super) struct Numbers {
-    pub(super) s: Complex64,
-    pub(super) residual: f64,
-    pub(super) error: f64,
-    pub(super) condition: f64,
+pub(in crate::modes) struct Numbers {
+    pub(in crate::modes) s: Complex64,
+    pub(in crate::modes) residual: f64,
+    pub(in crate::modes) error: f64,
+    pub(in crate::modes) condition: f64,
 }
 
 impl Numbers {
-    pub(super) const NONE: Self = Self {
+    pub(in crate::modes) const NONE: Self = Self {
         s: Complex64::ZERO,
         residual: 0.0,
         error: 0.0,
@@ -64,26 +75,51 @@ fn not_found() -> Trouble {
     }
 }
 
-/// Scaled pencil, `D`, unit of the eigenvalues.
-fn scaled<'a>(
-    matrices: Matrices,
-    store: &mut &'a mut [f64],
-) -> Result<(Pencil<'a>, &'a mut [f64], f64), Trouble> {
-    let n = matrices.n;
+/// A pencil in its units.
+struct Scaled<'a> {
+    pencil: Pencil<'a>,
+    /// Units of right and of left vectors.
+    right: &'a mut [f64],
+    left: &'a mut [f64],
+    /// Unit of the eigenvalues.
+    rate: f64,
+}
+
+fn scaled<'a>(problem: Eigenproblem, store: &mut &'a mut [f64]) -> Result<Scaled<'a>, Trouble> {
+    let n = problem.size();
     let mass = take(store, n * n);
     let damping = take(store, n * n);
     let stiffness = take(store, n * n);
-    let units = take(store, n);
-    mass.copy_from_slice(matrices.mass);
-    damping.copy_from_slice(matrices.damping);
-    stiffness.copy_from_slice(matrices.stiffness);
-    for i in 0..n {
-        let diagonal = mass[i * n + i];
-        if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
-            return Err(Trouble::SingularMass(i));
+    let (right, left) = (take(store, n), take(store, n));
+    let (degree, rate) = match problem {
+        Eigenproblem::Quadratic {
+            mass: m,
+            damping: c,
+            stiffness: k,
+            ..
+        } => {
+            mass.copy_from_slice(m);
+            damping.copy_from_slice(c);
+            stiffness.copy_from_slice(k);
+            for i in 0..n {
+                let diagonal = mass[i * n + i];
+                if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
+                    return Err(Trouble::SingularMass(i));
+                }
+            }
+            let rate = scale(n, mass, damping, stiffness, right);
+            left.copy_from_slice(right);
+            (Degree::Two, rate)
         }
-    }
-    let rate = scale(n, mass, damping, stiffness, units);
+        Eigenproblem::FirstOrder { matrix, .. } => {
+            stiffness.copy_from_slice(matrix);
+            if largest(stiffness).is_infinite() {
+                return Err(not_found());
+            }
+            let rate = scale_first_order(n, damping, stiffness, right, left);
+            (Degree::One, rate)
+        }
+    };
     if [&*mass, damping, stiffness]
         .iter()
         .any(|matrix| largest(matrix).is_infinite())
@@ -92,12 +128,18 @@ fn scaled<'a>(
     }
     let pencil = Pencil {
         n,
+        degree,
         largest: [&*mass, damping, stiffness].map(largest),
         mass,
         damping,
         stiffness,
     };
-    Ok((pencil, units, rate))
+    Ok(Scaled {
+        pencil,
+        right,
+        left,
+        rate,
+    })
 }
 
 /// All eigenvalues of the linearisation of a scaled pencil; by the second method where QR does not converge.
@@ -111,12 +153,13 @@ fn linear_values(
     values: &mut [Complex64],
 ) {
     let n = pencil.n;
-    hessenberg::reduce(2 * n, companion, vector);
-    if schur::eigenvalues(2 * n, companion, values) {
+    let count = values.len();
+    hessenberg::reduce(count, companion, vector);
+    if schur::eigenvalues(count, companion, values) {
         return;
     }
     for (i, value) in values.iter_mut().enumerate() {
-        *value = Complex64::from_polar(1.0, 0.4 + i as f64 * std::f64::consts::PI / n as f64);
+        *value = Complex64::from_polar(1.0, 0.4 + i as f64 * std::f64::consts::TAU / count as f64);
     }
     open.fill(true);
     let (q, work) = complex.split_at_mut(n * n);
@@ -125,44 +168,50 @@ fn linear_values(
     aberth::symmetrise(values, open);
 }
 
-/// Roots with `Im s >= 0`, their vectors as rows; returns their number.
-pub(super) fn solve(
-    matrices: Matrices,
+/// Roots with `Im s >= 0`, their vectors as rows; returns their number. Takes room for as many as there are eigenvalues.
+pub(in crate::modes) fn solve(
+    problem: Eigenproblem,
     numbers: &mut [Numbers],
     right: &mut [Complex64],
     left: &mut [Complex64],
 ) -> Result<usize, Trouble> {
-    if matrices.n == 0 {
+    if problem.size() == 0 {
         return Ok(0);
     }
-    with_work(matrices.n, |work| {
-        solve_with(work, matrices, numbers, right, left)
+    with_work(problem.size(), |work| {
+        solve_with(work, problem, numbers, right, left)
     })
 }
 
 fn solve_with(
     work: &mut Work,
-    matrices: Matrices,
+    problem: Eigenproblem,
     numbers: &mut [Numbers],
     right: &mut [Complex64],
     left: &mut [Complex64],
 ) -> Result<usize, Trouble> {
-    let n = matrices.n;
+    let n = problem.size();
     let mut real = std::mem::take(&mut work.real);
     let mut complex = std::mem::take(&mut work.complex);
     let mut indices = std::mem::take(&mut work.indices);
     let mut flags = std::mem::take(&mut work.flags);
-    let (pencil, units, rate) = scaled(matrices, &mut real)?;
-    let companion = take(&mut real, 4 * n * n);
-    let vector = take(&mut real, 2 * n);
+    let Scaled {
+        pencil,
+        right: right_units,
+        left: left_units,
+        rate,
+    } = scaled(problem, &mut real)?;
+    let count = pencil.degree.eigenvalues(n);
+    let companion = take(&mut real, count * count);
+    let vector = take(&mut real, count);
     let linearisation = Linearisation::new(&pencil, companion, take(&mut real, 3 * n * n + 2 * n))?;
-    let values = take(&mut complex, 2 * n);
+    let values = take(&mut complex, count);
     let q = take(&mut complex, n * n);
     let spare = take(&mut complex, 4 * n * n);
     let order = take(&mut indices, 2 * n);
-    let label = take(&mut indices, 2 * n);
-    let open = take(&mut flags, 2 * n);
-    let marked = take(&mut flags, 2 * n);
+    let label = take(&mut indices, count);
+    let open = take(&mut flags, count);
+    let marked = take(&mut flags, count);
     linear_values(&pencil, companion, vector, spare, order, open, values);
     let mut solver = Solver {
         of_right: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 3 * n)),
@@ -177,13 +226,13 @@ fn solve_with(
     };
     let mut found = Found {
         count: 0,
-        pairs: &mut std::mem::take(&mut work.pairs)[..2 * n],
-        right: take(&mut complex, 2 * n * n),
-        left: take(&mut complex, 2 * n * n),
+        pairs: &mut std::mem::take(&mut work.pairs)[..count],
+        right: take(&mut complex, count * n),
+        left: take(&mut complex, count * n),
     };
     let troubles = find(&mut solver, &mut found, values, label);
     if troubles > 0 {
-        let second = take(&mut complex, 2 * n);
+        let second = take(&mut complex, count);
         second_values(&mut solver, &found, second, spare, open, marked);
         if find(&mut solver, &mut found, second, label) >= troubles {
             find(&mut solver, &mut found, values, label);
@@ -211,8 +260,8 @@ fn solve_with(
             error: pair.error * rate,
             condition: pair.condition,
         };
-        finish(phi, units, &mut right[mode * n..(mode + 1) * n]);
-        finish(psi, units, &mut left[mode * n..(mode + 1) * n]);
+        finish(phi, right_units, &mut right[mode * n..(mode + 1) * n]);
+        finish(psi, left_units, &mut left[mode * n..(mode + 1) * n]);
     }
     Ok(found.count)
 }

@@ -106,7 +106,7 @@ impl Solver<'_> {
                     self.pencil.multiply(done, false, &mut self.of_right);
                     let part: Complex64 = x
                         .iter()
-                        .zip(self.of_right.mass.iter())
+                        .zip(self.pencil.weighed(&self.of_right))
                         .map(|(x, mass)| x * mass.conj())
                         .sum();
                     for (x, done) in x.iter_mut().zip(done) {
@@ -115,7 +115,7 @@ impl Solver<'_> {
                 }
                 let x = &mut self.basis_right[k * n..(k + 1) * n];
                 self.pencil.multiply(x, false, &mut self.of_right);
-                normalise(x, &mut self.of_right);
+                normalise(&self.pencil, x, &mut self.of_right);
             }
         }
     }

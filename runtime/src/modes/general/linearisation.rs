@@ -3,14 +3,15 @@
 use num_complex::Complex64;
 
 use super::hessenberg;
-use super::pencil::{Pencil, modulus};
+use super::pencil::{Degree, Pencil, modulus};
 
 use crate::modes::symmetric::{Trouble, factor_into};
 
 /// `x' = A x` for `x = D^-1 (y, s y)`, `phi = L^-T y`, `M = L L^T`, with
-/// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`.
+/// `A = D^-1 [[0, I], [-L^-1 K L^-T, -L^-1 C L^-T]] D`; of a pencil of first order `A = -K`, which comes balanced.
 pub(super) struct Linearisation<'a> {
     n: usize,
+    degree: Degree,
     lower: &'a [f64],
     /// `L^-1 C L^-T` and `L^-1 K L^-T`.
     damping: &'a [f64],
@@ -33,6 +34,21 @@ impl<'a> Linearisation<'a> {
         let (damping, store) = store.split_at_mut(n * n);
         let (stiffness, store) = store.split_at_mut(n * n);
         let scales = &mut store[..2 * n];
+        if pencil.degree == Degree::One {
+            for (a, k) in companion.iter_mut().zip(pencil.stiffness) {
+                *a = -k;
+            }
+            stiffness.copy_from_slice(pencil.stiffness);
+            return Ok(Self {
+                n,
+                degree: pencil.degree,
+                lower,
+                damping,
+                size: frobenius(companion),
+                stiffness,
+                scales,
+            });
+        }
         factor_into(n, pencil.mass, lower)?;
         damping.copy_from_slice(pencil.damping);
         stiffness.copy_from_slice(pencil.stiffness);
@@ -47,9 +63,10 @@ impl<'a> Linearisation<'a> {
             }
         }
         hessenberg::balance(2 * n, companion, scales);
-        let size = companion.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = frobenius(companion);
         Ok(Self {
             n,
+            degree: pencil.degree,
             lower,
             damping,
             stiffness,
@@ -58,10 +75,14 @@ impl<'a> Linearisation<'a> {
         })
     }
 
-    /// The sum of all eigenvalues: `-tr(M^-1 C)`.
+    /// The sum of all eigenvalues: `-tr(M^-1 C)`, of first order `-tr K`.
     pub(super) fn sum(&self) -> f64 {
+        let matrix = match self.degree {
+            Degree::One => self.stiffness,
+            Degree::Two => self.damping,
+        };
         -(0..self.n)
-            .map(|i| self.damping[i * (self.n + 1)])
+            .map(|i| matrix[i * (self.n + 1)])
             .sum::<f64>()
     }
 
@@ -76,6 +97,10 @@ impl<'a> Linearisation<'a> {
         work: &mut [Complex64],
     ) -> f64 {
         let n = self.n;
+        if self.degree == Degree::One {
+            let square = |x: &[Complex64]| x.iter().map(Complex64::norm_sqr).sum::<f64>();
+            return at_least_one((square(right) * square(left)).sqrt() / modulus(slope));
+        }
         let s_square = s.norm_sqr();
         let (mut x, mut w) = (0.0, 0.0);
         let transformed = |phi: &[Complex64], j: usize| {
@@ -108,13 +133,20 @@ impl<'a> Linearisation<'a> {
             };
             w += square * (self.scales[j] * self.scales[j]);
         }
-        let condition = (x * w).sqrt() / modulus(slope);
-        if condition.is_nan() {
-            f64::INFINITY
-        } else {
-            condition.max(1.0)
-        }
+        at_least_one((x * w).sqrt() / modulus(slope))
     }
+}
+
+fn at_least_one(condition: f64) -> f64 {
+    if condition.is_nan() {
+        f64::INFINITY
+    } else {
+        condition.max(1.0)
+    }
+}
+
+fn frobenius(matrix: &[f64]) -> f64 {
+    matrix.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// `L^-1 matrix L^-T` in place.

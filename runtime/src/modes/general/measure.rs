@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::pair::Solver;
-use super::pencil::{Products, bound, modulus};
+use super::pencil::{Pencil, Products, bound, modulus};
 
 /// Terms that are less than this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;
@@ -100,9 +100,9 @@ impl Solver<'_> {
         left: &mut [Complex64],
     ) -> Pair {
         self.pencil.multiply(right, false, &mut self.of_right);
-        normalise(right, &mut self.of_right);
+        normalise(&self.pencil, right, &mut self.of_right);
         self.pencil.multiply(left, true, &mut self.of_left);
-        normalise(left, &mut self.of_left);
+        normalise(&self.pencil, left, &mut self.of_left);
         self.measure(s, left)
     }
 
@@ -183,11 +183,11 @@ fn reach(rounding: f64, slope: f64, mass: f64) -> f64 {
     (rounding / slope).min((rounding / mass).sqrt())
 }
 
-/// Scales `x` to `x^H M x = 1`, and its products with it.
-pub(super) fn normalise(x: &mut [Complex64], products: &mut Products) {
+/// Scales `x` to `x^H M x = 1` (`x^H x = 1` for a pencil of first order), and its products with it.
+pub(super) fn normalise(pencil: &Pencil, x: &mut [Complex64], products: &mut Products) {
     let square: f64 = x
         .iter()
-        .zip(products.mass.iter())
+        .zip(pencil.weighed(products))
         .map(|(x, mass)| x.re * mass.re + x.im * mass.im)
         .sum();
     let factor = 1.0 / square.sqrt();

@@ -131,12 +131,14 @@ impl Solver<'_> {
         self.pencil.at(pair.s, self.q);
         let lu = Lu::new(n, self.q, self.order);
         let (new_right, new_left) = (&mut self.basis_right[..n], &mut self.basis_left[..n]);
-        lu.solve(self.of_right.mass, new_right, &mut self.cross[..n]);
-        lu.solve_transposed(self.of_left.mass, new_left, &mut self.cross[..n]);
+        let weighed = self.pencil.weighed(&self.of_right);
+        lu.solve(weighed, new_right, &mut self.cross[..n]);
+        let weighed = self.pencil.weighed(&self.of_left);
+        lu.solve_transposed(weighed, new_left, &mut self.cross[..n]);
         self.pencil.multiply(new_right, false, &mut self.of_right);
-        normalise(new_right, &mut self.of_right);
+        normalise(&self.pencil, new_right, &mut self.of_right);
         self.pencil.multiply(new_left, true, &mut self.of_left);
-        normalise(new_left, &mut self.of_left);
+        normalise(&self.pencil, new_left, &mut self.of_left);
         let improved = self.measure(pair.s, &self.basis_left[..n]);
         if improved.residual < pair.residual {
             right.copy_from_slice(&self.basis_right[..n]);

@@ -1,15 +1,33 @@
-//! A scaled quadratic pencil `Q(s) = s^2 M + s C + K` and what one pair of vectors says about it.
+//! A scaled pencil `Q(s) = s^2 M + s C + K`, quadratic or of first order, and what one pair of vectors says about it.
 
 use num_complex::Complex64;
 
-/// `Q(s) = s^2 M + s C + K`, matrices row by row.
+/// `Q(s) = s^2 M + s C + K`, matrices row by row; of first order `M = 0`, `C = I`.
 pub(super) struct Pencil<'a> {
     pub(super) n: usize,
+    pub(super) degree: Degree,
     pub(super) mass: &'a [f64],
     pub(super) damping: &'a [f64],
     pub(super) stiffness: &'a [f64],
     /// Greatest element of each.
     pub(super) largest: [f64; 3],
+}
+
+/// The greatest power of `s` in a pencil.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Degree {
+    One,
+    Two,
+}
+
+impl Degree {
+    /// Number of eigenvalues of a pencil of size `n`.
+    pub(super) fn eigenvalues(self, n: usize) -> usize {
+        match self {
+            Self::One => n,
+            Self::Two => 2 * n,
+        }
+    }
 }
 
 /// Products of the three matrices with one vector, and the sums of the absolute terms in them.
@@ -77,7 +95,18 @@ impl Pencil<'_> {
 
     /// Size of the eigenvalues that a change of `Q(s)` as a whole could make.
     pub(super) fn rate(&self, s: Complex64) -> f64 {
-        (self.size(s) / self.largest[0]).sqrt()
+        match self.degree {
+            Degree::One => self.size(s) / self.largest[1],
+            Degree::Two => (self.size(s) / self.largest[0]).sqrt(),
+        }
+    }
+
+    /// Product of a vector with the matrix that measures vectors: of the greatest power of `s`.
+    pub(super) fn weighed<'p>(&self, products: &'p Products) -> &'p [Complex64] {
+        match self.degree {
+            Degree::One => products.damping,
+            Degree::Two => products.mass,
+        }
     }
 
     /// Greatest elements of `M`, `C` and `K` weighed with `|s|`: the size of what `Q(s)` is summed from.

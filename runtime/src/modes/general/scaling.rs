@@ -1,5 +1,7 @@
 //! Units in which the elements of the pencil are of order one: powers of two, so that nothing is rounded.
 
+use super::hessenberg::balance;
+
 /// Binary exponent: `2^exponent <= |x| < 2^(exponent + 1)` for normal numbers.
 pub(super) fn exponent(x: f64) -> i32 {
     ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
@@ -19,6 +21,35 @@ pub(super) fn largest(x: &[f64]) -> f64 {
             f64::INFINITY
         }
     })
+}
+
+/// Balances `-A` in place of `A = stiffness` to `-D^-1 A D / rate`, nothing in it much greater than one, and makes `damping`
+/// the identity. `right` takes the diagonal of `D`, `left` that of its inverse; returns `rate`.
+pub(super) fn scale_first_order(
+    n: usize,
+    damping: &mut [f64],
+    stiffness: &mut [f64],
+    right: &mut [f64],
+    left: &mut [f64],
+) -> f64 {
+    balance(n, stiffness, right);
+    for (left, right) in left.iter_mut().zip(right) {
+        *left = 1.0 / *right;
+    }
+    let size = largest(stiffness);
+    let rate = if size > 0.0 {
+        power_of_two(exponent(size))
+    } else {
+        1.0
+    };
+    stiffness
+        .iter_mut()
+        .for_each(|value| *value = -(*value / rate));
+    damping.fill(0.0);
+    for i in 0..n {
+        damping[i * (n + 1)] = 1.0;
+    }
+    rate
 }
 
 /// Scales the matrices in place to `D M D`, `D C D / rate`, `D K D / rate^2` with masses of order one on the diagonal and

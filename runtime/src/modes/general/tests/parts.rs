@@ -79,6 +79,7 @@ fn both_methods_agree() {
     let damping = [0.3, -2.0, 1.7, 0.1];
     let stiffness = [0.9, 0.2, -0.4, 0.5];
     let pencil = Pencil {
+        degree: super::super::pencil::Degree::Two,
         n: 2,
         mass: &mass,
         damping: &damping,

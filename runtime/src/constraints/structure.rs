@@ -1,0 +1,76 @@
+//! How many unknowns of each role a mechanism has, and where they stand.
+
+use core::ops::Range;
+
+use crate::{Description, Role};
+
+/// Numbers of unknowns by role; they stand in this order, and so do the rows of the residual ([`Role`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Structure {
+    pub(crate) coordinates: usize,
+    pub(crate) speeds: usize,
+    pub(crate) position_constraints: usize,
+    pub(crate) velocity_constraints: usize,
+}
+
+impl Structure {
+    pub(crate) const fn of(description: &Description) -> Self {
+        let mut found = Self {
+            coordinates: 0,
+            speeds: 0,
+            position_constraints: 0,
+            velocity_constraints: 0,
+        };
+        let mut i = 0;
+        while i < description.coordinates.len() {
+            match description.coordinates[i].role {
+                Role::Position => found.coordinates += 1,
+                Role::Speed => found.speeds += 1,
+                Role::PositionReaction => found.position_constraints += 1,
+                Role::VelocityReaction => found.velocity_constraints += 1,
+            }
+            i += 1;
+        }
+        found
+    }
+
+    /// Every unknown is a coordinate: no speeds, no constraints.
+    pub(crate) const fn open(&self) -> bool {
+        self.speeds == 0 && self.constraints() == 0
+    }
+
+    /// Neither speeds nor constraints on velocities: the free directions are those of the coordinates alone.
+    pub(crate) const fn holonomic(&self) -> bool {
+        self.speeds == 0 && self.velocity_constraints == 0
+    }
+
+    pub(crate) const fn constraints(&self) -> usize {
+        self.position_constraints + self.velocity_constraints
+    }
+
+    /// Number of coordinates and speeds: the unknowns that are no reactions.
+    pub(crate) const fn motions(&self) -> usize {
+        self.coordinates + self.speeds
+    }
+
+    /// Places of the speeds.
+    pub(crate) const fn speed_range(&self) -> Range<usize> {
+        self.coordinates..self.motions()
+    }
+
+    /// Places of the constraints on positions and of their reactions.
+    pub(crate) const fn position_rows(&self) -> Range<usize> {
+        self.motions()..self.motions() + self.position_constraints
+    }
+
+    /// Places of the constraints on velocities and of their reactions.
+    pub(crate) const fn velocity_rows(&self) -> Range<usize> {
+        let start = self.motions() + self.position_constraints;
+        start..start + self.velocity_constraints
+    }
+
+    /// Places of all constraints and reactions.
+    pub(crate) const fn constraint_rows(&self) -> Range<usize> {
+        self.motions()..self.motions() + self.constraints()
+    }
+}

@@ -1,0 +1,205 @@
+//! What a pair of vectors says about an eigenvalue of the bordered pencil.
+
+use crate::array::{Lu, Square, dot_complex, times_complex};
+use crate::{Complex, Linear};
+
+/// Accepted residual.
+pub(super) const ACCEPTED: f64 = 1e-9;
+/// Residual beyond which vectors are improved.
+pub(super) const INACCURATE: f64 = 1e-13;
+/// Residual of vectors that have nothing but rounding in it.
+pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// `(s^2 M + s C + K) x`.
+pub(super) fn times_pencil<const N: usize>(
+    linear: &Linear<f64, N>,
+    s: Complex,
+    x: &[Complex; N],
+) -> [Complex; N] {
+    let m = times_complex(&linear.mass, x);
+    let c = times_complex(&linear.damping, x);
+    let k = times_complex(&linear.stiffness, x);
+    core::array::from_fn(|i| s * (s * m[i] + c[i]) + k[i])
+}
+
+/// `(s^2 M + s C + K)^T x`.
+pub(super) fn times_transposed<const N: usize>(
+    linear: &Linear<f64, N>,
+    s: Complex,
+    x: &[Complex; N],
+) -> [Complex; N] {
+    let product = |matrix: &Square<N>| -> [Complex; N] {
+        let mut sum = [Complex::default(); N];
+        for (row, x) in matrix.iter().zip(x) {
+            for (sum, value) in sum.iter_mut().zip(row) {
+                *sum += x * value;
+            }
+        }
+        sum
+    };
+    let (m, c, k) = (
+        product(&linear.mass),
+        product(&linear.damping),
+        product(&linear.stiffness),
+    );
+    core::array::from_fn(|i| s * (s * m[i] + c[i]) + k[i])
+}
+
+/// A measured pair.
+pub(super) struct Measure {
+    /// Greatest component of `P(s) phi` and of `psi^T P(s)` relative to the greatest sum of absolute terms in one: of
+    /// equations of motion, and of constraints, each for themselves.
+    pub(super) residual: f64,
+    /// Whether rounding of the vectors explains the residual.
+    pub(super) rounding_only: bool,
+    /// Step of Newton's method from `s`: `psi^T P phi / psi^T P' phi`.
+    pub(super) newton: Complex,
+    /// Error of `s` that rounding in `P` causes.
+    pub(super) doubt: f64,
+}
+
+impl Measure {
+    /// The first `motions` equations are those of motion.
+    pub(super) fn new<const N: usize>(
+        linear: &Linear<f64, N>,
+        motions: usize,
+        s: Complex,
+        right: &[Complex; N],
+        left: &[Complex; N],
+    ) -> Self {
+        let of_right = times_pencil(linear, s, right);
+        let of_left = times_transposed(linear, s, left);
+        let size = |i: usize, j: usize| {
+            let (m, c, k) = (
+                linear.mass[i][j],
+                linear.damping[i][j],
+                linear.stiffness[i][j],
+            );
+            s.norm() * (s.norm() * m.abs() + c.abs()) + k.abs()
+        };
+        let by_right = Residual::of(motions, right, &of_right, size);
+        let by_left = Residual::of(motions, left, &of_left, |i, j| size(j, i));
+        let m = times_complex(&linear.mass, right);
+        let c = times_complex(&linear.damping, right);
+        let slope = dot_complex(left, &core::array::from_fn(|i| 2.0 * s * m[i] + c[i]));
+        let value = dot_complex(left, &of_right);
+        let mut terms = 0.0;
+        for i in 0..N {
+            let row: f64 = (0..N).map(|j| size(i, j) * right[j].norm()).sum();
+            terms += left[i].norm() * row;
+        }
+        let rounding = (N as f64 + 4.0) * f64::EPSILON * terms;
+        Self {
+            residual: by_right.relative.max(by_left.relative),
+            rounding_only: by_right.rounding_only && by_left.rounding_only,
+            newton: if value == Complex::default() {
+                value
+            } else {
+                value / slope
+            },
+            doubt: if rounding == 0.0 {
+                0.0
+            } else {
+                rounding / slope.norm()
+            },
+        }
+    }
+}
+
+/// What is left of `P(s) x`.
+struct Residual {
+    relative: f64,
+    rounding_only: bool,
+}
+
+impl Residual {
+    fn of<const N: usize>(
+        motions: usize,
+        x: &[Complex; N],
+        product: &[Complex; N],
+        size: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let mut relative = 0.0_f64;
+        let mut rounding_only = true;
+        for rows in [0..motions, motions..N] {
+            let (mut most, mut terms) = (0.0_f64, 0.0_f64);
+            let constraints = rows.start == motions;
+            for i in rows {
+                let elements = (0..N).map(|j| size(i, j));
+                let greatest = elements.fold(0.0, f64::max);
+                // Constraints in units of their own are of order one.
+                let unit = if constraints && greatest > 0.0 {
+                    greatest
+                } else {
+                    1.0
+                };
+                let value = product[i].norm() / unit;
+                let sum: f64 = (0..N).map(|j| size(i, j) * x[j].norm()).sum();
+                let bound = (0..N).fold(0.0, |most: f64, j| most.max(size(i, j) * x[j].norm()));
+                most = if value.is_finite() {
+                    most.max(value)
+                } else {
+                    f64::INFINITY
+                };
+                terms = terms.max(sum / unit);
+                let largest = x[..motions].iter().map(|x| x.norm()).fold(bound, |a, b| {
+                    a.max(if constraints { b * greatest } else { 0.0 })
+                });
+                rounding_only &= value * unit <= 16.0 * N as f64 * f64::EPSILON * largest;
+            }
+            if most > 0.0 {
+                relative = relative.max(most / terms);
+            }
+        }
+        Self {
+            relative,
+            rounding_only,
+        }
+    }
+}
+
+/// One step of inverse iteration for both vectors on the bordered pencil.
+#[cold]
+pub(super) fn inverse_iteration<const N: usize>(
+    linear: &Linear<f64, N>,
+    s: Complex,
+    right: &[Complex; N],
+    left: &[Complex; N],
+) -> Option<([Complex; N], [Complex; N])> {
+    let at = |s: Complex, transposed: bool| -> Option<Lu<Complex, N>> {
+        Lu::new(&core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let (i, j) = if transposed { (j, i) } else { (i, j) };
+                s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j]
+            })
+        }))
+    };
+    let size = |matrix: &Square<N>| crate::array::largest_element(matrix);
+    let rate = (size(&linear.stiffness) / size(&linear.mass).max(f64::MIN_POSITIVE)).sqrt();
+    let rate = if rate.is_finite() && rate < 1e150 {
+        rate
+    } else {
+        1.0
+    };
+    let nearby = s + 1e-11 * s.norm() + 1e-14 * rate;
+    let solve = |transposed, start: &[Complex; N]| {
+        let slope = |matrix: &Linear<f64, N>| -> [Complex; N] {
+            let (m, c) = if transposed {
+                (
+                    crate::array::transpose(&matrix.mass),
+                    crate::array::transpose(&matrix.damping),
+                )
+            } else {
+                (matrix.mass, matrix.damping)
+            };
+            let (m, c) = (times_complex(&m, start), times_complex(&c, start));
+            core::array::from_fn(|i| 2.0 * s * m[i] + c[i])
+        };
+        let factors = at(s, transposed).or_else(|| at(nearby, transposed))?;
+        let found = factors.solve(&slope(linear));
+        let most = found.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
+        let found = found.map(|x| x / most);
+        found.iter().all(|x| x.is_finite()).then_some(found)
+    };
+    Some((solve(false, right)?, solve(true, left)?))
+}

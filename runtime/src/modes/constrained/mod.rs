@@ -1,0 +1,255 @@
+//! Modes of mechanisms with constraints and speeds.
+//!
+//! The bordered pencil `s^2 Mhat + s Chat + Khat` has a singular `Mhat` and as many finite eigenvalues as the motions that
+//! constraints leave free. They are those of a smaller problem in coordinates `y`, `delta q = P y`, along the null space of
+//! the constraints: symmetric ([`pairs`]), quadratic ([`quadratic`]) or, with speeds or constraints on velocities, of first
+//! order in positions and independent velocities ([`first_order`]). Its vectors are completed by the reactions, and every
+//! pair is measured, and the eigenvalue improved, on the bordered pencil itself ([`measure`]).
+
+mod first_order;
+mod measure;
+mod pairs;
+mod quadratic;
+
+pub(crate) use pairs::free_pairs;
+
+use super::general::{Numbers, Root, Roots};
+use super::symmetric::Trouble;
+use crate::array::Square;
+use crate::constraints::{Structure, Tangent};
+use crate::{Complex, Description, Linear};
+use measure::Measure;
+
+/// All roots of the bordered pencil with `Im s >= 0`.
+#[cold]
+#[inline(never)]
+pub(super) fn general_roots<const N: usize>(
+    linear: &Linear<f64, N>,
+    structure: Structure,
+) -> Result<Roots<N>, Trouble> {
+    let tangent = Tangent::new(linear, structure);
+    if structure.holonomic() {
+        quadratic::roots(linear, &tangent)
+    } else {
+        first_order::roots(linear, &tangent)
+    }
+}
+
+/// The reactions that complete the motion of a vector: `x` with `P(s) x = 0` by coordinate and speed.
+fn with_reactions<const N: usize>(
+    linear: &Linear<f64, N>,
+    tangent: &Tangent<N>,
+    s: Complex,
+    motion: &[Complex; N],
+) -> [Complex; N] {
+    let force = measure::times_pencil(linear, s, motion).map(|value| -value);
+    let re = tangent.multipliers(&force.map(|value| value.re));
+    let im = tangent.multipliers(&force.map(|value| value.im));
+    let motions = tangent.structure.motions();
+    core::array::from_fn(|i| {
+        if i < motions {
+            motion[i]
+        } else {
+            Complex::new(re[i], im[i])
+        }
+    })
+}
+
+/// `P y`, by coordinate.
+fn lift<const N: usize>(tangent: &Tangent<N>, y: &[Complex]) -> [Complex; N] {
+    let mut x = [Complex::default(); N];
+    for (y, direction) in y.iter().zip(&tangent.basis) {
+        for (x, along) in x.iter_mut().zip(direction) {
+            *x += y * along;
+        }
+    }
+    x
+}
+
+/// `P^T matrix P`, row by row.
+fn projected<const N: usize>(matrix: &Square<N>, tangent: &Tangent<N>, into: &mut [f64]) {
+    let f = tangent.freedom;
+    for (j, column) in tangent.basis[..f].iter().enumerate() {
+        let image = crate::array::times(matrix, column);
+        for (i, row) in tangent.basis[..f].iter().enumerate() {
+            into[i * f + j] = crate::array::dot(row, &image);
+        }
+    }
+}
+
+/// How the vectors of a mode are normalised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Normalisation {
+    /// `x^H Mhat x = 1`, the leading component real and positive.
+    Mass,
+    /// The leading component is one: with speeds or constraints on velocities a mode may move no mass by `Mhat`.
+    Largest,
+}
+
+/// The leading component of a vector is the largest of so many first ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Leading {
+    pub(crate) right: usize,
+    pub(crate) left: usize,
+}
+
+impl Normalisation {
+    /// That of the modes of a mechanism. The leading component belongs to a coordinate or a speed; that of a left vector
+    /// with speeds or constraints on velocities to any unknown, because it may have reactions only.
+    pub(crate) fn of(description: &Description) -> (Self, Leading) {
+        let structure = Structure::of(description);
+        let motions = if structure.open() {
+            usize::MAX
+        } else {
+            structure.motions()
+        };
+        if structure.holonomic() {
+            let leading = Leading {
+                right: motions,
+                left: motions,
+            };
+            (Self::Mass, leading)
+        } else {
+            let leading = Leading {
+                right: motions,
+                left: description.coordinates.len(),
+            };
+            (Self::Largest, leading)
+        }
+    }
+}
+
+/// The first `leading` components tell the phase.
+fn normalise<const N: usize>(
+    x: &mut [Complex; N],
+    mass: &Square<N>,
+    size: Normalisation,
+    leading: usize,
+) -> bool {
+    let lead = super::lead(&x[..leading]);
+    let Some(most) = x.get(lead).copied().filter(|value| value.norm() > 0.0) else {
+        return false;
+    };
+    let factor = match size {
+        Normalisation::Largest => most.inv(),
+        Normalisation::Mass => {
+            let weighted = crate::array::times_complex(mass, x);
+            let square: f64 = x
+                .iter()
+                .zip(&weighted)
+                .map(|(x, w)| (x.conj() * w).re)
+                .sum();
+            most.conj() / (most.norm() * square.sqrt())
+        }
+    };
+    for value in x.iter_mut() {
+        *value *= factor;
+    }
+    x[lead].im = 0.0;
+    x.iter().all(|value| value.is_finite())
+}
+
+/// Gathers roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
+struct Gathered<'a, const N: usize> {
+    linear: &'a Linear<f64, N>,
+    structure: Structure,
+    size: Normalisation,
+    roots: Roots<N>,
+}
+
+impl<'a, const N: usize> Gathered<'a, N> {
+    fn new(linear: &'a Linear<f64, N>, structure: Structure, size: Normalisation) -> Self {
+        Self {
+            linear,
+            structure,
+            size,
+            roots: Roots::EMPTY,
+        }
+    }
+
+    /// Adds the pair with these numbers of the smaller problem. `shared` eigenvalues belong to several vectors and stay
+    /// equal.
+    fn add(
+        &mut self,
+        numbers: &Numbers,
+        shared: bool,
+        mut right: [Complex; N],
+        mut left: [Complex; N],
+    ) -> Result<(), Trouble> {
+        let inaccurate = |residual| Trouble::Inaccurate {
+            mode: self.roots.as_slice().len(),
+            residual,
+        };
+        let motions = self.structure.motions();
+        // A left vector may have nothing but reactions.
+        let left_leading = match self.size {
+            Normalisation::Mass => motions,
+            Normalisation::Largest => N,
+        };
+        let settle = |right: &mut [Complex; N], left: &mut [Complex; N]| {
+            normalise(right, &self.linear.mass, self.size, motions)
+                && normalise(left, &self.linear.mass, self.size, left_leading)
+        };
+        if !settle(&mut right, &mut left) {
+            return Err(inaccurate(f64::INFINITY));
+        }
+        let mut s = numbers.s;
+        let mut found = Measure::new(self.linear, motions, s, &right, &left);
+        let simple = !shared && numbers.condition.is_finite();
+        if simple {
+            for _ in 0..2 {
+                // Far steps are not rounding of the smaller problem.
+                let next = s - found.newton;
+                let near = found.newton.norm() <= 1e-6 * (s.norm() + numbers.error);
+                if !near || (s.im > 0.0) != (next.im > 0.0) {
+                    break;
+                }
+                s = next;
+                found = Measure::new(self.linear, motions, s, &right, &left);
+                if found.residual <= measure::INACCURATE {
+                    break;
+                }
+                let improved = measure::inverse_iteration(self.linear, s, &right, &left);
+                let Some((mut new_right, mut new_left)) = improved else {
+                    break;
+                };
+                if !settle(&mut new_right, &mut new_left) {
+                    break;
+                }
+                let better = Measure::new(self.linear, motions, s, &new_right, &new_left);
+                if better.residual < found.residual {
+                    (right, left, found) = (new_right, new_left, better);
+                }
+            }
+        }
+        if !(found.residual <= measure::ACCEPTED) {
+            if !found.rounding_only {
+                return Err(inaccurate(found.residual));
+            }
+            found.residual = measure::ROUNDING;
+        }
+        let own = found.doubt + 2.0 * found.newton.norm() + f64::EPSILON * s.norm();
+        let error = if numbers.condition.is_finite() && own.is_finite() {
+            numbers.error.max(own)
+        } else {
+            numbers.error
+        };
+        self.roots.push(Root {
+            s,
+            right,
+            left,
+            residual: found.residual,
+            error,
+            condition: numbers.condition,
+        });
+        Ok(())
+    }
+}
+
+/// Whether an eigenvalue occurs more than once in a list.
+fn is_shared(numbers: &[Numbers], i: usize) -> bool {
+    let others = numbers.iter().enumerate().filter(|(j, _)| *j != i);
+    others
+        .map(|(_, other)| other.s)
+        .any(|s| s == numbers[i].s)
+}

@@ -1,0 +1,16 @@
+//! Wheels that roll without slip: the benchmark of the bicycle, and mechanisms with closed forms.
+
+#[path = "wheels/bicycle.rs"]
+mod bicycle;
+#[path = "wheels/common.rs"]
+mod common;
+#[path = "wheels/events.rs"]
+mod events;
+#[path = "wheels/free.rs"]
+mod free;
+#[path = "wheels/mechanisms.rs"]
+mod mechanisms;
+#[path = "wheels/projection.rs"]
+mod projection;
+#[path = "wheels/spreads.rs"]
+mod spreads;

@@ -1,0 +1,146 @@
+//! Comparisons with `truth/rolling.json`.
+
+use eigentol::{Complex, Input, Mechanism, Study};
+use eigentol_tests::truth::Truth;
+
+/// Relative error allowed.
+pub(crate) const TIGHT: f64 = 1e-9;
+
+/// Derivatives less than this share of the greatest relative one count as that large.
+const SMALL: f64 = 1e-2;
+
+pub(crate) fn truth(mechanism: &str) -> Truth {
+    Truth::load("rolling").get(mechanism)
+}
+
+pub(crate) fn complex(value: &Truth) -> Complex {
+    let parts = value.numbers();
+    Complex::new(parts[0], parts[1])
+}
+
+#[track_caller]
+pub(crate) fn close(found: f64, expected: f64, scale: f64, what: &str) {
+    assert!(
+        (found - expected).abs() <= TIGHT * expected.abs().max(scale),
+        "{what}: {found}, not {expected}"
+    );
+}
+
+/// Derivatives by variables of the given names and values; each relative to itself or to a hundredth of the one that
+/// moves most with a relative change of its variable.
+#[track_caller]
+pub(crate) fn close_slopes(
+    found: &[Complex],
+    expected: &[Complex],
+    values: &[f64],
+    names: &[&str],
+    what: &str,
+) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let sizes = values.iter().map(|value| match value.abs() {
+        0.0 => 1.0,
+        size => size,
+    });
+    let sizes: Vec<f64> = sizes.collect();
+    let greatest = expected
+        .iter()
+        .zip(&sizes)
+        .fold(0.0_f64, |most, (slope, size)| most.max(slope.norm() * size));
+    for (((found, expected), size), name) in found.iter().zip(expected).zip(&sizes).zip(names) {
+        let scale = expected.norm().max(SMALL * greatest / size);
+        assert!(
+            (found - expected).norm() <= TIGHT * scale,
+            "{what} by {name}: {found}, not {expected}"
+        );
+    }
+}
+
+/// Real derivatives likewise.
+#[track_caller]
+pub(crate) fn close_real_slopes(
+    found: &[f64],
+    expected: &[f64],
+    values: &[f64],
+    names: &[&str],
+    what: &str,
+) {
+    let real = |numbers: &[f64]| -> Vec<Complex> { numbers.iter().map(|&x| x.into()).collect() };
+    close_slopes(&real(found), &real(expected), values, names, what);
+}
+
+/// Names of the design variables.
+pub(crate) fn design_names<M, const N: usize, const U: usize, const P: usize, const O: usize>()
+-> Vec<&'static str>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    M::DESCRIPTION.design.iter().map(|info| info.name).collect()
+}
+
+/// The study at the inputs of a point.
+pub(crate) fn at<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    study: &Study<M, N, U, P, O>,
+    point: &Truth,
+) -> Study<M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let inputs = point.get("inputs");
+    let mut study = study.clone();
+    for (k, info) in M::DESCRIPTION.inputs.iter().enumerate() {
+        study = study.input(Input(k), inputs.get(info.name).number());
+    }
+    study
+}
+
+/// The declared nominal values are those of the reference.
+pub(crate) fn check_design<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    design: &Truth,
+) where
+    M: Mechanism<N, U, P, O>,
+{
+    assert_eq!(design.fields().len(), P);
+    for info in M::DESCRIPTION.design {
+        close(info.nominal, design.get(info.name).number(), 0.0, info.name);
+    }
+}
+
+/// All eigenvalues at a point of the reference, and all their derivatives.
+pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    study: &Study<M, N, U, P, O>,
+    point: &Truth,
+) where
+    M: Mechanism<N, U, P, O>,
+{
+    let what = format!("{} at {:?}", M::DESCRIPTION.name, study.input_values());
+    let found = study.modes().unwrap_or_else(|error| panic!("{what}: {error}"));
+    let slopes = study
+        .sensitivities()
+        .unwrap_or_else(|error| panic!("{what}: {error}"));
+    let expected = point.get("modes").list();
+    assert_eq!(found.modes.len(), expected.len(), "{what}: {found:?}");
+    let names = design_names::<M, N, U, P, O>();
+    let inputs: Vec<&str> = M::DESCRIPTION.inputs.iter().map(|info| info.name).collect();
+    let mut left: Vec<usize> = (0..expected.len()).collect();
+    for mode in &expected {
+        let s = complex(&mode.get("s"));
+        let off = |&k: &usize| (found.modes[k].s - s).norm();
+        left.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        let nearest = left.remove(0);
+        assert!(
+            off(&nearest) <= TIGHT * s.norm(),
+            "{what}: {}, not {s}",
+            found.modes[nearest].s
+        );
+        let own = slopes.modes[nearest].s.expect("an eigenvalue with derivatives");
+        let what = format!("{what}, {s}");
+        for (found, names, values, field) in [
+            (&own.by_input[..], &inputs, &study.input_values()[..], "by_input"),
+            (&own.by_design[..], &names, &study.design_values()[..], "by_design"),
+        ] {
+            let by = mode.get(field);
+            let by: Vec<Complex> = names.iter().map(|name| complex(&by.get(name))).collect();
+            close_slopes(found, &by, values, names, &what);
+        }
+    }
+}

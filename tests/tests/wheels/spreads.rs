@@ -1,0 +1,53 @@
+//! Tolerances of the bicycle: first order and Monte Carlo against the derivatives of the reference.
+
+use eigentol::{Complex, Study};
+use eigentol_tests::truth::Truth;
+use eigentol_tests::wheels::WhippleBicycle;
+
+use super::common::{complex, truth};
+
+/// Mean shift and standard deviation of the weave at 5 m/s to second order: with `g_i` and `H_ij` the derivatives times the
+/// standard deviations of the parameters, the mean moves by `sum H_ii / 2`, the variance is `sum g_i^2 + sum H_ij^2 / 2`.
+#[test]
+fn samples_spread_as_the_derivatives_say() {
+    const SAMPLES: usize = 3000;
+    let hessian = truth("bicycle").get("hessian");
+    let point = truth("bicycle").get("spectra").list().remove(5);
+    let s = complex(&hessian.get("s"));
+    let mode = point.get("modes").list();
+    let mode = mode.iter().find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
+    let by_design = mode.expect("the weave").get("by_design");
+    let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle)
+        .input(WhippleBicycle::v, 5.0)
+        .samples(SAMPLES)
+        .seed(11);
+    let order: Vec<String> = hessian.get("order").list().iter().map(Truth::text).collect();
+    let sigma = study.tolerances().expect("tolerances").standard_deviations();
+    let [real, imaginary] = ["real", "imag"].map(|part| hessian.get(part).matrix());
+    let scaled = |i: usize, j: usize| {
+        Complex::new(real[26 * i + j], imaginary[26 * i + j]) * sigma[i] * sigma[j]
+    };
+    let first: Vec<Complex> = (0..26)
+        .map(|j| complex(&by_design.get(&order[j])) * sigma[j])
+        .collect();
+    let drawn = study.monte_carlo().expect("samples");
+    assert_eq!(drawn.counts.total(), SAMPLES);
+    assert_eq!(drawn.counts.unphysical, 0);
+    let modes = study.modes().expect("modes");
+    let weave = modes.modes.iter().position(|mode| (mode.s - s).norm() < 1e-6);
+    let weave = weave.expect("the weave");
+    let omega = drawn.modes[weave].expect("it oscillates");
+    let deviation = omega.standard_deviation.expect("many samples");
+    let mean: f64 = (0..26).map(|i| 0.5 * scaled(i, i).im).sum();
+    let linear: f64 = first.iter().map(|slope| slope.im.powi(2)).sum();
+    let curved: f64 = (0..26 * 26).map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2)).sum();
+    let spread = (linear + curved).sqrt();
+    let error = spread / (SAMPLES as f64).sqrt();
+    assert!(
+        (omega.mean - s.im - mean).abs() < 4.0 * error,
+        "mean {} against {}",
+        omega.mean - s.im,
+        mean
+    );
+    assert!((deviation / spread - 1.0).abs() < 4.0 / (2.0 * SAMPLES as f64).sqrt());
+}
