@@ -54,6 +54,38 @@ pub enum Error {
         /// Residual there, relative to the forces and stiffnesses in it.
         relative_residual: f64,
     },
+    /// The constraints cannot be met together from the start values.
+    #[error(
+        "the mechanism cannot be assembled: {reason}. `{constraint}` stays open by {gap:.6e} {unit}{}",
+        listed(.others)
+    )]
+    NotAssembled {
+        /// Why.
+        reason: &'static str,
+        /// The row that stays open most, in relation to the motions that could close it.
+        constraint: &'static str,
+        /// By how much, SI.
+        gap: f64,
+        /// Unit of the gap: `m` or `rad`, of a constraint on velocities `m/s` or `rad/s`; empty for a pure number.
+        unit: &'static str,
+        /// The other rows that stay open, and by how much, SI.
+        others: Vec<(&'static str, f64)>,
+        /// Where the gaps are least.
+        coordinates: Vec<f64>,
+        /// Iterations spent.
+        iterations: usize,
+    },
+    /// Constraints lose their independence in this configuration alone: motions begin or end here that the linearised
+    /// mechanism cannot tell.
+    #[error(
+        "singular configuration: {} lose their independence here and nowhere near, so the linearised mechanism does \
+         not say how it can move",
+        names(.constraints)
+    )]
+    SingularConfiguration {
+        /// The rows.
+        constraints: Vec<&'static str>,
+    },
     /// The mass matrix is not positive definite: a coordinate moves no mass.
     #[error(
         "the mass matrix is singular: coordinate `{coordinate}` moves no mass of its own, so it has no \
@@ -177,4 +209,14 @@ pub enum Error {
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),
+}
+
+fn names(names: &[&'static str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+fn listed(others: &[(&'static str, f64)]) -> String {
+    let each = others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
+    each.collect()
 }

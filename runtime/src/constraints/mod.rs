@@ -1,12 +1,14 @@
 //! Constraints: which unknowns are what, which directions they leave free, and which of them say the same.
 
 mod rows;
+mod state;
 mod structure;
 mod tangent;
 
 pub(crate) use rows::Rows;
+pub use state::ConstraintState;
 pub(crate) use structure::Structure;
-pub(crate) use tangent::{Tangent, fix_gauge, reduce};
+pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, reduce};
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use crate::array::{Square, add_scaled, dot, largest};
+use crate::array::{Cholesky, Square, add_scaled, dot, largest};
 
 /// What may remain of a row that others explain, relative to the row itself. Rows of compiled constraints carry rounding
 /// of some 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this have no use as two.
@@ -20,11 +20,15 @@ const FAINT: f64 = 1e-9;
 pub(crate) struct Rows<const N: usize> {
     pub(crate) count: usize,
     pub(crate) rank: usize,
+    /// Least share of a row, of those taken into the basis, that the ones before did not explain; one for a single row.
+    pub(crate) least: f64,
     /// The row numbers: independent ones first, in the order of elimination, then the dependent ones.
     pub(crate) order: [usize; N],
     /// Euclidean norm of each row over `scale`: what makes rows of different units comparable. One for a zero row.
     pub(crate) size: [f64; N],
     scale: [f64; N],
+    /// The rows over `size` and `scale`.
+    row: Square<N>,
     /// The first `rank`: orthonormal basis of the row space, in columns times `scale`.
     unit: Square<N>,
     /// `unit[i] = sum_k combination[i][k] h_k / (size_k scale)`.
@@ -88,6 +92,7 @@ impl<const N: usize> Rows<N> {
                 size[k] = if greatest > 0.0 { greatest } else { 1.0 };
             }
         }
+        let row = rest;
         let mut made = [[0.0; N]; N];
         for k in 0..count {
             made[k][k] = 1.0;
@@ -95,9 +100,11 @@ impl<const N: usize> Rows<N> {
         let mut rows = Self {
             count,
             rank: 0,
+            least: 1.0,
             order: core::array::from_fn(|k| k),
             size,
             scale,
+            row,
             unit: [[0.0; N]; N],
             combination: [[0.0; N]; N],
             dependency: [[0.0; N]; N],
@@ -141,6 +148,7 @@ impl<const N: usize> Rows<N> {
             self.unit[i] = rest[pivot].map(|value| value / left);
             self.combination[i] = made[pivot].map(|value| value / left);
             self.rank = i + 1;
+            self.least = self.least.min(left);
             for k in i + 1..self.count {
                 let other = self.order[k];
                 let along = dot(&self.unit[i], &rest[other]);
@@ -148,6 +156,17 @@ impl<const N: usize> Rows<N> {
                 made[other] = add_scaled(&made[other], -along, &self.combination[i]);
             }
         }
+    }
+
+    /// Basis vector `i` of the row space, raised by the metric: `x = sum_i c_i normal(i)` is what is orthogonal, in the
+    /// metric, to the null space.
+    pub(crate) fn normal(&self, i: usize) -> [f64; N] {
+        over(&self.unit[i], &self.scale)
+    }
+
+    /// A vector in the units of the metric: its norm is the length in the metric.
+    pub(crate) fn scaled(&self, x: &[f64; N]) -> [f64; N] {
+        core::array::from_fn(|j| x[j] * self.scale[j])
     }
 
     /// How many rows the others explain.
@@ -216,6 +235,28 @@ impl<const N: usize> Rows<N> {
             x = add_scaled(&x, dot(&self.combination[i], &wanted), &self.unit[i]);
         }
         over(&x, &self.scale)
+    }
+
+    /// `x = sum_k h_k right_k` in the metric, rows over their sizes as `right` is: the way on which the squares of what rows
+    /// leave open fall fastest. In units of the metric.
+    pub(crate) fn descent(&self, right: &[f64; N]) -> [f64; N] {
+        let mut x = [0.0; N];
+        for k in 0..self.count {
+            x = add_scaled(&x, right[k], &self.row[k]);
+        }
+        x
+    }
+
+    /// `x` with the least `sum_k (h_k x / size_k - right_k)^2 + damping |x|^2` in the metric: [`Self::shortest`] with a
+    /// damper, for rows over their sizes.
+    pub(crate) fn damped(&self, right: &[f64; N], damping: f64) -> Option<[f64; N]> {
+        let normal: Square<N> = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                dot(&self.row[i], &self.row[j]) + if i == j { damping } else { 0.0 }
+            })
+        });
+        let z = Cholesky::new(&normal).ok()?.solve(right);
+        Some(over(&self.descent(&z), &self.scale))
     }
 
     /// Multipliers `mu` with `sum_k mu_k h_k = force` in the sense of least squares (forces over `scale`), the shortest in

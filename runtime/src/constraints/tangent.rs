@@ -25,12 +25,14 @@ pub(crate) struct Tangent<const N: usize> {
     pub(crate) basis: Square<N>,
     /// The rows of `H` over the coordinates, numbered from zero.
     pub(crate) positions: Rows<N>,
+    /// The independent rows of `H` in the metric of `basis`, in the order `positions.order`.
+    pub(crate) normal: Rows<N>,
     /// The rows of `[[H, 0], [A_q, A_v]]` over coordinates and speeds, numbered from zero: all constraints.
     pub(crate) all: Rows<N>,
 }
 
-/// Least square root of a mass in the metric of the basis, relative to the greatest: what a massless coordinate gets.
-const LIGHT: f64 = 1e-4;
+/// Least mass in the metric of the basis, relative to the greatest: what a massless coordinate gets.
+const LIGHT: f64 = 1e-8;
 
 impl<const N: usize> Tangent<N> {
     /// At a state with these matrices, before or after [`fix_gauge`].
@@ -41,16 +43,17 @@ impl<const N: usize> Tangent<N> {
         } else {
             position_rows(&linear.stiffness, structure)
         };
-        let independent = Rows::independent(
+        let normal = Rows::independent(
             positions.rank,
             |i| gradient(&linear.stiffness, structure, positions.order[i]),
-            mass_metric(linear, structure),
+            inertias(linear, structure).map(f64::sqrt),
         );
         Self {
             structure,
-            freedom: structure.coordinates - independent.rank,
-            basis: independent.null_basis(structure.coordinates),
+            freedom: structure.coordinates - normal.rank,
+            basis: normal.null_basis(structure.coordinates),
             positions,
+            normal,
             all,
         }
     }
@@ -62,7 +65,7 @@ impl<const N: usize> Tangent<N> {
 
     /// Left null vector `k` of all constraints, in the places of their rows: `n^T [[H, 0], [A_q, A_v]] = 0`.
     pub(crate) fn null_left(&self, k: usize) -> [f64; N] {
-        self.placed(&self.all.null_left(k))
+        placed(self.structure, &self.all.null_left(k))
     }
 
     /// Multipliers, in their places, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force` by
@@ -71,7 +74,7 @@ impl<const N: usize> Tangent<N> {
     pub(crate) fn multipliers(&self, force: &[f64; N]) -> [f64; N] {
         let motions = self.structure.motions();
         let force = core::array::from_fn(|j| if j < motions { force[j] } else { 0.0 });
-        self.placed(&self.all.multipliers(&force))
+        placed(self.structure, &self.all.multipliers(&force))
     }
 
     /// `P y`, by coordinate; zero elsewhere.
@@ -90,17 +93,36 @@ impl<const N: usize> Tangent<N> {
         reduced
     }
 
-    /// Values by constraint, numbered from zero, in the places of their rows.
-    fn placed(&self, by_constraint: &[f64; N]) -> [f64; N] {
-        let rows = self.structure.constraint_rows();
-        core::array::from_fn(|i| {
-            if rows.contains(&i) {
-                by_constraint[i - rows.start]
-            } else {
-                0.0
-            }
-        })
+    /// The mass matrix of [`reduce`].
+    pub(crate) fn reduce_mass(&self, mass: &Square<N>) -> Square<N> {
+        self.filled(reduce_matrix(mass, self), 1.0)
     }
+
+    /// The stiffness matrix of [`reduce`].
+    pub(crate) fn reduce_stiffness(&self, stiffness: &Square<N>) -> Square<N> {
+        let reduced = reduce_matrix(stiffness, self);
+        let size = largest_element(&reduced);
+        self.filled(reduced, if size > 0.0 { size } else { 1.0 })
+    }
+
+    fn filled(&self, mut reduced: Square<N>, value: f64) -> Square<N> {
+        for i in self.freedom..N {
+            reduced[i][i] = value;
+        }
+        reduced
+    }
+}
+
+/// Values by constraint, numbered from zero, in the places of their rows; zero elsewhere.
+pub(crate) fn placed<const N: usize>(structure: Structure, by_constraint: &[f64; N]) -> [f64; N] {
+    let rows = structure.constraint_rows();
+    core::array::from_fn(|i| {
+        if rows.contains(&i) {
+            by_constraint[i - rows.start]
+        } else {
+            0.0
+        }
+    })
 }
 
 /// `P^T M P`, `P^T C P`, `P^T K_c P` in the leading `freedom` rows and columns. The remaining diagonal holds masses of one
@@ -111,17 +133,11 @@ pub(crate) fn reduce<const N: usize>(
     linear: &Linear<f64, N>,
     tangent: &Tangent<N>,
 ) -> Linear<f64, N> {
-    let mut reduced = Linear {
-        mass: reduce_matrix(&linear.mass, tangent),
+    Linear {
+        mass: tangent.reduce_mass(&linear.mass),
         damping: reduce_matrix(&linear.damping, tangent),
-        stiffness: reduce_matrix(&linear.stiffness, tangent),
-    };
-    let size = largest_element(&reduced.stiffness);
-    for i in tangent.freedom..N {
-        reduced.mass[i][i] = 1.0;
-        reduced.stiffness[i][i] = if size > 0.0 { size } else { 1.0 };
+        stiffness: tangent.reduce_stiffness(&linear.stiffness),
     }
-    reduced
 }
 
 /// `P^T matrix P` in the leading rows and columns, zero elsewhere; of a symmetric matrix exactly symmetric.
@@ -163,7 +179,7 @@ pub(crate) fn fix_gauge<const N: usize>(stiffness: &mut Square<N>, structure: St
 }
 
 /// All constraints over coordinates and speeds, in the balanced metric.
-fn all_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
+pub(crate) fn all_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
     Rows::balanced(structure.constraints(), |k| {
         gradient(stiffness, structure, k)
     })
@@ -188,18 +204,25 @@ fn gradient<const N: usize>(stiffness: &Square<N>, structure: Structure, k: usiz
     })
 }
 
-/// Square roots of the diagonal of `Mhat`, none far below the greatest.
-fn mass_metric<const N: usize>(linear: &Linear<f64, N>, structure: Structure) -> [f64; N] {
-    let mut scale = [0.0_f64; N];
-    for j in 0..structure.coordinates.min(N) {
-        scale[j] = linear.mass[j][j].max(0.0).sqrt();
-    }
-    let greatest = scale.iter().fold(0.0, |a: f64, &b| a.max(b));
-    scale.map(|value| {
-        if greatest > 0.0 {
-            value.max(LIGHT * greatest)
-        } else {
-            1.0
+/// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), none far below the greatest; one where there
+/// are none, and in the places of reactions.
+pub(crate) fn inertias<const N: usize>(linear: &Linear<f64, N>, structure: Structure) -> [f64; N] {
+    let mut mass = [1.0_f64; N];
+    for block in [0..structure.coordinates, structure.speed_range()] {
+        let diagonal = |j: usize| {
+            let matrix = if j < structure.coordinates {
+                &linear.mass
+            } else {
+                &linear.damping
+            };
+            matrix[j][j].max(0.0)
+        };
+        let greatest = block.clone().map(diagonal).fold(0.0, f64::max);
+        for j in block {
+            if greatest > 0.0 {
+                mass[j] = diagonal(j).max(LIGHT * greatest);
+            }
         }
-    })
+    }
+    mass
 }

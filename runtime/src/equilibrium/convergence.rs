@@ -1,6 +1,7 @@
 //! When a solve is finished: its Newton step is small against the coordinates, or rounding lets the residual fall no
 //! further. The residual alone cannot tell near a critical state, where a small one hides a large displacement; a small
-//! step alone cannot tell where stiffnesses of very different size meet, so a finished state passes both.
+//! step alone cannot tell where stiffnesses of very different size meet, so a finished state passes both. The gap of a
+//! constraint is measured by motions too, and a reaction by the largest.
 
 use super::problem::Problem;
 use crate::Mechanism;
@@ -69,16 +70,19 @@ impl<const N: usize> Watch<N> {
         if !stalled {
             self.fell_at = *q;
         }
+        let motions = Problem::<M, N, U, P, O>::MOTIONS;
+        let reaction = largest_of(&q[motions..]);
         let motion = step.map_or(f64::INFINITY, |step| {
             (0..N).fold(0.0, |most: f64, j| {
-                most.max(ratio(step[j], q[j].abs() + SMALL_MOTION))
+                let unit = if j < motions { 1.0 } else { reaction };
+                most.max(ratio(step[j], q[j].abs() + SMALL_MOTION * unit))
             })
         });
         let solved = |tolerance| settled(problem, q, residual, stiffness, tolerance);
         if motion <= FLOOR && solved(ACCEPTED) {
             return Progress::Finished;
         }
-        if stalled && !self.drifts(q) && solved(TOLERANCE) {
+        if stalled && !self.drifts(&q[..motions]) && solved(TOLERANCE) {
             Progress::Finished
         } else if motion <= LAST_STEP {
             Progress::LastStep
@@ -89,8 +93,10 @@ impl<const N: usize> Watch<N> {
 
     /// Whether the state runs away under a residual that stays what it is: forces that grow on the way make it small by
     /// comparison only.
-    fn drifts(&self, q: &[f64; N]) -> bool {
-        (0..N).any(|j| (q[j] - self.fell_at[j]).abs() > DRIFT * (1.0 + self.fell_at[j].abs()))
+    fn drifts(&self, q: &[f64]) -> bool {
+        q.iter()
+            .zip(&self.fell_at)
+            .any(|(now, then)| (now - then).abs() > DRIFT * (1.0 + then.abs()))
     }
 }
 
@@ -105,12 +111,14 @@ pub(super) fn settled<M, const N: usize, const U: usize, const P: usize, const O
 where
     M: Mechanism<N, U, P, O>,
 {
-    (0..N).all(|i| relative(residual[i], 0.0, q, &stiffness[i]) <= tolerance)
+    let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    (0..N).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
         || relative_residual(problem, q, residual, stiffness) <= tolerance
 }
 
 /// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
-/// coordinate, or the rounding of a large one, restores in the same equation.
+/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces; the gap of a
+/// constraint is relative to what those motions open.
 pub(super) fn relative_residual<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
@@ -123,19 +131,30 @@ where
     let parts = problem
         .mechanism
         .residual_parts(q, problem.inputs, problem.design);
+    let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    let force = |i: usize| {
+        let own = parts.inertia[i].abs().max(parts.applied[i].abs());
+        let reactions = (motions..N).map(|j| (stiffness[i][j] * q[j]).abs());
+        let force = reactions.fold(own, f64::max);
+        if force.is_finite() { force } else { 0.0 }
+    };
     (0..N).fold(0.0, |most: f64, i| {
-        let force = parts.inertia[i].abs().max(parts.applied[i].abs());
-        let force = if force.is_finite() { force } else { 0.0 };
-        most.max(relative(residual[i], force, q, &stiffness[i]))
+        let force = if i < motions { force(i) } else { 0.0 };
+        most.max(relative(residual[i], force, &q[..motions], &stiffness[i]))
     })
 }
 
-/// One equation's residual relative to `force` and the row of stiffnesses; a scale that overflows is formed anew from
-/// smaller numbers.
-fn relative<const N: usize>(residual: f64, force: f64, q: &[f64; N], row: &[f64; N]) -> f64 {
+/// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
+pub(super) fn relative_gap<const N: usize>(gap: f64, motions: &[f64], row: &[f64; N]) -> f64 {
+    relative(gap, 0.0, motions, row)
+}
+
+/// One equation's residual relative to `force` and the row of stiffnesses against motions `q`; a scale that overflows is
+/// formed anew from smaller numbers.
+fn relative<const N: usize>(residual: f64, force: f64, q: &[f64], row: &[f64; N]) -> f64 {
     let scale = |unit: f64| {
-        (0..N).fold(unit * force, |sum, j| {
-            sum + unit * row[j].abs() * (SMALL_MOTION + ROUNDED * q[j].abs())
+        q.iter().zip(row).fold(unit * force, |sum, (q, slope)| {
+            sum + unit * slope.abs() * (SMALL_MOTION + ROUNDED * q.abs())
         })
     };
     let plain = scale(1.0);
@@ -157,7 +176,12 @@ fn ratio(residual: f64, scale: f64) -> f64 {
     }
 }
 
-/// Coordinates beyond this are taken as an escape to infinity.
-pub(super) fn escaped<const N: usize>(q: &[f64; N], start: &[f64; N]) -> bool {
-    largest(q) > 1e12 * (1.0 + largest(start))
+/// Coordinates and speeds beyond this are taken as an escape to infinity.
+pub(super) fn escaped(motions: &[f64], start: &[f64]) -> bool {
+    largest_of(motions) > 1e12 * (1.0 + largest_of(start))
+}
+
+/// Greatest absolute value.
+pub(super) fn largest_of(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }

@@ -1,9 +1,11 @@
 //! Stable equilibria of a mechanism with symmetric `Khat`: the residual is then the gradient of an amended potential,
 //! and stable equilibria are its minima. Newton's method where the potential is convex, descent along every mode with
-//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle.
+//! its curvature made positive where it is not, and a step along the unstable mode away from a saddle. With constraints on
+//! positions the same along the directions they leave free.
 
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::space::{Base, Space, Trial};
 use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
@@ -17,27 +19,31 @@ const FIRST_RADIUS: f64 = 1.0;
 /// Displacement (rad or m) by which an unstable equilibrium is left.
 const DEPARTURE: f64 = 1e-3;
 
-/// Descends from `start` to a minimum of the amended potential.
-pub(super) fn stable<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+/// Descends from `start`, which meets the constraints, to a minimum of the amended potential.
+pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
 ) -> Result<Found<N>, Failure<N>>
 where
+    S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
-    let mut q = *start;
-    let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
+    let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    let mut base: Base<N, S> = S::base(problem, start)?;
     let mut radius = FIRST_RADIUS;
     let mut departures = 0;
     let mut left_unstable_region = false;
-    let mut watch = Watch::new(&q);
+    let mut watch = Watch::new(&base.q);
     for iterations in 0..MAX_ITERATIONS {
+        let at = (&base.residual, &base.stiffness);
+        let slopes = base.space.slopes(&base.residual);
+        let stiffness = base.space.stiffness(&base.stiffness);
         let convex = Cholesky::new(&stiffness).ok();
         let curved = match &convex {
             Some(_) => None,
             None => {
-                let mass = problem.linear(&q)?.mass;
-                let pairs = symmetric::solve(&stiffness, &mass)?;
+                let mass = problem.linear(&base.q)?.mass;
+                let pairs = symmetric::solve(&stiffness, &base.space.mass(&mass))?;
                 let unstable = pairs.lambda[0] < -neutral_threshold(&pairs.lambda);
                 left_unstable_region |= unstable;
                 Some((pairs, mass, unstable))
@@ -49,28 +55,33 @@ where
             iterations,
             left_unstable_region,
         };
-        let mut step = match (&convex, &curved) {
-            (Some(cholesky), _) => cholesky.solve(&residual).map(|value| -value),
-            (None, Some((pairs, ..))) => curved_step(pairs, &residual),
-            (None, None) => residual.map(|value| -value),
-        };
-        let progress = watch.judge(problem, &q, (&residual, &stiffness), Some(&step));
+        let mut step = base.space.lift(&match (&convex, &curved) {
+            (Some(cholesky), _) => cholesky.solve(&slopes).map(|value| -value),
+            (None, Some((pairs, ..))) => curved_step(pairs, &slopes),
+            (None, None) => slopes.map(|value| -value),
+        });
+        let progress = watch.judge(problem, &base.q, at, Some(&step));
         if progress == Progress::Finished {
             let Some((pairs, mass, true)) = curved else {
-                return Ok(found(q, residual, iterations));
+                return Ok(found(base.q, base.residual, iterations));
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
-                return Err(failure(problem, "only unstable equilibria", &q, iterations));
+                let reason = "only unstable equilibria";
+                return Err(failure(problem, reason, &base.q, iterations));
             }
-            q = add_scaled(&q, 1.0, &departure(&pairs.shapes[0], &mass, &q, start));
-            (residual, stiffness) = problem.evaluate_start(&q)?;
-            watch = Watch::new(&q);
+            let shape = base.space.lift(&pairs.shapes[0]);
+            let side = departure(&shape, &mass, &base.q, start);
+            let Some(trial) = base.space.trial(problem, &base.q, &side, 1.0) else {
+                return Err(outside(&base.q));
+            };
+            base = S::arrive(problem, trial)?;
+            watch = Watch::new(&base.q);
             continue;
         }
         if progress == Progress::LastStep
             && convex.is_some()
-            && let Some((end, rest)) = last_step(problem, &q, (&residual, &stiffness), &step)
+            && let Some((end, rest)) = last_step(problem, &base.q, at, &step)
         {
             return Ok(found(end, rest, iterations + 1));
         }
@@ -79,34 +90,34 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some(next) = search(problem, &q, &residual, &stiffness, &step) else {
-            let relative = relative_residual(problem, &q, &residual, &stiffness);
+        let Some(next) = search(problem, &base, &step) else {
+            let relative = relative_residual(problem, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex.is_some() {
-                return Ok(found(q, residual, iterations));
+                return Ok(found(base.q, base.residual, iterations));
             }
-            return Err(failure(
-                problem,
-                "no descent from the last state",
-                &q,
-                iterations,
-            ));
+            let reason = "no descent from the last state";
+            return Err(failure(problem, reason, &base.q, iterations));
         };
         if next.length < 1.0 {
             radius = radius.min(2.0 * next.length * largest(&step));
         } else if limited && next.predicted {
             radius *= 4.0;
         }
-        (q, residual, stiffness) = (next.q, next.residual, next.stiffness);
-        if escaped(&q, start) {
-            return Err(failure(
-                problem,
-                "the coordinates escape to infinity",
-                &q,
-                iterations,
-            ));
+        base = S::arrive(problem, next.trial)?;
+        if escaped(&base.q[..motions], &start[..motions]) {
+            let reason = "the coordinates escape to infinity";
+            return Err(failure(problem, reason, &base.q, iterations));
         }
     }
-    Err(failure(problem, "too many iterations", &q, MAX_ITERATIONS))
+    let reason = "too many iterations";
+    Err(failure(problem, reason, &base.q, MAX_ITERATIONS))
+}
+
+fn outside<const N: usize>(q: &[f64; N]) -> Failure<N> {
+    Failure::OutsideDomain {
+        what: "the residual",
+        coordinates: *q,
+    }
 }
 
 /// Descent along every mode with the size of its curvature, so that the unstable ones are left, not approached.
@@ -145,9 +156,7 @@ fn departure<const N: usize>(
 }
 
 struct Next<const N: usize> {
-    q: [f64; N],
-    residual: [f64; N],
-    stiffness: Square<N>,
+    trial: Trial<N>,
     /// Accepted fraction of the step.
     length: f64,
     /// The linear model predicted the slope at the end.
@@ -156,30 +165,28 @@ struct Next<const N: usize> {
 
 /// Line search on the change of the potential, which is integrated from the slopes and curvatures at both ends
 /// (corrected trapezoidal rule), since the potential itself is not available.
-fn search<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+fn search<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
+    base: &Base<N, S>,
     step: &[f64; N],
 ) -> Option<Next<N>>
 where
+    S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
-    let slope_0 = dot(step, residual);
-    let curvature_0 = form(step, stiffness, step);
+    let slope_0 = dot(step, &base.residual);
+    let curvature_0 = form(step, &base.stiffness, step);
     if slope_0.is_nan() || slope_0 >= 0.0 {
         return None;
     }
     let mut length = 1.0;
     for _ in 0..60 {
-        let trial = add_scaled(q, length, step);
-        let Some((residual, stiffness)) = problem.evaluate(&trial) else {
+        let Some(trial) = base.space.trial(problem, &base.q, step, length) else {
             length *= 0.25;
             continue;
         };
-        let slope = dot(step, &residual);
-        let curvature = form(step, &stiffness, step);
+        let slope = dot(step, &trial.residual);
+        let curvature = form(&trial.direction, &trial.stiffness, &trial.direction);
         let change =
             0.5 * length * (slope_0 + slope) + length * length / 12.0 * (curvature_0 - curvature);
         let settled = slope.abs() <= 0.5 * slope_0.abs() && curvature >= 0.0;
@@ -187,9 +194,7 @@ where
             let expected = slope_0 + length * curvature_0;
             let predicted = (slope - expected).abs() <= 0.25 * slope_0.abs();
             return Some(Next {
-                q: trial,
-                residual,
-                stiffness,
+                trial,
                 length,
                 predicted,
             });

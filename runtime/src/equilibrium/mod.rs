@@ -1,6 +1,8 @@
 //! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
 
+mod assembly;
 pub(crate) mod branch;
+mod closing;
 mod convergence;
 mod critical;
 mod crossing;
@@ -10,10 +12,12 @@ mod newton;
 mod problem;
 mod range;
 mod root;
+mod space;
 mod stability;
 mod sweep;
 mod track;
 
+pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use branch::{
     Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch,
     branches,
@@ -32,7 +36,10 @@ pub(crate) use track::Tracker;
 
 pub(crate) use problem::{Failure, Problem};
 
-use crate::array::{Cholesky, add_scaled, all_finite, largest};
+pub use crate::constraints::ConstraintState;
+
+use crate::array::{Cholesky, add_scaled, all_finite, dot, largest};
+use crate::constraints::{Structure, Tangent, all_rows, placed};
 use crate::{DampingKind, Description, Error, Linear, Mechanism, PoseMargin};
 use convergence::{ACCEPTED, TOLERANCE, relative_residual, settled};
 
@@ -51,7 +58,8 @@ pub enum Policy {
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
-    /// `q*`, rad or m.
+    /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints
+    /// ([`Role`](crate::Role)), SI.
     pub coordinates: [f64; N],
     /// The inputs it belongs to, SI.
     pub inputs: [f64; U],
@@ -61,7 +69,7 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub stability: Stability,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
     pub linear: Linear<f64, N>,
-    /// Remaining residual, N or N m.
+    /// Remaining residual, N or N m; in the places of reactions what their constraints are open by.
     pub residual: [f64; N],
     /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
     /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.
@@ -70,6 +78,8 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub iterations: usize,
     /// The joint nearest to its singular pose, if the mechanism has joints of three turns.
     pub pose: Option<PoseMargin<f64>>,
+    /// What the constraints leave free there, and which say the same.
+    pub constraints: ConstraintState<N>,
     /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
@@ -81,9 +91,12 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
 /// `u` inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
 /// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component.
 ///
+/// A mechanism with constraints is first moved from `start` the shortest way to where it closes ([`assemble`] does that with
+/// coordinates held); the reactions in `start` do not matter.
+///
 /// # Errors
 /// [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
-/// [`Error::NoEquilibrium`].
+/// [`Error::NotAssembled`], [`Error::NoEquilibrium`].
 pub fn equilibrium<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     u: &[f64; U],
@@ -108,18 +121,49 @@ pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O:
 where
     M: Mechanism<N, U, P, O>,
 {
-    if policy == Policy::Nearest || !M::DESCRIPTION.symmetric_stiffness {
+    let structure = const { Structure::of(&M::DESCRIPTION) };
+    let closed;
+    let start = if structure.open() {
+        start
+    } else {
+        closed = assembly::closed(problem, start, &[false; N])?.0;
+        &closed
+    };
+    let potential = M::DESCRIPTION.symmetric_stiffness && structure.holonomic();
+    if policy == Policy::Nearest || !potential {
         return newton::nearest(problem, start).and_then(|found| finish(problem, found));
     }
     if let Some(state) = held(problem, start) {
         return Ok(state);
     }
-    descent::stable(problem, start)
+    let found = if structure.open() {
+        descent::stable::<space::Open, _, N, U, P, O>(problem, start)
+    } else {
+        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+            .and_then(|found| polished(problem, found))
+    };
+    found
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
             _ => newton::nearest(problem, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
+}
+
+/// The last steps on coordinates and reactions together.
+fn polished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    found: Found<N>,
+) -> Result<Found<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let last = newton::nearest(problem, &found.coordinates)?;
+    Ok(Found {
+        iterations: found.iterations + last.iterations,
+        left_unstable_region: found.left_unstable_region,
+        ..last
+    })
 }
 
 /// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
@@ -133,7 +177,13 @@ where
     if M::DESCRIPTION.damping == DampingKind::Zero {
         return None;
     }
-    let (_, stiffness) = problem.evaluate(start)?;
+    let structure = const { Structure::of(&M::DESCRIPTION) };
+    let stiffness = if structure.open() {
+        problem.evaluate(start)?.1
+    } else {
+        let linear = problem.linear(start).ok()?;
+        Tangent::new(&linear, structure).reduce_stiffness(&linear.stiffness)
+    };
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
@@ -172,12 +222,21 @@ where
 
 fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
-    found: Found<N>,
+    mut found: Found<N>,
 ) -> Result<Equilibrium<N, U, P>, Failure<N>>
 where
     M: Mechanism<N, U, P, O>,
 {
-    let linear = problem.linear(&found.coordinates)?;
+    let mut linear = problem.linear(&found.coordinates)?;
+    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 }
+        && let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION)
+    {
+        found.coordinates = least;
+        (found.residual, _) = problem.evaluate_start(&least)?;
+        linear = problem.linear(&least)?;
+    }
+    let at = (&found.coordinates, problem.inputs, problem.design);
+    let constraints = ConstraintState::new(problem.mechanism, at, &linear);
     let relative = relative_residual(
         problem,
         &found.coordinates,
@@ -192,13 +251,18 @@ where
             relative,
         });
     }
-    let stability = stability::judge(problem.description(), &linear)?;
+    let stability = if constraints.singular {
+        Stability::Undecided
+    } else {
+        stability::judge(problem.description(), &linear)?
+    };
     Ok(Equilibrium {
         coordinates: found.coordinates,
         inputs: *problem.inputs,
         design: *problem.design,
         stability,
         linear,
+        constraints,
         residual: found.residual,
         relative_residual: relative,
         pose: problem
@@ -208,4 +272,21 @@ where
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),
     })
+}
+
+/// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.
+fn least_reactions<const N: usize>(
+    x: &[f64; N],
+    linear: &Linear<f64, N>,
+    description: Description,
+) -> Option<[f64; N]> {
+    let structure = Structure::of(&description);
+    let rows = all_rows(&linear.stiffness, structure);
+    let mut least = *x;
+    for k in 0..rows.dependent() {
+        let along = placed(structure, &rows.null_left(k));
+        let amount = dot(x, &placed(structure, &rows.null_left_scaled(k)));
+        least = add_scaled(&least, -amount, &along);
+    }
+    (rows.dependent() > 0).then_some(least)
 }

@@ -1,13 +1,14 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
-use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, escaped, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
 use super::{Found, last_step};
-use crate::Mechanism;
-use crate::array::{Cholesky, Lu, Square, add_scaled, largest, times, transpose};
+use crate::constraints::inertias;
+use crate::array::{Cholesky, Lu, Square, add_scaled, times, transpose};
+use crate::{Linear, Mechanism};
 
 const MAX_ITERATIONS: usize = 300;
-/// Greatest change of a coordinate in the first step, rad or m; grows while steps succeed.
+/// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
 
 /// Solves `g = 0` from `start`.
@@ -20,7 +21,8 @@ where
 {
     let mut q = *start;
     let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
-    let weight = weights(&problem.linear(&q)?.mass)?;
+    let weight = weights::<M, N, U, P, O>(&q, &problem.linear(&q)?)?;
+    let motions = Problem::<M, N, U, P, O>::MOTIONS;
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&q);
     for iterations in 0..MAX_ITERATIONS {
@@ -47,7 +49,7 @@ where
                 ..found
             });
         }
-        let size = largest(&step);
+        let size = largest_of(&step[..motions]);
         let limited = size > radius;
         if limited {
             step = step.map(|value| value * radius / size);
@@ -66,17 +68,17 @@ where
             });
         };
         if length < 1.0 {
-            radius = radius.min(2.0 * length * largest(&step));
+            radius = radius.min(2.0 * length * largest_of(&step[..motions]));
         } else if limited {
             radius *= 2.0;
         }
         (q, residual, stiffness) = next;
-        if escaped(&q, start) {
+        if escaped(&q[..motions], &start[..motions]) {
             break;
         }
     }
     let relative = relative_residual(problem, &q, &residual, &stiffness);
-    let reason = if escaped(&q, start) {
+    let reason = if escaped(&q[..motions], &start[..motions]) {
         "the coordinates escape to infinity"
     } else {
         "too many iterations"
@@ -89,16 +91,54 @@ where
     })
 }
 
-/// Inverse generalised masses: they make the squares of forces and of moments comparable.
-fn weights<const N: usize>(mass: &Square<N>) -> Result<[f64; N], Failure<N>> {
+/// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
+/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it.
+fn weights<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    q: &[f64; N],
+    linear: &Linear<f64, N>,
+) -> Result<[f64; N], Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
     let mut weight = [0.0; N];
-    for i in 0..N {
-        if mass[i][i].is_nan() || mass[i][i] <= 0.0 {
-            return Err(Failure::SingularMass(i));
+    if structure.open() {
+        for i in 0..N {
+            let mass = linear.mass[i][i];
+            if mass.is_nan() || mass <= 0.0 {
+                return Err(Failure::SingularMass(i));
+            }
+            weight[i] = 1.0 / mass;
         }
-        weight[i] = 1.0 / mass[i][i];
+        return Ok(weight);
     }
-    Ok(weight)
+    let mass = inertias(linear, structure);
+    let motions = structure.motions();
+    let stiffest = (0..motions).fold(0.0, |most: f64, i| {
+        most.max(linear.stiffness[i][i].abs() / mass[i])
+    });
+    let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
+    for i in 0..motions {
+        weight[i] = 1.0 / mass[i];
+    }
+    for i in structure.constraint_rows() {
+        let row = &linear.stiffness[i];
+        let mobility = (0..motions).fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
+        if mobility > 0.0 {
+            weight[i] = stiffest * stiffest / mobility;
+        } else {
+            // Nothing closes it from here; what it weighs is no matter as long as it is seen.
+            weight[i] = stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
+        }
+    }
+    if weight.iter().all(|value| value.is_finite()) {
+        Ok(weight)
+    } else {
+        Err(Failure::OutsideDomain {
+            what: "the mass matrix",
+            coordinates: *q,
+        })
+    }
 }
 
 fn merit<const N: usize>(residual: &[f64; N], weight: &[f64; N]) -> f64 {

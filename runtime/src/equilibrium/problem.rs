@@ -3,7 +3,7 @@
 use crate::array::{Square, all_finite, all_finite_square};
 use crate::constraints::{Structure, fix_gauge};
 use crate::modes::symmetric::Trouble;
-use crate::{Description, Error, Linear, Mechanism};
+use crate::{Description, Error, Linear, Mechanism, Role};
 
 /// A mechanism at given inputs and design variables.
 pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
@@ -19,6 +19,8 @@ where
 {
     const DESCRIPTION: &'static Description = &M::DESCRIPTION;
     pub(crate) const STRUCTURE: Structure = Structure::of(&M::DESCRIPTION);
+    /// Number of coordinates and speeds: they come first, and reactions after them.
+    pub(crate) const MOTIONS: usize = N.saturating_sub(Self::STRUCTURE.constraints());
 
     /// Checks that the values are finite and describe bodies that can exist.
     pub(crate) fn new(
@@ -75,16 +77,19 @@ where
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
-        let (residual, mut stiffness) =
-            self.mechanism
-                .residual_and_stiffness(q, self.inputs, self.design);
-        if !all_finite(&residual) || !all_finite_square(&stiffness) {
-            return None;
-        }
+        let (residual, mut stiffness) = self.evaluate_plain(q)?;
         if const { !Self::STRUCTURE.open() } {
             fix_gauge(&mut stiffness, Self::STRUCTURE);
         }
         Some((residual, stiffness))
+    }
+
+    /// As [`Self::evaluate`], the gauge as it is.
+    pub(crate) fn evaluate_plain(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
+        let (residual, stiffness) =
+            self.mechanism
+                .residual_and_stiffness(q, self.inputs, self.design);
+        (all_finite(&residual) && all_finite_square(&stiffness)).then_some((residual, stiffness))
     }
 
     pub(crate) fn evaluate_start(&self, q: &[f64; N]) -> Result<([f64; N], Square<N>), Failure<N>> {
@@ -137,6 +142,15 @@ pub(crate) enum Failure<const N: usize> {
         iterations: usize,
         relative: f64,
     },
+    /// The constraints stay open by `gaps`, in the places of their rows; zero where they are met.
+    NotAssembled {
+        reason: &'static str,
+        coordinates: [f64; N],
+        gaps: [f64; N],
+        /// The row that stays open most, relative to what motions can close.
+        worst: usize,
+        iterations: usize,
+    },
     SingularMass(usize),
     Mode {
         mode: usize,
@@ -172,13 +186,48 @@ impl<const N: usize> Failure<N> {
                 coordinates: coordinates.to_vec(),
                 relative_residual: relative,
             },
+            Self::NotAssembled {
+                reason,
+                coordinates,
+                gaps,
+                worst,
+                iterations,
+            } => Error::NotAssembled {
+                reason,
+                constraint: name(description, worst),
+                gap: gaps[worst],
+                unit: gap_unit(description, worst),
+                others: (0..N)
+                    .filter(|&row| row != worst && gaps[row] != 0.0)
+                    .map(|row| (name(description, row), gaps[row]))
+                    .collect(),
+                coordinates: coordinates.to_vec(),
+                iterations,
+            },
             Self::SingularMass(row) => Error::SingularMass {
-                coordinate: description
-                    .coordinates
-                    .get(row)
-                    .map_or("?", |info| info.name),
+                coordinate: name(description, row),
             },
             Self::Mode { mode, residual } => Error::ModesNotFound { mode, residual },
         }
+    }
+}
+
+/// Name of an unknown.
+pub(crate) fn name(description: &Description, index: usize) -> &'static str {
+    let found = description.coordinates.get(index);
+    found.map_or("?", |info| info.name)
+}
+
+/// Unit of the gap of a constraint: what its reaction does work on.
+pub(crate) fn gap_unit(description: &Description, row: usize) -> &'static str {
+    let Some(info) = description.coordinates.get(row) else {
+        return "";
+    };
+    match (info.unit.symbol, info.role) {
+        ("N", Role::VelocityReaction) => "m/s",
+        ("N*m", Role::VelocityReaction) => "rad/s",
+        ("N", _) => "m",
+        ("N*m", _) => "rad",
+        _ => "",
     }
 }

@@ -2,6 +2,7 @@
 
 use super::problem::Failure;
 use crate::array::{Cholesky, Lu, Square, asymmetry};
+use crate::constraints::{Structure, Tangent, reduce};
 use crate::modes::{Family, SYMMETRIC, neutral_threshold, solve_modes, symmetric};
 use crate::{Behaviour, DampingKind, Description, Linear};
 
@@ -51,9 +52,45 @@ impl Stability {
 
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
 /// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
-/// number of negative directions beside free ones, by the general eigenvalues.
+/// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
+/// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
 pub(super) fn judge<const N: usize>(
     description: &'static Description,
+    linear: &Linear<f64, N>,
+) -> Result<Stability, Failure<N>> {
+    let structure = Structure::of(description);
+    if structure.open() {
+        return judge_free(description, linear, linear);
+    }
+    let tangent = Tangent::new(linear, structure);
+    if structure.holonomic() && tangent.freedom == 0 {
+        return Ok(Stability::Stable);
+    }
+    if !structure.holonomic() {
+        return Ok(by_eigenvalues(description, linear, 0, 0));
+    }
+    judge_free(description, linear, &reduce(linear, &tangent)).map_err(|failure| match failure {
+        Failure::SingularMass(direction) => Failure::SingularMass(foremost(&tangent, direction)),
+        other => other,
+    })
+}
+
+/// The coordinate that moves most along a free direction.
+fn foremost<const N: usize>(tangent: &Tangent<N>, direction: usize) -> usize {
+    let along = &tangent.basis[direction];
+    (0..N).fold(0, |most, j| {
+        if along[j].abs() > along[most].abs() {
+            j
+        } else {
+            most
+        }
+    })
+}
+
+/// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns.
+fn judge_free<const N: usize>(
+    description: &'static Description,
+    whole: &Linear<f64, N>,
     linear: &Linear<f64, N>,
 ) -> Result<Stability, Failure<N>> {
     if let Err(row) = Cholesky::new(&linear.mass) {
@@ -65,7 +102,7 @@ pub(super) fn judge<const N: usize>(
         return Ok(if negative {
             Stability::Divergent { negative: 1 }
         } else {
-            by_eigenvalues(description, linear, 0, 0)
+            by_eigenvalues(description, whole, 0, 0)
         });
     }
     let (mut negative, mut zero) = (0, 0);
@@ -84,7 +121,7 @@ pub(super) fn judge<const N: usize>(
         if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
             Stability::Divergent { negative }
         } else if negative > 0 || (damped && feeds_energy(linear)?) {
-            by_eigenvalues(description, linear, negative, zero)
+            by_eigenvalues(description, whole, negative, zero)
         } else if zero > 0 {
             Stability::Neutral { zero }
         } else {

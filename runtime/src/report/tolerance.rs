@@ -141,6 +141,7 @@ impl fmt::Display for Counts {
             (self.flutter, "in flutter"),
             (self.undecided, "of undecided stability"),
             (self.no_equilibrium, "without equilibrium"),
+            (self.not_assembled, "not assembled"),
             (self.unphysical, "unphysical"),
             (self.no_modes, "without modes"),
         ] {

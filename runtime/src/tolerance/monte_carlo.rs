@@ -57,6 +57,8 @@ pub enum Outcome {
     Undecided,
     /// No equilibrium was found.
     NoEquilibrium,
+    /// Its constraints cannot be met together: its lengths do not close the loops.
+    NotAssembled,
     /// Its design describes bodies that cannot exist, or lies outside the domain of an expression.
     Unphysical,
     /// Its eigenproblem could not be solved.
@@ -76,6 +78,8 @@ pub struct Counts {
     pub undecided: usize,
     /// [`Outcome::NoEquilibrium`].
     pub no_equilibrium: usize,
+    /// [`Outcome::NotAssembled`].
+    pub not_assembled: usize,
     /// [`Outcome::Unphysical`].
     pub unphysical: usize,
     /// [`Outcome::NoModes`].
@@ -90,6 +94,7 @@ impl Counts {
             + self.flutter
             + self.undecided
             + self.no_equilibrium
+            + self.not_assembled
             + self.unphysical
             + self.no_modes
     }
@@ -101,6 +106,7 @@ impl Counts {
             Outcome::Flutter => &mut self.flutter,
             Outcome::Undecided => &mut self.undecided,
             Outcome::NoEquilibrium => &mut self.no_equilibrium,
+            Outcome::NotAssembled => &mut self.not_assembled,
             Outcome::Unphysical => &mut self.unphysical,
             Outcome::NoModes => &mut self.no_modes,
         } += number;
@@ -112,6 +118,7 @@ impl Counts {
         self.flutter += other.flutter;
         self.undecided += other.undecided;
         self.no_equilibrium += other.no_equilibrium;
+        self.not_assembled += other.not_assembled;
         self.unphysical += other.unphysical;
         self.no_modes += other.no_modes;
     }
@@ -299,6 +306,7 @@ where
     let state = match settled {
         Ok(state) => state,
         Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),
+        Err(Failure::NotAssembled { .. }) => return (sample(Outcome::NotAssembled, None), false),
         Err(Failure::OutsideDomain { .. } | Failure::SingularMass(_)) => {
             return (sample(Outcome::Unphysical, None), false);
         }

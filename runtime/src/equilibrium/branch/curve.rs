@@ -1,12 +1,13 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
 use super::super::convergence::{ACCEPTED, relative_residual};
-use super::super::stability::judge;
+use super::super::stability::{Stability, judge};
 use super::super::{Failure, Problem};
 use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
 use crate::array::all_finite;
+use crate::constraints::ConstraintState;
 use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
 /// A mechanism of which one input varies.
@@ -161,11 +162,19 @@ where
                 relative,
             }));
         }
+        let constraints =
+            ConstraintState::new(self.mechanism, (&at.q, &inputs, self.design), &linear);
+        let stability = if constraints.singular {
+            Stability::Undecided
+        } else {
+            judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?
+        };
         Ok(Equilibrium {
             coordinates: at.q,
             inputs,
             design: *self.design,
-            stability: judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?,
+            stability,
+            constraints,
             linear,
             residual: system.residual,
             relative_residual: relative,

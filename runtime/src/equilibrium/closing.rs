@@ -1,0 +1,348 @@
+//! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion,
+//! damped (Levenberg, Marquardt) where constraints are about to lose their independence.
+
+use super::convergence::{TOLERANCE, largest_of, relative_gap};
+use super::problem::{Failure, Problem};
+use crate::Mechanism;
+use crate::array::{Square, add_scaled, dot};
+use crate::constraints::{Rows, Structure};
+
+const MAX_ITERATIONS: usize = 200;
+/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
+/// the way decides which assembly mode is found.
+const FIRST_RADIUS: f64 = 0.3;
+/// A gap that keeps this share in a step has stopped falling.
+const STALLED: f64 = 0.5;
+/// Share of the gaps that constraints must still be able to close, else there is a minimum.
+const CLOSABLE: f64 = 1e-9;
+/// How often, and by how much (rad or m), a state is kicked that is no way to close.
+const KICKS: usize = 4;
+const KICK: f64 = 0.02;
+/// Damping relative to the constraints.
+const LEAST_DAMPING: f64 = 1e-6;
+const MOST_DAMPING: f64 = 1e9;
+
+/// Constraints on positions at a state, numbered from zero.
+pub(super) struct Gaps<const N: usize> {
+    pub(super) gaps: [f64; N],
+    /// `Phi_q`.
+    pub(super) rows: Square<N>,
+    /// Greatest gap relative to what small motions open.
+    pub(super) relative: f64,
+    worst: usize,
+}
+
+/// The constraints on positions; `None` where they are not finite.
+pub(super) fn gaps<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+) -> Option<Gaps<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+    let (residual, stiffness) =
+        problem
+            .mechanism
+            .residual_and_stiffness(x, problem.inputs, problem.design);
+    let mut found = Gaps {
+        gaps: [0.0; N],
+        rows: [[0.0; N]; N],
+        relative: 0.0,
+        worst: 0,
+    };
+    for (k, row) in structure.position_rows().enumerate() {
+        found.gaps[k] = residual[row];
+        found.rows[k][..structure.coordinates]
+            .copy_from_slice(&stiffness[row][..structure.coordinates]);
+        let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
+        if !finite {
+            return None;
+        }
+        let motions = &x[..structure.coordinates];
+        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
+        if relative > found.relative {
+            (found.relative, found.worst) = (relative, k);
+        }
+    }
+    Some(found)
+}
+
+/// A row over the coordinates that are not held.
+pub(super) fn free<const N: usize>(row: &[f64; N], held: &[bool; N]) -> [f64; N] {
+    core::array::from_fn(|j| if held[j] { 0.0 } else { row[j] })
+}
+
+/// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
+/// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight, is left by a kick.
+pub(super) fn close<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    held: &[bool; N],
+) -> Result<([f64; N], usize), Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut failure = match close_from(problem, start, held) {
+        Err(failure @ Failure::NotAssembled { .. }) => failure,
+        other => return other,
+    };
+    for kick in 1..=KICKS {
+        let Failure::NotAssembled { coordinates, .. } = failure else {
+            break;
+        };
+        let coordinates = kicked(&coordinates, held, kick, Problem::<M, N, U, P, O>::STRUCTURE);
+        match close_from(problem, &coordinates, held) {
+            Ok(found) => return Ok(found),
+            Err(next) if open_by(&next) < open_by(&failure) => failure = next,
+            Err(_) => {}
+        }
+    }
+    Err(failure)
+}
+
+/// Some displacement without symmetry.
+fn kicked<const N: usize>(
+    x: &[f64; N],
+    held: &[bool; N],
+    kick: usize,
+    structure: Structure,
+) -> [f64; N] {
+    core::array::from_fn(|j| {
+        if held[j] || j >= structure.coordinates {
+            x[j]
+        } else {
+            x[j] + KICK * (1.0 + 1.7 * j as f64 + 2.3 * kick as f64).sin()
+        }
+    })
+}
+
+fn open_by<const N: usize>(failure: &Failure<N>) -> f64 {
+    match failure {
+        Failure::NotAssembled { gaps, .. } => largest_of(gaps),
+        _ => f64::INFINITY,
+    }
+}
+
+fn close_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    held: &[bool; N],
+) -> Result<([f64; N], usize), Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+    let mut x = *start;
+    let mut at = gaps(problem, &x).ok_or(Failure::OutsideDomain {
+        what: "the constraints",
+        coordinates: x,
+    })?;
+    let mut radius = FIRST_RADIUS;
+    let mut damping = LEAST_DAMPING;
+    let mut last = f64::INFINITY;
+    let mut dependent_at_start = 0;
+    for iterations in 0..MAX_ITERATIONS {
+        if at.relative <= TOLERANCE && at.relative >= STALLED * last {
+            return Ok((x, iterations));
+        }
+        last = at.relative;
+        let count = structure.position_constraints;
+        let rows = Rows::balanced(count, |k| free(&at.rows[k], held));
+        if iterations == 0 {
+            dependent_at_start = rows.dependent();
+        }
+        let aim = Aim::new(&at, &rows);
+        let next = if aim.minimal() {
+            None
+        } else {
+            plain(problem, &x, &aim, &mut radius)
+                .or_else(|| damped(problem, &x, &aim, (&mut radius, &mut damping)))
+        };
+        match next {
+            Some((coordinates, there)) => (x, at) = (coordinates, there),
+            None if at.relative <= TOLERANCE => return Ok((x, iterations)),
+            None => {
+                let reason = reason(&at, &rows, dependent_at_start, held);
+                return Err(not_assembled(structure, &x, &at, reason, iterations));
+            }
+        }
+    }
+    let reason = "the gaps do not close within the number of iterations";
+    Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
+}
+
+/// What a step aims at: the gaps over the sizes of their rows.
+struct Aim<'a, const N: usize> {
+    at: &'a Gaps<N>,
+    rows: &'a Rows<N>,
+    scaled: [f64; N],
+}
+
+impl<'a, const N: usize> Aim<'a, N> {
+    fn new(at: &'a Gaps<N>, rows: &'a Rows<N>) -> Self {
+        Self {
+            at,
+            rows,
+            scaled: scaled(&at.gaps, rows),
+        }
+    }
+
+    fn merit(&self) -> f64 {
+        dot(&self.scaled, &self.scaled)
+    }
+
+    /// Whether no motion makes the gaps smaller to first order: they lie across everything that rows can close.
+    fn minimal(&self) -> bool {
+        let slope = self.rows.descent(&self.scaled);
+        dot(&slope, &slope) <= CLOSABLE * CLOSABLE * self.merit()
+    }
+
+    /// Whether gaps elsewhere are better by this share.
+    fn improved(&self, there: &Gaps<N>, share: f64) -> bool {
+        let merit = scaled(&there.gaps, self.rows);
+        dot(&merit, &merit) <= (1.0 - share) * self.merit()
+    }
+}
+
+fn scaled<const N: usize>(gaps: &[f64; N], rows: &Rows<N>) -> [f64; N] {
+    core::array::from_fn(|k| gaps[k] / rows.size[k])
+}
+
+/// A Gauss-Newton step of least motion, halved a few times.
+fn plain<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    aim: &Aim<'_, N>,
+    radius: &mut f64,
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let step = aim.rows.shortest(&aim.at.gaps);
+    let size = largest_of(&step);
+    let limit = (*radius / size).min(1.0);
+    let mut length = limit;
+    for _ in 0..4 {
+        let trial = add_scaled(x, -length, &step);
+        if let Some(there) = gaps(problem, &trial)
+            && aim.improved(&there, 0.5 * length)
+        {
+            if length == limit && limit < 1.0 && aim.improved(&there, 1.5 * length) {
+                *radius *= 2.0;
+            }
+            return Some((trial, there));
+        }
+        length *= 0.5;
+    }
+    None
+}
+
+/// A step with as much damping as it takes.
+fn damped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    aim: &Aim<'_, N>,
+    (radius, damping): (&mut f64, &mut f64),
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    *damping = (*damping * 1e-2).max(LEAST_DAMPING);
+    while *damping <= MOST_DAMPING {
+        let mut step = aim.rows.damped(&aim.scaled, *damping)?;
+        let size = largest_of(&step);
+        if size > *radius {
+            step = step.map(|value| value * *radius / size);
+        }
+        let trial = add_scaled(x, -1.0, &step);
+        if let Some(there) = gaps(problem, &trial)
+            && aim.improved(&there, 1e-12)
+        {
+            return Some((trial, there));
+        }
+        *damping *= 4.0;
+    }
+    None
+}
+
+/// Why the gaps have a minimum.
+fn reason<const N: usize>(
+    at: &Gaps<N>,
+    rows: &Rows<N>,
+    dependent_at_start: usize,
+    held: &[bool; N],
+) -> &'static str {
+    let all = Rows::balanced(rows.count, |k| at.rows[k]);
+    let slope = all.descent(&scaled(&at.gaps, &all));
+    let gaps = scaled(&at.gaps, &all);
+    if held.contains(&true) && dot(&slope, &slope) > 1e-8 * dot(&gaps, &gaps) {
+        "the coordinates that are held do not let it close: hold fewer, or at other values"
+    } else if dependent_at_start > 0 {
+        "constraints that depend on each other contradict each other"
+    } else {
+        "the gaps have a minimum that is not zero: lengths that do not reach, or start values on the wrong side"
+    }
+}
+
+fn not_assembled<const N: usize>(
+    structure: Structure,
+    x: &[f64; N],
+    at: &Gaps<N>,
+    reason: &'static str,
+    iterations: usize,
+) -> Failure<N> {
+    let first = structure.position_rows().start;
+    let motions = &x[..structure.coordinates];
+    let mut left = [0.0; N];
+    for k in 0..structure.position_constraints {
+        if relative_gap(at.gaps[k], motions, &at.rows[k]) > TOLERANCE {
+            left[first + k] = at.gaps[k];
+        }
+    }
+    Failure::NotAssembled {
+        reason,
+        coordinates: *x,
+        gaps: left,
+        worst: first + at.worst,
+        iterations,
+    }
+}
+
+/// Speeds that meet the constraints on velocities as far as speeds can, those held fixed: the least change.
+pub(super) fn close_speeds<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    held: &[bool; N],
+) -> Option<[f64; N]>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+    let places = structure.velocity_rows();
+    let mut x = *start;
+    // The constraints are linear in the speeds: the second round removes rounding.
+    for _ in 0..2 {
+        let (residual, stiffness) = problem.evaluate_plain(&x)?;
+        let row = |k: usize| -> [f64; N] {
+            let row = free(&stiffness[places.start + k], held);
+            core::array::from_fn(|j| {
+                if structure.speed_range().contains(&j) {
+                    row[j]
+                } else {
+                    0.0
+                }
+            })
+        };
+        let rows = Rows::balanced(structure.velocity_constraints, row);
+        let rates = core::array::from_fn(|k| {
+            if k < structure.velocity_constraints {
+                residual[places.start + k]
+            } else {
+                0.0
+            }
+        });
+        x = add_scaled(&x, -1.0, &rows.shortest(&rates));
+    }
+    Some(x)
+}
