@@ -35,9 +35,8 @@ where
         }
         let names = (M::DESCRIPTION.inputs, M::DESCRIPTION.design);
         let inputs = broken(&n, &by_input).map(|(i, j)| (i, names.0.get(j).map(|info| info.name)));
-        let design = || {
-            broken(&n, &by_design).map(|(i, j)| (i, names.1.get(j).map(|info| info.name)))
-        };
+        let design =
+            || broken(&n, &by_design).map(|(i, j)| (i, names.1.get(j).map(|info| info.name)));
         if let Some((constraint, variable)) = inputs.or_else(design) {
             let name = M::DESCRIPTION.coordinates.get(constraint);
             return Err(Error::ClosesHereOnly {

@@ -27,10 +27,18 @@ pub use slider_crank::SliderCrank;
 pub fn visit(visitor: &mut impl Visitor) {
     visitor.visit("five_bar", five_bar::DECLARATION, FiveBar);
     visitor.visit("four_bar", four_bar::DECLARATION, FourBar);
-    visitor.visit("geared_coasting", geared_coasting::DECLARATION, GearedCoasting);
+    visitor.visit(
+        "geared_coasting",
+        geared_coasting::DECLARATION,
+        GearedCoasting,
+    );
     visitor.visit("geared_motor", geared_motor::DECLARATION, GearedMotor);
     visitor.visit("geared_rotors", geared_rotors::DECLARATION, GearedRotors);
     visitor.visit("governor", governor::DECLARATION, Governor);
-    visitor.visit("porter_governor", porter_governor::DECLARATION, PorterGovernor);
+    visitor.visit(
+        "porter_governor",
+        porter_governor::DECLARATION,
+        PorterGovernor,
+    );
     visitor.visit("slider_crank", slider_crank::DECLARATION, SliderCrank);
 }

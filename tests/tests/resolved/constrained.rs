@@ -47,11 +47,7 @@ fn operation(name: &str) -> Option<Operation> {
         ),
         "four_bar" => (
             &[9.0],
-            &[
-                ("crank_angle", 1.6),
-                ("elbow", -1.4),
-                ("rocker_angle", 1.8),
-            ],
+            &[("crank_angle", 1.6), ("elbow", -1.4), ("rocker_angle", 1.8)],
         ),
         "geared_rotors" | "geared_coasting" => (&[120.0], &[("run", -72.0)]),
         "geared_motor" => (&[2.0], &[("run_in", 90.0), ("run_out", -54.0)]),
@@ -83,7 +79,9 @@ impl Visitor for Every {
         u[..inputs.len()].copy_from_slice(inputs);
         let start: [f64; N] = std::array::from_fn(|i| {
             let own = M::DESCRIPTION.coordinates[i].name;
-            near.iter().find(|(name, _)| *name == own).map_or(0.0, |(_, x)| *x)
+            near.iter()
+                .find(|(name, _)| *name == own)
+                .map_or(0.0, |(_, x)| *x)
         });
         let at = equilibrium(&machine, &u, &b, &start, Policy::Nearest)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
