@@ -101,6 +101,17 @@ pub enum Error {
          critical state `critical_sensitivity` has the answer; a direction without stiffness needs a spring or a drive"
     )]
     CriticalState,
+    /// A redundant constraint agrees with the others at these values of the variables only.
+    #[error(
+        "constraint `{constraint}` agrees with the others at these values only: the mechanism cannot be assembled with \
+         another `{variable}`, so there are no derivatives. Free a direction that the constraints hold twice"
+    )]
+    ClosesHereOnly {
+        /// The constraint.
+        constraint: &'static str,
+        /// The input or design variable that breaks it.
+        variable: &'static str,
+    },
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
     #[error(
         "the stiffness matrix is not symmetric (relative difference {asymmetry:.3e}): ask for general modes"
@@ -206,6 +217,8 @@ fn names(names: &[&'static str]) -> String {
 }
 
 fn listed(others: &[(&'static str, f64)]) -> String {
-    let each = others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
+    let each = others
+        .iter()
+        .map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
     each.collect()
 }

@@ -2,6 +2,8 @@
 
 #[path = "declarations/common.rs"]
 mod common;
+#[path = "declarations/constraints.rs"]
+mod constraints;
 #[path = "declarations/language.rs"]
 mod language;
 #[path = "declarations/reference.rs"]

@@ -7,6 +7,8 @@ mod chains;
 mod common;
 #[path = "resolved/conditions.rs"]
 mod conditions;
+#[path = "resolved/constrained.rs"]
+mod constrained;
 #[path = "resolved/corpus.rs"]
 mod corpus;
 #[path = "resolved/differences.rs"]

@@ -157,10 +157,9 @@ pub(crate) fn match_with_assurance<const N: usize>(
     // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let own: PerMode<f64, N> =
-            PerMode::from_fn(here, |i| {
-                real_assurance(&from.modes[i], &to.modes[i], &linear.mass)
-            });
+        let own: PerMode<f64, N> = PerMode::from_fn(here, |i| {
+            real_assurance(&from.modes[i], &to.modes[i], &linear.mass)
+        });
         if own.iter().all(|&same| same > CERTAIN) {
             return PerMode::from_fn(here, |i| Some((i, own[i])));
         }

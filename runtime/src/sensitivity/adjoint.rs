@@ -3,7 +3,7 @@
 //! `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both `Khat^T w = da/dq`.
 
 use super::pencil::{Form, form_gradient, pencil_slope_times, residual_gradient};
-use super::{Method, Sensitivities, Slopes, assemble};
+use super::{Method, Sensitivities, Slopes, assemble, redundancy};
 use crate::array::{Lu, dot_complex, transpose};
 use crate::modes::Family;
 use crate::{Complex, Equilibrium, Error, Mechanism, Mode, Modes};
@@ -11,7 +11,8 @@ use crate::{Complex, Equilibrium, Error, Mechanism, Mode, Modes};
 /// Total derivatives of every mode by every input and design variable.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
+/// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
 pub fn sensitivities<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
@@ -20,6 +21,7 @@ pub fn sensitivities<M, const N: usize, const U: usize, const P: usize, const O:
 where
     M: Mechanism<N, U, P, O>,
 {
+    redundancy::check(mechanism, at)?;
     let factors = Lu::new(&transpose(&at.linear.stiffness)).ok_or(Error::CriticalState)?;
     assemble(at, modes, Method::Adjoint, |mode| match modes.family {
         Family::Undamped => undamped(mechanism, at, &factors, mode),

@@ -9,6 +9,7 @@ mod finite_difference;
 mod outputs;
 mod pencil;
 mod quantity;
+mod redundancy;
 mod second;
 mod shapes;
 mod shift;

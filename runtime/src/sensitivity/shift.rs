@@ -1,6 +1,7 @@
 //! How the equilibrium itself moves: `Khat dq* = -dg` for every input and design variable with one factorisation.
 
 use super::pencil::Direction;
+use super::redundancy;
 use crate::array::{Lu, transpose};
 use crate::{Description, Equilibrium, Error, Mechanism};
 
@@ -18,7 +19,8 @@ pub struct EquilibriumShift<const N: usize, const U: usize, const P: usize> {
 /// The shift of an equilibrium by every input and design variable.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
+/// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
 pub fn equilibrium_shift<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
@@ -26,6 +28,7 @@ pub fn equilibrium_shift<M, const N: usize, const U: usize, const P: usize, cons
 where
     M: Mechanism<N, U, P, O>,
 {
+    redundancy::check(mechanism, at)?;
     let factors = Lu::new(&at.linear.stiffness).ok_or(Error::CriticalState)?;
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);

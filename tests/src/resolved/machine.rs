@@ -54,7 +54,7 @@ impl Machine {
         let compilation = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let design = compilation.mechanism.design.iter();
         Self {
-            coordinates: compilation.topology.free.len(),
+            coordinates: compilation.functions.unknowns.len(),
             inputs: compilation.mechanism.inputs.len(),
             nominal: design.map(|variable| variable.nominal).collect(),
             program: compilation.program,

@@ -140,9 +140,93 @@ pub(crate) const OPEN_MECHANISM: &str = "
         output gap = distance(grip, anchor) - slide;
     }";
 
+/// Every constraint, cut and coasting joints, and what refers to them. It is no machine that could be built.
+pub(crate) const CLOSED_MECHANISM: &str = "
+    pub mechanism ClosedMechanism {
+        input omega: rad/s;
+        design l = 20 cm +/- 1 mm;
+        design r = 30 cm;
+        design z1 = 20; design z2 = 35;
+        design pitch_radius = 3 cm;
+        gravity 9.81 m/s^2 along -z;
+
+        body crank: rod(mass: 1 kg, length: l, along: x);
+        body coupler: rod(mass: 1 kg, length: l, along: x);
+        body slider: point(mass: 1 kg);
+        body carrier: point(mass: 1 kg);
+        body shaft: massless;
+        body rotor: disk(mass: 1 kg, radius: r, axis: y);
+        body base: box(mass: 10 kg, size: [1, 1, 1] m);
+        body wheel: disk(mass: 1 kg, radius: r, axis: y);
+        body idler: disk(mass: 1 kg, radius: r, axis: y);
+        body lock: sphere(mass: 1 kg, radius: l);
+
+        joint turn1: revolute(y) from ground to crank;
+        joint turn2: revolute(y) from crank to coupler at [l, 0, 0];
+        joint lower: revolute(y) from coupler to ground at [l, 0, 0], at [0, 0, 10 cm] on ground, cut;
+        joint slide: prismatic(x) from ground to slider;
+        joint ball: spherical(b1: z, b2: y, b3: x) from slider to coupler cut;
+        joint lift: prismatic(z) from slider to carrier;
+        joint spin: revolute(y) from ground to shaft, driven at omega;
+        joint flex: revolute(y) from shaft to rotor;
+        joint travel: planar(forward: x, side: y, yaw: z) from ground to base, coasting;
+        joint axle: cylindrical(play: y, roll_on: y) from base to wheel, play driven at 0, roll_on coasting;
+        joint idle: revolute(y) from base to idler coasting;
+        joint plate: planar(p1: x, p2: y, p3: z) from base to carrier, cut, at [0, 0, l];
+        joint held: revolute(x) from base to lock, driven at 0;
+
+        point elbow: crank at [l, 0, 0];
+        point knee: coupler;
+        point anchor: ground at [1 m, 0, 0];
+        point hub: wheel;
+        point road: ground;
+
+        constraint pin: coincident(from: elbow, to: knee);
+        constraint guide: coincident(from: knee, to: elbow, along: [x, z]);
+        constraint floor: coincident(from: elbow, to: knee, along: z);
+        constraint square: aligned(from: elbow, to: knee);
+        constraint parallel: aligned(from: elbow, to: knee, axis: [3, 0, 4]);
+        constraint opposite: aligned(from: elbow, to: knee, axis: -y);
+        constraint rod: distance(from: elbow, to: anchor, length: 2 * l);
+        constraint mesh: coupling(of: turn1, with: turn2, ratio: -z2 / z1, offset: 5 deg);
+        constraint rack: coupling(of: slide, with: turn1, ratio: pitch_radius);
+        constraint pinion: coupling(of: turn1, with: slide, ratio: 50 rad/m);
+        constraint tandem: coupling(of: slide, with: lift, ratio: 1, offset: -2 cm);
+        constraint belt: coupling(of: spin, with: idle, ratio: 2);
+        constraint slot: equation(zero: position(elbow).z - l * cos(turn2) + omega * 0 s * 1 m);
+        constraint area: equation(zero: slide * lift - l^2);
+        constraint pure: equation(zero: sin(turn1) + slide / l);
+        constraint sum: equation(zero: turn1 + turn2 + held - 10 deg);
+        constraint contact: rolling(wheel: hub, axis: y, radius: r, on: road);
+        constraint bounce: rolling(wheel: hub, radius: r, on: road, normal: [0, 3, 4]);
+
+        force brake: damper(on: idle, damping: 0.1 N*m*s/rad);
+        force motor: generalized(on: roll_on, value: 1 N*m - 0.1 N*m*s * rate(yaw));
+        force twist: spring(on: flex, stiffness: 10 N*m/rad);
+
+        output pull = norm(reaction_force(pin));
+        output o1 = reaction_force(guide).z;
+        output o2 = reaction_moment(square).y;
+        output o3 = reaction(rod);
+        output o4 = reaction(mesh);
+        output o5 = reaction(rack);
+        output o6 = reaction(area);
+        output o7 = reaction_force(contact).y;
+        output o8 = reaction(pure);
+        output o9 = reaction_moment(lower).x;
+        output speed = rate(forward);
+        output yawing = rate(yaw);
+        output wheel_speed = rate(idle);
+    }";
+
 /// All of them, for tests that only compare.
-pub(crate) const DECLARATIONS: [&str; 4] =
-    [DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, WITHOUT_BODIES];
+pub(crate) const DECLARATIONS: [&str; 5] = [
+    DOUBLE_PENDULUM,
+    EVERYTHING,
+    OPEN_MECHANISM,
+    CLOSED_MECHANISM,
+    WITHOUT_BODIES,
+];
 
 pub(crate) fn read(source: &str) -> Ast {
     let tokens = source.parse().expect("the source consists of Rust tokens");

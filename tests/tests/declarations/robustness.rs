@@ -9,9 +9,16 @@ use proc_macro2::{TokenStream, TokenTree};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::common::{DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, read, resolved};
+use super::common::{
+    CLOSED_MECHANISM, DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, read, resolved,
+};
 
-const FUZZED: [&str; 3] = [DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM];
+const FUZZED: [&str; 4] = [
+    DOUBLE_PENDULUM,
+    EVERYTHING,
+    OPEN_MECHANISM,
+    CLOSED_MECHANISM,
+];
 
 /// Runs the front half; counts what got how far.
 fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
@@ -94,7 +101,7 @@ fn mutated_declarations_are_refused_or_compiled_but_never_panic() {
         flat(source.parse().unwrap(), &mut pool);
     }
     let mut stages = [0; 3];
-    for round in 0..1500 {
+    for round in 0..2000 {
         let source = FUZZED[round % FUZZED.len()];
         let tokens = mutate(source.parse().unwrap(), &mut random, &pool);
         survive(tokens, &mut stages);

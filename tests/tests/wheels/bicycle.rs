@@ -74,7 +74,10 @@ fn published_eigenvalues() {
         for s in row.iter().map(complex) {
             let off = |mode: &eigentol::Mode<14>| (mode.s - s).norm();
             let best = found.modes.iter().map(off).fold(f64::INFINITY, f64::min);
-            assert!(best <= 2e-12 * (1.0 + s.norm()), "{speed} m/s: {s} is missing by {best:e}");
+            assert!(
+                best <= 2e-12 * (1.0 + s.norm()),
+                "{speed} m/s: {s} is missing by {best:e}"
+            );
         }
     }
 }
@@ -95,9 +98,13 @@ fn the_double_root() {
     let study = bicycle().input(WhippleBicycle::v, speed);
     let found = study.modes().expect("modes");
     let near = found.modes.iter().enumerate();
-    let near: Vec<_> = near.filter(|(_, mode)| (mode.s - s).norm() < 1e-6).collect();
+    let near: Vec<_> = near
+        .filter(|(_, mode)| (mode.s - s).norm() < 1e-6)
+        .collect();
     assert!(!near.is_empty(), "{found:?}");
-    let slopes = study.sensitivities().expect("derivatives, where there are any");
+    let slopes = study
+        .sensitivities()
+        .expect("derivatives, where there are any");
     assert!(near.iter().all(|(k, _)| slopes.modes[*k].clustered));
 }
 
@@ -132,8 +139,13 @@ fn curvature_of_the_weave() {
     assert_eq!(order, design_names::<WhippleBicycle, 14, 1, 26, 2>());
     let study = bicycle().input(WhippleBicycle::v, hessian.get("speed").number());
     let modes = study.modes().expect("modes");
-    let weave = modes.modes.iter().position(|mode| (mode.s - s).norm() < 1e-6);
-    let found = study.mode_curvature(weave.expect("the weave")).expect("curvature");
+    let weave = modes
+        .modes
+        .iter()
+        .position(|mode| (mode.s - s).norm() < 1e-6);
+    let found = study
+        .mode_curvature(weave.expect("the weave"))
+        .expect("curvature");
     let found = found.eigenvalue.expect("it oscillates").by_design;
     let rows = |part: &str| -> Vec<Vec<f64>> {
         let rows = hessian.get(part).list();

@@ -113,7 +113,9 @@ pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, con
     M: Mechanism<N, U, P, O>,
 {
     let what = format!("{} at {:?}", M::DESCRIPTION.name, study.input_values());
-    let found = study.modes().unwrap_or_else(|error| panic!("{what}: {error}"));
+    let found = study
+        .modes()
+        .unwrap_or_else(|error| panic!("{what}: {error}"));
     let slopes = study
         .sensitivities()
         .unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -132,11 +134,23 @@ pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, con
             "{what}: {}, not {s}",
             found.modes[nearest].s
         );
-        let own = slopes.modes[nearest].s.expect("an eigenvalue with derivatives");
+        let own = slopes.modes[nearest]
+            .s
+            .expect("an eigenvalue with derivatives");
         let what = format!("{what}, {s}");
         for (found, names, values, field) in [
-            (&own.by_input[..], &inputs, &study.input_values()[..], "by_input"),
-            (&own.by_design[..], &names, &study.design_values()[..], "by_design"),
+            (
+                &own.by_input[..],
+                &inputs,
+                &study.input_values()[..],
+                "by_input",
+            ),
+            (
+                &own.by_design[..],
+                &names,
+                &study.design_values()[..],
+                "by_design",
+            ),
         ] {
             let by = mode.get(field);
             let by: Vec<Complex> = names.iter().map(|name| complex(&by.get(name))).collect();

@@ -41,7 +41,12 @@ fn weave_speed() {
     let published = truth("bicycle").get("published").get("weave").number();
     close(found[0].value, published, 0.0, "weave speed");
     let frequency = found[0].modes.modes[found[0].mode].s.im;
-    close(frequency, weave.get("frequency").number(), 0.0, "weave frequency");
+    close(
+        frequency,
+        weave.get("frequency").number(),
+        0.0,
+        "weave frequency",
+    );
     let spreads = study
         .flutter_onset_tolerances(WhippleBicycle::v, 1.0, 10.0)
         .expect("spreads");
@@ -70,15 +75,26 @@ fn stability_of_the_bicycle() {
     let at = |speed: f64| {
         let study = study.clone().input(WhippleBicycle::v, speed);
         let state = study.equilibrium().expect("rolling straight ahead");
-        assert_eq!(study.modes().expect("modes").stable(), state.stability.holds());
+        assert_eq!(
+            study.modes().expect("modes").stable(),
+            state.stability.holds()
+        );
         state.stability
     };
     assert_eq!(at(3.0), Stability::Flutter { growing: 1 });
     assert!(at(4.29).holds() == false && at(4.295).holds());
     assert!(at(5.0).holds());
     assert!(at(6.02).holds());
-    assert!(matches!(at(6.03), Stability::Divergent { .. }), "{:?}", at(6.03));
-    assert!(matches!(at(0.0), Stability::Divergent { .. }), "{:?}", at(0.0));
+    assert!(
+        matches!(at(6.03), Stability::Divergent { .. }),
+        "{:?}",
+        at(6.03)
+    );
+    assert!(
+        matches!(at(0.0), Stability::Divergent { .. }),
+        "{:?}",
+        at(0.0)
+    );
 }
 
 /// The caster shimmies between two speeds.
@@ -94,9 +110,21 @@ fn shimmy_speeds() {
         check_event(&study, found, expected);
     }
     for (speed, grows) in [(1.0, false), (4.0, true), (9.0, false)] {
-        let modes = study.clone().input(TowedCaster::v, speed).modes().expect("modes");
-        let shimmy = modes.modes.iter().find(|mode| mode.s.im > 1.0).expect("shimmy");
-        assert_eq!(matches!(shimmy.behaviour, Behaviour::Flutter(_)), grows, "{speed}");
+        let modes = study
+            .clone()
+            .input(TowedCaster::v, speed)
+            .modes()
+            .expect("modes");
+        let shimmy = modes
+            .modes
+            .iter()
+            .find(|mode| mode.s.im > 1.0)
+            .expect("shimmy");
+        assert_eq!(
+            matches!(shimmy.behaviour, Behaviour::Flutter(_)),
+            grows,
+            "{speed}"
+        );
     }
 }
 
@@ -106,7 +134,10 @@ fn the_trailer_jackknifes() {
     let study = Study::<CirclingTrailer, 7, 2, 9, 1>::new(CirclingTrailer)
         .input(CirclingTrailer::speed, 0.8);
     let small = study.clone().input(CirclingTrailer::radius, 2.9);
-    assert!(matches!(small.equilibrium(), Err(Error::NoEquilibrium { .. })));
+    assert!(matches!(
+        small.equilibrium(),
+        Err(Error::NoEquilibrium { .. })
+    ));
     let start = study
         .input(CirclingTrailer::radius, 4.0)
         .start(CirclingTrailer::swing, -0.8);

@@ -1,6 +1,6 @@
 //! What rolls freely has a whole family of steady motions: an answer or a typed error, never a number that is none.
 
-use eigentol::{Study};
+use eigentol::Study;
 use eigentol_tests::wheels::{PushedCart, RollingDisk};
 
 /// Without drag nothing decides how fast the disk turns about the vertical.
@@ -37,7 +37,13 @@ fn a_cart_without_drag() {
     let study = Study::<PushedCart, 4, 1, 9, 1>::new(PushedCart)
         .design(PushedCart::drag, 0.0)
         .design(PushedCart::air, 0.0);
-    assert!(study.clone().input(PushedCart::push, 1.0).equilibrium().is_err());
+    assert!(
+        study
+            .clone()
+            .input(PushedCart::push, 1.0)
+            .equilibrium()
+            .is_err()
+    );
     if let Ok(state) = study.equilibrium() {
         assert!(state.coordinates.iter().all(|value| value.is_finite()));
     }

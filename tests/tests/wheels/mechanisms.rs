@@ -3,9 +3,7 @@
 use eigentol::{Mechanism, Study};
 use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk, TowedCaster};
 
-use super::common::{
-    at, check_design, check_modes, close, close_real_slopes, design_names, truth,
-};
+use super::common::{at, check_design, check_modes, close, close_real_slopes, design_names, truth};
 
 /// Where a quantity of the reference is found: an unknown or an output, by name.
 enum Place {

@@ -51,7 +51,12 @@ fn solve_negative(a: &Matrix, b: &Matrix) -> Matrix {
     let mut rows: Matrix = a
         .iter()
         .zip(b)
-        .map(|(left, right)| left.iter().copied().chain(right.iter().map(|x| -x)).collect())
+        .map(|(left, right)| {
+            left.iter()
+                .copied()
+                .chain(right.iter().map(|x| -x))
+                .collect()
+        })
         .collect();
     for k in 0..n {
         let pivot = (k..n)
@@ -89,7 +94,11 @@ pub(crate) fn onto<const N: usize>(
         &part(stiffness, &on_positions, &rest),
         &part(stiffness, &on_positions, kept),
     );
-    let one = |i: usize| (0..kept.len()).map(|j| f64::from(u8::from(i == j))).collect();
+    let one = |i: usize| {
+        (0..kept.len())
+            .map(|j| f64::from(u8::from(i == j)))
+            .collect()
+    };
     let mut displacements: Matrix = vec![Vec::new(); q.len()];
     for (row, place) in displacements.iter_mut().zip(&q) {
         let among = |list: &[usize]| list.iter().position(|other| other == place);
@@ -114,10 +123,7 @@ pub(crate) fn onto<const N: usize>(
             .map(|(a, b)| [a, b].concat())
             .collect()
     };
-    let inertia = beside(
-        part(&linear.mass, &moving, &q),
-        part(damping, &moving, &v),
-    );
+    let inertia = beside(part(&linear.mass, &moving, &q), part(damping, &moving, &v));
     let resistance = beside(part(damping, &moving, &q), part(stiffness, &moving, &v));
     let restoring = product(&part(stiffness, &moving, &q), &displacements);
     let left = transpose(&virtual_velocities);

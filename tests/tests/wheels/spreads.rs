@@ -15,14 +15,24 @@ fn samples_spread_as_the_derivatives_say() {
     let point = truth("bicycle").get("spectra").list().remove(5);
     let s = complex(&hessian.get("s"));
     let mode = point.get("modes").list();
-    let mode = mode.iter().find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
+    let mode = mode
+        .iter()
+        .find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
     let by_design = mode.expect("the weave").get("by_design");
     let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle)
         .input(WhippleBicycle::v, 5.0)
         .samples(SAMPLES)
         .seed(11);
-    let order: Vec<String> = hessian.get("order").list().iter().map(Truth::text).collect();
-    let sigma = study.tolerances().expect("tolerances").standard_deviations();
+    let order: Vec<String> = hessian
+        .get("order")
+        .list()
+        .iter()
+        .map(Truth::text)
+        .collect();
+    let sigma = study
+        .tolerances()
+        .expect("tolerances")
+        .standard_deviations();
     let [real, imaginary] = ["real", "imag"].map(|part| hessian.get(part).matrix());
     let scaled = |i: usize, j: usize| {
         Complex::new(real[26 * i + j], imaginary[26 * i + j]) * sigma[i] * sigma[j]
@@ -34,13 +44,18 @@ fn samples_spread_as_the_derivatives_say() {
     assert_eq!(drawn.counts.total(), SAMPLES);
     assert_eq!(drawn.counts.unphysical, 0);
     let modes = study.modes().expect("modes");
-    let weave = modes.modes.iter().position(|mode| (mode.s - s).norm() < 1e-6);
+    let weave = modes
+        .modes
+        .iter()
+        .position(|mode| (mode.s - s).norm() < 1e-6);
     let weave = weave.expect("the weave");
     let omega = drawn.modes[weave].expect("it oscillates");
     let deviation = omega.standard_deviation.expect("many samples");
     let mean: f64 = (0..26).map(|i| 0.5 * scaled(i, i).im).sum();
     let linear: f64 = first.iter().map(|slope| slope.im.powi(2)).sum();
-    let curved: f64 = (0..26 * 26).map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2)).sum();
+    let curved: f64 = (0..26 * 26)
+        .map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2))
+        .sum();
     let spread = (linear + curved).sqrt();
     let error = spread / (SAMPLES as f64).sqrt();
     assert!(

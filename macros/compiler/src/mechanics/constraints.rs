@@ -6,9 +6,9 @@
 use crate::algebra::{Graph, Vector3, gradient, substitute};
 use proc_macro2::Ident;
 
-use crate::base::ids::{ConstraintId, CoordinateId, ExprId, JointId};
+use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Motion, Unit};
+use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Unit};
 
 use super::closure::{Demand, Pair, aligned, coincident, distance, joint_demands};
 use super::derive::Problem;
@@ -114,7 +114,7 @@ impl<'a> Problem<'a> {
 fn reaction_unit(unit: &str) -> String {
     match unit {
         "m" => "N".to_owned(),
-        "" | "rad" => "N*m".to_owned(),
+        "" | "1" | "rad" => "N*m".to_owned(),
         other => format!("J/({other})"),
     }
 }
@@ -157,11 +157,10 @@ fn geometric(g: &mut Graph, setting: &Setting, source: Source) -> Option<Pair> {
 
 /// Whether an expression holds a coordinate that runs in steady motion.
 fn has_running(problem: &Problem, value: &Expr) -> bool {
-    let runs = |id: CoordinateId| problem.mechanism.coordinates[id.index()].motion != Motion::Free;
-    let leaves = value.leaves();
-    leaves
-        .into_iter()
-        .any(|leaf| matches!(leaf, Expr::Coordinate(id) if runs(*id)))
+    value.leaves().into_iter().any(|leaf| match leaf {
+        Expr::Coordinate(id) => problem.mechanism.coordinates[id.index()].motion.runs(),
+        _ => false,
+    })
 }
 
 /// Evaluates the equations, by row, and adds what holds them to `forces`.
@@ -257,7 +256,8 @@ fn equation(
         .map(|id| kinematics.coordinates[id.index()].position)
         .collect();
     let stopped: Vec<_> = symbols.running.with(&positions).collect();
-    let slopes = substitute(g, &slopes, &stopped);
+    let stood = substitute(g, &[vec![value], slopes].concat(), &stopped);
+    let (value, slopes) = (stood[0], &stood[1..]);
     let mut rate = g.zero();
     for (&slope, id) in slopes.iter().zip(&coordinates) {
         let load = g.mul(multiplier, slope);

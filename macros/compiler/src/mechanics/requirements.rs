@@ -1,10 +1,10 @@
-//! What every body must satisfy at run time, whatever the design values: positive masses and lengths, and inertias that
-//! a body can have.
+//! What bodies and constraints must satisfy at run time, whatever the design values: positive masses and lengths, and inertias
+//! that a body can have.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Body, Mechanism, Shape};
+use crate::model::mechanism::{Body, ConstraintLaw, Mechanism, Shape};
 
 use super::functions::Requirement;
 use super::inertia::MassDistribution;
@@ -62,6 +62,18 @@ pub(super) fn requirements(
                 });
             }
         }
+    }
+    for constraint in &mechanism.constraints {
+        let (quantity, value) = match &constraint.law {
+            ConstraintLaw::Distance { length, .. } => ("length", length),
+            ConstraintLaw::Rolling { radius, .. } => ("radius", radius),
+            _ => continue,
+        };
+        list.push(Requirement {
+            quantity: format!("{quantity} of {}", constraint.name),
+            requirement: "positive",
+            value: values.scalar(g, value),
+        });
     }
     list.retain(|requirement| g.constant_value(requirement.value).is_none());
     list

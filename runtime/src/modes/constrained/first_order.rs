@@ -96,11 +96,9 @@ impl<'a, const N: usize> System<'a, N> {
                 core::array::from_fn(|i| if i == speeds.start + a - f { 1.0 } else { 0.0 })
             }
         };
-        let product = |matrix: &Square<N>, a: usize| {
-            by_velocity(&crate::array::times(matrix, &direction(a)))
-        };
-        let (mut mass, mut damping, mut stiffness) =
-            ([[0.0; N]; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let product =
+            |matrix: &Square<N>, a: usize| by_velocity(&crate::array::times(matrix, &direction(a)));
+        let (mut mass, mut damping, mut stiffness) = ([[0.0; N]; N], [[0.0; N]; N], [[0.0; N]; N]);
         for a in 0..velocities {
             let (m, c) = if a < f {
                 let column = product(&linear.stiffness, a);
@@ -117,7 +115,10 @@ impl<'a, const N: usize> System<'a, N> {
         }
         let rows = structure.velocity_rows();
         let row = |k: usize| -> [f64; N] {
-            let (c, b) = (&linear.damping[rows.start + k], &linear.stiffness[rows.start + k]);
+            let (c, b) = (
+                &linear.damping[rows.start + k],
+                &linear.stiffness[rows.start + k],
+            );
             core::array::from_fn(|a| {
                 if a < f {
                     dot(c, &tangent.basis[a])

@@ -249,7 +249,5 @@ impl<'a, const N: usize> Gathered<'a, N> {
 /// Whether an eigenvalue occurs more than once in a list.
 fn is_shared(numbers: &[Numbers], i: usize) -> bool {
     let others = numbers.iter().enumerate().filter(|(j, _)| *j != i);
-    others
-        .map(|(_, other)| other.s)
-        .any(|s| s == numbers[i].s)
+    others.map(|(_, other)| other.s).any(|s| s == numbers[i].s)
 }

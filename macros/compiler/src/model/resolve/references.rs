@@ -143,6 +143,16 @@ impl Resolver<'_> {
             return;
         }
         let text = name.to_string();
+        if text == "ground" {
+            let help =
+                (kind == "point").then(|| "declare a point of it: `point p: ground;`".into());
+            self.report(
+                name,
+                format!("`ground` is a frame; a {kind} is expected here"),
+                help,
+            );
+            return;
+        }
         let near = self.scope.nearest(&text, right).map(str::to_string);
         let near = near.or_else(|| {
             (kind == "body")

@@ -9,7 +9,9 @@ use crate::base::span::Extent;
 use crate::base::units;
 
 /// Words of the grammar that may follow a value and are therefore no units.
-const FOLLOWING: [&str; 7] = ["along", "at", "on", "rotated", "driven", "from", "to"];
+const FOLLOWING: [&str; 9] = [
+    "along", "at", "on", "rotated", "driven", "coasting", "cut", "from", "to",
+];
 
 /// A factor whose name may be misspelt, or only one that is known.
 #[derive(Clone, Copy, PartialEq)]

@@ -96,7 +96,7 @@ impl Resolver<'_> {
             );
             return None;
         }
-        let (running, at_rest) = match (self.runs(of), self.runs(with)) {
+        let (running, at_rest) = match (self.runs(of)?, self.runs(with)?) {
             (true, false) => (first, second),
             (false, true) => (second, first),
             _ => return Some(()),
@@ -135,7 +135,7 @@ impl Resolver<'_> {
         let leaves = zero.leaves();
         let has_points = leaves.iter().any(|leaf| matches!(leaf, Expr::Position(..)));
         let mut running = leaves.into_iter().filter_map(|leaf| match leaf {
-            Expr::Coordinate(id) if self.runs(*id) => Some(*id),
+            Expr::Coordinate(id) if self.runs(*id) == Some(true) => Some(*id),
             _ => None,
         });
         let Some(id) = running.next().filter(|_| has_points) else {
@@ -169,13 +169,11 @@ impl Resolver<'_> {
         declared.is_some_and(|own| own.motion == DeclaredMotion::Driven)
     }
 
-    /// It keeps moving in steady motion.
-    fn runs(&self, id: CoordinateId) -> bool {
-        let Some(declared) = self.coordinates.get(id.index()) else {
-            return false;
-        };
+    /// It keeps moving in steady motion; nothing when its joint is wrong.
+    fn runs(&self, id: CoordinateId) -> Option<bool> {
+        let declared = self.coordinates.get(id.index())?;
         let mut resolved = self.declared_coordinates.iter();
         let own = resolved.find(|own| own.joint == declared.joint && own.name == *declared.name);
-        own.is_some_and(|own| own.motion.runs())
+        own.map(|own| own.motion.runs())
     }
 }

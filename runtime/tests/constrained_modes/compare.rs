@@ -1,0 +1,161 @@
+//! One mechanism in two sets of unknowns: what has to be the same.
+
+use eigentol::modes::modes;
+use eigentol::sensitivity::{
+    Quantity, mode_curvature, sensitivities, sensitivities_by_finite_difference,
+    sensitivities_explicit,
+};
+use eigentol::{Equilibrium, Modes, Policy, Sensitivities, equilibrium::equilibrium};
+
+use crate::common::derived::{Derived, Model};
+
+/// An equilibrium with its modes.
+pub(crate) struct State<X, const N: usize, const U: usize, const P: usize> {
+    pub(crate) mechanism: Derived<X>,
+    pub(crate) at: Equilibrium<N, U, P>,
+    pub(crate) modes: Modes<N>,
+}
+
+pub(crate) fn nominal<
+    X: Model<N, U, P, O>,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>() -> [f64; P] {
+    core::array::from_fn(|j| X::DESCRIPTION.design[j].nominal)
+}
+
+impl<X, const N: usize, const U: usize, const P: usize> State<X, N, U, P> {
+    pub(crate) fn new<const O: usize>(model: X, u: [f64; U], start: [f64; N]) -> Self
+    where
+        X: Model<N, U, P, O>,
+    {
+        Self::with(model, u, nominal::<X, N, U, P, O>(), start)
+    }
+
+    pub(crate) fn with<const O: usize>(model: X, u: [f64; U], b: [f64; P], start: [f64; N]) -> Self
+    where
+        X: Model<N, U, P, O>,
+    {
+        let mechanism = Derived(model);
+        let at = equilibrium(&mechanism, &u, &b, &start, Policy::Stable).unwrap();
+        let modes = modes(&at).unwrap();
+        Self {
+            mechanism,
+            at,
+            modes,
+        }
+    }
+}
+
+#[track_caller]
+pub(crate) fn near(a: f64, b: f64, tolerance: f64, scale: f64) {
+    assert!(
+        (a - b).abs() <= tolerance * scale,
+        "{a:e} is not {b:e}: off by {:e} of {scale:e}",
+        (a - b).abs()
+    );
+}
+
+#[track_caller]
+pub(crate) fn all_near(a: &[f64], b: &[f64], tolerance: f64) {
+    assert_eq!(a.len(), b.len());
+    let scale = b.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for (a, b) in a.iter().zip(b) {
+        near(*a, *b, tolerance, scale.max(1e-4));
+    }
+}
+
+/// The same modes: eigenvalues, behaviour, small residuals and honest errors.
+#[track_caller]
+pub(crate) fn same_modes<const N: usize, const K: usize>(
+    a: &Modes<N>,
+    b: &Modes<K>,
+    tolerance: f64,
+) {
+    assert_eq!(a.modes.len(), b.modes.len());
+    let size = b
+        .modes
+        .iter()
+        .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
+    for (own, other) in a.modes.iter().zip(&b.modes) {
+        assert!(
+            (own.s - other.s).norm() <= tolerance * size,
+            "{} {}",
+            own.s,
+            other.s
+        );
+        assert_eq!(
+            std::mem::discriminant(&own.behaviour),
+            std::mem::discriminant(&other.behaviour),
+            "{:?} {:?}",
+            own.behaviour,
+            other.behaviour
+        );
+        assert!(own.residual < 1e-11, "residual {}", own.residual);
+        assert!(own.error < 1e-9 * size, "error {}", own.error);
+    }
+}
+
+#[track_caller]
+pub(crate) fn same_sensitivities<const N: usize, const K: usize, const U: usize, const P: usize>(
+    a: &Sensitivities<N, U, P>,
+    b: &Sensitivities<K, U, P>,
+    tolerance: f64,
+) {
+    assert_eq!(a.modes.len(), b.modes.len());
+    for (own, other) in a.modes.iter().zip(&b.modes) {
+        all_near(&own.lambda_by_design, &other.lambda_by_design, tolerance);
+        all_near(&own.lambda_by_input, &other.lambda_by_input, tolerance);
+        for quantity in Quantity::ALL {
+            let pair = (own.of(quantity), other.of(quantity));
+            let (Some(own), Some(other)) = pair else {
+                assert!(pair.0.is_none() && pair.1.is_none());
+                continue;
+            };
+            let scale = other
+                .by_design
+                .iter()
+                .fold(1e-4_f64, |most, x| most.max(x.abs()));
+            for (a, b) in own.by_design.iter().zip(&other.by_design) {
+                near(*a, *b, tolerance, scale);
+            }
+        }
+    }
+}
+
+/// Modes, derivatives in three ways, and Hessians of a mechanism with constraints against the one without.
+#[track_caller]
+pub(crate) fn same_mechanism<X, Y, const N: usize, const K: usize, const U: usize, const P: usize>(
+    a: &State<X, N, U, P>,
+    b: &State<Y, K, U, P>,
+) where
+    X: Model<N, U, P, 0>,
+    Y: Model<K, U, P, 0>,
+{
+    same_modes(&a.modes, &b.modes, 1e-11);
+    let reference = sensitivities(&b.mechanism, &b.at, &b.modes).unwrap();
+    let adjoint = sensitivities(&a.mechanism, &a.at, &a.modes).unwrap();
+    same_sensitivities(&adjoint, &reference, 1e-9);
+    let explicit = sensitivities_explicit(&a.mechanism, &a.at, &a.modes).unwrap();
+    same_sensitivities(&explicit, &reference, 1e-9);
+    let differences =
+        sensitivities_by_finite_difference(&a.mechanism, &a.at, &a.modes, 5e-6).unwrap();
+    same_sensitivities(&differences, &reference, 2e-6);
+    for r in 0..a.modes.modes.len() {
+        let own = mode_curvature(&a.mechanism, &a.at, &a.modes, r).unwrap();
+        let other = mode_curvature(&b.mechanism, &b.at, &b.modes, r).unwrap();
+        assert!(own.asymmetry < 1e-9, "asymmetry {}", own.asymmetry);
+        all_near(
+            own.lambda.by_design.as_flattened(),
+            other.lambda.by_design.as_flattened(),
+            1e-9,
+        );
+        all_near(
+            own.lambda.by_input_and_design.as_flattened(),
+            other.lambda.by_input_and_design.as_flattened(),
+            1e-9,
+        );
+    }
+}

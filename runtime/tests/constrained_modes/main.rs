@@ -1,0 +1,25 @@
+//! Modes and what follows from them where constraints and speeds take part: every mechanism against itself in minimal
+//! coordinates or against a closed form.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod compare;
+mod holonomic;
+mod minimal;
+
+use eigentol::{CoordinateInfo, Role, Unit};
+
+pub(crate) const FORCE: Unit = Unit {
+    symbol: "N",
+    scale: 1.0,
+};
+
+pub(crate) const fn reaction(name: &'static str, unit: Unit) -> CoordinateInfo {
+    CoordinateInfo {
+        name,
+        unit,
+        role: Role::PositionReaction,
+    }
+}
