@@ -7,7 +7,7 @@ use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::Program;
 use eigentol_tests::agreement::Case;
 use eigentol_tests::declaration::declaration;
-use eigentol_tests::model::{Expr, ForceLaw, Joint, Model, Motion, Placement, Step, Word};
+use eigentol_tests::model::{Expr, ForceLaw, Joint, Model, Motion, Point, Step, Word};
 use eigentol_tests::random::{Plan, Random};
 use nalgebra::DMatrix;
 
@@ -64,29 +64,51 @@ impl Compiled {
     }
 }
 
+/// How the double is closed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Closing {
+    /// The free joint has the placements of the one that is cut; else none.
+    pub(crate) placed: bool,
+    /// By constraints of points that say the same as the joint; else by the joint.
+    pub(crate) by_constraints: bool,
+}
+
+impl Closing {
+    pub(crate) const fn new(placed: bool, by_constraints: bool) -> Self {
+        Self {
+            placed,
+            by_constraints,
+        }
+    }
+}
+
 /// A tree, the joint that is cut in its double, and both compiled.
 pub(crate) struct Pair {
     model: Model,
     joint: usize,
-    placed: bool,
+    closing: Closing,
     case: Case,
-    embedding: Embedding,
+    pub(crate) embedding: Embedding,
     open: Compiled,
     cut: Compiled,
     text: String,
 }
 
 impl Pair {
-    /// `None` where no joint can be cut, or where nothing resists a coordinate without the forces on the cut joint.
-    pub(crate) fn new(plan: Plan, placed: bool) -> Option<Self> {
+    /// `None` where no joint can be cut so, or where nothing resists a coordinate without the forces on the cut joint.
+    pub(crate) fn new(plan: Plan, closing: Closing) -> Option<Self> {
         let mut random = Random::new(plan.seed);
         let tree = plan.model();
-        let closing = |joint: &Joint| {
+        let can_be_cut = |joint: &Joint| {
             let driven = joint.steps.iter().any(|step| step.drive.is_some());
-            !driven && !matches!(joint.word, Word::Screw | Word::Free)
+            let word = match closing.by_constraints {
+                true => matches!(joint.word, Word::Fixed | Word::Revolute | Word::Spherical),
+                false => !matches!(joint.word, Word::Screw | Word::Free),
+            };
+            word && !driven
         };
         let places: Vec<usize> = (0..tree.joints.len())
-            .filter(|&place| closing(&tree.joints[place]))
+            .filter(|&place| can_be_cut(&tree.joints[place]))
             .collect();
         if places.is_empty() {
             return None;
@@ -113,13 +135,13 @@ impl Pair {
             .filter(|(coordinate, _)| coordinate.joint == joint)
             .map(|(_, &q)| q)
             .collect();
-        let embedding = embedding(&model.joints[joint], &own, &case.at[2], placed);
-        let text = cut_text(&model, joint, &embedding, placed);
+        let embedding = embedding(&model.joints[joint], &own, &case.at[2], closing.placed);
+        let text = cut_text(&model, joint, &embedding, closing);
         let cut = Compiled::new(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}\n{text}"));
         Some(Self {
             model,
             joint,
-            placed,
+            closing,
             case,
             embedding,
             open,
@@ -225,7 +247,7 @@ impl Pair {
             "by design",
         ];
         // Where the free joint has no placements, the state itself moves with the design.
-        let compared = if self.placed { 6 } else { 5 };
+        let compared = if self.closing.placed { 6 } else { 5 };
         for k in 0..compared {
             let rows = cut[k].rows_range(..positions);
             let square = (1..=3).contains(&k);
@@ -285,17 +307,8 @@ const LOOSE: [&str; 6] = [
 ];
 
 /// The declaration with the joint cut, and a free joint in its place.
-fn cut_text(model: &Model, joint: usize, embedding: &Embedding, placed: bool) -> String {
+fn cut_text(model: &Model, joint: usize, embedding: &Embedding, closing: Closing) -> String {
     let original = &model.joints[joint];
-    let start = format!("joint {}:", original.name);
-    let open = declaration(model);
-    let line = open
-        .lines()
-        .map(str::trim)
-        .find(|line| line.starts_with(&start));
-    let line = line.expect("the joint is declared");
-    let closing = format!("{}, cut;", line.trim_end_matches(';'));
-
     let slides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         .map(|axis| Step::new(Motion::Slide, axis));
     let turns = embedding
@@ -306,17 +319,58 @@ fn cut_text(model: &Model, joint: usize, embedding: &Embedding, placed: bool) ->
     let steps = steps.map(|(step, name)| step.named(name)).collect();
     let mut double = model.clone();
     let mut loose = Joint::new("loose", Word::Free, steps, original.from, original.to);
-    if placed {
+    if closing.placed {
         loose.from_placement = original.from_placement.clone();
         loose.to_placement = original.to_placement.clone();
-    } else {
-        loose.from_placement = Placement::NONE;
-        loose.to_placement = Placement::NONE;
     }
     double.joints[joint] = loose;
+    let ends = [
+        ("from_end", original.from, &original.from_placement),
+        ("to_end", original.to, &original.to_placement),
+    ];
+    if closing.by_constraints {
+        double
+            .points
+            .extend(ends.map(|(name, frame, placement)| Point {
+                name: name.to_owned(),
+                frame,
+                placement: placement.clone(),
+            }));
+    }
     let text = declaration(&double);
     let end = text.rfind('}').expect("a closing brace");
-    format!("{}    {closing}\n}}\n", &text[..end])
+    let items = match closing.by_constraints {
+        true => constraints(original),
+        false => cut_joint(model, original),
+    };
+    format!("{}    {items}\n}}\n", &text[..end])
+}
+
+fn cut_joint(model: &Model, joint: &Joint) -> String {
+    let start = format!("joint {}:", joint.name);
+    let open = declaration(model);
+    let line = open
+        .lines()
+        .map(str::trim)
+        .find(|line| line.starts_with(&start));
+    let line = line.expect("the joint is declared");
+    format!("{}, cut;", line.trim_end_matches(';'))
+}
+
+/// What a fixed, revolute or spherical joint demands of two points.
+fn constraints(joint: &Joint) -> String {
+    let pin = "constraint pin: coincident(from: from_end, to: to_end);";
+    let aligned = match (joint.word, &joint.steps[..]) {
+        (Word::Fixed, _) => "constraint square: aligned(from: from_end, to: to_end);".to_owned(),
+        (Word::Revolute, [step]) => {
+            let [x, y, z] = step.axis;
+            format!(
+                "constraint parallel: aligned(from: from_end, to: to_end, axis: [{x:?}, {y:?}, {z:?}]);"
+            )
+        }
+        _ => String::new(),
+    };
+    format!("{pin} {aligned}")
 }
 
 fn without_forces_on(mut model: Model, joint: usize) -> Model {
