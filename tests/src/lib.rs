@@ -5,9 +5,10 @@
 //! thought of, [`examples`] holds the ones with known answers ([`truth`]). [`agreement`] compares anything that offers
 //! the [`kernels`] of generated code with the oracle.
 //!
-//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms, [`wheels`] those that roll; [`generated`] calls their
-//! kernels by name, [`dual`] and [`hyper`] differentiate them, [`interpreter`] runs them without rustc. [`resolved`] solves a
-//! whole problem again in hyper-dual numbers: total derivatives of equilibria, eigenvalues and mode shapes.
+//! [`corpus`] holds machines declared with the macro, [`machines`] more of them with closed forms, [`loops`] those whose loops
+//! close, [`wheels`] those that roll; [`generated`] calls their kernels by name, [`dual`] and [`hyper`] differentiate them,
+//! [`interpreter`] runs them without rustc. [`resolved`] solves a whole problem again in hyper-dual numbers: total
+//! derivatives of equilibria, eigenvalues and mode shapes.
 //!
 //! Invariant: the oracle and what it stands on use neither the compiler nor the runtime; `compiled`, [`corpus`],
 //! [`machines`] and all that runs them do.

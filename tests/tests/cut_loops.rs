@@ -2,6 +2,8 @@
 //! same frames, and declared once more as a joint that is `cut`, or as constraints of points that say the same. Freedom, residual, matrices, and derivatives by inputs and
 //! design variables agree at random states that are assembled, whatever the reactions are.
 
+#[path = "cut_loops/double.rs"]
+mod double;
 #[path = "cut_loops/pair.rs"]
 mod pair;
 #[path = "cut_loops/pose.rs"]
@@ -13,7 +15,8 @@ use std::collections::BTreeMap;
 use eigentol_tests::model::Word;
 use eigentol_tests::random::on_plans;
 
-use pair::{Closing, Pair};
+use double::Closing;
+use pair::Pair;
 use pose::Embedding;
 
 /// Largest error relative to the size of the terms.

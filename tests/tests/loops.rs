@@ -1,8 +1,16 @@
 //! Mechanisms with closed loops and couplings against their references in minimal coordinates (`truth/loops.json`).
 
+#[path = "loops/along.rs"]
+mod along;
+#[path = "loops/assembly.rs"]
+mod assembly;
 #[path = "loops/common.rs"]
 mod common;
+#[path = "loops/gear_train.rs"]
+mod gear_train;
 #[path = "loops/kernels.rs"]
 mod kernels;
+#[path = "loops/spreads.rs"]
+mod spreads;
 #[path = "loops/study.rs"]
 mod study;

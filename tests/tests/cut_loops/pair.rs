@@ -7,10 +7,11 @@ use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::Program;
 use eigentol_tests::agreement::Case;
 use eigentol_tests::declaration::declaration;
-use eigentol_tests::model::{Expr, ForceLaw, Joint, Model, Motion, Point, Step, Word};
+use eigentol_tests::model::{Joint, Model, Word};
 use eigentol_tests::random::{Plan, Random};
 use nalgebra::DMatrix;
 
+use super::double::{Closing, LOOSE, cut_text, without_forces_on};
 use super::pose::{Embedding, embedding};
 
 struct Compiled {
@@ -61,24 +62,6 @@ impl Compiled {
             &partials[1],
         ]
         .map(|array| matrix(array))
-    }
-}
-
-/// How the double is closed.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Closing {
-    /// The free joint has the placements of the one that is cut; else none.
-    pub(crate) placed: bool,
-    /// By constraints of points that say the same as the joint; else by the joint.
-    pub(crate) by_constraints: bool,
-}
-
-impl Closing {
-    pub(crate) const fn new(placed: bool, by_constraints: bool) -> Self {
-        Self {
-            placed,
-            by_constraints,
-        }
     }
 }
 
@@ -300,96 +283,4 @@ impl Display for Pair {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}", declaration(&self.model), self.text)
     }
-}
-
-const LOOSE: [&str; 6] = [
-    "loose_x", "loose_y", "loose_z", "loose_a", "loose_b", "loose_c",
-];
-
-/// The declaration with the joint cut, and a free joint in its place.
-fn cut_text(model: &Model, joint: usize, embedding: &Embedding, closing: Closing) -> String {
-    let original = &model.joints[joint];
-    let slides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-        .map(|axis| Step::new(Motion::Slide, axis));
-    let turns = embedding
-        .turns
-        .axes()
-        .map(|axis| Step::new(Motion::Turn, axis));
-    let steps = slides.into_iter().chain(turns).zip(LOOSE);
-    let steps = steps.map(|(step, name)| step.named(name)).collect();
-    let mut double = model.clone();
-    let mut loose = Joint::new("loose", Word::Free, steps, original.from, original.to);
-    if closing.placed {
-        loose.from_placement = original.from_placement.clone();
-        loose.to_placement = original.to_placement.clone();
-    }
-    double.joints[joint] = loose;
-    let ends = [
-        ("from_end", original.from, &original.from_placement),
-        ("to_end", original.to, &original.to_placement),
-    ];
-    if closing.by_constraints {
-        double
-            .points
-            .extend(ends.map(|(name, frame, placement)| Point {
-                name: name.to_owned(),
-                frame,
-                placement: placement.clone(),
-            }));
-    }
-    let text = declaration(&double);
-    let end = text.rfind('}').expect("a closing brace");
-    let items = match closing.by_constraints {
-        true => constraints(original),
-        false => cut_joint(model, original),
-    };
-    format!("{}    {items}\n}}\n", &text[..end])
-}
-
-fn cut_joint(model: &Model, joint: &Joint) -> String {
-    let start = format!("joint {}:", joint.name);
-    let open = declaration(model);
-    let line = open
-        .lines()
-        .map(str::trim)
-        .find(|line| line.starts_with(&start));
-    let line = line.expect("the joint is declared");
-    format!("{}, cut;", line.trim_end_matches(';'))
-}
-
-/// What a fixed, revolute or spherical joint demands of two points.
-fn constraints(joint: &Joint) -> String {
-    let pin = "constraint pin: coincident(from: from_end, to: to_end);";
-    let aligned = match (joint.word, &joint.steps[..]) {
-        (Word::Fixed, _) => "constraint square: aligned(from: from_end, to: to_end);".to_owned(),
-        (Word::Revolute, [step]) => {
-            let [x, y, z] = step.axis;
-            format!(
-                "constraint parallel: aligned(from: from_end, to: to_end, axis: [{x:?}, {y:?}, {z:?}]);"
-            )
-        }
-        _ => String::new(),
-    };
-    format!("{pin} {aligned}")
-}
-
-fn without_forces_on(mut model: Model, joint: usize) -> Model {
-    let on = |value: &Expr| {
-        let mut found = false;
-        value.leaves(&mut |leaf| {
-            if let Expr::Coordinate(one) | Expr::Rate(one) = leaf {
-                found |= one.joint == joint;
-            }
-        });
-        found
-    };
-    model.forces.retain(|force| match &force.law {
-        ForceLaw::Spring { coordinate, .. } | ForceLaw::Damper { coordinate, .. } => {
-            coordinate.joint != joint
-        }
-        ForceLaw::Generalized { coordinate, value } => coordinate.joint != joint && !on(value),
-        ForceLaw::Potential { energy } => !on(energy),
-        _ => true,
-    });
-    model
 }

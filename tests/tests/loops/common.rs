@@ -31,19 +31,29 @@ pub(crate) struct Case {
     pub(crate) variables: Vec<String>,
     /// Nominal design.
     pub(crate) design: Vec<f64>,
+    /// Names of coordinates that decide all others.
+    pub(crate) independent: Vec<String>,
 }
 
 impl Case {
     pub(crate) fn new(name: &'static str) -> Self {
         let truth = Truth::load("loops").get("mechanisms").get(name);
-        let texts = |list: Truth| list.list().iter().map(Truth::text).collect();
+        let texts = |field| truth.get(field).list().iter().map(Truth::text).collect();
         let design = truth.get("design").list();
         Self {
             name,
-            variables: texts(truth.get("variables")),
+            variables: texts("variables"),
+            independent: texts("independent"),
             design: design.iter().map(|one| one.get("value").number()).collect(),
             truth,
         }
+    }
+
+    /// With another value of one design variable.
+    pub(crate) fn with(mut self, variable: &str, value: f64) -> Self {
+        let place = self.variables.iter().position(|name| name == variable);
+        self.design[place.expect("a design variable")] = value;
+        self
     }
 
     pub(crate) fn points(&self) -> Vec<Point> {

@@ -15,10 +15,11 @@ use eigentol_tests::truth::Truth;
 
 use super::common::{Case, Point, assert_close, assert_near, complex};
 
-/// A study of a point that starts from angles to the nearest tenth of a radian and displacements to the nearest centimetre,
-/// so that no loop is closed; speeds start from zero.
-fn study<M, const N: usize, const P: usize, const O: usize>(
+/// A study of a point that starts from angles to the nearest tenth of a radian and displacements to the nearest centimetre, so
+/// that no loop is closed; speeds start from zero.
+pub(super) fn study<M, const N: usize, const P: usize, const O: usize>(
     machine: M,
+    case: &Case,
     point: &Point,
 ) -> Study<M, N, 1, P, O>
 where
@@ -28,12 +29,16 @@ where
     for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
         if unknown.role == Role::Position {
             let value = point.truth.get("coordinates").get(unknown.name).number();
-            let step = if unknown.unit.symbol == "rad" {
-                0.1
-            } else {
-                0.01
+            let step = match unknown.unit.symbol {
+                "rad" => 0.1,
+                _ => 0.01,
             };
-            study = study.start(Coordinate(i), (value / step).round() * step);
+            let value = (value / step).round() * step;
+            let decides = case.independent.iter().any(|name| name == unknown.name);
+            study = match decides {
+                true => study.start(Coordinate(i), value),
+                false => study.guess(Coordinate(i), value),
+            };
         }
     }
     study
@@ -59,7 +64,7 @@ where
         assert!((info.tolerance - tolerance).abs() < 1e-15 + 1e-14 * tolerance);
     }
     for point in case.points() {
-        let study = study(machine, &point);
+        let study = study(machine, &case, &point);
         let at = study
             .equilibrium()
             .unwrap_or_else(|error| panic!("{}: {error}", point.what));

@@ -1,0 +1,71 @@
+//! Spreads beyond first order: moments of the second-order model from the file's second derivatives, and samples whose loops
+//! are closed anew.
+
+use eigentol::Mechanism;
+use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};
+use eigentol_tests::truth::Truth;
+
+use super::common::{Case, assert_close, complex};
+use super::study::study;
+
+const SAMPLES: usize = 2000;
+
+/// Shift of the mean and standard deviation of `Im s`: `sum H_ii v_i / 2`, and the root of
+/// `sum (g_i)^2 v_i + sum (H_ij)^2 v_i v_j / 2`, `v` the variances.
+fn moments(case: &Case, mode: &Truth) -> [f64; 2] {
+    let design = case.truth.get("design").list();
+    let variance = |i: usize| (design[i].get("tolerance").number() / 3.0).powi(2);
+    let slope = |i: usize| complex(&mode.get("s_by").get(&case.variables[i])).im;
+    let rows = mode.get("s_second").list();
+    let rows: Vec<Vec<Truth>> = rows.iter().map(Truth::list).collect();
+    let second = |i: usize, j: usize| complex(&rows[i.max(j)][i.min(j)]).im;
+    let all = || 0..design.len();
+    let shift = all().map(|i| second(i, i) * variance(i) / 2.0).sum::<f64>();
+    let first = all().map(|i| slope(i).powi(2) * variance(i)).sum::<f64>();
+    let bend = |i: usize| {
+        all()
+            .map(|j| second(i, j).powi(2) * variance(i) * variance(j) / 2.0)
+            .sum::<f64>()
+    };
+    [shift, (first + all().map(bend).sum::<f64>()).sqrt()]
+}
+
+fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &'static str)
+where
+    M: Mechanism<N, 1, P, O>,
+{
+    let case = Case::new(name);
+    let point = case.points().remove(1);
+    let study = study(machine, &case, &point).samples(SAMPLES).seed(5);
+    let modes = study.modes().expect("modes");
+    let found = study.second_order().expect("second order");
+    let sampled = study.monte_carlo().expect("samples");
+    assert_eq!(sampled.counts.stable, SAMPLES, "{}", point.what);
+    for truth in point.modes() {
+        let s = complex(&truth.get("s"));
+        let what = format!("{}: {s}", point.what);
+        let near = |mode: &eigentol::Mode<N>| (mode.s - s).norm() < 1e-6 * s.norm();
+        let r = modes.modes.iter().position(near).expect("the mode");
+        let [shift, sigma] = moments(&case, &truth);
+        let own = found.modes[r].as_ref().expect("derivatives").frequency;
+        assert_close(own.moments.mean_shift, shift, 1e-2 * sigma, &what);
+        assert_close(own.moments.sigma, sigma, 0.0, &what);
+
+        let statistics = sampled.modes[r].as_ref().expect("samples");
+        // Four standard errors, of the mean and of the standard deviation.
+        let count = SAMPLES as f64;
+        let off = (statistics.mean - s.im - shift).abs();
+        assert!(off < 4.0 * sigma / count.sqrt(), "{what}: {statistics:?}");
+        let deviation = statistics.standard_deviation.expect("many samples");
+        let off = (deviation / sigma - 1.0).abs();
+        assert!(off < 4.0 / (2.0 * count).sqrt(), "{what}: {statistics:?}");
+    }
+}
+
+#[test]
+fn second_order_and_samples() {
+    check(Governor, "governor");
+    check(SliderCrank, "slider_crank");
+    check(FiveBar, "five_bar");
+    check(FourBar, "four_bar_crossed");
+}
