@@ -1,7 +1,7 @@
 //! What constraints are at one state: how much freedom they leave, which say the same, whether the state is singular.
 
 use super::{Structure, Tangent};
-use crate::array::{Square, dot, largest_element, times};
+use crate::array::{Square, form, largest_element};
 use crate::{Linear, Mechanism};
 
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.
@@ -76,19 +76,24 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let rows = tangent.structure.position_rows();
-    let curvature = |row: usize| -> Square<N> {
+    let size = tangent.basis.map(|vector| vector.map(f64::abs));
+    // `Phi_qq` of one row on the null space, and the size of what it is summed from.
+    let curvature = |row: usize| -> (Square<N>, f64) {
         let along = core::array::from_fn(|i| if i == row { 1.0 } else { 0.0 });
         let change = mechanism.linear_along(q, u, b, &along, &[0.0; U], &[0.0; P]);
-        core::array::from_fn(|i| {
+        let terms = change.stiffness.map(|row| row.map(f64::abs));
+        let mut most = 0.0_f64;
+        let bent = core::array::from_fn(|i| {
             core::array::from_fn(|j| {
                 if i < tangent.freedom && j < tangent.freedom {
-                    let image = times(&change.stiffness, &tangent.basis[j]);
-                    dot(&tangent.basis[i], &image)
+                    most = most.max(form(&size[i], &terms, &size[j]));
+                    form(&tangent.basis[i], &change.stiffness, &tangent.basis[j])
                 } else {
                     0.0
                 }
             })
-        })
+        });
+        (bent, most)
     };
     (0..tangent.positions.dependent()).any(|k| {
         let n = tangent.positions.null_left(k);
@@ -96,8 +101,8 @@ where
         let mut terms = 0.0;
         for (i, row) in rows.clone().enumerate() {
             if n[i] != 0.0 {
-                let bent = curvature(row);
-                terms += n[i].abs() * largest_element(&bent);
+                let (bent, size) = curvature(row);
+                terms += n[i].abs() * size;
                 for (total, part) in sum.iter_mut().flatten().zip(bent.iter().flatten()) {
                     *total += n[i] * part;
                 }

@@ -124,7 +124,7 @@ fn redundancy<const N: usize>(
         let names: Vec<_> = dependent.collect();
         writeln!(
             f,
-            "  {} of {} constraints redundant ({}): only their sum of reactions is determined",
+            "  {} of {} constraints redundant ({}): of their reactions only combinations are determined",
             state.redundant,
             names.len(),
             names.join(", ")

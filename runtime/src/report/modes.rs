@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::table::{Table, cells, number, optional};
 use crate::modes::{Family, Sense, Whirl};
-use crate::{Behaviour, Complex, Modes};
+use crate::{Behaviour, Complex, CoordinateInfo, Modes, Role};
 
 impl fmt::Display for Behaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -46,8 +46,10 @@ impl<const N: usize> fmt::Display for Modes<N> {
         } else {
             cells(["lambda [1/s^2]"])
         });
-        let names = self.description.coordinates.iter();
-        head.extend(names.map(|info| info.name.to_owned()));
+        // Reactions come last among the unknowns; a shape is what moves.
+        let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
+        let moving = self.description.coordinates.iter().filter(moves);
+        head.extend(moving.clone().map(|info| info.name.to_owned()));
         head.push("motion".to_owned());
         let mut table = Table::new(head);
         for mode in &self.modes {
@@ -64,7 +66,8 @@ impl<const N: usize> fmt::Display for Modes<N> {
             } else {
                 row.push(number(mode.lambda));
             }
-            row.extend(mode.shape.iter().map(|&value| component(value)));
+            let shape = mode.shape.iter().zip(moving.clone());
+            row.extend(shape.map(|(&value, _)| component(value)));
             row.push(mode.behaviour.to_string());
             table.row(row);
         }

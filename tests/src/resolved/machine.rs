@@ -2,7 +2,7 @@
 
 use eigentol::Real;
 use eigentol_compiler::compile;
-use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::{Kernel, Program};
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -18,6 +18,7 @@ pub(super) const REPETITIONS: usize = 4;
 pub struct Machine {
     program: Program,
     coordinates: usize,
+    holonomic: bool,
     inputs: usize,
     nominal: Vec<f64>,
 }
@@ -28,6 +29,8 @@ pub struct State {
     pub coordinates: Vec<f64>,
     /// Design variables and inputs: what is differentiated by.
     pub(super) variables: usize,
+    /// No unknown is a speed or belongs to a constraint on velocities: every mode moves mass by `Mhat`.
+    pub(super) holonomic: bool,
     pub(super) solutions: Vec<Solution>,
 }
 
@@ -53,8 +56,12 @@ impl Machine {
         };
         let compilation = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let design = compilation.mechanism.design.iter();
+        let unknowns = &compilation.functions.unknowns;
         Self {
-            coordinates: compilation.functions.unknowns.len(),
+            holonomic: unknowns
+                .iter()
+                .all(|unknown| matches!(unknown.role, Role::Position(_) | Role::PositionReaction)),
+            coordinates: unknowns.len(),
             inputs: compilation.mechanism.inputs.len(),
             nominal: design.map(|variable| variable.nominal).collect(),
             program: compilation.program,
@@ -162,6 +169,7 @@ impl Machine {
         State {
             coordinates: q.clone(),
             variables,
+            holonomic: self.holonomic,
             solutions: directions.iter().map(solve).collect(),
         }
     }

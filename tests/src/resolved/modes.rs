@@ -105,7 +105,11 @@ impl State {
             let polynomial = polynomial(solution);
             let coefficients: Vec<&[Hyper]> = polynomial.iter().map(Vec::as_slice).collect();
             let (s, shape) = pair.refine(&coefficients);
-            (s, normalised(&shape, &solution.mass))
+            let shape = match self.holonomic {
+                true => normalised(&shape, &solution.mass),
+                false => shape,
+            };
+            (s, shape)
         };
         Some((pair.lead, self.solutions.iter().map(refine).collect()))
     }

@@ -51,11 +51,12 @@ fn operation(name: &str) -> Option<Operation> {
         ),
         "geared_rotors" | "geared_coasting" => (&[120.0], &[("run", -72.0)]),
         "geared_motor" => (&[2.0], &[("run_in", 90.0), ("run_out", -54.0)]),
-        "whipple" => (&[5.0], &[("forward", 5.0), ("front_spin", -14.0)]),
         "caster" => (&[3.0], &[("spin", 37.0)]),
         "disk" => (&[8.0], &[("forward", 2.0)]),
+        // Its derivatives are stored: 27 variables would take this oracle too long.
+        "whipple" => return None,
+        "cart" => (&[6.0], &[("run", 2.5), ("spin", 16.7)]),
         "trailer" => return None,
-        "cart" => return None,
         _ => panic!("nobody has said how {name} is run"),
     })
 }
@@ -110,5 +111,5 @@ fn unknowns_and_modes_with_constraints() {
     loops::visit(&mut every);
     wheels::visit(&mut every);
     assert!(every.1 > 500, "{} derivatives of unknowns", every.1);
-    every.0.judge(20);
+    every.0.judge(19);
 }

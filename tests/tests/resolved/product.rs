@@ -6,7 +6,7 @@ use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
 use eigentol::sensitivity::{
     Quantity, SecondDerivatives, mode_curvature, sensitivities, shape_sensitivity,
 };
-use eigentol::{Complex, Error, Mechanism, Sensitivities};
+use eigentol::{Complex, Description, Error, Mechanism, Role, Sensitivities};
 use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
 
 use super::expected::Expected;
@@ -177,11 +177,20 @@ impl Product {
     }
 }
 
-/// The component that the product made real: the greatest of those that are.
-fn lead<const N: usize>(shape: &[Complex; N]) -> usize {
-    let real = (0..N).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
-    real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
-        .expect("a real component")
+/// The components that the product made real: the greatest of coordinates and speeds that are; of a left vector beside
+/// constraints on velocities, of all unknowns.
+fn leads<const N: usize>(mode: &Mode<N>, description: &Description) -> [usize; 2] {
+    let roles = || description.coordinates.iter().map(|info| info.role);
+    let motions = roles()
+        .filter(|role| matches!(role, Role::Position | Role::Speed))
+        .count();
+    let holonomic = roles().all(|role| matches!(role, Role::Position | Role::PositionReaction));
+    let of_left = if holonomic { motions } else { N };
+    [(&mode.shape, motions), (&mode.left, of_left)].map(|(shape, count)| {
+        let real = (0..count).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
+        real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
+            .expect("a real component")
+    })
 }
 
 fn assert_shape<const N: usize>(mode: &Mode<N>, expected: &Expected, what: &str) {
@@ -250,7 +259,7 @@ impl Product {
         for (r, mode) in general.modes.iter().enumerate() {
             let what = format!("{what} general mode {r}");
             let near = nalgebra::Complex::new(mode.s.re, mode.s.im);
-            let leads = [lead(&mode.shape), lead(&mode.left)].map(Some);
+            let leads = leads(mode, at.description).map(Some);
             let Some(solved) = state.general_mode(near, leads) else {
                 panic!("{what} is repeated");
             };
