@@ -264,7 +264,8 @@ impl Report {
         for (one, other) in found.iter().zip(expected) {
             let error = (one - other).abs() / size.max(expected.amax()).max(1e-3);
             // NaN is no agreement.
-            if !(error <= super::TOLERANCE) {
+            let agrees = error <= super::TOLERANCE;
+            if !agrees {
                 self.text += &format!("{what}: {one:e}, not {other:e}\n");
             }
             self.worst = self.worst.max(error);

@@ -98,9 +98,9 @@ where
     assert!(sweep.critical.is_empty(), "{name}");
     let modes = |at: usize| sweep.points[at].modes.as_ref().expect("modes");
     let labels: Vec<usize> = modes(0).modes.iter().map(|mode| mode.label).collect();
-    for at in 0..speeds.len() {
+    for (at, speed) in speeds.iter().enumerate() {
         let found: Vec<usize> = modes(at).modes.iter().map(|mode| mode.label).collect();
-        assert_eq!(found, labels, "{name} at {}", speeds[at]);
+        assert_eq!(found, labels, "{name} at {speed}");
     }
     let end = &points[points.len() - 1];
     for truth in end.modes() {
