@@ -253,14 +253,14 @@ fn undamped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
 ) -> Result<PerMode<Mode<N>, N>, ModesFailure> {
+    if !Structure::of(description).holonomic() {
+        return Err(ModesFailure::NotHolonomic);
+    }
     if !description.symmetric_stiffness {
         let asymmetry = asymmetry(&linear.stiffness);
         if asymmetry.is_nan() || asymmetry > SYMMETRIC {
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
-    }
-    if !Structure::of(description).holonomic() {
-        return Err(ModesFailure::NotHolonomic);
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
     let threshold = pairs.threshold;

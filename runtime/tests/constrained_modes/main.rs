@@ -8,6 +8,8 @@ mod common;
 mod compare;
 mod holonomic;
 mod minimal;
+mod nonholonomic;
+mod rolling;
 
 use eigentol::{CoordinateInfo, Role, Unit};
 

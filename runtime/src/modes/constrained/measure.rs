@@ -122,7 +122,7 @@ impl Residual {
         let mut relative = 0.0_f64;
         let mut rounding_only = true;
         for rows in [0..motions, motions..N] {
-            let (mut most, mut terms) = (0.0_f64, 0.0_f64);
+            let (mut most, mut terms, mut possible) = (0.0_f64, 0.0_f64, 0.0_f64);
             let constraints = rows.start == motions;
             for i in rows {
                 let elements = (0..N).map(|j| size(i, j));
@@ -135,18 +135,21 @@ impl Residual {
                 };
                 let value = product[i].norm() / unit;
                 let sum: f64 = (0..N).map(|j| size(i, j) * x[j].norm()).sum();
-                let bound = (0..N).fold(0.0, |most: f64, j| most.max(size(i, j) * x[j].norm()));
                 most = if value.is_finite() {
                     most.max(value)
                 } else {
                     f64::INFINITY
                 };
                 terms = terms.max(sum / unit);
-                let largest = x[..motions].iter().map(|x| x.norm()).fold(bound, |a, b| {
-                    a.max(if constraints { b * greatest } else { 0.0 })
+                // A vector that the matrix takes to zero has nothing but rounding in the terms that act: motions are
+                // measured by the greatest of them, and reactions too.
+                let largest = [0..motions, motions..N].map(|columns| {
+                    let element = columns.clone().map(|j| size(i, j)).fold(0.0, f64::max);
+                    element * columns.map(|j| x[j].norm()).fold(0.0, f64::max)
                 });
-                rounding_only &= value * unit <= 16.0 * N as f64 * f64::EPSILON * largest;
+                possible = possible.max(largest[0].max(largest[1]) / unit);
             }
+            rounding_only &= most <= ROUNDING * N as f64 * possible;
             if most > 0.0 {
                 relative = relative.max(most / terms);
             }
