@@ -217,6 +217,8 @@ fn names(names: &[&'static str]) -> String {
 }
 
 fn listed(others: &[(&'static str, f64)]) -> String {
-    let each = others.iter().map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
+    let each = others
+        .iter()
+        .map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
     each.collect()
 }

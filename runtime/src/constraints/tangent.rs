@@ -12,7 +12,7 @@
 
 use super::{Rows, Structure};
 use crate::Linear;
-use crate::array::{Square, largest_element};
+use crate::array::{Cholesky, Square, largest_element};
 
 /// What constraints leave free at one state.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +75,26 @@ impl<const N: usize> Tangent<N> {
         let motions = self.structure.motions();
         let force = core::array::from_fn(|j| if j < motions { force[j] } else { 0.0 });
         placed(self.structure, &self.all.multipliers(&force))
+    }
+
+    /// The coordinate that moves most along the first free direction without a mass of its own.
+    pub(crate) fn massless(&self, linear: &Linear<f64, N>) -> usize {
+        match Cholesky::new(&self.reduce_mass(&linear.mass)) {
+            Err(direction) => self.foremost(direction),
+            Ok(_) => 0,
+        }
+    }
+
+    /// The coordinate that moves most along free direction `i`.
+    pub(crate) fn foremost(&self, i: usize) -> usize {
+        let along = &self.basis[i];
+        (0..N).fold(0, |most, j| {
+            if along[j].abs() > along[most].abs() {
+                j
+            } else {
+                most
+            }
+        })
     }
 
     /// `P y`, by coordinate; zero elsewhere.

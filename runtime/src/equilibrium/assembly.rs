@@ -44,6 +44,18 @@ pub struct Assembly<const N: usize> {
     pub description: &'static Description,
 }
 
+impl<const N: usize> Assembly<N> {
+    /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
+    pub fn dependent_constraints(&self) -> impl Iterator<Item = &'static str> {
+        super::dependent_names(self.description, self.constraints.dependent)
+    }
+
+    /// Of coordinates and speeds the motions, of constraints the gaps.
+    pub(crate) fn changes(&self) -> [f64; N] {
+        core::array::from_fn(|i| self.moved[i] + self.gaps[i])
+    }
+}
+
 /// Margin below which a state is a dead centre to working accuracy: constraints meet there as a double root, which rounding
 /// leaves at half of the digits.
 const DEAD_CENTRE: f64 = 1e-6;

@@ -74,7 +74,8 @@ pub(super) fn free<const N: usize>(row: &[f64; N], held: &[bool; N]) -> [f64; N]
 }
 
 /// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
-/// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight, is left by a kick.
+/// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left
+/// by a kick.
 pub(super) fn close<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
@@ -83,22 +84,24 @@ pub(super) fn close<M, const N: usize, const U: usize, const P: usize, const O: 
 where
     M: Mechanism<N, U, P, O>,
 {
-    let mut failure = match close_from(problem, start, held) {
-        Err(failure @ Failure::NotAssembled { .. }) => failure,
+    let first = match close_from(problem, start, held) {
+        Err(failure @ (Failure::NotAssembled { .. } | Failure::OutsideDomain { .. })) => failure,
         other => return other,
     };
+    let mut best = first;
     for kick in 1..=KICKS {
-        let Failure::NotAssembled { coordinates, .. } = failure else {
-            break;
+        let from = match best {
+            Failure::NotAssembled { coordinates, .. } => coordinates,
+            _ => *start,
         };
-        let coordinates = kicked(&coordinates, held, kick, Problem::<M, N, U, P, O>::STRUCTURE);
-        match close_from(problem, &coordinates, held) {
+        let from = kicked(&from, held, kick, Problem::<M, N, U, P, O>::STRUCTURE);
+        match close_from(problem, &from, held) {
             Ok(found) => return Ok(found),
-            Err(next) if open_by(&next) < open_by(&failure) => failure = next,
+            Err(next) if open_by(&next) < open_by(&best) => best = next,
             Err(_) => {}
         }
     }
-    Err(failure)
+    Err(best)
 }
 
 /// Some displacement without symmetry.

@@ -86,6 +86,34 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub description: &'static Description,
 }
 
+impl<const N: usize, const U: usize, const P: usize> Equilibrium<N, U, P> {
+    /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
+    pub fn dependent_constraints(&self) -> impl Iterator<Item = &'static str> {
+        dependent_names(self.description, self.constraints.dependent)
+    }
+
+    /// Refuses a singular configuration, of which the linearised mechanism says nothing.
+    pub(crate) fn regular(&self) -> Result<(), Error> {
+        if self.constraints.singular {
+            Err(Error::SingularConfiguration {
+                constraints: self.dependent_constraints().collect(),
+            })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn dependent_names<const N: usize>(
+    description: &'static Description,
+    dependent: [bool; N],
+) -> impl Iterator<Item = &'static str> {
+    let infos = description.coordinates.iter().zip(dependent);
+    infos
+        .filter(|(_, takes_part)| *takes_part)
+        .map(|(info, _)| info.name)
+}
+
 /// Finds a dynamic equilibrium from the start value `start`.
 ///
 /// `u` inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an

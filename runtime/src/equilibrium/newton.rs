@@ -3,8 +3,8 @@
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
 use super::{Found, last_step};
-use crate::constraints::inertias;
 use crate::array::{Cholesky, Lu, Square, add_scaled, times, transpose};
+use crate::constraints::inertias;
 use crate::{Linear, Mechanism};
 
 const MAX_ITERATIONS: usize = 300;
@@ -128,7 +128,8 @@ where
             weight[i] = stiffest * stiffest / mobility;
         } else {
             // Nothing closes it from here; what it weighs is no matter as long as it is seen.
-            weight[i] = stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
+            weight[i] =
+                stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
         }
     }
     if weight.iter().all(|value| value.is_finite()) {

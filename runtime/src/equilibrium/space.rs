@@ -206,7 +206,7 @@ impl<const N: usize> Constrained<N> {
             let q = add_scaled(from, 1.0, &self.along_normals(&c));
             let (residual, stiffness) = problem.evaluate(&q)?;
             let gap = greatest_gap(problem, &q, &residual, &stiffness);
-            if gap > CONTRACTION * last && gap <= TOLERANCE {
+            if gap >= CONTRACTION * last && gap <= TOLERANCE {
                 return Some((q, residual, stiffness));
             }
             if gap.is_nan() || gap > 2.0 * last {

@@ -70,20 +70,8 @@ pub(super) fn judge<const N: usize>(
         return Ok(by_eigenvalues(description, linear, 0, 0));
     }
     judge_free(description, linear, &reduce(linear, &tangent)).map_err(|failure| match failure {
-        Failure::SingularMass(direction) => Failure::SingularMass(foremost(&tangent, direction)),
+        Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
         other => other,
-    })
-}
-
-/// The coordinate that moves most along a free direction.
-fn foremost<const N: usize>(tangent: &Tangent<N>, direction: usize) -> usize {
-    let along = &tangent.basis[direction];
-    (0..N).fold(0, |most, j| {
-        if along[j].abs() > along[most].abs() {
-            j
-        } else {
-            most
-        }
     })
 }
 

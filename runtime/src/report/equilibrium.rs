@@ -4,8 +4,10 @@ use core::fmt;
 
 use super::branches::critical_vectors;
 use super::table::{Table, cells, heading, in_unit, number};
-use crate::equilibrium::{Condition, CriticalState, Crossing};
-use crate::{Equilibrium, Stability};
+use crate::equilibrium::{
+    Assembly, AssemblyMode, Condition, ConstraintState, CriticalState, Crossing,
+};
+use crate::{Description, Equilibrium, Role, Stability};
 
 impl fmt::Display for Stability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -61,20 +63,12 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             )?;
         }
         writeln!(f)?;
-        let mut table = Table::new(cells(["coordinate", "value", "residual"]));
-        for ((info, &value), &residual) in d
-            .coordinates
-            .iter()
-            .zip(&self.coordinates)
-            .zip(&self.residual)
-        {
-            table.row(vec![
-                heading(info.name, info.unit),
-                in_unit(value, info.unit),
-                number(residual),
-            ]);
-        }
-        write!(f, "{table}")?;
+        write!(
+            f,
+            "{}",
+            unknowns(d, &self.coordinates, "residual", &self.residual)
+        )?;
+        redundancy(f, &self.constraints, self.dependent_constraints())?;
         writeln!(
             f,
             "  relative residual {:.1e} after {} iterations",
@@ -88,6 +82,90 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             ),
             _ => Ok(()),
         }
+    }
+}
+
+/// Coordinates, speeds and reactions, each with its own heading, and one more value of each.
+fn unknowns<const N: usize>(
+    description: &Description,
+    values: &[f64; N],
+    other: &str,
+    others: &[f64; N],
+) -> Table {
+    let mut table = Table::new(cells(["coordinate", "value", other]));
+    let mut last = Role::Position;
+    for (i, info) in description.coordinates.iter().enumerate().take(N) {
+        let headings = match (last, info.role) {
+            (before, now) if before == now => None,
+            (_, Role::Position) => None,
+            (_, Role::Speed) => Some(["speed", "value", other]),
+            (Role::PositionReaction, Role::VelocityReaction) => None,
+            _ => Some(["reaction", "value", "gap"]),
+        };
+        if let Some(headings) = headings {
+            table.row(cells(headings));
+        }
+        last = info.role;
+        table.row(vec![
+            heading(info.name, info.unit),
+            in_unit(values[i], info.unit),
+            number(others[i]),
+        ]);
+    }
+    table
+}
+
+fn redundancy<const N: usize>(
+    f: &mut fmt::Formatter<'_>,
+    state: &ConstraintState<N>,
+    dependent: impl Iterator<Item = &'static str>,
+) -> fmt::Result {
+    if state.redundant > 0 {
+        let names: Vec<_> = dependent.collect();
+        writeln!(
+            f,
+            "  {} of {} constraints redundant ({}): only their sum of reactions is determined",
+            state.redundant,
+            names.len(),
+            names.join(", ")
+        )?;
+    }
+    if state.singular {
+        writeln!(
+            f,
+            "  singular configuration: constraints lose their independence here alone, the linearised mechanism says \
+             nothing of how it moves"
+        )?;
+    }
+    Ok(())
+}
+
+impl<const N: usize> fmt::Display for Assembly<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = self.description;
+        write!(f, "{}: assembled in {} iterations", d.name, self.iterations)?;
+        match self.mode {
+            Some(AssemblyMode::Positive) => write!(f, ", assembly mode +")?,
+            Some(AssemblyMode::Negative) => write!(f, ", assembly mode -")?,
+            None => {}
+        }
+        if self.margin < 1.0 {
+            write!(f, ", margin to a dead centre {:.1e}", self.margin)?;
+        }
+        writeln!(f)?;
+        write!(
+            f,
+            "{}",
+            unknowns(d, &self.coordinates, "moved", &self.changes())
+        )?;
+        redundancy(f, &self.constraints, self.dependent_constraints())?;
+        if self.singular && !self.constraints.singular {
+            writeln!(
+                f,
+                "  dead centre: the coordinates that are not held do not follow those that are"
+            )?;
+        }
+        Ok(())
     }
 }
 

@@ -17,12 +17,11 @@ where
     /// # Errors
     /// [`Error::UnknownHandle`]; a point that fails carries its own error.
     pub fn sweep(&self, input: Input, values: &[f64]) -> Result<Sweep<N, U, P>, Error> {
-        self.ready()?;
         equilibrium::sweep(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.following(),
             input,
             values,
@@ -45,7 +44,7 @@ where
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.following(),
             &Axes {
                 input,
@@ -73,12 +72,11 @@ where
         settings: &Continuation,
         search: Option<&Search<N>>,
     ) -> Result<Branches<N, U, P>, Error> {
-        self.ready()?;
         equilibrium::branches(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             settings,
             search,
         )
@@ -94,12 +92,11 @@ where
         low: f64,
         high: f64,
     ) -> Result<CriticalState<N, U, P>, Error> {
-        self.ready()?;
         equilibrium::critical_state(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.range(input, low, high),
         )
     }
@@ -136,12 +133,11 @@ where
         high: f64,
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing<N, U, P>>, Error> {
-        self.ready()?;
         equilibrium::crossings(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.following(),
             self.range(input, low, high),
             line,
@@ -177,12 +173,11 @@ where
         low: f64,
         high: f64,
     ) -> Result<Vec<Crossing<N, U, P>>, Error> {
-        self.ready()?;
         equilibrium::flutter_onsets(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.following(),
             self.range(input, low, high),
         )

@@ -3,6 +3,7 @@
 mod along;
 mod questions;
 
+use crate::constraints::Structure;
 use crate::equilibrium::{Following, Policy};
 use crate::modes::Family;
 use crate::tolerance::Tolerances;
@@ -27,6 +28,8 @@ pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usi
     inputs: [f64; U],
     design: [f64; P],
     start: [f64; N],
+    /// Which coordinates keep their start value when a mechanism with constraints is assembled.
+    held: [bool; N],
     policy: Policy,
     family: Option<Family>,
     half_widths: [Width; P],
@@ -53,6 +56,7 @@ where
             inputs: [0.0; U],
             design: core::array::from_fn(|j| design.get(j).map_or(0.0, |info| info.nominal)),
             start: [0.0; N],
+            held: [false; N],
             policy: Policy::Stable,
             family: None,
             half_widths: core::array::from_fn(|j| {
@@ -90,11 +94,26 @@ where
         self
     }
 
-    /// Sets where the search for an equilibrium starts, rad or m.
+    /// Sets where the search for an equilibrium starts, SI. A mechanism with constraints is first assembled with this
+    /// coordinate held at the value: give as many as are independent, and the others a [`Study::guess`].
     #[must_use]
-    pub fn start(mut self, coordinate: Coordinate, value: f64) -> Self {
+    pub fn start(self, coordinate: Coordinate, value: f64) -> Self {
+        self.from(coordinate, value, true)
+    }
+
+    /// Sets from where a dependent coordinate is moved when a mechanism with constraints is assembled, SI: it chooses the
+    /// assembly mode. Without constraints the same as [`Study::start`].
+    #[must_use]
+    pub fn guess(self, coordinate: Coordinate, value: f64) -> Self {
+        self.from(coordinate, value, false)
+    }
+
+    fn from(mut self, coordinate: Coordinate, value: f64, held: bool) -> Self {
         match self.start.get_mut(coordinate.0) {
-            Some(place) => *place = value,
+            Some(place) => {
+                *place = value;
+                self.held[coordinate.0] = held;
+            }
             None => self.refuse("coordinate", coordinate.0, N),
         }
         self
@@ -214,6 +233,16 @@ where
         self.fault.clone().map_or(Ok(()), Err)
     }
 
+    /// Where solvers start: the start values, assembled where coordinates are held.
+    fn assembled_start(&self) -> Result<[f64; N], Error> {
+        self.ready()?;
+        let structure = const { Structure::of(&M::DESCRIPTION) };
+        if structure.open() || !self.held.contains(&true) {
+            return Ok(self.start);
+        }
+        self.assembly().map(|assembly| assembly.coordinates)
+    }
+
     /// The mechanism.
     pub fn mechanism(&self) -> &M {
         &self.mechanism
@@ -229,7 +258,7 @@ where
         &self.design
     }
 
-    /// Where the search for an equilibrium starts, rad or m.
+    /// Start values as set, SI, not assembled.
     pub fn start_values(&self) -> &[f64; N] {
         &self.start
     }

@@ -1,7 +1,7 @@
 //! What a study can be asked at one operating point: each question runs the chain of functions that answers it.
 
 use super::Study;
-use crate::equilibrium::{self, Equilibrium, Search};
+use crate::equilibrium::{self, Assembly, Equilibrium, Search};
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
     self, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
@@ -11,7 +11,7 @@ use crate::tolerance::{
     self, Band, ClusterTolerance, FirstOrder, ModeMargin, MonteCarlo, OutputTolerances, Sampling,
     SecondOrder, Summary,
 };
-use crate::{Error, Mechanism, Modes, modes};
+use crate::{Coordinate, Error, Mechanism, Modes, modes};
 
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
 where
@@ -22,13 +22,28 @@ where
     /// # Errors
     /// Those of the function, and [`Error::UnknownHandle`] when a builder method was given a foreign handle.
     pub fn equilibrium(&self) -> Result<Equilibrium<N, U, P>, Error> {
-        self.ready()?;
         equilibrium::equilibrium(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             self.policy,
+        )
+    }
+
+    /// The mechanism put together, coordinates with a [`Study::start`] held ([`equilibrium::assemble`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn assembly(&self) -> Result<Assembly<N>, Error> {
+        self.ready()?;
+        let held: Vec<_> = (0..N).filter(|&j| self.held[j]).map(Coordinate).collect();
+        equilibrium::assemble(
+            &self.mechanism,
+            &self.inputs,
+            &self.design,
+            &self.start,
+            &held,
         )
     }
 
@@ -37,12 +52,11 @@ where
     /// # Errors
     /// Those of the function.
     pub fn equilibria(&self, search: &Search<N>) -> Result<Vec<Equilibrium<N, U, P>>, Error> {
-        self.ready()?;
         equilibrium::find_equilibria(
             &self.mechanism,
             &self.inputs,
             &self.design,
-            &self.start,
+            &self.assembled_start()?,
             search,
         )
     }
@@ -62,6 +76,7 @@ where
     }
 
     fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
+        state.regular()?;
         let family = self.family.unwrap_or(Family::of(state.description));
         modes::modes_of(&state.linear, family, state.description)
     }
@@ -71,7 +86,9 @@ where
     /// # Errors
     /// Those of the equilibrium and of the function.
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift<N, U, P>, Error> {
-        sensitivity::equilibrium_shift(&self.mechanism, &self.equilibrium()?)
+        let state = self.equilibrium()?;
+        state.regular()?;
+        sensitivity::equilibrium_shift(&self.mechanism, &state)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -88,7 +105,9 @@ where
     /// # Errors
     /// Those of the equilibrium and of the function.
     pub fn outputs(&self) -> Result<OutputSensitivities<U, P, O>, Error> {
-        sensitivity::output_sensitivities(&self.mechanism, &self.equilibrium()?)
+        let state = self.equilibrium()?;
+        state.regular()?;
+        sensitivity::output_sensitivities(&self.mechanism, &state)
     }
 
     /// First-order spread of the frequencies ([`tolerance::first_order`]).

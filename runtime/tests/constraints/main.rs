@@ -1,0 +1,11 @@
+//! Equilibria of mechanisms with constraints, against closed forms and minimal coordinates.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod assembly;
+mod bordered;
+mod equilibria;
+mod models;
+mod redundancy;
+mod running;

@@ -1,0 +1,97 @@
+use eigentol::equilibrium::assemble;
+use eigentol::{Coordinate, DesignVariable, Error, Stability, Study};
+
+use super::bordered::bordered;
+use super::models::{Parallelogram, Twice};
+use crate::common::{GRAVITY, close};
+
+#[test]
+fn a_rod_stated_twice() {
+    let study = Study::new(bordered(Twice)).guess(Coordinate(0), 0.3);
+    let state = study.equilibrium().expect("an equilibrium");
+    assert!(state.coordinates[0].abs() < 1e-12);
+    close(state.coordinates[1], -0.7, 1e-14);
+    // Together they carry the weight; alike in terms of the forces they cause.
+    let [.., rod, again] = state.coordinates;
+    close(rod, 0.5 * 2.0 * GRAVITY, 1e-12);
+    close(again, 0.5e-3 * 2.0 * GRAVITY, 1e-12);
+    assert_eq!(
+        (state.constraints.freedom, state.constraints.redundant),
+        (1, 1)
+    );
+    assert_eq!(
+        state.dependent_constraints().collect::<Vec<_>>(),
+        ["rod", "again"]
+    );
+    assert!(!state.constraints.singular);
+    assert_eq!(state.stability, Stability::Stable);
+    let text = state.to_string();
+    assert!(
+        text.contains("1 of 2 constraints redundant (rod, again)"),
+        "{text}"
+    );
+}
+
+#[test]
+fn rods_that_contradict_each_other() {
+    let study = Study::new(bordered(Twice))
+        .guess(Coordinate(1), -0.7)
+        .design(DesignVariable(2), 0.701);
+    let Err(Error::NotAssembled { reason, gap, .. }) = study.equilibrium() else {
+        panic!("0.7 m is not 0.701 m");
+    };
+    assert!(reason.contains("contradict"), "{reason}");
+    // Rows count by their sizes: both are half a millimetre from what they want, the second says it in millimetres.
+    assert!(
+        (gap.abs() - 0.5e-3).abs() < 1e-6 || (gap.abs() - 0.5).abs() < 1e-3,
+        "{gap}"
+    );
+}
+
+#[test]
+fn a_platform_on_three_bars() {
+    let (m, l) = (3.0, 0.8);
+    for turn in [0.0, 0.4, -1.0_f64] {
+        let study = Study::new(bordered(Parallelogram))
+            .input(eigentol::Input(0), turn)
+            .guess(Coordinate(0), 0.1)
+            .guess(Coordinate(1), -0.7)
+            .guess(Coordinate(2), 0.1);
+        let state = study.equilibrium().expect("an equilibrium");
+        println!("{state} {:?}", state.coordinates);
+        close(state.coordinates[0] + 1.0, l * turn.sin() + 1.0, 1e-13);
+        close(state.coordinates[1], -l * turn.cos(), 1e-13);
+        assert!(state.coordinates[2].abs() < 1e-13);
+        assert_eq!(
+            (state.constraints.freedom, state.constraints.redundant),
+            (1, 1)
+        );
+        assert!(!state.constraints.singular);
+        assert_eq!(state.stability, Stability::Stable);
+        let forces = &state.coordinates[3..];
+        close(forces.iter().sum(), m * GRAVITY, 1e-12);
+        // Which of them carries what is not determined; the least has no moment.
+        close(forces[0], forces[2], 1e-12);
+        assert!(forces.iter().all(|&force| force > 1.0));
+    }
+}
+
+#[test]
+fn a_bar_that_does_not_fit() {
+    let b = [3.0, 0.8, 0.5, 1e-3];
+    let start = [0.0, -0.8, 0.0, 0.0, 0.0, 0.0];
+    let error = assemble(&bordered(Parallelogram), &[0.0], &b, &start, &[]).expect_err("too long");
+    let text = error.to_string();
+    assert!(
+        text.contains("contradict") && text.contains("`middle`"),
+        "{text}"
+    );
+    let Error::NotAssembled { gap, others, .. } = error else {
+        panic!("{text}");
+    };
+    // The outer bars give way too: together they are a millimetre apart.
+    assert_eq!(others.len(), 2);
+    for (_, other) in others {
+        close(gap.abs() + other.abs(), 1e-3, 1e-6);
+    }
+}
