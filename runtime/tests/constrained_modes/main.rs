@@ -5,11 +5,13 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod branches;
 mod compare;
 mod holonomic;
 mod minimal;
 mod nonholonomic;
 mod rolling;
+mod tolerance;
 
 use eigentol::{CoordinateInfo, Role, Unit};
 

@@ -7,7 +7,7 @@ use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
 use crate::array::all_finite;
-use crate::constraints::ConstraintState;
+use crate::constraints::{ConstraintState, Structure};
 use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
 /// A mechanism of which one input varies.
@@ -65,6 +65,9 @@ where
     M: Mechanism<N, U, P, O>,
 {
     pub(crate) const DESCRIPTION: &'static Description = &M::DESCRIPTION;
+    /// Number of coordinates and speeds.
+    pub(crate) const MOTIONS: usize =
+        N.saturating_sub(Structure::of(&M::DESCRIPTION).constraints());
 
     pub(crate) fn inputs_at(&self, p: f64) -> [f64; U] {
         let input = self.settings.input.0;
@@ -202,7 +205,13 @@ where
     }
 
     pub(crate) fn frame(&self, at: &Place<N>, system: &System<N>) -> Frame<N> {
-        Frame::new(*at, self.settings.size, self.settings.range(), system)
+        Frame::new(
+            *at,
+            self.settings.size,
+            self.settings.range(),
+            system,
+            Self::MOTIONS,
+        )
     }
 
     /// Solves `g = 0` on the plane through `from` across `normal` (both local), not farther than `reach` from it.
