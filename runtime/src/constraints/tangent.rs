@@ -235,7 +235,8 @@ pub(crate) fn inertias<const N: usize>(linear: &Linear<f64, N>, structure: Struc
             } else {
                 &linear.damping
             };
-            matrix[j][j].max(0.0)
+            let mass = matrix[j][j];
+            if mass.is_finite() { mass.max(0.0) } else { 0.0 }
         };
         let greatest = block.clone().map(diagonal).fold(0.0, f64::max);
         for j in block {
