@@ -198,6 +198,19 @@ pub(crate) fn fix_gauge<const N: usize>(stiffness: &mut Square<N>, structure: St
     }
 }
 
+/// A choice of constraints, in the places of their rows, that follow from the others.
+pub(crate) fn redundant_rows<const N: usize>(
+    stiffness: &Square<N>,
+    structure: Structure,
+) -> [bool; N] {
+    let rows = all_rows(stiffness, structure);
+    let mut redundant = [false; N];
+    for &k in &rows.order[rows.rank..rows.count] {
+        redundant[structure.motions() + k] = true;
+    }
+    redundant
+}
+
 /// All constraints over coordinates and speeds, in the balanced metric.
 pub(crate) fn all_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
     Rows::balanced(structure.constraints(), |k| {

@@ -1,7 +1,7 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
 use crate::array::{Square, all_finite, all_finite_square};
-use crate::constraints::{Structure, all_rows, fix_gauge};
+use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::modes::symmetric::Trouble;
 use crate::{Description, Error, Linear, Mechanism, Role};
 
@@ -10,9 +10,22 @@ pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize,
     pub(crate) mechanism: &'a M,
     pub(crate) inputs: &'a [f64; U],
     pub(crate) design: &'a [f64; P],
-    /// Constraints that are left out, because the others imply them where they are met: rows with a zero residual and a unit
-    /// diagonal. Away from there dependent rows do not look dependent, and only hinder each other.
+    /// Constraints that are left out, because the others imply them where they are met: rows with a zero residual and minus
+    /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look dependent, and only hinder each other.
     dropped: [bool; N],
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Clone
+    for Problem<'_, M, N, U, P, O>
+{
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Copy
+    for Problem<'_, M, N, U, P, O>
+{
 }
 
 impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize>
@@ -67,16 +80,22 @@ where
 
     /// The same without the constraints that are redundant at `x`, which meets them.
     pub(crate) fn without_redundant(&self, x: &[f64; N]) -> Self {
-        let mut dropped = [false; N];
-        if const { Self::STRUCTURE.constraints() > 1 }
-            && let Some((_, stiffness)) = self.evaluate_plain(x)
-        {
-            let rows = all_rows(&stiffness, Self::STRUCTURE);
-            for &k in &rows.order[rows.rank..rows.count] {
-                dropped[Self::MOTIONS + k] = true;
-            }
+        let plain = if const { Self::STRUCTURE.constraints() > 1 } {
+            self.evaluate_plain(x)
+        } else {
+            None
+        };
+        plain.map_or(*self, |(_, stiffness)| {
+            self.without(&redundant_rows(&stiffness, Self::STRUCTURE))
+        })
+    }
+
+    /// The same without these constraints.
+    pub(crate) fn without(&self, dropped: &[bool; N]) -> Self {
+        Self {
+            dropped: *dropped,
+            ..*self
         }
-        Self { dropped, ..*self }
     }
 
     pub(crate) fn description(&self) -> &'static Description {
@@ -124,7 +143,7 @@ where
                     stiffness[k][j] = 0.0;
                     stiffness[j][k] = 0.0;
                 }
-                stiffness[k][k] = 1.0;
+                stiffness[k][k] = -1.0;
             }
         }
     }

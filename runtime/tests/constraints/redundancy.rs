@@ -103,3 +103,23 @@ fn a_bar_that_does_not_fit() {
     let (least, most) = gaps.fold((0.0_f64, 0.0_f64), |(a, b), gap| (a.min(gap), b.max(gap)));
     close(most - least, 1e-3, 1e-6);
 }
+
+#[test]
+fn a_branch_of_a_redundant_mechanism() {
+    let study = Study::new(bordered(Parallelogram))
+        .guess(Coordinate(0), 0.1)
+        .guess(Coordinate(1), -0.7);
+    let branches = study
+        .branches(eigentol::Input(0), 0.0, 1.0)
+        .expect("a branch");
+    assert_eq!(branches.branches.len(), 1);
+    let points = &branches.branches[0].points;
+    assert!(points.len() > 5);
+    for point in points {
+        let state = &point.equilibrium;
+        close(state.coordinates[1], -0.8 * point.value.cos(), 1e-10);
+        close(state.coordinates[3..].iter().sum(), 3.0 * GRAVITY, 1e-10);
+        assert_eq!(state.constraints.redundant, 1);
+        assert_eq!(state.stability, Stability::Stable);
+    }
+}
