@@ -158,8 +158,9 @@ where
         &closed
     };
     let potential = M::DESCRIPTION.symmetric_stiffness && structure.holonomic();
+    let independent = &problem.without_redundant(start);
     if policy == Policy::Nearest || !potential {
-        return newton::nearest(problem, start).and_then(|found| finish(problem, found));
+        return newton::nearest(independent, start).and_then(|found| finish(problem, found));
     }
     if let Some(state) = held(problem, start) {
         return Ok(state);
@@ -173,7 +174,7 @@ where
     found
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
-            _ => newton::nearest(problem, start).map_err(|_| failure),
+            _ => newton::nearest(independent, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
 }
@@ -186,7 +187,8 @@ fn polished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 where
     M: Mechanism<N, U, P, O>,
 {
-    let last = newton::nearest(problem, &found.coordinates)?;
+    let independent = problem.without_redundant(&found.coordinates);
+    let last = newton::nearest(&independent, &found.coordinates)?;
     Ok(Found {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
@@ -215,7 +217,8 @@ where
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
-    let found = newton::nearest(problem, start).ok()?;
+    let independent = problem.without_redundant(start);
+    let found = newton::nearest(&independent, start).ok()?;
     let state = finish(problem, found).ok()?;
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
@@ -239,9 +242,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let end = add_scaled(q, 1.0, step);
-    let rest = problem
-        .mechanism
-        .residual(&end, problem.inputs, problem.design);
+    let rest = problem.residual(&end);
     let reached = all_finite(&rest)
         && largest(&rest) <= 1e-3 * largest(residual)
         && settled(problem, &end, &rest, stiffness, TOLERANCE);
@@ -256,12 +257,13 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let mut linear = problem.linear(&found.coordinates)?;
-    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 }
-        && let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION)
-    {
-        found.coordinates = least;
-        (found.residual, _) = problem.evaluate_start(&least)?;
-        linear = problem.linear(&least)?;
+    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
+            linear = problem.linear(&least)?;
+            found.coordinates = least;
+        }
+        // With the gaps of constraints that were left out.
+        found.residual = problem.residual(&found.coordinates);
     }
     let at = (&found.coordinates, problem.inputs, problem.design);
     let constraints = ConstraintState::new(problem.mechanism, at, &linear);

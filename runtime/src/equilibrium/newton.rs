@@ -103,12 +103,12 @@ where
     let structure = Problem::<M, N, U, P, O>::STRUCTURE;
     let mut weight = [0.0; N];
     if structure.open() {
-        for i in 0..N {
+        for (i, weight) in weight.iter_mut().enumerate() {
             let mass = linear.mass[i][i];
             if mass.is_nan() || mass <= 0.0 {
                 return Err(Failure::SingularMass(i));
             }
-            weight[i] = 1.0 / mass;
+            *weight = 1.0 / mass;
         }
         return Ok(weight);
     }

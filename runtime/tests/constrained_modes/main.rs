@@ -10,6 +10,7 @@ mod compare;
 mod holonomic;
 mod minimal;
 mod nonholonomic;
+mod random;
 mod rolling;
 mod tolerance;
 
