@@ -184,10 +184,15 @@ fn conjugate<const N: usize>(mode: &Mode<N>) -> Mode<N> {
 
 fn check<const N: usize>(sizes: Sizes, random: &mut Random, rescaled: bool) {
     let mut linear = linear::<N>(sizes, random);
+    let plain = modes_of(&linear, Family::General, sizes.description()).unwrap();
     if rescaled {
         rescale(&mut linear, random);
     }
     let found = modes_of(&linear, Family::General, sizes.description()).unwrap();
+    for (a, b) in found.modes.iter().zip(&plain.modes) {
+        let apart = (a.s - b.s).norm();
+        assert!(apart <= 2.0 * (a.error + b.error), "{sizes:?}: {} {}: {} {}", a.s, b.s, a.error, b.error);
+    }
     let conjugates = found.modes.iter().filter(|mode| mode.s.im > 0.0);
     let all: Vec<_> = found
         .modes

@@ -1,12 +1,13 @@
 //! Tolerances of mechanisms with constraints: sample by sample those of minimal coordinates.
 
 use eigentol::tolerance::Outcome;
-use eigentol::{Coordinate, Input, Study};
+use eigentol::{Coordinate, Error, Input, Study};
 
 use crate::common::derived::Derived;
 use crate::compare::near;
 use crate::holonomic::{Chain, ChainByAngles, Spherical, SphericalByPlane};
-use crate::rolling::Caster;
+use crate::minimal::held::Held;
+use crate::rolling::{Caster, DrivenDisk};
 
 const OMEGA: Input = Input(0);
 
@@ -120,4 +121,56 @@ fn a_caster_varies_as_its_first_order_says() {
         near(sampled.standard_deviation.unwrap(), sigma, 0.1, sigma);
     }
     assert_eq!(oscillating, 1);
+}
+
+/// Every question has an answer without modes.
+#[test]
+fn a_held_mechanism_has_no_modes_and_no_surprises() {
+    let study = Study::new(Derived(Held))
+        .guess(Coordinate(0), 0.5)
+        .guess(Coordinate(1), 0.7)
+        .samples(50);
+    assert!(study.first_order().unwrap().modes.is_empty());
+    assert!(study.second_order().unwrap().modes.is_empty());
+    let summary = study.summary().unwrap();
+    assert!(summary.trusted());
+    println!("{summary}");
+    let sampled = study.monte_carlo().unwrap();
+    assert_eq!(sampled.counts.stable, 50);
+    assert!(sampled.modes.is_empty());
+    println!("{sampled}");
+    let sweep = study.sweep(OMEGA, &[0.0, 1.0, 2.0]).unwrap();
+    assert!(sweep.points.iter().all(|point| point.modes.as_ref().unwrap().modes.is_empty()));
+    println!("{sweep}");
+    println!("{}", study.campbell(OMEGA, &[0.5, 1.0, 2.0], &[1.0]).unwrap());
+    assert!(study.crossings(OMEGA, 0.5, 3.0, 1.0).unwrap().is_empty());
+    assert!(study.whirls().unwrap().is_empty());
+    assert!(matches!(study.mode_curvature(0), Err(Error::NoSuchMode { .. })));
+}
+
+/// A driven disk from standing to rolling: the same modes all the way, and a Campbell diagram of them.
+#[test]
+fn modes_with_speeds_keep_their_identity_along_a_sweep() {
+    let start = [0.0, 0.3, 1.0];
+    let study = start
+        .iter()
+        .enumerate()
+        .fold(Study::new(Derived(DrivenDisk)), |study, (i, &value)| {
+            study.guess(Coordinate(i), value)
+        });
+    let values: Vec<f64> = (0..30).map(|k| 1.5 + 0.1 * f64::from(k)).collect();
+    let sweep = study.sweep(OMEGA, &values).unwrap();
+    let mut weaving: Option<(usize, f64)> = None;
+    for point in &sweep.points {
+        let modes = point.modes.as_ref().unwrap();
+        assert_eq!(modes.modes.len(), 2);
+        let mode = modes.modes.iter().find(|mode| mode.frequency().is_some()).unwrap();
+        if let Some((label, omega)) = weaving {
+            assert_eq!(mode.label, label);
+            assert!(mode.s.im > omega);
+        }
+        weaving = Some((mode.label, mode.s.im));
+    }
+    println!("{sweep}");
+    println!("{}", sweep.points[3].modes.as_ref().unwrap());
 }
