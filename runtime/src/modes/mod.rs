@@ -10,6 +10,7 @@
 mod assurance;
 mod constrained;
 mod general;
+mod kinetic;
 mod per_mode;
 mod refine;
 pub(crate) mod symmetric;
@@ -163,10 +164,11 @@ impl<const N: usize> Modes<N> {
 ///
 /// # Errors
 /// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
-/// check.
+/// check, [`Error::SingularConfiguration`] where constraints lose their independence.
 pub fn modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
+    equilibrium.regular()?;
     modes_of(
         &equilibrium.linear,
         Family::of(equilibrium.description),
@@ -177,10 +179,12 @@ pub fn modes<const N: usize, const U: usize, const P: usize>(
 /// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
 ///
 /// # Errors
-/// As [`modes`], and [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric.
+/// As [`modes`], [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, and [`Error::NoUndampedModes`] with speeds
+/// or constraints on velocities.
 pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
+    equilibrium.regular()?;
     modes_of(
         &equilibrium.linear,
         Family::Undamped,

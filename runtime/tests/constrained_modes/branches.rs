@@ -45,21 +45,36 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
     );
     assert_eq!(found.equilibrium.stability, Stability::Neutral { zero: 1 });
     all_near(&found.v, &[1.0, 0.0, 0.0], 1e-9);
-    all_near(&critical_sensitivity(&mechanism, &found).unwrap(), &slopes, 1e-9);
+    all_near(
+        &critical_sensitivity(&mechanism, &found).unwrap(),
+        &slopes,
+        1e-9,
+    );
 
     // The same with the length stated twice.
     let twice = Derived(Bar::<2>);
     let start = [0.3, 0.9, 0.0, 0.0];
     let found = critical_state(&twice, &[0.0], &b, &start, through(0.5, 6.0)).unwrap();
     near(found.value, speed, 1e-13, speed);
-    all_near(&critical_sensitivity(&twice, &found).unwrap(), &slopes, 1e-9);
+    all_near(
+        &critical_sensitivity(&twice, &found).unwrap(),
+        &slopes,
+        1e-9,
+    );
 }
 
 #[test]
 fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
     let b = nominal::<Bar<1>, 3, 1, 3, 0>();
     let settings = Continuation::new(OMEGA, 1.0, 8.0);
-    let found = branches(&Derived(Bar::<1>), &[0.0], &b, &[0.1, 1.0, 0.0], &settings, None);
+    let found = branches(
+        &Derived(Bar::<1>),
+        &[0.0],
+        &b,
+        &[0.1, 1.0, 0.0],
+        &settings,
+        None,
+    );
     let found = found.unwrap();
     assert_eq!(found.branches.len(), 3);
     let (speed, _) = critical();
@@ -85,7 +100,13 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
             }
         }
         if branch.ends.contains(&BranchEnd::BranchPoint) {
-            ends.push(branch.points.iter().map(|point| point.equilibrium.coordinates[0]).sum::<f64>());
+            ends.push(
+                branch
+                    .points
+                    .iter()
+                    .map(|point| point.equilibrium.coordinates[0])
+                    .sum::<f64>(),
+            );
         }
     }
     assert_eq!(ends.len(), 2);
@@ -123,12 +144,27 @@ fn a_press_gives_way_at_its_greatest_torque() {
 fn resonances_lie_where_minimal_coordinates_have_them() {
     let b = nominal::<Chain, 6, 1, 5, 0>();
     let range = through(0.1, 5.0);
-    let other =
-        crossings(&Derived(ChainByAngles), &[0.0], &b, &[0.3, 0.4], Policy::Stable, range, 2.0)
-            .unwrap();
+    let other = crossings(
+        &Derived(ChainByAngles),
+        &[0.0],
+        &b,
+        &[0.3, 0.4],
+        Policy::Stable,
+        range,
+        2.0,
+    )
+    .unwrap();
     let start = [0.24, 0.76, 0.5, 1.2, 0.0, 0.0];
-    let own =
-        crossings(&Derived(Chain), &[0.0], &b, &start, Policy::Stable, range, 2.0).unwrap();
+    let own = crossings(
+        &Derived(Chain),
+        &[0.0],
+        &b,
+        &start,
+        Policy::Stable,
+        range,
+        2.0,
+    )
+    .unwrap();
     assert!(!other.is_empty());
     assert_eq!(own.len(), other.len());
     for (own, other) in own.iter().zip(&other) {

@@ -16,8 +16,13 @@ pub(crate) struct State<X, const N: usize, const U: usize, const P: usize> {
     pub(crate) modes: Modes<N>,
 }
 
-pub(crate) fn nominal<X: Model<N, U, P, O>, const N: usize, const U: usize, const P: usize, const O: usize>()
--> [f64; P] {
+pub(crate) fn nominal<
+    X: Model<N, U, P, O>,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>() -> [f64; P] {
     core::array::from_fn(|j| X::DESCRIPTION.design[j].nominal)
 }
 
@@ -64,11 +69,23 @@ pub(crate) fn all_near(a: &[f64], b: &[f64], tolerance: f64) {
 
 /// The same modes: eigenvalues, behaviour, small residuals and honest errors.
 #[track_caller]
-pub(crate) fn same_modes<const N: usize, const K: usize>(a: &Modes<N>, b: &Modes<K>, tolerance: f64) {
+pub(crate) fn same_modes<const N: usize, const K: usize>(
+    a: &Modes<N>,
+    b: &Modes<K>,
+    tolerance: f64,
+) {
     assert_eq!(a.modes.len(), b.modes.len());
-    let size = b.modes.iter().fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
+    let size = b
+        .modes
+        .iter()
+        .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
     for (own, other) in a.modes.iter().zip(&b.modes) {
-        assert!((own.s - other.s).norm() <= tolerance * size, "{} {}", own.s, other.s);
+        assert!(
+            (own.s - other.s).norm() <= tolerance * size,
+            "{} {}",
+            own.s,
+            other.s
+        );
         assert_eq!(
             std::mem::discriminant(&own.behaviour),
             std::mem::discriminant(&other.behaviour),
@@ -97,7 +114,10 @@ pub(crate) fn same_sensitivities<const N: usize, const K: usize, const U: usize,
                 assert!(pair.0.is_none() && pair.1.is_none());
                 continue;
             };
-            let scale = other.by_design.iter().fold(1e-4_f64, |most, x| most.max(x.abs()));
+            let scale = other
+                .by_design
+                .iter()
+                .fold(1e-4_f64, |most, x| most.max(x.abs()));
             for (a, b) in own.by_design.iter().zip(&other.by_design) {
                 near(*a, *b, tolerance, scale);
             }
@@ -139,4 +159,3 @@ pub(crate) fn same_mechanism<X, Y, const N: usize, const K: usize, const U: usiz
         );
     }
 }
-

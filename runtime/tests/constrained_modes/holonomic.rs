@@ -88,8 +88,12 @@ bars! { 1 3 ["length"] 2 4 ["length", "square"] 3 5 ["length", "square", "again"
 pub(crate) struct BarByAngle;
 
 impl Model<1, 1, 3, 0> for BarByAngle {
-    const DESCRIPTION: Description =
-        described("BarByAngle", &[coordinate("theta", RAD)], BAR, DampingKind::Zero);
+    const DESCRIPTION: Description = described(
+        "BarByAngle",
+        &[coordinate("theta", RAD)],
+        BAR,
+        DampingKind::Zero,
+    );
 
     fn inertia<T: Real>(
         &self,
@@ -167,8 +171,12 @@ impl Model<3, 1, 7, 0> for SliderCrank {
 pub(crate) struct CrankByAngle;
 
 impl Model<1, 1, 7, 0> for CrankByAngle {
-    const DESCRIPTION: Description =
-        described("CrankByAngle", &[coordinate("theta", RAD)], CRANK, DampingKind::Zero);
+    const DESCRIPTION: Description = described(
+        "CrankByAngle",
+        &[coordinate("theta", RAD)],
+        CRANK,
+        DampingKind::Zero,
+    );
 
     fn inertia<T: Real>(
         &self,
@@ -319,9 +327,7 @@ fn spherical<T: Real>(a: [T; 3], v: [T; 3], q: [T; 3], omega: T, b: &[T; 5]) -> 
     let [m, _, kx, ky, damper] = *b;
     let square = omega * omega;
     [
-        m * (a[0] - c(2.0) * omega * v[1] - square * q[0])
-            + kx * (q[0] - c(0.3))
-            + damper * v[0],
+        m * (a[0] - c(2.0) * omega * v[1] - square * q[0]) + kx * (q[0] - c(0.3)) + damper * v[0],
         m * (a[1] + c(2.0) * omega * v[0] - square * q[1])
             + ky * (q[1] - c(0.2))
             + damper * c(0.5) * v[1],
@@ -351,7 +357,13 @@ impl Model<4, 1, 5, 0> for Spherical {
         b: &[T; 5],
     ) -> [T; 4] {
         let size = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
-        let [fx, fy, fz] = spherical([a[0], a[1], a[2]], [v[0], v[1], v[2]], [q[0], q[1], q[2]], u[0], b);
+        let [fx, fy, fz] = spherical(
+            [a[0], a[1], a[2]],
+            [v[0], v[1], v[2]],
+            [q[0], q[1], q[2]],
+            u[0],
+            b,
+        );
         let pull = q[3] / size;
         [
             fx + pull * q[0],

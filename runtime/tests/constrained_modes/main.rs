@@ -3,9 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod branches;
 #[path = "../common/mod.rs"]
 mod common;
-mod branches;
 mod compare;
 mod holonomic;
 mod minimal;

@@ -265,6 +265,7 @@ fn without_freedom_there_are_no_modes() {
     let none = sensitivities(&state.mechanism, &state.at, &state.modes).unwrap();
     assert!(none.modes.is_empty());
     assert!(!state.modes.to_string().is_empty());
-    let general = eigentol::modes::modes_of(&state.at.linear, Family::General, state.at.description);
+    let general =
+        eigentol::modes::modes_of(&state.at.linear, Family::General, state.at.description);
     assert!(general.unwrap().modes.is_empty());
 }

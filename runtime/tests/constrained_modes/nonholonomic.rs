@@ -5,9 +5,7 @@ use eigentol::modes::{match_modes, modes, undamped_modes};
 use eigentol::sensitivity::{
     crossing_sensitivity, mode_curvature, sensitivities, sensitivities_explicit, shape_sensitivity,
 };
-use eigentol::{
-    Behaviour, Complex, Equilibrium, Error, Family, Input, Mechanism, Modes, Policy,
-};
+use eigentol::{Behaviour, Complex, Equilibrium, Error, Family, Input, Mechanism, Modes, Policy};
 
 use crate::common::derived::{Derived, Model};
 use crate::compare::{near, nominal};
@@ -66,7 +64,11 @@ fn slope<const P: usize>(
     let by_s = (3.0 * c3 * s + 2.0 * c2) * s + c1;
     let moved = |step: f64| {
         let (mut b, mut v) = (*b, v);
-        if j < P { b[j] += step } else { v += step }
+        if j < P {
+            b[j] += step
+        } else {
+            v += step
+        }
         let [c3, c2, c1, c0] = polynomial(&b, v);
         ((s * c3 + c2) * s + c1) * s + c0
     };
@@ -97,7 +99,10 @@ fn against_cubic<X, const N: usize, const P: usize>(
     let b = nominal::<X, N, 1, P, 0>();
     let (at, found) = solved(model.clone(), v, b, start);
     let mechanism = Derived(model);
-    let size = found.modes.iter().fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
+    let size = found
+        .modes
+        .iter()
+        .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
     let weight = |mode: &eigentol::Mode<N>| if mode.s.im > 0.0 { 2 } else { 1 };
     assert_eq!(found.modes.iter().map(weight).sum::<usize>(), 3);
     let adjoint = sensitivities(&mechanism, &at, &found).unwrap();
@@ -107,7 +112,11 @@ fn against_cubic<X, const N: usize, const P: usize>(
         let exact = |b: &[f64; P], v: f64, j: usize| slope(polynomial, b, v, mode.s, j);
         let (own, other) = (adjoint.modes[r].s.unwrap(), explicit.modes[r].s.unwrap());
         let curvature = mode_curvature(&mechanism, &at, &found, r).unwrap();
-        assert!(curvature.asymmetry < 1e-8, "asymmetry {}", curvature.asymmetry);
+        assert!(
+            curvature.asymmetry < 1e-8,
+            "asymmetry {}",
+            curvature.asymmetry
+        );
         let second = curvature.eigenvalue.unwrap();
         for j in 0..P {
             let wanted = exact(&b, v, j);
@@ -129,8 +138,18 @@ fn against_cubic<X, const N: usize, const P: usize>(
             }
         }
         let wanted = exact(&b, v, P);
-        near_complex(own.by_input[0], wanted, 1e-10, wanted.norm().max(1e-6 * size / v));
-        near_complex(other.by_input[0], wanted, 1e-10, wanted.norm().max(1e-6 * size / v));
+        near_complex(
+            own.by_input[0],
+            wanted,
+            1e-10,
+            wanted.norm().max(1e-6 * size / v),
+        );
+        near_complex(
+            other.by_input[0],
+            wanted,
+            1e-10,
+            wanted.norm().max(1e-6 * size / v),
+        );
     }
 }
 
@@ -144,11 +163,21 @@ fn a_massless_trail_swings_back() {
         assert_eq!(found.stable(), v > 0.0);
         let slopes = sensitivities(&Derived(Trail), &at, &found).unwrap();
         let own = slopes.modes[0].s.unwrap();
-        near_complex(own.by_design[0], Complex::new(v / 0.09, 0.0), 1e-13, v.abs() / 0.09);
+        near_complex(
+            own.by_design[0],
+            Complex::new(v / 0.09, 0.0),
+            1e-13,
+            v.abs() / 0.09,
+        );
         near_complex(own.by_input[0], Complex::new(-1.0 / 0.3, 0.0), 1e-13, 3.3);
         let second = mode_curvature(&Derived(Trail), &at, &found, 0).unwrap();
         let by_a = second.eigenvalue.unwrap().by_design[0][0];
-        near_complex(by_a, Complex::new(-2.0 * v / 0.027, 0.0), 1e-12, 80.0 * v.abs());
+        near_complex(
+            by_a,
+            Complex::new(-2.0 * v / 0.027, 0.0),
+            1e-12,
+            80.0 * v.abs(),
+        );
         assert!(matches!(undamped_modes(&at), Err(Error::NoUndampedModes)));
     }
 }
@@ -196,8 +225,7 @@ fn a_caster_shimmies_beyond_its_speed() {
         steps: 20,
     };
     let mechanism = Derived(Caster);
-    let found =
-        flutter_onsets(&mechanism, &[1.0], &b, &[0.0; 3], Policy::Nearest, range).unwrap();
+    let found = flutter_onsets(&mechanism, &[1.0], &b, &[0.0; 3], Policy::Nearest, range).unwrap();
     assert_eq!(found.len(), 1);
     near(found[0].value, onset, 1e-11, onset);
     let slopes = crossing_sensitivity(&mechanism, &found[0]).unwrap();
@@ -209,7 +237,12 @@ fn a_caster_shimmies_beyond_its_speed() {
         };
         let h = 2e-4 * b[j];
         let wanted = (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
-        near(slopes[j], wanted, 1e-8, wanted.abs().max(1e-3 * onset / b[j]));
+        near(
+            slopes[j],
+            wanted,
+            1e-8,
+            wanted.abs().max(1e-3 * onset / b[j]),
+        );
     }
 }
 
@@ -228,7 +261,12 @@ fn driven(b: &[f64; 5], v: f64) -> [f64; 4] {
 #[test]
 fn a_driven_disk_has_the_roots_of_its_cubic() {
     for v in [0.4, 1.5, 3.0] {
-        against_cubic(DrivenDisk, v, [0.0, 0.3, v, 0.0, 0.0, 0.0, 0.0, 0.0], &driven);
+        against_cubic(
+            DrivenDisk,
+            v,
+            [0.0, 0.3, v, 0.0, 0.0, 0.0, 0.0, 0.0],
+            &driven,
+        );
     }
 }
 
@@ -242,9 +280,12 @@ fn a_free_disk_stands_by_its_spin() {
         let start = [0.0, r, r * spin, 0.0, 0.0, spin, -m * 9.81, 0.0, 0.0];
         let mechanism = Derived(Disk);
         let linear = mechanism.linear(&start, &[0.0], &b);
-        let found =
-            eigentol::modes::modes_of(&linear, Family::General, &<Derived<Disk> as Mechanism<9, 1, 5, 0>>::DESCRIPTION)
-                .unwrap();
+        let found = eigentol::modes::modes_of(
+            &linear,
+            Family::General,
+            &<Derived<Disk> as Mechanism<9, 1, 5, 0>>::DESCRIPTION,
+        )
+        .unwrap();
         let held = axial * (axial + m * r * r) * spin * spin / transverse - m * 9.81 * r;
         let square = -held / (transverse + m * r * r);
         let neutral: Vec<_> = found
@@ -258,7 +299,10 @@ fn a_free_disk_stands_by_its_spin() {
             assert_eq!(found.modes.len(), 3);
             let omega = found.modes[2].frequency().unwrap();
             near(omega, (-square).sqrt(), 1e-12, omega);
-            assert!(matches!(found.modes[2].behaviour, Behaviour::Oscillating(_)));
+            assert!(matches!(
+                found.modes[2].behaviour,
+                Behaviour::Oscillating(_)
+            ));
             assert!(found.stable());
         } else {
             assert_eq!(found.modes.len(), 4);
@@ -336,9 +380,18 @@ fn shapes_with_speeds_move_with_the_design() {
                 (8.0 * one - two) / (12.0 * h)
             };
             for i in 0..8 {
-                let scale = slopes.right_by_design[j].iter().fold(1e-3_f64, |m, x| m.max(x.norm()));
-                near_complex(slopes.right_by_design[j][i], by(|m| m.shape, i), 1e-7, scale);
-                let scale = slopes.left_by_design[j].iter().fold(1e-3_f64, |m, x| m.max(x.norm()));
+                let scale = slopes.right_by_design[j]
+                    .iter()
+                    .fold(1e-3_f64, |m, x| m.max(x.norm()));
+                near_complex(
+                    slopes.right_by_design[j][i],
+                    by(|m| m.shape, i),
+                    1e-7,
+                    scale,
+                );
+                let scale = slopes.left_by_design[j]
+                    .iter()
+                    .fold(1e-3_f64, |m, x| m.max(x.norm()));
                 near_complex(slopes.left_by_design[j][i], by(|m| m.left, i), 1e-7, scale);
             }
         }

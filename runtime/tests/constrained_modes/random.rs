@@ -191,7 +191,14 @@ fn check<const N: usize>(sizes: Sizes, random: &mut Random, rescaled: bool) {
     let found = modes_of(&linear, Family::General, sizes.description()).unwrap();
     for (a, b) in found.modes.iter().zip(&plain.modes) {
         let apart = (a.s - b.s).norm();
-        assert!(apart <= 2.0 * (a.error + b.error), "{sizes:?}: {} {}: {} {}", a.s, b.s, a.error, b.error);
+        assert!(
+            apart <= 2.0 * (a.error + b.error),
+            "{sizes:?}: {} {}: {} {}",
+            a.s,
+            b.s,
+            a.error,
+            b.error
+        );
     }
     let conjugates = found.modes.iter().filter(|mode| mode.s.im > 0.0);
     let all: Vec<_> = found
@@ -205,8 +212,16 @@ fn check<const N: usize>(sizes: Sizes, random: &mut Random, rescaled: bool) {
     let size = |x: &[Complex; N]| x.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
     for a in &all {
         let (rest, terms) = times(&linear, [a.s * a.s, a.s, one], &a.shape);
-        assert!(size(&rest) <= 1e-11 * terms, "{sizes:?}: {} of {terms}", size(&rest));
-        assert!(a.error <= 1e-7 * (1.0 + a.s.norm()), "{sizes:?}: error {}", a.error);
+        assert!(
+            size(&rest) <= 1e-11 * terms,
+            "{sizes:?}: {} of {terms}",
+            size(&rest)
+        );
+        assert!(
+            a.error <= 1e-7 * (1.0 + a.s.norm()),
+            "{sizes:?}: error {}",
+            a.error
+        );
         for b in &all {
             if a.s == b.s {
                 continue;
@@ -219,7 +234,12 @@ fn check<const N: usize>(sizes: Sizes, random: &mut Random, rescaled: bool) {
                 dot(&mode.left, &times(&linear, factors, &mode.shape).0).norm()
             };
             let scale = (own(a) * own(b)).sqrt() * (a.condition * b.condition).sqrt();
-            assert!(cross <= 1e-8 * scale, "{sizes:?}: {} {}: {cross} of {scale}", a.s, b.s);
+            assert!(
+                cross <= 1e-8 * scale,
+                "{sizes:?}: {} {}: {cross} of {scale}",
+                a.s,
+                b.s
+            );
         }
     }
 }

@@ -73,10 +73,7 @@ impl Model<2, 1, 1, 0> for Trail {
         u: &[T; 1],
         b: &[T; 1],
     ) -> [T; 2] {
-        [
-            b[0] * q[1],
-            b[0] * velocity[0] + u[0] * q[0].sin_cos().0,
-        ]
+        [b[0] * q[1], b[0] * velocity[0] + u[0] * q[0].sin_cos().0]
     }
 
     no_forces! {2, 1}
@@ -94,7 +91,11 @@ pub(crate) const CASTER: [f64; 8] = [2.0, 0.05, 0.3, 0.1, 800.0, 2.0, 0.05, 0.4]
 impl Model<3, 1, 8, 0> for Caster {
     const DESCRIPTION: Description = described(
         "Caster",
-        &[coordinate("y", METRE), coordinate("theta", RAD), rolling("wheel")],
+        &[
+            coordinate("y", METRE),
+            coordinate("theta", RAD),
+            rolling("wheel"),
+        ],
         &[
             design("m", KILOGRAM, CASTER[0], 0.02),
             design("J", NUMBER, CASTER[1], 0.001),
@@ -148,8 +149,7 @@ fn disk<T: Real, const N: usize>(
     let about_axis_rate = spin_rate + yaw_rate * sin + yaw * cos * phi_rate;
     let two = T::constant(2.0);
     let dynamics = [
-        transverse * phi_rate_2
-            + transverse * yaw * yaw * sin * cos
+        transverse * phi_rate_2 + transverse * yaw * yaw * sin * cos
             - axial * about_axis * yaw * cos
             + r * sin * normal
             + r * cos * across,

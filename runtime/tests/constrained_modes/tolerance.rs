@@ -36,8 +36,18 @@ fn first_and_second_order_are_those_of_minimal_coordinates() {
     assert_eq!(a.modes.len(), 2);
     for (a, b) in a.modes.iter().zip(&b.modes) {
         near(a.sigma.unwrap(), b.sigma.unwrap(), 1e-10, b.sigma.unwrap());
-        near(a.distance_to_critical, b.distance_to_critical, 1e-9, b.distance_to_critical);
-        near(a.distance_to_neighbour, b.distance_to_neighbour, 1e-9, b.distance_to_neighbour);
+        near(
+            a.distance_to_critical,
+            b.distance_to_critical,
+            1e-9,
+            b.distance_to_critical,
+        );
+        near(
+            a.distance_to_neighbour,
+            b.distance_to_neighbour,
+            1e-9,
+            b.distance_to_neighbour,
+        );
     }
     let (a, b) = (own.summary().unwrap(), other.summary().unwrap());
     assert_eq!(a.trusted(), b.trusted());
@@ -73,8 +83,18 @@ fn every_sample_is_that_of_minimal_coordinates() {
     for (sampled, first) in own.modes.iter().zip(&first.modes) {
         let sampled = sampled.unwrap();
         // 600 samples tell a standard deviation to 3 %.
-        near(sampled.standard_deviation.unwrap(), first.sigma.unwrap(), 0.12, first.sigma.unwrap());
-        near(sampled.mean, first.mean.unwrap(), 0.15, first.sigma.unwrap());
+        near(
+            sampled.standard_deviation.unwrap(),
+            first.sigma.unwrap(),
+            0.12,
+            first.sigma.unwrap(),
+        );
+        near(
+            sampled.mean,
+            first.mean.unwrap(),
+            0.15,
+            first.sigma.unwrap(),
+        );
     }
 }
 
@@ -108,7 +128,10 @@ fn damped_samples_are_those_of_minimal_coordinates() {
 /// First order of a caster against its samples.
 #[test]
 fn a_caster_varies_as_its_first_order_says() {
-    let study = Study::new(Derived(Caster)).input(OMEGA, 2.0).samples(1500).seed(3);
+    let study = Study::new(Derived(Caster))
+        .input(OMEGA, 2.0)
+        .samples(1500)
+        .seed(3);
     let first = study.first_order().unwrap();
     let sampled = study.monte_carlo().unwrap();
     assert_eq!(sampled.counts.total(), 1500);
@@ -140,12 +163,23 @@ fn a_held_mechanism_has_no_modes_and_no_surprises() {
     assert!(sampled.modes.is_empty());
     println!("{sampled}");
     let sweep = study.sweep(OMEGA, &[0.0, 1.0, 2.0]).unwrap();
-    assert!(sweep.points.iter().all(|point| point.modes.as_ref().unwrap().modes.is_empty()));
+    assert!(
+        sweep
+            .points
+            .iter()
+            .all(|point| point.modes.as_ref().unwrap().modes.is_empty())
+    );
     println!("{sweep}");
-    println!("{}", study.campbell(OMEGA, &[0.5, 1.0, 2.0], &[1.0]).unwrap());
+    println!(
+        "{}",
+        study.campbell(OMEGA, &[0.5, 1.0, 2.0], &[1.0]).unwrap()
+    );
     assert!(study.crossings(OMEGA, 0.5, 3.0, 1.0).unwrap().is_empty());
     assert!(study.whirls().unwrap().is_empty());
-    assert!(matches!(study.mode_curvature(0), Err(Error::NoSuchMode { .. })));
+    assert!(matches!(
+        study.mode_curvature(0),
+        Err(Error::NoSuchMode { .. })
+    ));
 }
 
 /// A driven disk from standing to rolling: the same modes all the way, and a Campbell diagram of them.
@@ -164,7 +198,11 @@ fn modes_with_speeds_keep_their_identity_along_a_sweep() {
     for point in &sweep.points {
         let modes = point.modes.as_ref().unwrap();
         assert_eq!(modes.modes.len(), 2);
-        let mode = modes.modes.iter().find(|mode| mode.frequency().is_some()).unwrap();
+        let mode = modes
+            .modes
+            .iter()
+            .find(|mode| mode.frequency().is_some())
+            .unwrap();
         if let Some((label, omega)) = weaving {
             assert_eq!(mode.label, label);
             assert!(mode.s.im > omega);

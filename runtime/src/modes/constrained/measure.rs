@@ -83,11 +83,8 @@ impl Measure {
         let c = times_complex(&linear.damping, right);
         let slope = dot_complex(left, &core::array::from_fn(|i| 2.0 * s * m[i] + c[i]));
         let value = dot_complex(left, &of_right);
-        let mut terms = 0.0;
-        for i in 0..N {
-            let row: f64 = (0..N).map(|j| size(i, j) * right[j].norm()).sum();
-            terms += left[i].norm() * row;
-        }
+        let row = |i: usize| (0..N).map(|j| size(i, j) * right[j].norm()).sum::<f64>();
+        let terms: f64 = (0..N).map(|i| left[i].norm() * row(i)).sum();
         let rounding = (N as f64 + 4.0) * f64::EPSILON * terms;
         Self {
             residual: by_right.relative.max(by_left.relative),

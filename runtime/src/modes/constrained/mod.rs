@@ -10,6 +10,7 @@ mod first_order;
 mod measure;
 mod pairs;
 mod quadratic;
+mod system;
 
 pub(crate) use pairs::free_pairs;
 
@@ -222,7 +223,7 @@ impl<'a, const N: usize> Gathered<'a, N> {
                 }
             }
         }
-        if !(found.residual <= measure::ACCEPTED) {
+        if found.residual.is_nan() || found.residual > measure::ACCEPTED {
             if !found.rounding_only {
                 return Err(inaccurate(found.residual));
             }
@@ -249,7 +250,5 @@ impl<'a, const N: usize> Gathered<'a, N> {
 /// Whether an eigenvalue occurs more than once in a list.
 fn is_shared(numbers: &[Numbers], i: usize) -> bool {
     let others = numbers.iter().enumerate().filter(|(j, _)| *j != i);
-    others
-        .map(|(_, other)| other.s)
-        .any(|s| s == numbers[i].s)
+    others.map(|(_, other)| other.s).any(|s| s == numbers[i].s)
 }

@@ -1,11 +1,15 @@
 //! The symmetric problem `P^T (K_c - lambda M) P y = 0`: undamped modes, and what counts negative stiffness.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
 
-use super::{measure, projected};
 use super::quadratic::tangent_trouble;
+use super::{measure, projected};
 use crate::array::{dot, largest_element, times};
 use crate::constraints::{Structure, Tangent};
-use crate::modes::symmetric::{self, Trouble};
 use crate::modes::neutral_threshold;
+use crate::modes::symmetric::{self, Trouble};
 use crate::{Description, Linear};
 
 /// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that constraints leave free, ascending.
@@ -201,4 +205,3 @@ fn residual<const N: usize>(
     }
     motion.max(violation)
 }
-

@@ -52,16 +52,19 @@ pub(super) fn roots<const N: usize>(
 /// Names a coordinate that the massless direction moves.
 pub(super) fn tangent_trouble<const N: usize>(trouble: Trouble, tangent: &Tangent<N>) -> Trouble {
     match trouble {
-        Trouble::SingularMass(row) => Trouble::SingularMass(
-            tangent.basis.get(row).map_or(0, greatest),
-        ),
+        Trouble::SingularMass(row) => {
+            Trouble::SingularMass(tangent.basis.get(row).map_or(0, greatest))
+        }
         other => other,
     }
 }
 
 /// Position of the component of greatest size.
 pub(super) fn greatest<const N: usize>(x: &[f64; N]) -> usize {
-    (1..N).fold(0, |most, i| if x[i].abs() > x[most].abs() { i } else { most })
+    (1..N).fold(
+        0,
+        |most, i| if x[i].abs() > x[most].abs() { i } else { most },
+    )
 }
 
 fn transposed<const N: usize>(linear: &Linear<f64, N>) -> Linear<f64, N> {

@@ -81,9 +81,7 @@ impl<'a> Linearisation<'a> {
             Degree::One => self.stiffness,
             Degree::Two => self.damping,
         };
-        -(0..self.n)
-            .map(|i| matrix[i * (self.n + 1)])
-            .sum::<f64>()
+        -(0..self.n).map(|i| matrix[i * (self.n + 1)]).sum::<f64>()
     }
 
     /// Condition number of `s` as an eigenvalue of `A`, from the vectors of the pencil and `slope = psi^T (2 s M + C) phi`.
