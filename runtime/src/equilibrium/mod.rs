@@ -16,6 +16,7 @@ mod space;
 mod stability;
 mod sweep;
 mod track;
+mod weights;
 
 pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use branch::{
@@ -158,15 +159,14 @@ where
         &closed
     };
     let potential = M::DESCRIPTION.symmetric_stiffness && structure.holonomic();
-    let independent = &problem.without_redundant(start);
     if policy == Policy::Nearest || !potential {
-        return newton::nearest(independent, start).and_then(|found| finish(problem, found));
+        return nearest(problem, start).and_then(|found| finish(problem, found));
     }
     if let Some(state) = held(problem, start) {
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Open, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start)
     } else {
         descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start)
             .and_then(|found| polished(problem, found))
@@ -174,9 +174,31 @@ where
     found
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
-            _ => newton::nearest(independent, start).map_err(|_| failure),
+            _ => nearest(problem, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
+}
+
+/// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
+/// to it, else on all unknowns together.
+fn nearest<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+) -> Result<Found<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = const { Structure::of(&M::DESCRIPTION) };
+    let whole = || {
+        let independent = problem.without_redundant(start);
+        newton::nearest::<space::Whole, _, N, U, P, O>(&independent, start)
+    };
+    if structure.open() || !structure.holonomic() {
+        return whole();
+    }
+    newton::nearest::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+        .and_then(|found| polished(problem, found))
+        .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// The last steps on coordinates and reactions together.
@@ -188,7 +210,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let independent = problem.without_redundant(&found.coordinates);
-    let last = newton::nearest(&independent, &found.coordinates)?;
+    let last = newton::nearest::<space::Whole, _, N, U, P, O>(&independent, &found.coordinates)?;
     Ok(Found {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
@@ -217,8 +239,7 @@ where
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
-    let independent = problem.without_redundant(start);
-    let found = newton::nearest(&independent, start).ok()?;
+    let found = nearest(problem, start).ok()?;
     let state = finish(problem, found).ok()?;
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
