@@ -257,7 +257,8 @@ fn undamped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
 ) -> Result<PerMode<Mode<N>, N>, ModesFailure> {
-    if !Structure::of(description).holonomic() {
+    let structure = Structure::of(description);
+    if !structure.holonomic() {
         return Err(ModesFailure::NotHolonomic);
     }
     if !description.symmetric_stiffness {
@@ -266,35 +267,60 @@ fn undamped<const N: usize>(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
+    if structure.open() {
+        let pairs =
+            symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
+        let threshold = neutral_threshold(&pairs.lambda);
+        return Ok(PerMode::from_fn(N, |r| {
+            undamped_mode(
+                r,
+                pairs.lambda[r],
+                &pairs.shapes[r],
+                pairs.residuals[r],
+                threshold,
+            )
+        }));
+    }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
-    let threshold = pairs.threshold;
-    Ok(PerMode::from_fn(pairs.lambda().len(), |r| {
-        let lambda = pairs.lambda()[r];
-        let rate = lambda.abs().sqrt();
-        let (s, behaviour) = if lambda > threshold {
-            (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
-        } else if lambda < -threshold {
-            (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
-        } else {
-            (Complex::new(0.0, 0.0), Behaviour::Neutral)
-        };
-        let shape = pairs.shapes()[r].map(Complex::from);
-        Mode {
-            s,
-            lambda,
-            shape,
-            left: shape,
-            behaviour,
-            residual: pairs.residuals()[r],
-            error: if rate > 0.0 {
-                (threshold / rate).min(threshold.sqrt())
-            } else {
-                threshold.sqrt()
-            },
-            condition: 1.0,
-            label: r,
-        }
+    let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
+    Ok(PerMode::from_fn(lambda.len(), |r| {
+        undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold)
     }))
+}
+
+/// Mode `r`; eigenvalues within `threshold` cannot be told from zero.
+#[inline]
+fn undamped_mode<const N: usize>(
+    r: usize,
+    lambda: f64,
+    shape: &[f64; N],
+    residual: f64,
+    threshold: f64,
+) -> Mode<N> {
+    let rate = lambda.abs().sqrt();
+    let (s, behaviour) = if lambda > threshold {
+        (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
+    } else if lambda < -threshold {
+        (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
+    } else {
+        (Complex::new(0.0, 0.0), Behaviour::Neutral)
+    };
+    let shape = shape.map(Complex::from);
+    Mode {
+        s,
+        lambda,
+        shape,
+        left: shape,
+        behaviour,
+        residual,
+        error: if rate > 0.0 {
+            (threshold / rate).min(threshold.sqrt())
+        } else {
+            threshold.sqrt()
+        },
+        condition: 1.0,
+        label: r,
+    }
 }
 
 fn damped<const N: usize>(

@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::table::{Table, cells, number, optional};
 use crate::modes::{Family, Sense, Whirl};
-use crate::{Behaviour, Complex, Modes};
+use crate::{Behaviour, Complex, Modes, Role};
 
 impl fmt::Display for Behaviour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -46,8 +46,17 @@ impl<const N: usize> fmt::Display for Modes<N> {
         } else {
             cells(["lambda [1/s^2]"])
         });
-        let names = self.description.coordinates.iter();
-        head.extend(names.map(|info| info.name.to_owned()));
+        // Reactions that go with a motion say nothing of its shape.
+        let moves = |place: usize| {
+            let info = self.description.coordinates.get(place);
+            info.is_none_or(|info| matches!(info.role, Role::Position | Role::Speed))
+        };
+        let names = self.description.coordinates.iter().enumerate();
+        head.extend(
+            names
+                .filter(|(place, _)| moves(*place))
+                .map(|(_, info)| info.name.to_owned()),
+        );
         head.push("motion".to_owned());
         let mut table = Table::new(head);
         for mode in &self.modes {
@@ -64,7 +73,12 @@ impl<const N: usize> fmt::Display for Modes<N> {
             } else {
                 row.push(number(mode.lambda));
             }
-            row.extend(mode.shape.iter().map(|&value| component(value)));
+            let shape = mode.shape.iter().enumerate();
+            row.extend(
+                shape
+                    .filter(|(place, _)| moves(*place))
+                    .map(|(_, &value)| component(value)),
+            );
             row.push(mode.behaviour.to_string());
             table.row(row);
         }

@@ -9,6 +9,7 @@ use eigentol::{Behaviour, Complex, Equilibrium, Error, Family, Input, Mechanism,
 
 use crate::common::derived::{Derived, Model};
 use crate::compare::{near, nominal};
+use crate::holonomic::Bar;
 use crate::rolling::{Caster, Disk, DrivenDisk, Sleigh, Trail};
 
 fn solved<X, const N: usize, const P: usize>(
@@ -396,4 +397,99 @@ fn shapes_with_speeds_move_with_the_design() {
             }
         }
     }
+}
+
+/// The bar by its tip, its length also held as a rate: one constraint on velocities that says nothing new.
+#[derive(Clone, Copy, Debug)]
+struct Rated;
+
+impl Model<4, 1, 3, 0> for Rated {
+    const DESCRIPTION: eigentol::Description = eigentol::Description {
+        name: "Rated",
+        coordinates: &[
+            crate::common::coordinate("x", crate::common::METRE),
+            crate::common::coordinate("z", crate::common::METRE),
+            crate::reaction("length", crate::FORCE),
+            crate::rolling::rolling("rate"),
+        ],
+        symmetric_stiffness: false,
+        damping: eigentol::DampingKind::General,
+        ..<Bar<1> as Model<3, 1, 3, 0>>::DESCRIPTION
+    };
+
+    fn inertia<T: eigentol::Real>(
+        &self,
+        a: &[T; 4],
+        v: &[T; 4],
+        q: &[T; 4],
+        u: &[T; 1],
+        b: &[T; 3],
+    ) -> [T; 4] {
+        let size = (q[0] * q[0] + q[1] * q[1]).sqrt();
+        let both = q[2] + q[3];
+        let [x, z, length] = Bar::<1>.inertia(
+            &[a[0], a[1], a[2]],
+            &[v[0], v[1], v[2]],
+            &[q[0], q[1], both],
+            u,
+            b,
+        );
+        [x, z, length, (q[0] * v[0] + q[1] * v[1]) / size]
+    }
+
+    fn applied<T: eigentol::Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 3]) -> [T; 4] {
+        [T::constant(0.0); 4]
+    }
+}
+
+#[test]
+fn a_constraint_stated_again_as_a_rate_changes_nothing() {
+    let omega = 4.2;
+    let b = nominal::<Bar<1>, 3, 1, 3, 0>();
+    let (at, found) = solved(Rated, omega, b, [0.55, 0.83, 30.0, 0.0]);
+    let once = crate::compare::State::new(Bar::<1>, [omega], [0.55, 0.83, 0.0]);
+    assert_eq!(found.modes.len(), 1);
+    near_complex(found.modes[0].s, once.modes.modes[0].s, 1e-12, 1.0);
+    let own = sensitivities(&Derived(Rated), &at, &found).unwrap();
+    let other = sensitivities(&once.mechanism, &once.at, &once.modes).unwrap();
+    let (own, other) = (own.modes[0].s.unwrap(), other.modes[0].s.unwrap());
+    for j in 0..3 {
+        near_complex(own.by_design[j], other.by_design[j], 1e-10, 1.0);
+    }
+}
+
+/// A mass that slides freely beside one that a dashpot stops: it rests anywhere, and drifts.
+#[test]
+fn a_free_mass_drifts() {
+    let unit = crate::common::METRE;
+    let description = Box::leak(Box::new(eigentol::Description {
+        name: "Drift",
+        coordinates: Box::leak(Box::new([
+            crate::common::coordinate("x", unit),
+            crate::rolling::speed("v", unit),
+        ])),
+        inputs: &[],
+        design: &[],
+        outputs: &[],
+        symmetric_stiffness: false,
+        damping: eigentol::DampingKind::General,
+        kernels: &[],
+    }));
+    let linear = eigentol::Linear {
+        mass: [[2.0, 0.0], [0.0, 0.0]],
+        damping: [[0.0, 0.0], [0.0, 1.0]],
+        stiffness: [[0.0, 0.0], [0.0, 0.5]],
+    };
+    let found = eigentol::modes::modes_of(&linear, Family::General, description).unwrap();
+    assert_eq!(found.modes.len(), 3);
+    let neutral = |mode: &&eigentol::Mode<2>| mode.behaviour == Behaviour::Neutral;
+    assert_eq!(found.modes.iter().filter(neutral).count(), 2);
+    assert!(
+        found
+            .modes
+            .iter()
+            .filter(neutral)
+            .all(|mode| mode.condition.is_infinite())
+    );
+    near_complex(found.modes[2].s, (-0.5).into(), 1e-14, 1.0);
 }

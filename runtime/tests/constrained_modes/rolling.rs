@@ -11,7 +11,7 @@ const SLOW: Unit = Unit {
     scale: 1.0,
 };
 
-const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
+pub(crate) const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
     CoordinateInfo {
         name,
         unit,
@@ -19,7 +19,7 @@ const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
     }
 }
 
-const fn rolling(name: &'static str) -> CoordinateInfo {
+pub(crate) const fn rolling(name: &'static str) -> CoordinateInfo {
     CoordinateInfo {
         name,
         unit: FORCE,

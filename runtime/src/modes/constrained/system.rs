@@ -16,8 +16,11 @@
 use super::quadratic::greatest;
 use crate::Linear;
 use crate::array::{Cholesky, Square, dot};
-use crate::constraints::{Rows, Tangent};
+use crate::constraints::{Rows, Tangent, inertias};
 use crate::modes::symmetric::Trouble;
+
+/// Share of a constraint on velocities below which it follows from those on positions.
+const FOLLOWS: f64 = 1e-10;
 
 /// The reduced matrices. Vectors by velocity have `ydot` in the first `freedom` places, then the speeds.
 pub(super) struct System<'a, const N: usize> {
@@ -84,12 +87,13 @@ impl<'a, const N: usize> System<'a, N> {
             }
         }
         let rows = structure.velocity_rows();
+        let inertias = inertias(linear, structure);
         let row = |k: usize| -> [f64; N] {
             let (c, b) = (
                 &linear.damping[rows.start + k],
                 &linear.stiffness[rows.start + k],
             );
-            core::array::from_fn(|a| {
+            let row: [f64; N] = core::array::from_fn(|a| {
                 if a < f {
                     dot(c, &tangent.basis[a])
                 } else if a < velocities {
@@ -97,7 +101,17 @@ impl<'a, const N: usize> System<'a, N> {
                 } else {
                     0.0
                 }
-            })
+            });
+            // Lengths in the metric of masses, in which the basis is orthonormal.
+            let part = |value: f64, i: usize| value * value / inertias[i];
+            let of_speeds: f64 = speeds.clone().map(|i| part(b[i], i)).sum();
+            let whole = of_speeds + (0..speeds.start).map(|i| part(c[i], i)).sum::<f64>();
+            let left = of_speeds + row[..f].iter().map(|x| x * x).sum::<f64>();
+            if left > FOLLOWS * FOLLOWS * whole {
+                row
+            } else {
+                [0.0; N]
+            }
         };
         let velocity = Rows::balanced(rows.len(), row);
         let metric = metric(&mass, velocities);
