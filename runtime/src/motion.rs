@@ -1,6 +1,6 @@
 //! Accelerations of the full nonlinear motion, for those who integrate it in time.
 
-use crate::array::{Cholesky, Lu, all_finite, all_finite_square, dot};
+use crate::array::{Cholesky, Lu, Square, all_finite, all_finite_square, dot};
 use crate::constraints::{Structure, Tangent, fix_gauge};
 use crate::{Error, Linear, Mechanism};
 
@@ -65,10 +65,9 @@ where
     let linear = mechanism.linear(&q, u, b);
     let along = mechanism.linear_along(&q, u, b, &rates, &[0.0; U], &[0.0; P]);
     // Columns of accelerations and of rates of speeds, and those of reactions.
-    let mut matrix = [[0.0; N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            matrix[i][j] = if structure.position_rows().contains(&i) || j >= motions {
+    let mut matrix: Square<N> = core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            if structure.position_rows().contains(&i) || j >= motions {
                 linear.stiffness[i][j]
             } else if structure.velocity_rows().contains(&i) {
                 by_velocity(&linear, structure, i, j)
@@ -76,9 +75,9 @@ where
                 linear.mass[i][j]
             } else {
                 linear.damping[i][j]
-            };
-        }
-    }
+            }
+        })
+    });
     let right: [f64; N] = core::array::from_fn(|i| {
         if i < motions {
             -rest[i]

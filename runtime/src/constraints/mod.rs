@@ -8,7 +8,7 @@ mod tangent;
 pub(crate) use rows::Rows;
 pub use state::ConstraintState;
 pub(crate) use structure::Structure;
-pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, reduce};
+pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, reduce, redundant_rows};
 
 #[cfg(test)]
 mod tests;

@@ -10,10 +10,12 @@ use crate::array::{Cholesky, Square, add_scaled, dot, largest};
 /// What may remain of a row that others explain, relative to the row itself. Rows of compiled constraints carry rounding
 /// of some 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this have no use as two.
 const DEPENDENT: f64 = 1e-10;
+/// The same for rows that may become dependent nearby.
+const NEARLY: f64 = 1e-2;
 /// A row this much smaller than the greatest is zero but for rounding.
 const VANISHING: f64 = 1e-13;
-/// A column with no greater share of any row is left as it is.
-const FAINT: f64 = 1e-9;
+/// Least share of a column in the balanced metric: what is fainter is not blown up, lest its rounding count as independence.
+const FAINT: f64 = 1e-4;
 
 /// `count` rows `h_k` of `N` columns, of which `rank` are independent, in the metric `sum (scale_j x_j)^2` of vectors `x`.
 #[derive(Clone, Copy, Debug)]
@@ -38,11 +40,6 @@ pub(crate) struct Rows<const N: usize> {
 }
 
 impl<const N: usize> Rows<N> {
-    /// Of at most `N` rows, by `row(k)`.
-    pub(crate) fn new(count: usize, row: impl Fn(usize) -> [f64; N], scale: [f64; N]) -> Self {
-        Self::with_threshold(count, row, scale, DEPENDENT)
-    }
-
     /// Of rows that are known to be independent.
     pub(crate) fn independent(
         count: usize,
@@ -65,9 +62,18 @@ impl<const N: usize> Rows<N> {
                 }
             }
         }
-        // A column that hardly counts anywhere must not be blown up.
-        let scale = scale.map(|value| if value > FAINT { value } else { 1.0 });
-        Self::new(count, row, scale)
+        let scale = scale.map(|value| value.max(FAINT));
+        Self::with_threshold(count, row, scale, DEPENDENT)
+    }
+
+    /// In the metric of these scales.
+    pub(crate) fn new(count: usize, row: impl Fn(usize) -> [f64; N], scale: [f64; N]) -> Self {
+        Self::with_threshold(count, row, scale, DEPENDENT)
+    }
+
+    /// As [`Self::new`]; rows that nearly depend on others count as dependent.
+    pub(crate) fn nearly(count: usize, row: impl Fn(usize) -> [f64; N], scale: [f64; N]) -> Self {
+        Self::with_threshold(count, row, scale, NEARLY)
     }
 
     fn with_threshold(
@@ -217,6 +223,15 @@ impl<const N: usize> Rows<N> {
         basis
     }
 
+    /// The shortest `x` with `h_k x = right_k` for the independent rows, in the metric.
+    pub(crate) fn shortest_of_independent(&self, right: &[f64; N]) -> [f64; N] {
+        let mut wanted = [0.0; N];
+        for &k in &self.order[..self.rank] {
+            wanted[k] = right[k] / self.size[k];
+        }
+        self.solution(&wanted)
+    }
+
     /// The shortest `x` with `h_k x = right_k`, in the metric; of rows that contradict each other the least squares, each
     /// row over its size.
     pub(crate) fn shortest(&self, right: &[f64; N]) -> [f64; N] {
@@ -230,9 +245,14 @@ impl<const N: usize> Rows<N> {
         for left in &self.dependency[..self.dependent()] {
             wanted = add_scaled(&wanted, -dot(left, &wanted), left);
         }
+        self.solution(&wanted)
+    }
+
+    /// From values over sizes, by the independent rows.
+    fn solution(&self, wanted: &[f64; N]) -> [f64; N] {
         let mut x = [0.0; N];
         for i in 0..self.rank {
-            x = add_scaled(&x, dot(&self.combination[i], &wanted), &self.unit[i]);
+            x = add_scaled(&x, dot(&self.combination[i], wanted), &self.unit[i]);
         }
         over(&x, &self.scale)
     }

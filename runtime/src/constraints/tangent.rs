@@ -198,6 +198,19 @@ pub(crate) fn fix_gauge<const N: usize>(stiffness: &mut Square<N>, structure: St
     }
 }
 
+/// A choice of constraints, in the places of their rows, that follow from the others.
+pub(crate) fn redundant_rows<const N: usize>(
+    stiffness: &Square<N>,
+    structure: Structure,
+) -> [bool; N] {
+    let rows = all_rows(stiffness, structure);
+    let mut redundant = [false; N];
+    for &k in &rows.order[rows.rank..rows.count] {
+        redundant[structure.motions() + k] = true;
+    }
+    redundant
+}
+
 /// All constraints over coordinates and speeds, in the balanced metric.
 pub(crate) fn all_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
     Rows::balanced(structure.constraints(), |k| {
@@ -235,7 +248,8 @@ pub(crate) fn inertias<const N: usize>(linear: &Linear<f64, N>, structure: Struc
             } else {
                 &linear.damping
             };
-            matrix[j][j].max(0.0)
+            let mass = matrix[j][j];
+            if mass.is_finite() { mass.max(0.0) } else { 0.0 }
         };
         let greatest = block.clone().map(diagonal).fold(0.0, f64::max);
         for j in block {

@@ -1,11 +1,11 @@
-//! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion,
-//! damped (Levenberg, Marquardt) where constraints are about to lose their independence.
+//! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
+//! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to lose their independence.
 
 use super::convergence::{TOLERANCE, largest_of, relative_gap};
 use super::problem::{Failure, Problem};
 use crate::Mechanism;
 use crate::array::{Square, add_scaled, dot};
-use crate::constraints::{Rows, Structure};
+use crate::constraints::{Rows, Structure, inertias};
 
 const MAX_ITERATIONS: usize = 200;
 /// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
@@ -13,11 +13,15 @@ const MAX_ITERATIONS: usize = 200;
 const FIRST_RADIUS: f64 = 0.3;
 /// A gap that keeps this share in a step has stopped falling.
 const STALLED: f64 = 0.5;
+/// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
+const FALLS: f64 = 0.1;
 /// Share of the gaps that constraints must still be able to close, else there is a minimum.
 const CLOSABLE: f64 = 1e-9;
 /// How often, and by how much (rad or m), a state is kicked that is no way to close.
 const KICKS: usize = 4;
 const KICK: f64 = 0.02;
+/// A kick is worth its while when it leaves no more than this share of the gaps.
+const BETTER: f64 = 0.9;
 /// Damping relative to the constraints.
 const LEAST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e9;
@@ -97,7 +101,7 @@ where
         let from = kicked(&from, held, kick, Problem::<M, N, U, P, O>::STRUCTURE);
         match close_from(problem, &from, held) {
             Ok(found) => return Ok(found),
-            Err(next) if open_by(&next) < open_by(&best) => best = next,
+            Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
             Err(_) => {}
         }
     }
@@ -141,6 +145,7 @@ where
         what: "the constraints",
         coordinates: x,
     })?;
+    let metric = metric(problem, &x);
     let mut radius = FIRST_RADIUS;
     let mut damping = LEAST_DAMPING;
     let mut last = f64::INFINITY;
@@ -151,7 +156,7 @@ where
         }
         last = at.relative;
         let count = structure.position_constraints;
-        let rows = Rows::balanced(count, |k| free(&at.rows[k], held));
+        let rows = Rows::new(count, |k| free(&at.rows[k], held), metric);
         if iterations == 0 {
             dependent_at_start = rows.dependent();
         }
@@ -159,7 +164,8 @@ where
         let next = if aim.minimal() {
             None
         } else {
-            plain(problem, &x, &aim, &mut radius)
+            without_dependent(problem, &x, &at, held, metric)
+                .or_else(|| plain(problem, &x, &aim, &mut radius))
                 .or_else(|| damped(problem, &x, &aim, (&mut radius, &mut damping)))
         };
         match next {
@@ -173,6 +179,18 @@ where
     }
     let reason = "the gaps do not close within the number of iterations";
     Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
+}
+
+/// What makes motions comparable: the roots of the masses that move.
+fn metric<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+) -> [f64; N]
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let linear = problem.mechanism.linear(x, problem.inputs, problem.design);
+    inertias(&linear, Problem::<M, N, U, P, O>::STRUCTURE).map(f64::sqrt)
 }
 
 /// What a step aims at: the gaps over the sizes of their rows.
@@ -210,6 +228,31 @@ impl<'a, const N: usize> Aim<'a, N> {
 
 fn scaled<const N: usize>(gaps: &[f64; N], rows: &Rows<N>) -> [f64; N] {
     core::array::from_fn(|k| gaps[k] / rows.size[k])
+}
+
+/// A Gauss-Newton step without the rows that almost depend on the others, if every gap falls with it. Redundant constraints
+/// depend on each other only where they are met: away from there their differences, which close by themselves as the
+/// squares of what is left, would slow the steps down to halves and leave half of the digits.
+fn without_dependent<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    at: &Gaps<N>,
+    held: &[bool; N],
+    metric: [f64; N],
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let count = Problem::<M, N, U, P, O>::STRUCTURE.position_constraints;
+    let rows = Rows::nearly(count, |k| free(&at.rows[k], held), metric);
+    if rows.dependent() == 0 {
+        return None;
+    }
+    let step = rows.shortest_of_independent(&at.gaps);
+    let trial = add_scaled(x, -1.0, &step);
+    let there = gaps(problem, &trial)?;
+    let falls = largest_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
+    falls.then_some((trial, there))
 }
 
 /// A Gauss-Newton step of least motion, halved a few times.

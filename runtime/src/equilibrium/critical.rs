@@ -56,14 +56,10 @@ where
         ..Continuation::new(range.input, range.low, range.high)
     };
     settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve {
-        mechanism,
-        inputs: u,
-        design: b,
-        settings: &settings,
-    };
+    let curve = Curve::new(mechanism, u, b, &settings);
     let inputs = curve.inputs_at(range.low);
     let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
+    let curve = curve.about(&state);
     let mut found = None;
     let end = match curve.begin(state) {
         Ok(station) => {

@@ -16,6 +16,7 @@ mod space;
 mod stability;
 mod sweep;
 mod track;
+mod weights;
 
 pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use branch::{
@@ -159,13 +160,13 @@ where
     };
     let potential = M::DESCRIPTION.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
-        return newton::nearest(problem, start).and_then(|found| finish(problem, found));
+        return nearest(problem, start).and_then(|found| finish(problem, found));
     }
     if let Some(state) = held(problem, start) {
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Open, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start)
     } else {
         descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start)
             .and_then(|found| polished(problem, found))
@@ -173,9 +174,31 @@ where
     found
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
-            _ => newton::nearest(problem, start).map_err(|_| failure),
+            _ => nearest(problem, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
+}
+
+/// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
+/// to it, else on all unknowns together.
+fn nearest<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+) -> Result<Found<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = const { Structure::of(&M::DESCRIPTION) };
+    let whole = || {
+        let independent = problem.without_redundant(start);
+        newton::nearest::<space::Whole, _, N, U, P, O>(&independent, start)
+    };
+    if structure.open() || !structure.holonomic() {
+        return whole();
+    }
+    newton::nearest::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+        .and_then(|found| polished(problem, found))
+        .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// The last steps on coordinates and reactions together.
@@ -186,7 +209,8 @@ fn polished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 where
     M: Mechanism<N, U, P, O>,
 {
-    let last = newton::nearest(problem, &found.coordinates)?;
+    let independent = problem.without_redundant(&found.coordinates);
+    let last = newton::nearest::<space::Whole, _, N, U, P, O>(&independent, &found.coordinates)?;
     Ok(Found {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
@@ -215,7 +239,7 @@ where
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
-    let found = newton::nearest(problem, start).ok()?;
+    let found = nearest(problem, start).ok()?;
     let state = finish(problem, found).ok()?;
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
@@ -239,9 +263,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let end = add_scaled(q, 1.0, step);
-    let rest = problem
-        .mechanism
-        .residual(&end, problem.inputs, problem.design);
+    let rest = problem.residual(&end);
     let reached = all_finite(&rest)
         && largest(&rest) <= 1e-3 * largest(residual)
         && settled(problem, &end, &rest, stiffness, TOLERANCE);
@@ -256,12 +278,13 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let mut linear = problem.linear(&found.coordinates)?;
-    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 }
-        && let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION)
-    {
-        found.coordinates = least;
-        (found.residual, _) = problem.evaluate_start(&least)?;
-        linear = problem.linear(&least)?;
+    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
+            linear = problem.linear(&least)?;
+            found.coordinates = least;
+        }
+        // With the gaps of constraints that were left out.
+        found.residual = problem.residual(&found.coordinates);
     }
     let at = (&found.coordinates, problem.inputs, problem.design);
     let constraints = ConstraintState::new(problem.mechanism, at, &linear);

@@ -2,45 +2,49 @@
 
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
+use super::space::{Base, Space, Trial};
 use super::{Found, last_step};
-use crate::array::{Cholesky, Lu, Square, add_scaled, times, transpose};
-use crate::constraints::inertias;
-use crate::{Linear, Mechanism};
+use crate::Mechanism;
+use crate::array::{Cholesky, Lu, Square, times, transpose};
 
 const MAX_ITERATIONS: usize = 300;
 /// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
 
-/// Solves `g = 0` from `start`.
-pub(super) fn nearest<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+/// Solves `g = 0` from `start`, which lies in the space.
+pub(super) fn nearest<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
 ) -> Result<Found<N>, Failure<N>>
 where
+    S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
-    let mut q = *start;
-    let (mut residual, mut stiffness) = problem.evaluate_start(&q)?;
-    let weight = weights::<M, N, U, P, O>(&q, &problem.linear(&q)?)?;
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    let mut base: Base<N, S> = S::base(problem, start)?;
+    let weight = S::weights(problem, &base.q)?;
     let mut radius = FIRST_RADIUS;
-    let mut watch = Watch::new(&q);
+    let mut watch = Watch::new(&base.q);
     for iterations in 0..MAX_ITERATIONS {
         let found = Found {
-            coordinates: q,
-            residual,
+            coordinates: base.q,
+            residual: base.residual,
             iterations,
             left_unstable_region: false,
         };
-        let newton = Lu::new(&stiffness).map(|lu| lu.solve(&residual).map(|value| -value));
-        let progress = watch.judge(problem, &q, (&residual, &stiffness), newton.as_ref());
+        let at = (&base.residual, &base.stiffness);
+        let slopes = base.space.slopes(&base.residual);
+        let stiffness = base.space.stiffness(&base.stiffness);
+        let newton =
+            Lu::new(&stiffness).map(|lu| base.space.lift(&lu.solve(&slopes).map(|value| -value)));
+        let progress = watch.judge(problem, &base.q, at, newton.as_ref());
         if progress == Progress::Finished {
             return Ok(found);
         }
-        let mut step = newton.unwrap_or_else(|| damped_step(&residual, &stiffness, &weight));
+        let mut step =
+            newton.unwrap_or_else(|| base.space.lift(&damped_step(&slopes, &stiffness, &weight)));
         if progress == Progress::LastStep
-            && let Some((coordinates, residual)) =
-                last_step(problem, &q, (&residual, &stiffness), &step)
+            && let Some((coordinates, residual)) = last_step(problem, &base.q, at, &step)
         {
             return Ok(Found {
                 coordinates,
@@ -54,91 +58,44 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some((next, length)) = search(problem, &q, &residual, &step, &weight) else {
-            let relative = relative_residual(problem, &q, &residual, &stiffness);
+        let Some((next, length)) = search(problem, &base, &slopes, &step, &weight) else {
+            let relative = relative_residual(problem, &base.q, at.0, at.1);
             if relative <= TOLERANCE {
                 return Ok(found);
             }
             let reason = "the residual has a minimum that is not zero";
-            return Err(Failure::NotFound {
-                reason,
-                coordinates: q,
-                iterations,
-                relative,
-            });
+            return Err(failure(reason, &base.q, iterations, relative));
         };
         if length < 1.0 {
             radius = radius.min(2.0 * length * largest_of(&step[..motions]));
         } else if limited {
             radius *= 2.0;
         }
-        (q, residual, stiffness) = next;
-        if escaped(&q[..motions], &start[..motions]) {
+        base = S::arrive(problem, next)?;
+        if escaped(&base.q[..motions], &start[..motions]) {
             break;
         }
     }
-    let relative = relative_residual(problem, &q, &residual, &stiffness);
-    let reason = if escaped(&q[..motions], &start[..motions]) {
+    let relative = relative_residual(problem, &base.q, &base.residual, &base.stiffness);
+    let reason = if escaped(&base.q[..motions], &start[..motions]) {
         "the coordinates escape to infinity"
     } else {
         "too many iterations"
     };
-    Err(Failure::NotFound {
-        reason,
-        coordinates: q,
-        iterations: MAX_ITERATIONS,
-        relative,
-    })
+    Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 
-/// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
-/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it.
-fn weights<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+fn failure<const N: usize>(
+    reason: &'static str,
     q: &[f64; N],
-    linear: &Linear<f64, N>,
-) -> Result<[f64; N], Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
-    let mut weight = [0.0; N];
-    if structure.open() {
-        for i in 0..N {
-            let mass = linear.mass[i][i];
-            if mass.is_nan() || mass <= 0.0 {
-                return Err(Failure::SingularMass(i));
-            }
-            weight[i] = 1.0 / mass;
-        }
-        return Ok(weight);
-    }
-    let mass = inertias(linear, structure);
-    let motions = structure.motions();
-    let stiffest = (0..motions).fold(0.0, |most: f64, i| {
-        most.max(linear.stiffness[i][i].abs() / mass[i])
-    });
-    let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
-    for i in 0..motions {
-        weight[i] = 1.0 / mass[i];
-    }
-    for i in structure.constraint_rows() {
-        let row = &linear.stiffness[i];
-        let mobility = (0..motions).fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
-        if mobility > 0.0 {
-            weight[i] = stiffest * stiffest / mobility;
-        } else {
-            // Nothing closes it from here; what it weighs is no matter as long as it is seen.
-            weight[i] =
-                stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
-        }
-    }
-    if weight.iter().all(|value| value.is_finite()) {
-        Ok(weight)
-    } else {
-        Err(Failure::OutsideDomain {
-            what: "the mass matrix",
-            coordinates: *q,
-        })
+    iterations: usize,
+    relative: f64,
+) -> Failure<N> {
+    Failure::NotFound {
+        reason,
+        coordinates: *q,
+        iterations,
+        relative,
     }
 }
 
@@ -165,26 +122,24 @@ fn damped_step<const N: usize>(
     Cholesky::new(&normal).map_or(right, |cholesky| cholesky.solve(&right))
 }
 
-type Evaluated<const N: usize> = ([f64; N], [f64; N], Square<N>);
-
-fn search<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+fn search<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
+    base: &Base<N, S>,
+    slopes: &[f64; N],
     step: &[f64; N],
     weight: &[f64; N],
-) -> Option<(Evaluated<N>, f64)>
+) -> Option<(Trial<N>, f64)>
 where
+    S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
-    let before = merit(residual, weight);
+    let before = merit(slopes, weight);
     let mut length = 1.0;
     for _ in 0..40 {
-        let trial = add_scaled(q, length, step);
-        if let Some((residual, stiffness)) = problem.evaluate(&trial)
-            && merit(&residual, weight) <= before * (1.0 - 1e-4 * length)
+        if let Some(trial) = base.space.trial(problem, &base.q, step, length)
+            && merit(&base.space.slopes(&trial.residual), weight) <= before * (1.0 - 1e-4 * length)
         {
-            return Some(((trial, residual, stiffness), length));
+            return Some((trial, length));
         }
         length *= 0.5;
     }

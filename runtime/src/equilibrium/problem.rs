@@ -1,7 +1,7 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
 use crate::array::{Square, all_finite, all_finite_square};
-use crate::constraints::{Structure, fix_gauge};
+use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::modes::symmetric::Trouble;
 use crate::{Description, Error, Linear, Mechanism, Role};
 
@@ -10,6 +10,22 @@ pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize,
     pub(crate) mechanism: &'a M,
     pub(crate) inputs: &'a [f64; U],
     pub(crate) design: &'a [f64; P],
+    /// Constraints that are left out, because the others imply them where they are met: rows with a zero residual and minus
+    /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look dependent, and only hinder each other.
+    dropped: [bool; N],
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Clone
+    for Problem<'_, M, N, U, P, O>
+{
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Copy
+    for Problem<'_, M, N, U, P, O>
+{
 }
 
 impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize>
@@ -48,6 +64,7 @@ where
             mechanism,
             inputs,
             design,
+            dropped: [false; N],
         })
     }
 
@@ -57,6 +74,27 @@ where
             mechanism,
             inputs,
             design,
+            dropped: [false; N],
+        }
+    }
+
+    /// The same without the constraints that are redundant at `x`, which meets them.
+    pub(crate) fn without_redundant(&self, x: &[f64; N]) -> Self {
+        let plain = if const { Self::STRUCTURE.constraints() > 1 } {
+            self.evaluate_plain(x)
+        } else {
+            None
+        };
+        plain.map_or(*self, |(_, stiffness)| {
+            self.without(&redundant_rows(&stiffness, Self::STRUCTURE))
+        })
+    }
+
+    /// The same without these constraints.
+    pub(crate) fn without(&self, dropped: &[bool; N]) -> Self {
+        Self {
+            dropped: *dropped,
+            ..*self
         }
     }
 
@@ -77,14 +115,40 @@ where
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
     pub(crate) fn evaluate(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
-        let (residual, mut stiffness) = self.evaluate_plain(q)?;
+        let (mut residual, mut stiffness) = self.evaluate_plain(q)?;
         if const { !Self::STRUCTURE.open() } {
-            fix_gauge(&mut stiffness, Self::STRUCTURE);
+            if self.dropped.contains(&true) {
+                self.drop_rows(&mut residual, Some(&mut stiffness));
+            } else {
+                fix_gauge(&mut stiffness, Self::STRUCTURE);
+            }
         }
         Some((residual, stiffness))
     }
 
-    /// As [`Self::evaluate`], the gauge as it is.
+    /// The residual alone; it may not be finite.
+    pub(crate) fn residual(&self, q: &[f64; N]) -> [f64; N] {
+        let mut residual = self.mechanism.residual(q, self.inputs, self.design);
+        if const { !Self::STRUCTURE.open() } {
+            self.drop_rows(&mut residual, None);
+        }
+        residual
+    }
+
+    fn drop_rows(&self, residual: &mut [f64; N], mut stiffness: Option<&mut Square<N>>) {
+        for k in (Self::MOTIONS..N).filter(|&k| self.dropped[k]) {
+            residual[k] = 0.0;
+            if let Some(stiffness) = &mut stiffness {
+                for j in 0..N {
+                    stiffness[k][j] = 0.0;
+                    stiffness[j][k] = 0.0;
+                }
+                stiffness[k][k] = -1.0;
+            }
+        }
+    }
+
+    /// As [`Self::evaluate`], with every constraint and the gauge as it is.
     pub(crate) fn evaluate_plain(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
         let (residual, stiffness) =
             self.mechanism

@@ -1,4 +1,4 @@
-//! What a potential is descended on: all positions of an open mechanism, or those that meet the constraints.
+//! Where solvers look: among all values of all unknowns, or among the positions that meet the constraints.
 //!
 //! Positions that meet `Phi(q) = 0` near a base `q_0` are written over its tangent directions `P`: `q(y) = q_0 + P y + n(y)`,
 //! `n` in the span of the normals at the base, which is orthogonal to `P` in the metric of masses. For a potential `V`
@@ -8,10 +8,11 @@
 //! - the second one along `y` is `t^T K_c(mu) t`, `t = P y + dn` tangent at `q(y)`, `K_c = d(g + H^T mu)/dq`.
 //!
 //! (Differentiate `Phi(q(y)) = 0` twice; `n''` is a combination of normals, on which `g` is `-mu . H n'' = mu . Phi_qq t t`.)
-//! Nothing else of the search differs from that of an open mechanism.
+//! The first holds without a potential too. Nothing else of the solvers differs from those of an open mechanism.
 
 use super::convergence::{TOLERANCE, relative_gap};
 use super::problem::{Failure, Problem};
+use super::weights::weights;
 use crate::Mechanism;
 use crate::array::{Lu, Square, add_scaled, all_finite_square, dot, times, transpose};
 use crate::constraints::Tangent;
@@ -61,6 +62,14 @@ pub(super) trait Space<const N: usize>: Sized {
     /// Masses over free directions; unused rows are diagonal and positive.
     fn mass(&self, mass: &Square<N>) -> Square<N>;
 
+    /// Weights that make the squares of the slopes comparable.
+    fn weights<M, const U: usize, const P: usize, const O: usize>(
+        problem: &Problem<'_, M, N, U, P, O>,
+        q: &[f64; N],
+    ) -> Result<[f64; N], Failure<N>>
+    where
+        M: Mechanism<N, U, P, O>;
+
     /// Displacement of all unknowns for a displacement along free directions.
     fn lift(&self, y: &[f64; N]) -> [f64; N];
 
@@ -76,10 +85,10 @@ pub(super) trait Space<const N: usize>: Sized {
         M: Mechanism<N, U, P, O>;
 }
 
-/// Without constraints.
-pub(super) struct Open;
+/// All unknowns, constraints equations like the others.
+pub(super) struct Whole;
 
-impl<const N: usize> Space<N> for Open {
+impl<const N: usize> Space<N> for Whole {
     fn base<M, const U: usize, const P: usize, const O: usize>(
         problem: &Problem<'_, M, N, U, P, O>,
         q: &[f64; N],
@@ -121,6 +130,16 @@ impl<const N: usize> Space<N> for Open {
 
     fn mass(&self, mass: &Square<N>) -> Square<N> {
         *mass
+    }
+
+    fn weights<M, const U: usize, const P: usize, const O: usize>(
+        problem: &Problem<'_, M, N, U, P, O>,
+        q: &[f64; N],
+    ) -> Result<[f64; N], Failure<N>>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        weights(problem, q)
     }
 
     fn lift(&self, y: &[f64; N]) -> [f64; N] {
@@ -286,6 +305,17 @@ impl<const N: usize> Space<N> for Constrained<N> {
 
     fn mass(&self, mass: &Square<N>) -> Square<N> {
         self.tangent.reduce_mass(mass)
+    }
+
+    /// The basis is orthonormal in the metric of masses.
+    fn weights<M, const U: usize, const P: usize, const O: usize>(
+        _: &Problem<'_, M, N, U, P, O>,
+        _: &[f64; N],
+    ) -> Result<[f64; N], Failure<N>>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        Ok([1.0; N])
     }
 
     fn lift(&self, y: &[f64; N]) -> [f64; N] {

@@ -1,8 +1,8 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
+use super::kinetic::{kinetic, product};
 use super::{Family, Mode, PerMode};
-use crate::array::{Square, dot, form, times};
-use crate::constraints::Structure;
+use crate::array::{dot, form, times, times_complex};
 use crate::{Complex, Linear, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
@@ -24,8 +24,8 @@ pub fn assurance<const N: usize>(
     let own = kinetic(from, to, linear);
     let mass = own.as_ref().unwrap_or(&linear.mass);
     let general = from.family == Family::General || to.family == Family::General;
-    let weighted = to.modes.map(|mode| weigh(mass, &mode.shape));
-    let size = |mode: &Mode<N>| product(&mode.shape, &weigh(mass, &mode.shape)).norm();
+    let weighted = to.modes.map(|mode| times_complex(mass, &mode.shape));
+    let size = |mode: &Mode<N>| product(&mode.shape, &times_complex(mass, &mode.shape)).norm();
     let to_size = to.modes.map(size);
     from.modes.map(|own| {
         let own_size = size(own);
@@ -55,63 +55,6 @@ fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
     phase * (1.0 - EIGENVALUE_SHARE * distance)
 }
 
-/// The weights of shapes that have speeds; `None` where `Mhat` weighs all that moves.
-fn kinetic<const N: usize>(
-    from: &Modes<N>,
-    to: &Modes<N>,
-    linear: &Linear<f64, N>,
-) -> Option<Square<N>> {
-    /// Share of the greatest possible weight below which a shape counts as massless.
-    const MASSLESS: f64 = 1e-12;
-    let structure = Structure::of(to.description);
-    if structure.holonomic() {
-        return None;
-    }
-    let all = || from.modes.iter().chain(&to.modes);
-    let rate = all().fold(0.0, |most: f64, mode| most.max(mode.s.norm()));
-    let rate = if rate > 0.0 { rate } else { 1.0 };
-    let (q, v) = (structure.coordinates, structure.speed_range());
-    let mut weight = [[0.0; N]; N];
-    for i in 0..v.end {
-        for j in 0..v.end {
-            weight[i][j] = match (i < q, j < q) {
-                (true, true) => linear.mass[i][j] * rate * rate,
-                (true, false) => linear.damping[i][j] * rate,
-                (false, true) => linear.mass[i][j] * rate,
-                (false, false) => linear.damping[i][j],
-            };
-        }
-    }
-    let greatest = crate::array::largest_element(&weight);
-    let massless = |mode: &Mode<N>| {
-        let shape: [Complex; N] = core::array::from_fn(|i| {
-            if i < v.end {
-                mode.shape[i]
-            } else {
-                Complex::default()
-            }
-        });
-        let most = greatest * product(&shape, &shape).re;
-        !(product(&shape, &weigh(&weight, &shape)).re > MASSLESS * most)
-    };
-    if all().any(massless) {
-        weight = [[0.0; N]; N];
-        for i in 0..v.end {
-            weight[i][i] = if i < q { rate * rate } else { 1.0 };
-        }
-    }
-    Some(weight)
-}
-
-fn weigh<const N: usize>(mass: &[[f64; N]; N], shape: &[Complex; N]) -> [Complex; N] {
-    core::array::from_fn(|i| {
-        mass[i]
-            .iter()
-            .zip(shape)
-            .fold(Complex::default(), |sum, (m, x)| sum + x * m)
-    })
-}
-
 /// The assurance of two undamped modes.
 fn real_assurance<const N: usize>(from: &Mode<N>, to: &Mode<N>, mass: &[[f64; N]; N]) -> f64 {
     let (x, y) = (from.real_shape(), to.real_shape());
@@ -123,13 +66,6 @@ fn real_assurance<const N: usize>(from: &Mode<N>, to: &Mode<N>, mass: &[[f64; N]
     } else {
         0.0
     }
-}
-
-/// `x^H y`.
-fn product<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
-    x.iter()
-        .zip(y)
-        .fold(Complex::default(), |sum, (a, b)| sum + a.conj() * b)
 }
 
 /// For each mode of `from` the position of the mode of `to` that is the same motion; `None` where `to` has fewer.

@@ -25,6 +25,7 @@ mod measure;
 mod order;
 mod pair;
 mod pencil;
+mod problem;
 mod scaling;
 mod schur;
 mod scratch;
@@ -33,7 +34,8 @@ mod tests;
 
 use num_complex::Complex64;
 
-pub(super) use driver::{Eigenproblem, Numbers, solve as solve_on};
+pub(super) use driver::{Numbers, solve as solve_on};
+pub(super) use problem::Eigenproblem;
 
 use super::symmetric::Trouble;
 use crate::Linear;

@@ -10,6 +10,7 @@
 mod assurance;
 mod constrained;
 mod general;
+mod kinetic;
 mod per_mode;
 mod refine;
 pub(crate) mod symmetric;
@@ -163,10 +164,11 @@ impl<const N: usize> Modes<N> {
 ///
 /// # Errors
 /// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
-/// check.
+/// check, [`Error::SingularConfiguration`] where constraints lose their independence.
 pub fn modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
+    equilibrium.regular()?;
     modes_of(
         &equilibrium.linear,
         Family::of(equilibrium.description),
@@ -177,10 +179,12 @@ pub fn modes<const N: usize, const U: usize, const P: usize>(
 /// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
 ///
 /// # Errors
-/// As [`modes`], and [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric.
+/// As [`modes`], [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, and [`Error::NoUndampedModes`] with speeds
+/// or constraints on velocities.
 pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
+    equilibrium.regular()?;
     modes_of(
         &equilibrium.linear,
         Family::Undamped,
@@ -253,44 +257,70 @@ fn undamped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
 ) -> Result<PerMode<Mode<N>, N>, ModesFailure> {
+    let structure = Structure::of(description);
+    if !structure.holonomic() {
+        return Err(ModesFailure::NotHolonomic);
+    }
     if !description.symmetric_stiffness {
         let asymmetry = asymmetry(&linear.stiffness);
         if asymmetry.is_nan() || asymmetry > SYMMETRIC {
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    if !Structure::of(description).holonomic() {
-        return Err(ModesFailure::NotHolonomic);
+    if structure.open() {
+        let pairs =
+            symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
+        let threshold = neutral_threshold(&pairs.lambda);
+        return Ok(PerMode::from_fn(N, |r| {
+            undamped_mode(
+                r,
+                pairs.lambda[r],
+                &pairs.shapes[r],
+                pairs.residuals[r],
+                threshold,
+            )
+        }));
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
-    let threshold = pairs.threshold;
-    Ok(PerMode::from_fn(pairs.lambda().len(), |r| {
-        let lambda = pairs.lambda()[r];
-        let rate = lambda.abs().sqrt();
-        let (s, behaviour) = if lambda > threshold {
-            (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
-        } else if lambda < -threshold {
-            (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
-        } else {
-            (Complex::new(0.0, 0.0), Behaviour::Neutral)
-        };
-        let shape = pairs.shapes()[r].map(Complex::from);
-        Mode {
-            s,
-            lambda,
-            shape,
-            left: shape,
-            behaviour,
-            residual: pairs.residuals()[r],
-            error: if rate > 0.0 {
-                (threshold / rate).min(threshold.sqrt())
-            } else {
-                threshold.sqrt()
-            },
-            condition: 1.0,
-            label: r,
-        }
+    let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
+    Ok(PerMode::from_fn(lambda.len(), |r| {
+        undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold)
     }))
+}
+
+/// Mode `r`; eigenvalues within `threshold` cannot be told from zero.
+#[inline]
+fn undamped_mode<const N: usize>(
+    r: usize,
+    lambda: f64,
+    shape: &[f64; N],
+    residual: f64,
+    threshold: f64,
+) -> Mode<N> {
+    let rate = lambda.abs().sqrt();
+    let (s, behaviour) = if lambda > threshold {
+        (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
+    } else if lambda < -threshold {
+        (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
+    } else {
+        (Complex::new(0.0, 0.0), Behaviour::Neutral)
+    };
+    let shape = shape.map(Complex::from);
+    Mode {
+        s,
+        lambda,
+        shape,
+        left: shape,
+        behaviour,
+        residual,
+        error: if rate > 0.0 {
+            (threshold / rate).min(threshold.sqrt())
+        } else {
+            threshold.sqrt()
+        },
+        condition: 1.0,
+        label: r,
+    }
 }
 
 fn damped<const N: usize>(

@@ -49,7 +49,7 @@ pub(crate) fn solve<const N: usize>(
 }
 
 /// As [`solve`] for matrices of size `n`, row by row; shape `r` is row `r` of `shapes`.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve_on(
     n: usize,
     (k, m): (&[f64], &[f64]),
@@ -211,7 +211,7 @@ pub(super) struct Matrices<'a> {
 }
 
 /// Sorts, refines where needed, fixes signs and checks each residual.
-#[inline]
+#[inline(always)]
 fn finish(
     matrices: &Matrices,
     lambda: &mut [f64],
@@ -249,7 +249,7 @@ fn finish(
     Ok(())
 }
 
-#[inline]
+#[inline(always)]
 fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], residuals: &mut [f64]) {
     for i in 1..n {
         let mut j = i;
@@ -265,7 +265,7 @@ fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], residuals: &mut [f64])
 }
 
 /// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
-#[inline]
+#[inline(always)]
 pub(super) fn fix_sign(shape: &mut [f64]) {
     let mut lead = 0;
     for i in 1..shape.len() {
@@ -279,14 +279,14 @@ pub(super) fn fix_sign(shape: &mut [f64]) {
 }
 
 /// Greatest absolute value.
-#[inline]
+#[inline(always)]
 pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 impl Matrices<'_> {
     /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
-    #[inline]
+    #[inline(always)]
     pub(super) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
         let (most, size) = self.residual_and_terms(lambda, phi);
         if most == 0.0 { 0.0 } else { most / size }
@@ -301,7 +301,7 @@ impl Matrices<'_> {
     }
 
     /// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
-    #[inline]
+    #[inline(always)]
     fn residual_and_terms(&self, lambda: f64, phi: &[f64]) -> (f64, f64) {
         let n = self.n;
         let (mut most, mut size) = (0.0_f64, 0.0_f64);

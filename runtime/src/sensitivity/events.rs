@@ -184,8 +184,8 @@ impl<const N: usize, const P: usize> Crossed<N, P> {
                 reason: "the stiffness does not depend on the input",
             });
         }
-        let motions = Structure::of(at.description).motions();
-        let most = critical.v[..motions.min(N)].iter();
+        let constraints = Structure::of(at.description).constraints();
+        let most = critical.v[..N.saturating_sub(constraints)].iter();
         let motion = 1.0 / most.fold(0.0, |most: f64, value| most.max(value.abs()));
         let mut result = [0.0; P];
         for (j, force) in forces.iter().enumerate() {

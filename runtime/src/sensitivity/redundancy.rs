@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 /// `n^T dPhi/db = 0`. Otherwise the mechanism closes at these values only, and nothing has a derivative.
 ///
 /// # Errors
-/// [`Error::ClosesHereOnly`].
+/// [`Error::ClosesHereOnly`], and [`Error::SingularConfiguration`] where constraints are dependent here alone.
 pub(super) fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     mechanism: &M,
     at: &Equilibrium<N, U, P>,
@@ -22,10 +22,11 @@ where
     if structure.constraints() == 0 {
         return Ok(());
     }
-    let tangent = Tangent::new(&at.linear, structure);
-    if tangent.redundant() == 0 {
+    at.regular()?;
+    if at.constraints.redundant == 0 {
         return Ok(());
     }
+    let tangent = Tangent::new(&at.linear, structure);
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     for k in 0..tangent.redundant() {

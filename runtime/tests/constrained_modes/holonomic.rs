@@ -411,3 +411,70 @@ impl Model<2, 1, 5, 0> for SphericalByPlane {
         [T::constant(0.0); 2]
     }
 }
+
+const PRESS: &[DesignInfo] = &[
+    design("r", METRE, 0.2, 0.002),
+    design("l", METRE, 0.5, 0.003),
+    design("k", STIFFNESS, 400.0, 5.0),
+    design("x0", METRE, 0.62, 0.004),
+];
+
+fn crank_design<T: Real>(torque: T, [r, l, k, x0]: [T; 4]) -> [T; 7] {
+    let c = T::constant;
+    [c(0.02), c(1.5), r, l, k, x0, torque]
+}
+
+/// The slider-crank at rest, its torque the input: it gives way where the torque is greatest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Press;
+
+impl Model<3, 1, 4, 0> for Press {
+    const DESCRIPTION: Description = described(
+        "Press",
+        <SliderCrank as Model<3, 1, 7, 0>>::DESCRIPTION.coordinates,
+        PRESS,
+        DampingKind::Zero,
+    );
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 3],
+        v: &[T; 3],
+        q: &[T; 3],
+        u: &[T; 1],
+        b: &[T; 4],
+    ) -> [T; 3] {
+        SliderCrank.inertia(a, v, q, &[T::constant(0.0)], &crank_design(u[0], *b))
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 3], _: &[T; 3], _: &[T; 1], _: &[T; 4]) -> [T; 3] {
+        [T::constant(0.0); 3]
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PressByAngle;
+
+impl Model<1, 1, 4, 0> for PressByAngle {
+    const DESCRIPTION: Description = described(
+        "PressByAngle",
+        <CrankByAngle as Model<1, 1, 7, 0>>::DESCRIPTION.coordinates,
+        PRESS,
+        DampingKind::Zero,
+    );
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 1],
+        v: &[T; 1],
+        q: &[T; 1],
+        u: &[T; 1],
+        b: &[T; 4],
+    ) -> [T; 1] {
+        CrankByAngle.inertia(a, v, q, &[T::constant(0.0)], &crank_design(u[0], *b))
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 1], _: &[T; 1], _: &[T; 1], _: &[T; 4]) -> [T; 1] {
+        [T::constant(0.0)]
+    }
+}

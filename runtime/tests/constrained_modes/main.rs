@@ -3,11 +3,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod branches;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
 mod holonomic;
 mod minimal;
+mod nonholonomic;
+mod random;
+mod rolling;
+mod tolerance;
 
 use eigentol::{CoordinateInfo, Role, Unit};
 

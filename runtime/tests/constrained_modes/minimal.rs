@@ -207,7 +207,7 @@ fn constraints_that_agree_at_one_design_have_modes_but_no_derivatives() {
 }
 
 /// The bar's tip held in both directions.
-mod held {
+pub(crate) mod held {
     use eigentol::{DampingKind, Description, Real};
 
     use crate::common::derived::Model;

@@ -157,10 +157,9 @@ fn lengths_that_do_not_reach() {
         else {
             panic!("{text}");
         };
-        // Every bar a tenth too short.
-        close(gap.abs(), 0.1, 1e-4);
         assert_eq!((others.len(), unit), (2, "m"));
-        assert!(others.iter().all(|(_, gap)| (gap.abs() - 0.1).abs() < 1e-4));
+        let missing = gap.abs() + others.iter().map(|(_, gap)| gap.abs()).sum::<f64>();
+        close(missing, 2.0 - 1.7, 1e-4);
         assert!(text.contains("lengths that do not reach"), "{text}");
     }
 }

@@ -8,7 +8,9 @@ use eigentol::{CoordinateInfo, Description, Real, Role, Unit};
 use crate::common::derived::{Derived, Model};
 use crate::common::dual::Dual;
 
-pub trait Lagrangian<const N: usize, const U: usize, const P: usize>: Clone + Sync {
+pub(crate) trait Lagrangian<const N: usize, const U: usize, const P: usize>:
+    Clone + Sync
+{
     const DESCRIPTION: Description;
 
     /// Masses of the coordinates, zero in the places of reactions.
@@ -19,7 +21,7 @@ pub trait Lagrangian<const N: usize, const U: usize, const P: usize>: Clone + Sy
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bordered<X>(pub X);
+pub(crate) struct Bordered<X>(pub(crate) X);
 
 impl<X, const N: usize, const U: usize, const P: usize> Model<N, U, P, 0> for Bordered<X>
 where
@@ -48,12 +50,12 @@ where
     }
 }
 
-pub const fn bordered<X>(model: X) -> Derived<Bordered<X>> {
+pub(crate) const fn bordered<X>(model: X) -> Derived<Bordered<X>> {
     Derived(Bordered(model))
 }
 
 /// A reaction of a constraint on positions.
-pub const fn reaction(name: &'static str, symbol: &'static str) -> CoordinateInfo {
+pub(crate) const fn reaction(name: &'static str, symbol: &'static str) -> CoordinateInfo {
     CoordinateInfo {
         name,
         unit: Unit { symbol, scale: 1.0 },
@@ -62,6 +64,6 @@ pub const fn reaction(name: &'static str, symbol: &'static str) -> CoordinateInf
 }
 
 /// `sqrt(x^2 + y^2)`.
-pub fn distance<T: Real>(x: T, y: T) -> T {
+pub(crate) fn distance<T: Real>(x: T, y: T) -> T {
     (x * x + y * y).sqrt()
 }

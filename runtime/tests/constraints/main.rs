@@ -7,5 +7,6 @@ mod assembly;
 mod bordered;
 mod equilibria;
 mod models;
+mod random;
 mod redundancy;
 mod running;

@@ -24,7 +24,7 @@ fn c<T: Real>(value: f64) -> T {
 
 /// A point mass on a rod, on a turntable about the vertical `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point;
+pub(crate) struct Point;
 
 impl Lagrangian<3, 1, 2> for Point {
     const DESCRIPTION: Description = Description {
@@ -54,7 +54,7 @@ impl Lagrangian<3, 1, 2> for Point {
 
 /// The same with the rod stated twice, once in millimetres and with a length of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Twice;
+pub(crate) struct Twice;
 
 impl Lagrangian<4, 1, 3> for Twice {
     const DESCRIPTION: Description = Description {
@@ -86,9 +86,9 @@ impl Lagrangian<4, 1, 3> for Twice {
 
 /// Two point masses `A`, `B` on massless bars `O A`, `A B`, `B D`, with a spring along the diagonal `O B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FourBar;
+pub(crate) struct FourBar;
 
-pub const FOUR_BAR: [f64; 8] = [1.5, 0.8, 0.4, 0.7, 0.6, 0.9, 120.0, 0.5];
+pub(crate) const FOUR_BAR: [f64; 8] = [1.5, 0.8, 0.4, 0.7, 0.6, 0.9, 120.0, 0.5];
 
 impl Lagrangian<7, 1, 8> for FourBar {
     const DESCRIPTION: Description = Description {
@@ -130,7 +130,7 @@ impl Lagrangian<7, 1, 8> for FourBar {
 }
 
 /// On a turntable about the vertical through `O`.
-pub fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T {
+pub(crate) fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T {
     let stretch = distance(p[2], p[3]) - b[7];
     let radii = b[0] * p[0] * p[0] + b[1] * p[2] * p[2];
     c::<T>(GRAVITY) * (b[0] * p[1] + b[1] * p[3]) + c::<T>(0.5) * b[6] * stretch * stretch
@@ -139,10 +139,10 @@ pub fn four_bar_potential<T: Real>(p: &[T; 4], omega: T, b: &[T; 8]) -> T {
 
 /// A crank `O A` (bar), a rod `A B` (bar) and a slider along `x` on a spring, each body in absolute coordinates of its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SliderCrank;
+pub(crate) struct SliderCrank;
 
 /// Masses of crank, rod and slider, lengths of crank and rod, spring rate and rest position.
-pub const SLIDER: [f64; 7] = [0.9, 1.3, 2.1, 0.25, 0.6, 900.0, 0.7];
+pub(crate) const SLIDER: [f64; 7] = [0.9, 1.3, 2.1, 0.25, 0.6, 900.0, 0.7];
 
 impl Lagrangian<13, 1, 7> for SliderCrank {
     const DESCRIPTION: Description = Description {
@@ -205,7 +205,7 @@ impl Lagrangian<13, 1, 7> for SliderCrank {
 
 /// A platform hung on three equal parallel bars, one more than it needs; gravity turned by the input from `-y` to `+x`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parallelogram;
+pub(crate) struct Parallelogram;
 
 impl Lagrangian<6, 1, 4> for Parallelogram {
     const DESCRIPTION: Description = Description {
@@ -250,7 +250,7 @@ impl Lagrangian<6, 1, 4> for Parallelogram {
 
 /// A point on two bars: a structure, which cannot move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truss;
+pub(crate) struct Truss;
 
 impl Lagrangian<4, 1, 3> for Truss {
     const DESCRIPTION: Description = Description {

@@ -20,6 +20,8 @@ const MAX_ITERATIONS: usize = 30;
 const STATIONARY: f64 = 1e-6;
 /// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7.
 const CROSSING: f64 = 1e-13;
+/// Halvings towards the change of sign where the critical vectors are looked for.
+const NEARER: usize = 12;
 /// Distance, in local units, at which the third order is felt out.
 const PROBE: f64 = 1e-3;
 
@@ -148,9 +150,8 @@ where
 
     /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
     fn borders(&self, a: &Station<N, U, P>, end: &Place<N>) -> Result<Borders<N>, Trouble<N>> {
-        let scaled = a.frame.scaled(&self.system(&a.place)?);
         let first = end.unit().ok_or_else(not_simple)?;
-        let factors = plane(&scaled, &first).ok_or_else(not_simple)?;
+        let factors = self.nearly_singular(&a.frame, end, &first)?;
         let mut left = ([1.0; N], [0.5]);
         for (i, value) in left.0.iter_mut().enumerate() {
             *value += 0.1 * i as f64;
@@ -171,6 +172,36 @@ where
             normals: [first, second],
             column: unit(&left.0).ok_or_else(not_simple)?,
         })
+    }
+
+    /// `[Khat dg/du; n1^T]` near its change of sign between the origin of the frame and `end`. Farther away something else
+    /// may be softer than what becomes singular.
+    fn nearly_singular(
+        &self,
+        frame: &Frame<N>,
+        end: &Place<N>,
+        first: &Place<N>,
+    ) -> Result<Bordered<N, 1>, Trouble<N>> {
+        let at = |fraction: f64| {
+            let system = self.system(&frame.place(&end.scaled(fraction)))?;
+            plane(&frame.scaled(&system), first).ok_or_else(not_simple)
+        };
+        let mut best = at(0.0)?;
+        let sign = best.negative_determinant();
+        if at(1.0).is_ok_and(|far| far.negative_determinant() != sign) {
+            let mut step = 0.5;
+            let mut fraction = 0.0;
+            for _ in 0..NEARER {
+                if let Ok(next) = at(fraction + step)
+                    && next.negative_determinant() == sign
+                {
+                    fraction += step;
+                    best = next;
+                }
+                step *= 0.5;
+            }
+        }
+        Ok(best)
     }
 
     fn reduced(

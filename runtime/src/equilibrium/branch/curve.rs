@@ -7,7 +7,7 @@ use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
 use crate::array::all_finite;
-use crate::constraints::ConstraintState;
+use crate::constraints::{ConstraintState, Structure, redundant_rows};
 use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
 /// A mechanism of which one input varies.
@@ -16,6 +16,8 @@ pub(crate) struct Curve<'a, M, const N: usize, const U: usize, const P: usize, c
     pub(crate) inputs: &'a [f64; U],
     pub(crate) design: &'a [f64; P],
     pub(crate) settings: &'a Continuation,
+    /// Redundant constraints, which Newton's method is better off without; every point is held to all of them.
+    dropped: [bool; N],
 }
 
 /// Why a point was not reached.
@@ -60,11 +62,38 @@ const ROUNDING: f64 = 1e-8;
 /// A Newton step that keeps more than this share of the one before does not converge.
 const CONTRACTION: f64 = 0.5;
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
+impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'a, M, N, U, P, O>
 where
     M: Mechanism<N, U, P, O>,
 {
     pub(crate) const DESCRIPTION: &'static Description = &M::DESCRIPTION;
+    /// Number of coordinates and speeds.
+    pub(crate) const MOTIONS: usize =
+        N.saturating_sub(Structure::of(&M::DESCRIPTION).constraints());
+
+    pub(crate) fn new(
+        mechanism: &'a M,
+        inputs: &'a [f64; U],
+        design: &'a [f64; P],
+        settings: &'a Continuation,
+    ) -> Self {
+        Self {
+            mechanism,
+            inputs,
+            design,
+            settings,
+            dropped: [false; N],
+        }
+    }
+
+    /// The same for branches near a state.
+    pub(crate) fn about(mut self, state: &Equilibrium<N, U, P>) -> Self {
+        let structure = const { Structure::of(&M::DESCRIPTION) };
+        if structure.constraints() > 1 {
+            self.dropped = redundant_rows(&state.linear.stiffness, structure);
+        }
+        self
+    }
 
     pub(crate) fn inputs_at(&self, p: f64) -> [f64; U] {
         let input = self.settings.input.0;
@@ -81,12 +110,19 @@ where
     pub(crate) fn system(&self, at: &Place<N>) -> Result<System<N>, Trouble<N>> {
         let inputs = self.inputs_at(at.p);
         let (residual, stiffness) = Problem::unchecked(self.mechanism, &inputs, self.design)
+            .without(&self.dropped)
             .evaluate(&at.q)
             .ok_or(Trouble::OutsideDomain(at.q))?;
         let (by_inputs, _) = self
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
-        let by_input = by_inputs.map(|row| row[self.settings.input.0]);
+        let by_input = core::array::from_fn(|i| {
+            if self.dropped[i] {
+                0.0
+            } else {
+                by_inputs[i][self.settings.input.0]
+            }
+        });
         if all_finite(&by_input) {
             Ok(System {
                 residual,
@@ -148,7 +184,12 @@ where
         }
         let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
         let linear = problem.linear(&at.q).map_err(Trouble::Refused)?;
-        let mut relative = relative_residual(&problem, &at.q, &system.residual, &linear.stiffness);
+        let residual = if self.dropped.contains(&true) {
+            problem.residual(&at.q)
+        } else {
+            system.residual
+        };
+        let mut relative = relative_residual(&problem, &at.q, &residual, &linear.stiffness);
         if relative.is_nan() || relative > ACCEPTED {
             relative = self
                 .with_input(&at.q, system)
@@ -176,7 +217,7 @@ where
             stability,
             constraints,
             linear,
-            residual: system.residual,
+            residual,
             relative_residual: relative,
             iterations,
             pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
@@ -202,7 +243,13 @@ where
     }
 
     pub(crate) fn frame(&self, at: &Place<N>, system: &System<N>) -> Frame<N> {
-        Frame::new(*at, self.settings.size, self.settings.range(), system)
+        Frame::new(
+            *at,
+            self.settings.size,
+            self.settings.range(),
+            system,
+            Self::MOTIONS,
+        )
     }
 
     /// Solves `g = 0` on the plane through `from` across `normal` (both local), not farther than `reach` from it.

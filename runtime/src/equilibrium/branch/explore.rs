@@ -48,14 +48,10 @@ where
     M: Mechanism<N, U, P, O>,
 {
     settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve {
-        mechanism,
-        inputs: u,
-        design: b,
-        settings,
-    };
+    let curve = Curve::new(mechanism, u, b, settings);
     let inputs = curve.inputs_at(settings.low);
     let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
+    let curve = curve.about(&state);
     Ok(match curve.begin(state) {
         Ok(station) => curve.both_ways(&station).0,
         Err(trouble) => curve.lone_point(state, trouble),
@@ -84,12 +80,7 @@ where
     M: Mechanism<N, U, P, O>,
 {
     settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve {
-        mechanism,
-        inputs: u,
-        design: b,
-        settings,
-    };
+    let curve = Curve::new(mechanism, u, b, settings);
     let none = Search {
         lower: *start,
         upper: *start,
@@ -116,6 +107,10 @@ where
         let inputs = curve.inputs_at(settings.low);
         states.push(equilibrium(mechanism, &inputs, b, start, Policy::Stable)?);
     }
+    let curve = match states.first() {
+        Some(state) => curve.about(state),
+        None => curve,
+    };
     Ok(curve.explore(states))
 }
 

@@ -49,11 +49,6 @@ impl<const N: usize> Place<N> {
         all_finite(&self.q) && self.p.is_finite()
     }
 
-    /// Length in these units.
-    pub(crate) fn length_in(&self, units: &Self) -> f64 {
-        self.per(units).norm()
-    }
-
     fn per(&self, units: &Self) -> Self {
         Self {
             q: core::array::from_fn(|i| self.q[i] / units.q[i]),
@@ -86,8 +81,15 @@ pub(crate) struct Frame<const N: usize> {
 }
 
 impl<const N: usize> Frame<N> {
-    pub(crate) fn new(origin: Place<N>, size: f64, range: f64, system: &System<N>) -> Self {
-        let units = units(&origin, size, range);
+    /// The first `motions` unknowns are coordinates and speeds, the others reactions.
+    pub(crate) fn new(
+        origin: Place<N>,
+        size: f64,
+        range: f64,
+        system: &System<N>,
+        motions: usize,
+    ) -> Self {
+        let units = units(&origin, size, range, system, motions);
         let rows = core::array::from_fn(|i| {
             let row: [f64; N] = core::array::from_fn(|j| system.stiffness[i][j] * units.q[j]);
             let most = largest(&row).max((system.by_input[i] * range).abs());
@@ -98,6 +100,11 @@ impl<const N: usize> Frame<N> {
             units,
             rows,
         }
+    }
+
+    /// Length of a direction in SI units.
+    pub(crate) fn length(&self, direction: &Place<N>) -> f64 {
+        direction.per(&self.units).norm()
     }
 
     pub(crate) fn at(&self, origin: Place<N>) -> Self {
@@ -138,10 +145,34 @@ impl<const N: usize> Frame<N> {
     }
 }
 
-/// Units of coordinates and input at a place.
-pub(crate) fn units<const N: usize>(place: &Place<N>, size: f64, range: f64) -> Place<N> {
-    Place {
+/// Units of unknowns and input. A reaction is measured by the work that it does on a unit of the coordinates it holds, with
+/// the work of the other forces on units of all as the unit: it weighs as much as what it balances.
+fn units<const N: usize>(
+    place: &Place<N>,
+    size: f64,
+    range: f64,
+    system: &System<N>,
+    motions: usize,
+) -> Place<N> {
+    let mut units = Place {
         q: place.q.map(|value| size + value.abs()),
         p: range,
+    };
+    if motions >= N {
+        return units;
     }
+    let mut work = 0.0;
+    for i in 0..motions {
+        let row = &system.stiffness[i][..motions];
+        let force = row.iter().zip(&units.q).map(|(k, q)| (k * q).abs());
+        work += (force.sum::<f64>() + (system.by_input[i] * range).abs()) * units.q[i];
+    }
+    for j in motions..N {
+        let held = (0..motions).map(|i| (system.stiffness[i][j] * units.q[i]).abs());
+        let force = work / held.fold(0.0, f64::max);
+        if force.is_finite() {
+            units.q[j] = units.q[j].max(force);
+        }
+    }
+    units
 }

@@ -6,7 +6,8 @@ use crate::{Error, Input};
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
 /// Lengths along a branch are measured with `(high - low)` as the unit of the input and `size + |q_i|` as the unit of a
-/// coordinate.
+/// coordinate or speed; a reaction of a constraint counts by the work it does on a unit of the coordinates it holds,
+/// compared with the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Continuation {
     /// The input that varies.
@@ -25,7 +26,7 @@ pub struct Continuation {
     pub max_corrections: usize,
     /// Most branches. 64 unless set.
     pub max_branches: usize,
-    /// A change of a coordinate, rad or m, that counts as large. 1 unless set.
+    /// A change of a coordinate, rad or m (of a speed, rad/s or m/s), that counts as large. 1 unless set.
     pub size: f64,
     /// Multiple of `size` (and of the coordinates at the start) beyond which a coordinate counts as infinite. 1e6 unless
     /// set.

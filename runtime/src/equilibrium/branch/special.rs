@@ -5,7 +5,6 @@ use super::curve::{Curve, Trouble};
 use super::frame::{Frame, Place};
 use super::station::symmetric_to_rounding;
 use crate::array::{dot, form, largest, times};
-use crate::constraints::Structure;
 use crate::modes::free_pairs;
 use crate::{DampingKind, Description, Input, Linear, Mechanism};
 
@@ -85,8 +84,7 @@ where
             ..*place
         };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
-        let motions = Structure::of(Self::DESCRIPTION).motions();
-        let (v, w) = normalised(&equilibrium.linear, motions, v, w)
+        let (v, w) = normalised(&equilibrium.linear, Self::MOTIONS, v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
         equilibrium.stability = at_critical(
             equilibrium.stability,
@@ -139,7 +137,7 @@ fn normalised<const N: usize>(
     v: &[f64; N],
     w: &[f64; N],
 ) -> Option<([f64; N], [f64; N])> {
-    let motion = &v[..motions.min(N)];
+    let motion = &v[..motions];
     let most = motion
         .iter()
         .fold(0.0, |most: f64, value| most.max(value.abs()));

@@ -2,12 +2,11 @@
 
 use super::curve::{Corrected, Curve, Trouble};
 use super::ends::STRAY;
-use super::frame::{Place, units};
+use super::frame::Place;
 use super::special::{Junction, Located, SpecialPoint, at_critical};
 use super::station::Station;
 use super::{BranchEnd, BranchPoint};
 use crate::Mechanism;
-use crate::array::largest;
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
@@ -55,7 +54,11 @@ where
             junctions: Vec::new(),
             end: BranchEnd::PointLimit,
         };
-        let far = settings.escape * (settings.size + largest(&home.q));
+        let largest = |place: &Place<N>| {
+            let q = place.q[..Self::MOTIONS].iter();
+            q.fold(0.0, |most: f64, value| most.max(value.abs()))
+        };
+        let far = settings.escape * (settings.size + largest(home));
         let mut at = *start;
         let mut length = 0.2 * settings.max_step;
         let mut refused: Option<Trouble<N>> = None;
@@ -114,7 +117,7 @@ where
                 walk.end = end;
                 return walk;
             }
-            if largest(&step.station.place.q) > far {
+            if largest(&step.station.place) > far {
                 walk.end = BranchEnd::Escape;
                 return walk;
             }
@@ -151,8 +154,10 @@ where
             q: special.equilibrium.coordinates,
             p: special.value,
         };
-        let units = units(&place, self.settings.size, self.settings.range());
-        let tangent = direction.scaled(1.0 / direction.length_in(&units));
+        let length = self
+            .system(&place)
+            .map_or(1.0, |system| self.frame(&place, &system).length(direction));
+        let tangent = direction.scaled(1.0 / length);
         BranchPoint {
             value: special.value,
             equilibrium: special.equilibrium,

@@ -83,11 +83,8 @@ impl Measure {
         let c = times_complex(&linear.damping, right);
         let slope = dot_complex(left, &core::array::from_fn(|i| 2.0 * s * m[i] + c[i]));
         let value = dot_complex(left, &of_right);
-        let mut terms = 0.0;
-        for i in 0..N {
-            let row: f64 = (0..N).map(|j| size(i, j) * right[j].norm()).sum();
-            terms += left[i].norm() * row;
-        }
+        let row = |i: usize| (0..N).map(|j| size(i, j) * right[j].norm()).sum::<f64>();
+        let terms: f64 = (0..N).map(|i| left[i].norm() * row(i)).sum();
         let rounding = (N as f64 + 4.0) * f64::EPSILON * terms;
         Self {
             residual: by_right.relative.max(by_left.relative),
@@ -122,7 +119,7 @@ impl Residual {
         let mut relative = 0.0_f64;
         let mut rounding_only = true;
         for rows in [0..motions, motions..N] {
-            let (mut most, mut terms) = (0.0_f64, 0.0_f64);
+            let (mut most, mut terms, mut possible) = (0.0_f64, 0.0_f64, 0.0_f64);
             let constraints = rows.start == motions;
             for i in rows {
                 let elements = (0..N).map(|j| size(i, j));
@@ -135,18 +132,21 @@ impl Residual {
                 };
                 let value = product[i].norm() / unit;
                 let sum: f64 = (0..N).map(|j| size(i, j) * x[j].norm()).sum();
-                let bound = (0..N).fold(0.0, |most: f64, j| most.max(size(i, j) * x[j].norm()));
                 most = if value.is_finite() {
                     most.max(value)
                 } else {
                     f64::INFINITY
                 };
                 terms = terms.max(sum / unit);
-                let largest = x[..motions].iter().map(|x| x.norm()).fold(bound, |a, b| {
-                    a.max(if constraints { b * greatest } else { 0.0 })
+                // A vector that the matrix takes to zero has nothing but rounding in the terms that act: motions are
+                // measured by the greatest of them, and reactions too.
+                let largest = [0..motions, motions..N].map(|columns| {
+                    let element = columns.clone().map(|j| size(i, j)).fold(0.0, f64::max);
+                    element * columns.map(|j| x[j].norm()).fold(0.0, f64::max)
                 });
-                rounding_only &= value * unit <= 16.0 * N as f64 * f64::EPSILON * largest;
+                possible = possible.max(largest[0].max(largest[1]) / unit);
             }
+            rounding_only &= most <= ROUNDING * N as f64 * possible;
             if most > 0.0 {
                 relative = relative.max(most / terms);
             }

@@ -10,6 +10,7 @@ mod first_order;
 mod measure;
 mod pairs;
 mod quadratic;
+mod system;
 
 pub(crate) use pairs::free_pairs;
 
@@ -222,7 +223,7 @@ impl<'a, const N: usize> Gathered<'a, N> {
                 }
             }
         }
-        if !(found.residual <= measure::ACCEPTED) {
+        if found.residual.is_nan() || found.residual > measure::ACCEPTED {
             if !found.rounding_only {
                 return Err(inaccurate(found.residual));
             }

@@ -1,4 +1,8 @@
 //! The symmetric problem `P^T (K_c - lambda M) P y = 0`: undamped modes, and what counts negative stiffness.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
 
 use super::quadratic::tangent_trouble;
 use super::{measure, projected};

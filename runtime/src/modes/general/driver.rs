@@ -7,43 +7,11 @@ use super::linearisation::Linearisation;
 use super::measure::Pair;
 use super::order::{finish, sort};
 use super::pair::Solver;
-use super::pencil::{Degree, Pencil, Products};
-use super::scaling::{largest, scale, scale_first_order};
+use super::pencil::{Pencil, Products};
+use super::problem::{Eigenproblem, Scaled, scaled};
 use super::scratch::{Work, take, with_work};
 use super::{aberth, accuracy, cluster, hessenberg, schur};
-use crate::Linear;
 use crate::modes::symmetric::Trouble;
-
-/// An eigenproblem, its matrices row by row.
-#[derive(Clone, Copy)]
-pub(in crate::modes) enum Eigenproblem<'a> {
-    /// `(s^2 mass + s damping + stiffness) phi = 0`.
-    Quadratic {
-        n: usize,
-        mass: &'a [f64],
-        damping: &'a [f64],
-        stiffness: &'a [f64],
-    },
-    /// `matrix phi = s phi`.
-    FirstOrder { n: usize, matrix: &'a [f64] },
-}
-
-impl<'a> Eigenproblem<'a> {
-    pub(super) fn of<const N: usize>(linear: &'a Linear<f64, N>) -> Self {
-        Self::Quadratic {
-            n: N,
-            mass: linear.mass.as_flattened(),
-            damping: linear.damping.as_flattened(),
-            stiffness: linear.stiffness.as_flattened(),
-        }
-    }
-
-    fn size(&self) -> usize {
-        match *self {
-            Self::Quadratic { n, .. } | Self::FirstOrder { n, .. } => n,
-        }
-    }
-}
 
 /// What is known of a root besides its vectors.
 #[derive(Clone, Copy)]
@@ -68,78 +36,11 @@ const ACCEPTED: f64 = 1e-9;
 /// Residual of a pair that has nothing but rounding in it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-fn not_found() -> Trouble {
+pub(super) fn not_found() -> Trouble {
     Trouble::Inaccurate {
         mode: 0,
         residual: f64::INFINITY,
     }
-}
-
-/// A pencil in its units.
-struct Scaled<'a> {
-    pencil: Pencil<'a>,
-    /// Units of right and of left vectors.
-    right: &'a mut [f64],
-    left: &'a mut [f64],
-    /// Unit of the eigenvalues.
-    rate: f64,
-}
-
-fn scaled<'a>(problem: Eigenproblem, store: &mut &'a mut [f64]) -> Result<Scaled<'a>, Trouble> {
-    let n = problem.size();
-    let mass = take(store, n * n);
-    let damping = take(store, n * n);
-    let stiffness = take(store, n * n);
-    let (right, left) = (take(store, n), take(store, n));
-    let (degree, rate) = match problem {
-        Eigenproblem::Quadratic {
-            mass: m,
-            damping: c,
-            stiffness: k,
-            ..
-        } => {
-            mass.copy_from_slice(m);
-            damping.copy_from_slice(c);
-            stiffness.copy_from_slice(k);
-            for i in 0..n {
-                let diagonal = mass[i * n + i];
-                if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
-                    return Err(Trouble::SingularMass(i));
-                }
-            }
-            let rate = scale(n, mass, damping, stiffness, right);
-            left.copy_from_slice(right);
-            (Degree::Two, rate)
-        }
-        Eigenproblem::FirstOrder { matrix, .. } => {
-            stiffness.copy_from_slice(matrix);
-            if largest(stiffness).is_infinite() {
-                return Err(not_found());
-            }
-            let rate = scale_first_order(n, damping, stiffness, right, left);
-            (Degree::One, rate)
-        }
-    };
-    if [&*mass, damping, stiffness]
-        .iter()
-        .any(|matrix| largest(matrix).is_infinite())
-    {
-        return Err(not_found());
-    }
-    let pencil = Pencil {
-        n,
-        degree,
-        largest: [&*mass, damping, stiffness].map(largest),
-        mass,
-        damping,
-        stiffness,
-    };
-    Ok(Scaled {
-        pencil,
-        right,
-        left,
-        rate,
-    })
 }
 
 /// All eigenvalues of the linearisation of a scaled pencil; by the second method where QR does not converge.

@@ -1,0 +1,57 @@
+//! What makes the equations of Newton's method on all unknowns comparable.
+
+use super::problem::{Failure, Problem};
+use crate::Mechanism;
+use crate::constraints::inertias;
+
+/// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
+/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it.
+pub(super) fn weights<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    q: &[f64; N],
+) -> Result<[f64; N], Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+    let linear = &problem.linear(q)?;
+    let mut weight = [0.0; N];
+    if structure.open() {
+        for (i, weight) in weight.iter_mut().enumerate() {
+            let mass = linear.mass[i][i];
+            if mass.is_nan() || mass <= 0.0 {
+                return Err(Failure::SingularMass(i));
+            }
+            *weight = 1.0 / mass;
+        }
+        return Ok(weight);
+    }
+    let mass = inertias(linear, structure);
+    let motions = structure.motions();
+    let stiffest = (0..motions).fold(0.0, |most: f64, i| {
+        most.max(linear.stiffness[i][i].abs() / mass[i])
+    });
+    let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
+    for i in 0..motions {
+        weight[i] = 1.0 / mass[i];
+    }
+    for i in structure.constraint_rows() {
+        let row = &linear.stiffness[i];
+        let mobility = (0..motions).fold(0.0, |sum, j| sum + row[j] * row[j] / mass[j]);
+        if mobility > 0.0 {
+            weight[i] = stiffest * stiffest / mobility;
+        } else {
+            // Nothing closes it from here; what it weighs is no matter as long as it is seen.
+            weight[i] =
+                stiffest * stiffest * mass[..motions].iter().fold(0.0, |a: f64, &b| a.max(b));
+        }
+    }
+    if weight.iter().all(|value| value.is_finite()) {
+        Ok(weight)
+    } else {
+        Err(Failure::OutsideDomain {
+            what: "the mass matrix",
+            coordinates: *q,
+        })
+    }
+}

@@ -1,0 +1,109 @@
+//! What is solved, and how it is scaled.
+
+use super::driver::not_found;
+use super::pencil::{Degree, Pencil};
+use super::scaling::{largest, scale, scale_first_order};
+use super::scratch::take;
+use crate::Linear;
+use crate::modes::symmetric::Trouble;
+
+/// An eigenproblem, its matrices row by row.
+#[derive(Clone, Copy)]
+pub(in crate::modes) enum Eigenproblem<'a> {
+    /// `(s^2 mass + s damping + stiffness) phi = 0`.
+    Quadratic {
+        n: usize,
+        mass: &'a [f64],
+        damping: &'a [f64],
+        stiffness: &'a [f64],
+    },
+    /// `matrix phi = s phi`.
+    FirstOrder { n: usize, matrix: &'a [f64] },
+}
+
+impl<'a> Eigenproblem<'a> {
+    pub(super) fn of<const N: usize>(linear: &'a Linear<f64, N>) -> Self {
+        Self::Quadratic {
+            n: N,
+            mass: linear.mass.as_flattened(),
+            damping: linear.damping.as_flattened(),
+            stiffness: linear.stiffness.as_flattened(),
+        }
+    }
+
+    pub(super) fn size(&self) -> usize {
+        match *self {
+            Self::Quadratic { n, .. } | Self::FirstOrder { n, .. } => n,
+        }
+    }
+}
+
+/// A pencil in its units.
+pub(super) struct Scaled<'a> {
+    pub(super) pencil: Pencil<'a>,
+    /// Units of right and of left vectors.
+    pub(super) right: &'a mut [f64],
+    pub(super) left: &'a mut [f64],
+    /// Unit of the eigenvalues.
+    pub(super) rate: f64,
+}
+
+pub(super) fn scaled<'a>(
+    problem: Eigenproblem,
+    store: &mut &'a mut [f64],
+) -> Result<Scaled<'a>, Trouble> {
+    let n = problem.size();
+    let mass = take(store, n * n);
+    let damping = take(store, n * n);
+    let stiffness = take(store, n * n);
+    let (right, left) = (take(store, n), take(store, n));
+    let (degree, rate) = match problem {
+        Eigenproblem::Quadratic {
+            mass: m,
+            damping: c,
+            stiffness: k,
+            ..
+        } => {
+            mass.copy_from_slice(m);
+            damping.copy_from_slice(c);
+            stiffness.copy_from_slice(k);
+            for i in 0..n {
+                let diagonal = mass[i * n + i];
+                if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
+                    return Err(Trouble::SingularMass(i));
+                }
+            }
+            let rate = scale(n, mass, damping, stiffness, right);
+            left.copy_from_slice(right);
+            (Degree::Two, rate)
+        }
+        Eigenproblem::FirstOrder { matrix, .. } => {
+            stiffness.copy_from_slice(matrix);
+            if largest(stiffness).is_infinite() {
+                return Err(not_found());
+            }
+            let rate = scale_first_order(n, damping, stiffness, right, left);
+            (Degree::One, rate)
+        }
+    };
+    if [&*mass, damping, stiffness]
+        .iter()
+        .any(|matrix| largest(matrix).is_infinite())
+    {
+        return Err(not_found());
+    }
+    let pencil = Pencil {
+        n,
+        degree,
+        largest: [&*mass, damping, stiffness].map(largest),
+        mass,
+        damping,
+        stiffness,
+    };
+    Ok(Scaled {
+        pencil,
+        right,
+        left,
+        rate,
+    })
+}

@@ -1,0 +1,270 @@
+//! Random bordered pencils: every root is one, left and right, no two are the same, and there are as many as there is
+//! freedom.
+
+use eigentol::modes::modes_of;
+use eigentol::{
+    Complex, CoordinateInfo, DampingKind, Description, Family, Linear, Mode, Role, Unit,
+};
+
+const NONE: Unit = Unit {
+    symbol: "",
+    scale: 1.0,
+};
+
+/// A generator of this test's own, uniform in (-1, 1).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// How many unknowns of each role.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    coordinates: usize,
+    speeds: usize,
+    positions: usize,
+    velocities: usize,
+    /// Rows that repeat combinations of others of their kind.
+    copies: [usize; 2],
+}
+
+impl Sizes {
+    fn description(self) -> &'static Description {
+        let info = |role| CoordinateInfo {
+            name: "x",
+            unit: NONE,
+            role,
+        };
+        let mut all = vec![info(Role::Position); self.coordinates];
+        all.extend(vec![info(Role::Speed); self.speeds]);
+        all.extend(vec![info(Role::PositionReaction); self.positions]);
+        all.extend(vec![info(Role::VelocityReaction); self.velocities]);
+        Box::leak(Box::new(Description {
+            name: "Random",
+            coordinates: Box::leak(all.into_boxed_slice()),
+            inputs: &[],
+            design: &[],
+            outputs: &[],
+            symmetric_stiffness: false,
+            damping: DampingKind::General,
+            kernels: &[],
+        }))
+    }
+
+    /// Number of eigenvalues.
+    fn freedom(self) -> usize {
+        let y = self.coordinates + self.copies[0] - self.positions;
+        let w = y + self.speeds + self.copies[1] - self.velocities;
+        y + w
+    }
+}
+
+fn linear<const N: usize>(sizes: Sizes, random: &mut Random) -> Linear<f64, N> {
+    let zero = [[0.0; N]; N];
+    let mut found = Linear {
+        mass: zero,
+        damping: zero,
+        stiffness: zero,
+    };
+    let (q, motions) = (sizes.coordinates, sizes.coordinates + sizes.speeds);
+    let factor: Vec<Vec<f64>> = (0..motions)
+        .map(|_| (0..motions).map(|_| random.next()).collect())
+        .collect();
+    for i in 0..motions {
+        for j in 0..motions {
+            let product: f64 = (0..motions).map(|k| factor[i][k] * factor[j][k]).sum();
+            let mass = product + if i == j { 0.3 } else { 0.0 };
+            let (damping, stiffness) = (random.next(), 5.0 * random.next());
+            if j < q {
+                found.mass[i][j] = mass;
+                found.damping[i][j] = damping;
+                found.stiffness[i][j] = stiffness;
+            } else {
+                found.damping[i][j] = mass;
+                found.stiffness[i][j] = damping;
+            }
+        }
+    }
+    let first = motions;
+    let independent = sizes.positions - sizes.copies[0];
+    for k in 0..sizes.positions {
+        let row: Vec<f64> = if k < independent {
+            (0..q).map(|_| random.next()).collect()
+        } else {
+            (0..q)
+                .map(|j| 3.0 * found.stiffness[first + k - independent][j])
+                .collect()
+        };
+        for (j, value) in row.into_iter().enumerate() {
+            found.stiffness[first + k][j] = value;
+            found.stiffness[j][first + k] = value;
+        }
+    }
+    let first = motions + sizes.positions;
+    let independent = sizes.velocities - sizes.copies[1];
+    for k in 0..sizes.velocities {
+        for j in 0..motions {
+            let (rate, at_rest) = if k < independent {
+                (random.next(), random.next())
+            } else {
+                let row = first + k - independent;
+                if j < q {
+                    (0.5 * found.damping[row][j], 0.5 * found.stiffness[row][j])
+                } else {
+                    (0.5 * found.stiffness[row][j], 0.0)
+                }
+            };
+            if j < q {
+                found.damping[first + k][j] = rate;
+                found.stiffness[first + k][j] = at_rest;
+            } else {
+                found.stiffness[first + k][j] = rate;
+            }
+            found.stiffness[j][first + k] = rate;
+        }
+    }
+    found
+}
+
+/// Brings unknowns, and with them the equations of motion, to units that differ by orders of magnitude.
+fn rescale<const N: usize>(linear: &mut Linear<f64, N>, random: &mut Random) {
+    let units: [f64; N] = core::array::from_fn(|_| 10_f64.powf(2.0 * random.next()));
+    for matrix in [&mut linear.mass, &mut linear.damping, &mut linear.stiffness] {
+        for i in 0..N {
+            for j in 0..N {
+                matrix[i][j] *= units[i] * units[j];
+            }
+        }
+    }
+}
+
+fn times<const N: usize>(
+    linear: &Linear<f64, N>,
+    factors: [Complex; 3],
+    x: &[Complex; N],
+) -> ([Complex; N], f64) {
+    let mut size = 0.0_f64;
+    let product = core::array::from_fn(|i| {
+        let mut sum = Complex::default();
+        let mut terms = 0.0;
+        for (matrix, factor) in [&linear.mass, &linear.damping, &linear.stiffness]
+            .into_iter()
+            .zip(factors)
+        {
+            for (value, x) in matrix[i].iter().zip(x) {
+                sum += factor * value * x;
+                terms += (factor * value * x).norm();
+            }
+        }
+        size = size.max(terms);
+        sum
+    });
+    (product, size)
+}
+
+fn dot<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
+    x.iter().zip(y).map(|(a, b)| a * b).sum()
+}
+
+fn conjugate<const N: usize>(mode: &Mode<N>) -> Mode<N> {
+    Mode {
+        s: mode.s.conj(),
+        shape: mode.shape.map(|x| x.conj()),
+        left: mode.left.map(|x| x.conj()),
+        ..*mode
+    }
+}
+
+fn check<const N: usize>(sizes: Sizes, random: &mut Random, rescaled: bool) {
+    let mut linear = linear::<N>(sizes, random);
+    let plain = modes_of(&linear, Family::General, sizes.description()).unwrap();
+    if rescaled {
+        rescale(&mut linear, random);
+    }
+    let found = modes_of(&linear, Family::General, sizes.description()).unwrap();
+    for (a, b) in found.modes.iter().zip(&plain.modes) {
+        let apart = (a.s - b.s).norm();
+        assert!(
+            apart <= 2.0 * (a.error + b.error),
+            "{sizes:?}: {} {}: {} {}",
+            a.s,
+            b.s,
+            a.error,
+            b.error
+        );
+    }
+    let conjugates = found.modes.iter().filter(|mode| mode.s.im > 0.0);
+    let all: Vec<_> = found
+        .modes
+        .iter()
+        .copied()
+        .chain(conjugates.map(conjugate))
+        .collect();
+    assert_eq!(all.len(), sizes.freedom(), "{sizes:?}");
+    let one = Complex::new(1.0, 0.0);
+    let size = |x: &[Complex; N]| x.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
+    for a in &all {
+        let (rest, terms) = times(&linear, [a.s * a.s, a.s, one], &a.shape);
+        assert!(
+            size(&rest) <= 1e-11 * terms,
+            "{sizes:?}: {} of {terms}",
+            size(&rest)
+        );
+        assert!(
+            a.error <= 1e-7 * (1.0 + a.s.norm()),
+            "{sizes:?}: error {}",
+            a.error
+        );
+        for b in &all {
+            if a.s == b.s {
+                continue;
+            }
+            // psi_a^T (P(s_a) - P(s_b)) / (s_a - s_b) phi_b = 0.
+            let (product, _) = times(&linear, [a.s + b.s, one, Complex::default()], &b.shape);
+            let cross = dot(&a.left, &product).norm();
+            let own = |mode: &Mode<N>| {
+                let factors = [2.0 * mode.s, one, Complex::default()];
+                dot(&mode.left, &times(&linear, factors, &mode.shape).0).norm()
+            };
+            let scale = (own(a) * own(b)).sqrt() * (a.condition * b.condition).sqrt();
+            assert!(
+                cross <= 1e-8 * scale,
+                "{sizes:?}: {} {}: {cross} of {scale}",
+                a.s,
+                b.s
+            );
+        }
+    }
+}
+
+#[test]
+fn random_pencils_have_all_their_roots() {
+    let mut random = Random(11);
+    let sizes = |coordinates, speeds, positions, velocities, copies| Sizes {
+        coordinates,
+        speeds,
+        positions,
+        velocities,
+        copies,
+    };
+    for round in 0..40 {
+        let rescaled = round % 2 == 1;
+        check::<6>(sizes(4, 0, 2, 0, [0, 0]), &mut random, rescaled);
+        check::<7>(sizes(4, 0, 3, 0, [1, 0]), &mut random, rescaled);
+        check::<6>(sizes(4, 0, 0, 2, [0, 0]), &mut random, rescaled);
+        check::<6>(sizes(2, 3, 0, 1, [0, 0]), &mut random, rescaled);
+        check::<5>(sizes(0, 4, 0, 1, [0, 0]), &mut random, rescaled);
+        check::<9>(sizes(4, 2, 1, 2, [0, 0]), &mut random, rescaled);
+        check::<12>(sizes(4, 3, 2, 3, [1, 1]), &mut random, rescaled);
+        check::<4>(sizes(2, 0, 0, 2, [0, 0]), &mut random, rescaled);
+        check::<4>(sizes(2, 0, 2, 0, [0, 0]), &mut random, rescaled);
+        check::<20>(sizes(9, 4, 3, 4, [0, 1]), &mut random, rescaled);
+    }
+}
