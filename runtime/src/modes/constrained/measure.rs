@@ -46,6 +46,7 @@ pub(super) fn times_transposed<const N: usize>(
 }
 
 /// A measured pair.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Measure {
     /// Greatest component of `P(s) phi` and of `psi^T P(s)` relative to the greatest sum of absolute terms in one: of
     /// equations of motion, and of constraints, each for themselves.

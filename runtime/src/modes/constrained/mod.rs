@@ -198,6 +198,7 @@ impl<'a, const N: usize> Gathered<'a, N> {
         let mut found = Measure::new(self.linear, motions, s, &right, &left);
         let simple = !shared && numbers.condition.is_finite();
         if simple {
+            let unimproved = (s, right, left, found);
             for _ in 0..2 {
                 // Far steps are not rounding of the smaller problem.
                 let next = s - found.newton;
@@ -221,6 +222,10 @@ impl<'a, const N: usize> Gathered<'a, N> {
                 if better.residual < found.residual {
                     (right, left, found) = (new_right, new_left, better);
                 }
+            }
+            // Next to a double root the step is a quotient of two roundings.
+            if found.residual > measure::INACCURATE.max(unimproved.3.residual) {
+                (s, right, left, found) = unimproved;
             }
         }
         if found.residual.is_nan() || found.residual > measure::ACCEPTED {
