@@ -5,7 +5,7 @@
 //! `psi^T (s^2 Mhat + s Chat + Khat) = 0`. Both are described by one type: an undamped mode is one with `s^2 = -lambda`.
 //!
 //! With constraints and speeds the same equations hold for all unknowns, reactions included; there are as many modes as
-//! the constraints leave free ([`constrained`]).
+//! the constraints leave free.
 
 mod assurance;
 mod constrained;

@@ -315,27 +315,30 @@ const SPHERE: &[DesignInfo] = &[
     design("kx", STIFFNESS, 6.0, 0.1),
     design("ky", STIFFNESS, 9.0, 0.1),
     design("c", NUMBER, 0.4, 0.01),
+    design("e", NUMBER, 1.0, 0.01),
 ];
 
-/// A point mass on a rod of length `L` on a turntable (axis vertical), two springs to the point (0.3 m, 0.2 m), a damper
+/// A point mass on a rod of length `L` on a turntable (axis vertical), two springs to the point `e` (0.3 m, 0.2 m), a damper
 /// in the turning frame: gyroscopic and damped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spherical;
 
-fn spherical<T: Real>(a: [T; 3], v: [T; 3], q: [T; 3], omega: T, b: &[T; 5]) -> [T; 3] {
+fn spherical<T: Real>(a: [T; 3], v: [T; 3], q: [T; 3], omega: T, b: &[T; 6]) -> [T; 3] {
     let c = T::constant;
-    let [m, _, kx, ky, damper] = *b;
+    let [m, _, kx, ky, damper, e] = *b;
     let square = omega * omega;
     [
-        m * (a[0] - c(2.0) * omega * v[1] - square * q[0]) + kx * (q[0] - c(0.3)) + damper * v[0],
+        m * (a[0] - c(2.0) * omega * v[1] - square * q[0])
+            + kx * (q[0] - e * c(0.3))
+            + damper * v[0],
         m * (a[1] + c(2.0) * omega * v[0] - square * q[1])
-            + ky * (q[1] - c(0.2))
+            + ky * (q[1] - e * c(0.2))
             + damper * c(0.5) * v[1],
         m * (a[2] - c(G)),
     ]
 }
 
-impl Model<4, 1, 5, 0> for Spherical {
+impl Model<4, 1, 6, 0> for Spherical {
     const DESCRIPTION: Description = described(
         "Spherical",
         &[
@@ -354,7 +357,7 @@ impl Model<4, 1, 5, 0> for Spherical {
         v: &[T; 4],
         q: &[T; 4],
         u: &[T; 1],
-        b: &[T; 5],
+        b: &[T; 6],
     ) -> [T; 4] {
         let size = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
         let [fx, fy, fz] = spherical(
@@ -373,7 +376,7 @@ impl Model<4, 1, 5, 0> for Spherical {
         ]
     }
 
-    fn applied<T: Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 5]) -> [T; 4] {
+    fn applied<T: Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 6]) -> [T; 4] {
         [T::constant(0.0); 4]
     }
 }
@@ -382,7 +385,7 @@ impl Model<4, 1, 5, 0> for Spherical {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SphericalByPlane;
 
-impl Model<2, 1, 5, 0> for SphericalByPlane {
+impl Model<2, 1, 6, 0> for SphericalByPlane {
     const DESCRIPTION: Description = described(
         "SphericalByPlane",
         &[coordinate("x", METRE), coordinate("y", METRE)],
@@ -396,7 +399,7 @@ impl Model<2, 1, 5, 0> for SphericalByPlane {
         v: &[T; 2],
         q: &[T; 2],
         u: &[T; 1],
-        b: &[T; 5],
+        b: &[T; 6],
     ) -> [T; 2] {
         let h = (b[1] * b[1] - q[0] * q[0] - q[1] * q[1]).sqrt();
         let (qv, vv) = (q[0] * v[0] + q[1] * v[1], v[0] * v[0] + v[1] * v[1]);
@@ -407,7 +410,7 @@ impl Model<2, 1, 5, 0> for SphericalByPlane {
         [fx - fz * q[0] / h, fy - fz * q[1] / h]
     }
 
-    fn applied<T: Real>(&self, _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 5]) -> [T; 2] {
+    fn applied<T: Real>(&self, _: &[T; 2], _: &[T; 2], _: &[T; 1], _: &[T; 6]) -> [T; 2] {
         [T::constant(0.0); 2]
     }
 }

@@ -1,6 +1,6 @@
 //! Constraints on positions against minimal coordinates.
 
-use eigentol::sensitivity::{sensitivities, shape_sensitivity};
+use eigentol::sensitivity::{modal_couplings, sensitivities, shape_sensitivity};
 use eigentol::{Error, Family};
 
 use crate::compare::{State, all_near, same_mechanism, same_modes};
@@ -89,7 +89,7 @@ fn shapes_move_with_the_design() {
     let here = State::new(Spherical, [0.8], start);
     for r in 0..here.modes.modes.len() {
         let found = shape_sensitivity(&here.mechanism, &here.at, &here.modes, r).unwrap();
-        for j in 0..5 {
+        for j in 0..6 {
             let at = |step: f64| {
                 let mut b = here.at.design;
                 b[j] += step;
@@ -119,6 +119,25 @@ fn shapes_move_with_the_design() {
             }
         }
     }
+}
+
+/// The same stiffness in all directions: two equal frequencies, one cluster, of which the mean has derivatives.
+#[test]
+fn equal_frequencies_are_a_cluster() {
+    let b = [0.7, 1.2, 6.0, 6.0, 0.0, 0.0];
+    let own = State::with(Spherical, [0.0], b, [0.1, 0.1, 1.1, 0.0]);
+    let other = State::with(SphericalByPlane, [0.0], b, [0.1, 0.1]);
+    same_modes(&own.modes, &other.modes, 1e-12);
+    let found = sensitivities(&own.mechanism, &own.at, &own.modes).unwrap();
+    assert!(found.modes.iter().all(|mode| mode.clustered));
+    assert!(shape_sensitivity(&own.mechanism, &own.at, &own.modes, 0).is_err());
+    let mean = |couplings: eigentol::sensitivity::ModalCouplings| {
+        let all = couplings.mean_by_design();
+        all.iter().flat_map(|x| [x.re, x.im]).collect::<Vec<_>>()
+    };
+    let a = modal_couplings(&own.mechanism, &own.at, &own.modes, &[0, 1]).unwrap();
+    let b = modal_couplings(&other.mechanism, &other.at, &other.modes, &[0, 1]).unwrap();
+    all_near(&mean(a), &mean(b), 1e-11);
 }
 
 #[test]
