@@ -117,8 +117,8 @@ where
 }
 
 /// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
-/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces; the gap of a
-/// constraint is relative to what those motions open.
+/// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, one that is nothing
+/// but rounding as a small share of the greatest; the gap of a constraint is relative to what those motions open.
 pub(super) fn relative_residual<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
@@ -132,9 +132,11 @@ where
         .mechanism
         .residual_parts(q, problem.inputs, problem.design);
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    let reaction = largest_of(&q[motions..]);
     let force = |i: usize| {
         let own = parts.inertia[i].abs().max(parts.applied[i].abs());
-        let reactions = (motions..N).map(|j| (stiffness[i][j] * q[j]).abs());
+        let reactions =
+            (motions..N).map(|j| stiffness[i][j].abs() * q[j].abs().max(SMALL_MOTION * reaction));
         let force = reactions.fold(own, f64::max);
         if force.is_finite() { force } else { 0.0 }
     };

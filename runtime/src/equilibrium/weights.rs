@@ -5,7 +5,8 @@ use crate::Mechanism;
 use crate::constraints::inertias;
 
 /// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
-/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it.
+/// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it; a reaction is the
+/// stiffness against a motion of one unit, for mechanisms that have no other.
 pub(super) fn weights<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
@@ -29,7 +30,9 @@ where
     let mass = inertias(linear, structure);
     let motions = structure.motions();
     let stiffest = (0..motions).fold(0.0, |most: f64, i| {
-        most.max(linear.stiffness[i][i].abs() / mass[i])
+        let row = &linear.stiffness[i];
+        let reactions = (motions..N).fold(0.0, |most: f64, j| most.max((row[j] * q[j]).abs()));
+        most.max(row[i].abs().max(reactions) / mass[i])
     });
     let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
     for i in 0..motions {
