@@ -10,3 +10,4 @@ mod models;
 mod random;
 mod redundancy;
 mod running;
+mod sampling;

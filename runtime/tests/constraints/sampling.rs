@@ -1,0 +1,41 @@
+use eigentol::tolerance::Outcome;
+use eigentol::{Coordinate, DesignVariable, Input, Stability, Study};
+
+use super::bordered::bordered;
+use super::models::{FOUR_BAR, FourBar};
+
+#[test]
+fn samples_that_do_not_close_are_counted() {
+    // The longest bar reaches over the others but for a millimetre.
+    let reach = FOUR_BAR[2] + FOUR_BAR[3] + FOUR_BAR[4];
+    let study = Study::new(bordered(FourBar))
+        .input(Input(0), 0.0)
+        .design(DesignVariable(5), reach - 1e-3)
+        .guess(Coordinate(0), 0.4)
+        .guess(Coordinate(1), -0.02)
+        .guess(Coordinate(2), 1.1)
+        .guess(Coordinate(3), -0.02)
+        .tolerance(DesignVariable(5), 3e-3)
+        .samples(400)
+        .keep_samples(true);
+    let state = study.equilibrium().expect("it closes");
+    assert_eq!(state.stability, Stability::Stable);
+    let run = study.monte_carlo().expect("valid settings");
+    assert_eq!(run.counts.total(), 400);
+    let all = run.all.expect("asked for");
+    for sample in &all {
+        let closes = sample.design[5] < sample.design[2] + sample.design[3] + sample.design[4];
+        match sample.outcome {
+            Outcome::Stable => assert!(closes, "{:?}", sample.design),
+            Outcome::NotAssembled => assert!(!closes, "{:?}", sample.design),
+            other => panic!("{other:?}: {:?}", sample.design),
+        }
+    }
+    // One standard deviation short of closing: a sixth of them.
+    assert!(
+        (40..100).contains(&run.counts.not_assembled),
+        "{:?}",
+        run.counts
+    );
+    assert!(run.counts.to_string().contains("not assembled"));
+}
