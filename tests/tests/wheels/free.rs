@@ -40,7 +40,10 @@ fn a_disk_without_drag() {
         assert_eq!(study.sensitivities().err(), Some(Error::CriticalState));
         // A torque would turn it faster and faster.
         let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
-        assert!(matches!(turned, Err(Error::NoEquilibrium { .. })), "{turned:?}");
+        assert!(
+            matches!(turned, Err(Error::NoEquilibrium { .. })),
+            "{turned:?}"
+        );
     }
 }
 
@@ -52,15 +55,27 @@ fn a_cart_without_drag() {
         .design(PushedCart::drag, 0.0)
         .design(PushedCart::air, 0.0);
     let pushed = study.clone().input(PushedCart::push, 1.0).equilibrium();
-    assert!(matches!(pushed, Err(Error::NoEquilibrium { .. })), "{pushed:?}");
+    assert!(
+        matches!(pushed, Err(Error::NoEquilibrium { .. })),
+        "{pushed:?}"
+    );
     let state = study.equilibrium().expect("at rest");
     assert_eq!(state.stability, Stability::Neutral { zero: 1 });
     let modes = study.modes().expect("modes");
-    let omegas: Vec<f64> = modes.modes.iter().filter_map(|mode| mode.frequency()).collect();
+    let omegas: Vec<f64> = modes
+        .modes
+        .iter()
+        .filter_map(|mode| mode.frequency())
+        .collect();
     let (bob, length, all) = (1.2_f64, 0.4, 2.0 + 1.0 + 0.02 / (0.15 * 0.15) + 1.2);
     let inertia = bob * length * length + 0.01 - (bob * length * bob * length) / all;
     assert_eq!(omegas.len(), 1);
-    close(omegas[0], (9.81 * bob * length / inertia).sqrt(), 0.0, "swing");
+    close(
+        omegas[0],
+        (9.81 * bob * length / inertia).sqrt(),
+        0.0,
+        "swing",
+    );
     assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
 }
 
