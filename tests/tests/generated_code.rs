@@ -2,6 +2,8 @@
 
 #[path = "generated_code/agreement.rs"]
 mod agreement;
+#[path = "generated_code/constraints.rs"]
+mod constraints;
 #[path = "generated_code/scalars.rs"]
 mod scalars;
 

@@ -9,6 +9,8 @@ use eigentol_tests::corpus::{Visitor, corpus, visit};
 use eigentol_tests::dual::Dual;
 use eigentol_tests::generated::{evaluate, evaluate_at};
 use eigentol_tests::interpreter::interpret;
+use eigentol_tests::loops;
+use eigentol_tests::wheels::{RollingDisk, TowedCaster, caster, disk};
 
 use super::Numbers;
 
@@ -329,4 +331,8 @@ fn duals_agree_with_every_derivative_kernel() {
     let mut duals = Duals { machines: 0 };
     visit(&mut duals);
     assert_eq!(duals.machines, corpus().len());
+    loops::visit(&mut duals);
+    duals.visit("caster", caster::DECLARATION, TowedCaster);
+    duals.visit("disk", disk::DECLARATION, RollingDisk);
+    assert!(duals.machines >= corpus().len() + 10);
 }
