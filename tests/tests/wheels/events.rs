@@ -82,7 +82,7 @@ fn stability_of_the_bicycle() {
         state.stability
     };
     assert_eq!(at(3.0), Stability::Flutter { growing: 1 });
-    assert!(at(4.29).holds() == false && at(4.295).holds());
+    assert!(!at(4.29).holds() && at(4.295).holds());
     assert!(at(5.0).holds());
     assert!(at(6.02).holds());
     assert!(

@@ -1,50 +1,92 @@
-//! What rolls freely has a whole family of steady motions: an answer or a typed error, never a number that is none.
+//! What rolls freely has a whole family of steady motions: modes are those of the one it is in, and what depends on which one
+//! that is has no answer but an error.
 
-use eigentol::Study;
-use eigentol_tests::wheels::{PushedCart, RollingDisk};
+use eigentol::{Behaviour, Error, Stability, Study};
+use eigentol_tests::wheels::{CirclingTrailer, PushedCart, RollingDisk};
 
-/// Without drag nothing decides how fast the disk turns about the vertical.
+use super::common::close;
+
+/// Without drag nothing decides how fast the disk turns about the vertical: one eigenvalue is zero, and
+/// `(A + m r^2) s^2 = m g r - (C + m r^2) C spin^2 / A`.
 #[test]
 fn a_disk_without_drag() {
-    for spin in [0.0, 4.0, 20.0] {
-        let study = Study::<RollingDisk, 8, 2, 6, 2>::new(RollingDisk)
-            .input(RollingDisk::spin, spin)
-            .design(RollingDisk::drag, 0.0)
-            .design(RollingDisk::stiffness, 0.0);
-        let Ok(state) = study.equilibrium() else {
-            continue;
+    let free = Study::<RollingDisk, 8, 2, 6, 2>::new(RollingDisk)
+        .design(RollingDisk::drag, 0.0)
+        .design(RollingDisk::stiffness, 0.0);
+    let [m, r, a, c] = [3.0, 0.25, 0.05, 0.09];
+    let k = c + m * r * r;
+    for spin in [0.0, 1.0, 4.0, 20.0] {
+        let study = free.clone().input(RollingDisk::spin, spin);
+        let square = (m * 9.81 * r - k * c * spin * spin / a) / (a + m * r * r);
+        let state = study.equilibrium().expect("rolling straight ahead");
+        let stability = if square > 0.0 {
+            Stability::Divergent { negative: 1 }
+        } else {
+            Stability::Neutral { zero: 1 }
         };
-        assert!(state.coordinates.iter().all(|value| value.is_finite()));
-        let [m, r, a, c] = [3.0, 0.25, 0.05, 0.09];
-        let k = c + m * r * r;
-        // (A + m r^2) lean'' + (k C spin^2 / A - m g r) lean = 0
-        let square = (k * c * spin * spin / a - m * 9.81 * r) / (a + m * r * r);
+        assert_eq!(state.stability, stability, "{spin} rad/s");
         let modes = study.modes().expect("modes");
-        for mode in &modes.modes {
-            assert!(mode.s.re.is_finite() && mode.s.im.is_finite());
+        let neutral = |behaviour| matches!(behaviour, Behaviour::Neutral);
+        let count = modes.modes.iter().filter(|mode| neutral(mode.behaviour));
+        assert_eq!(count.count(), 1, "{modes:?}");
+        let moving = modes.modes.iter().filter(|mode| !neutral(mode.behaviour));
+        let moving: Vec<_> = moving.map(|mode| mode.s).collect();
+        assert_eq!(moving.len(), if square > 0.0 { 2 } else { 1 });
+        for s in moving {
+            close((s * s).re, square, 0.0, "the square of an eigenvalue");
+            assert!((s * s).im.abs() < 1e-9 * square.abs());
         }
-        let own = modes.modes.iter().filter(|mode| mode.s.norm() > 1e-3);
-        for mode in own {
-            let off = (mode.s * mode.s + square).norm();
-            assert!(off < 1e-6 * square.abs(), "{spin}: {}", mode.s);
-        }
+        assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
+        assert_eq!(study.sensitivities().err(), Some(Error::CriticalState));
+        // A torque would turn it faster and faster.
+        let turned = study.input(RollingDisk::torque, 0.1).equilibrium();
+        assert!(
+            matches!(turned, Err(Error::NoEquilibrium { .. })),
+            "{turned:?}"
+        );
     }
 }
 
-/// Without drag no force gives the cart a steady speed.
+/// Without drag no force gives the cart a steady speed, and without a force any speed is one. The pendulum swings against the
+/// cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, `b` the bob, `J` its inertia about the hinge, `m` all masses.
 #[test]
 fn a_cart_without_drag() {
     let study = Study::<PushedCart, 4, 1, 9, 1>::new(PushedCart)
         .design(PushedCart::drag, 0.0)
         .design(PushedCart::air, 0.0);
+    let pushed = study.clone().input(PushedCart::push, 1.0).equilibrium();
     assert!(
-        study
-            .clone()
-            .input(PushedCart::push, 1.0)
-            .equilibrium()
-            .is_err()
+        matches!(pushed, Err(Error::NoEquilibrium { .. })),
+        "{pushed:?}"
     );
-    if let Ok(state) = study.equilibrium() {
-        assert!(state.coordinates.iter().all(|value| value.is_finite()));
-    }
+    let state = study.equilibrium().expect("at rest");
+    assert_eq!(state.stability, Stability::Neutral { zero: 1 });
+    let modes = study.modes().expect("modes");
+    let omegas: Vec<f64> = modes
+        .modes
+        .iter()
+        .filter_map(|mode| mode.frequency())
+        .collect();
+    let (bob, length, all) = (1.2_f64, 0.4, 2.0 + 1.0 + 0.02 / (0.15 * 0.15) + 1.2);
+    let inertia = bob * length * length + 0.01 - (bob * length * bob * length) / all;
+    assert_eq!(omegas.len(), 1);
+    close(
+        omegas[0],
+        (9.81 * bob * length / inertia).sqrt(),
+        0.0,
+        "swing",
+    );
+    assert_eq!(study.equilibrium_shift().err(), Some(Error::CriticalState));
+}
+
+/// At rest the trailer stays at any angle: a single zero eigenvalue, because its rate is no state.
+#[test]
+fn a_trailer_at_rest() {
+    let study = Study::<CirclingTrailer, 7, 2, 9, 1>::new(CirclingTrailer)
+        .input(CirclingTrailer::radius, 5.0);
+    let state = study.equilibrium().expect("at rest");
+    assert_eq!(state.stability, Stability::Neutral { zero: 1 });
+    let modes = study.modes().expect("modes");
+    assert_eq!(modes.modes.len(), 1);
+    assert_eq!(modes.modes[0].behaviour, Behaviour::Neutral);
 }

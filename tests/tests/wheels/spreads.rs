@@ -1,10 +1,10 @@
-//! Tolerances of the bicycle: first order and Monte Carlo against the derivatives of the reference.
+//! Tolerances of the bicycle: first order, second order and Monte Carlo against the derivatives of the reference.
 
 use eigentol::{Complex, Study};
 use eigentol_tests::truth::Truth;
 use eigentol_tests::wheels::WhippleBicycle;
 
-use super::common::{complex, truth};
+use super::common::{close, complex, truth};
 
 /// Mean shift and standard deviation of the weave at 5 m/s to second order: with `g_i` and `H_ij` the derivatives times the
 /// standard deviations of the parameters, the mean moves by `sum H_ii / 2`, the variance is `sum g_i^2 + sum H_ij^2 / 2`.
@@ -41,28 +41,40 @@ fn samples_spread_as_the_derivatives_say() {
         .map(|j| complex(&by_design.get(&order[j])) * sigma[j])
         .collect();
     let drawn = study.monte_carlo().expect("samples");
-    assert_eq!(drawn.counts.total(), SAMPLES);
-    assert_eq!(drawn.counts.unphysical, 0);
+    assert_eq!(drawn.counts.stable, SAMPLES, "{:?}", drawn.counts);
     let modes = study.modes().expect("modes");
     let weave = modes
         .modes
         .iter()
         .position(|mode| (mode.s - s).norm() < 1e-6);
     let weave = weave.expect("the weave");
-    let omega = drawn.modes[weave].expect("it oscillates");
-    let deviation = omega.standard_deviation.expect("many samples");
     let mean: f64 = (0..26).map(|i| 0.5 * scaled(i, i).im).sum();
     let linear: f64 = first.iter().map(|slope| slope.im.powi(2)).sum();
     let curved: f64 = (0..26 * 26)
         .map(|k| 0.5 * scaled(k / 26, k % 26).im.powi(2))
         .sum();
     let spread = (linear + curved).sqrt();
+
+    let first_order = study.first_order().expect("first order").modes[weave];
+    let sigma = first_order.sigma.expect("it oscillates");
+    close(sigma, linear.sqrt(), 0.0, "sigma of first order");
+    let second_order = study.second_order().expect("second order");
+    let second_order = second_order.modes[weave].as_ref().expect("it oscillates");
+    let model = second_order.frequency.moments;
+    close(model.sigma, spread, 0.0, "sigma of second order");
+    close(model.mean_shift, mean, 0.0, "mean of second order");
+
+    let omega = drawn.modes[weave].expect("it oscillates");
+    let deviation = omega.standard_deviation.expect("many samples");
     let error = spread / (SAMPLES as f64).sqrt();
+    let off = omega.mean - s.im - mean;
     assert!(
-        (omega.mean - s.im - mean).abs() < 4.0 * error,
-        "mean {} against {}",
-        omega.mean - s.im,
-        mean
+        off.abs() < 4.0 * error,
+        "the mean is off by {off}, its error {error}"
     );
-    assert!((deviation / spread - 1.0).abs() < 4.0 / (2.0 * SAMPLES as f64).sqrt());
+    let share = deviation / spread - 1.0;
+    assert!(
+        share.abs() < 4.0 / (2.0 * SAMPLES as f64).sqrt(),
+        "sigma is off by {share}"
+    );
 }
