@@ -84,7 +84,7 @@ fn a_slider_crank_far_from_closed() {
             l1 * crank.cos() + l2 * angle.cos(),
             1e-12,
         );
-        assert_eq!(found.mode.is_some(), true);
+        assert!(found.mode.is_some());
     }
 }
 
