@@ -21,6 +21,11 @@ mod rotating_double_pendulum;
 #[path = "../rotating_pendulum.rs"]
 #[allow(dead_code, unreachable_pub)]
 mod rotating_pendulum;
+#[path = "programs/whipple.rs"]
+mod whipple;
+#[path = "../whipple_bicycle.rs"]
+#[allow(dead_code, unreachable_pub)]
+mod whipple_bicycle;
 
 type Run = fn(Vec<OsString>, &mut dyn Write) -> Result<(), Failure>;
 

@@ -125,14 +125,30 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     where
         M: Mechanism<N, U, P, O>,
     {
-        self.halving(value, HALVINGS)
+        // Where to go next, how often the way may still be halved, and what comes after it.
+        let (mut next, mut halvings) = (value, HALVINGS);
+        let mut after = Vec::new();
+        loop {
+            match self.step(next, halvings) {
+                Ok(Step::Arrived(there)) => match after.pop() {
+                    None => return Ok(*there),
+                    Some(place) => (next, halvings) = place,
+                },
+                Ok(Step::TooFar(middle)) => {
+                    halvings -= 1;
+                    after.push((next, halvings));
+                    next = middle;
+                }
+                Err(error) => match after.pop() {
+                    None => return Err(error),
+                    // Taken as it is, doubtful or not.
+                    Some((place, _)) => (next, halvings) = (place, 0),
+                },
+            }
+        }
     }
 
-    fn halving<const O: usize>(
-        &mut self,
-        value: f64,
-        halvings: usize,
-    ) -> Result<(Equilibrium<N, U, P>, Result<Modes<N>, Error>), Error>
+    fn step<const O: usize>(&mut self, value: f64, halvings: usize) -> Result<Step<N, U, P>, Error>
     where
         M: Mechanism<N, U, P, O>,
     {
@@ -141,11 +157,11 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             Ok(found) => found,
             Err(error) => {
                 self.from = state.coordinates;
-                return Ok((state, Err(error)));
+                return Ok(Step::Arrived(Box::new((state, Err(error)))));
             }
         };
-        let Some(last) = self.last else {
-            return Ok(self.arrive(value, state, found));
+        let Some(last) = &self.last else {
+            return Ok(Step::Arrived(Box::new(self.arrive(value, state, found))));
         };
         let order = match_with_assurance(&last.modes, &found, &state.linear);
         // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
@@ -156,12 +172,12 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             .any(|&(position, assurance)| assurance < RECOGNISED && !repeated[position]);
         let middle = 0.5 * (last.value + value);
         let between = (middle - last.value) * (value - middle) > 0.0;
-        if doubtful && halvings > 0 && between && self.halving(middle, halvings - 1).is_ok() {
-            return self.halving(value, halvings - 1);
+        if doubtful && halvings > 0 && between {
+            return Ok(Step::TooFar(middle));
         }
         let order = order.map(|pair| pair.map(|(position, _)| position));
         let found = found.arranged(&last.modes, &order, self.unused);
-        Ok(self.arrive(value, state, found))
+        Ok(Step::Arrived(Box::new(self.arrive(value, state, found))))
     }
 
     fn arrive(
@@ -180,4 +196,15 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         });
         (equilibrium, Ok(modes))
     }
+}
+
+/// What a state is, and its modes or why it has none.
+type There<const N: usize, const U: usize, const P: usize> =
+    (Equilibrium<N, U, P>, Result<Modes<N>, Error>);
+
+/// How a step ended. On the heap: the states of large mechanisms would fill the stack.
+enum Step<const N: usize, const U: usize, const P: usize> {
+    Arrived(Box<There<N, U, P>>),
+    /// Modes are not recognised; a value on the way.
+    TooFar(f64),
 }
