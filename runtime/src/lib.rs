@@ -42,6 +42,7 @@
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
+//! | how does it go together, if loops close? | `assembly` | `equilibrium::assemble` |
 //! | where does it stay, and what moves that? | `equilibrium`, `equilibria`, `equilibrium_shift` | `equilibrium::equilibrium`, ... |
 //! | which branches are there, where do they fold and fork? | `branches` | `equilibrium::branches` |
 //! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |

@@ -7,6 +7,7 @@ mod margin;
 mod modes;
 mod second_order;
 mod sensitivity;
+mod shares;
 mod summary;
 mod sweep;
 mod table;

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::equilibrium::meeting;
+use super::shares;
 use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
 use crate::modes::Family;
 use crate::tolerance::{
@@ -16,11 +17,7 @@ impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {
         writeln!(f, "{}: first-order spread of the outputs", d.name)?;
         let mut head = cells(["output", "mean", "sigma"]);
         head.push(format!("{} sigma", self.sigma_level));
-        head.extend(
-            d.design
-                .iter()
-                .map(|info| format!("share of {}", info.name)),
-        );
+        head.extend(shares::head(d));
         let mut table = Table::new(head);
         for (info, own) in d.outputs.iter().zip(&self.outputs) {
             let scaled = |value: f64| value / info.unit.scale;
@@ -30,10 +27,8 @@ impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {
                 optional(own.sigma.map(scaled)),
                 optional(own.band.map(scaled)),
             ];
-            row.extend((0..P).map(|j| match own.variance_shares {
-                Some(shares) => format!("{:.1} %", 100.0 * shares[j]),
-                None => optional(None),
-            }));
+            let own = own.variance_shares.as_ref();
+            row.extend(shares::cells(d, own.map(|own| &own[..])));
             table.row(row);
         }
         write!(f, "{table}")
@@ -51,11 +46,7 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
             head.extend(cells(["damping ratio", "sigma", "to instability [sigma]"]));
         }
         head.push("to critical [sigma]".to_owned());
-        head.extend(
-            d.design
-                .iter()
-                .map(|info| format!("share of {}", info.name)),
-        );
+        head.extend(shares::head(d));
         let mut table = Table::new(head);
         for (r, mode) in self.modes.iter().enumerate() {
             let mut row = vec![
@@ -70,11 +61,7 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
                 row.push(number(mode.distance_to_instability));
             }
             row.push(number(mode.distance_to_critical));
-            row.extend(
-                mode.variance_shares
-                    .iter()
-                    .map(|share| format!("{:.1} %", 100.0 * share)),
-            );
+            row.extend(shares::cells(d, Some(&mode.variance_shares)));
             table.row(row);
         }
         write!(f, "{table}")?;
