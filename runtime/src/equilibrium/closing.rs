@@ -1,11 +1,14 @@
 //! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
 //! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to lose their independence.
 
+mod step;
+
 use super::convergence::{TOLERANCE, largest_of, relative_gap};
 use super::problem::{Failure, Problem};
 use crate::Mechanism;
 use crate::array::{Square, add_scaled, dot};
 use crate::constraints::{Rows, Structure, inertias};
+use step::{Aim, LEAST_DAMPING, damped, plain, scaled, without_dependent};
 
 const MAX_ITERATIONS: usize = 200;
 /// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
@@ -13,18 +16,11 @@ const MAX_ITERATIONS: usize = 200;
 const FIRST_RADIUS: f64 = 0.3;
 /// A gap that keeps this share in a step has stopped falling.
 const STALLED: f64 = 0.5;
-/// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
-const FALLS: f64 = 0.1;
-/// Share of the gaps that constraints must still be able to close, else there is a minimum.
-const CLOSABLE: f64 = 1e-9;
 /// How often, and by how much (rad or m), a state is kicked that is no way to close.
 const KICKS: usize = 4;
 const KICK: f64 = 0.02;
 /// A kick is worth its while when it leaves no more than this share of the gaps.
 const BETTER: f64 = 0.9;
-/// Damping relative to the constraints.
-const LEAST_DAMPING: f64 = 1e-6;
-const MOST_DAMPING: f64 = 1e9;
 
 /// Constraints on positions at a state, numbered from zero.
 pub(super) struct Gaps<const N: usize> {
@@ -191,125 +187,6 @@ where
 {
     let linear = problem.mechanism.linear(x, problem.inputs, problem.design);
     inertias(&linear, Problem::<M, N, U, P, O>::STRUCTURE).map(f64::sqrt)
-}
-
-/// What a step aims at: the gaps over the sizes of their rows.
-struct Aim<'a, const N: usize> {
-    at: &'a Gaps<N>,
-    rows: &'a Rows<N>,
-    scaled: [f64; N],
-}
-
-impl<'a, const N: usize> Aim<'a, N> {
-    fn new(at: &'a Gaps<N>, rows: &'a Rows<N>) -> Self {
-        Self {
-            at,
-            rows,
-            scaled: scaled(&at.gaps, rows),
-        }
-    }
-
-    fn merit(&self) -> f64 {
-        dot(&self.scaled, &self.scaled)
-    }
-
-    /// Whether no motion makes the gaps smaller to first order: they lie across everything that rows can close.
-    fn minimal(&self) -> bool {
-        let slope = self.rows.descent(&self.scaled);
-        dot(&slope, &slope) <= CLOSABLE * CLOSABLE * self.merit()
-    }
-
-    /// Whether gaps elsewhere are better by this share.
-    fn improved(&self, there: &Gaps<N>, share: f64) -> bool {
-        let merit = scaled(&there.gaps, self.rows);
-        dot(&merit, &merit) <= (1.0 - share) * self.merit()
-    }
-}
-
-fn scaled<const N: usize>(gaps: &[f64; N], rows: &Rows<N>) -> [f64; N] {
-    core::array::from_fn(|k| gaps[k] / rows.size[k])
-}
-
-/// A Gauss-Newton step without the rows that almost depend on the others, if every gap falls with it. Redundant constraints
-/// depend on each other only where they are met: away from there their differences, which close by themselves as the
-/// squares of what is left, would slow the steps down to halves and leave half of the digits.
-fn without_dependent<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    at: &Gaps<N>,
-    held: &[bool; N],
-    metric: [f64; N],
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let count = Problem::<M, N, U, P, O>::STRUCTURE.position_constraints;
-    let rows = Rows::nearly(count, |k| free(&at.rows[k], held), metric);
-    if rows.dependent() == 0 {
-        return None;
-    }
-    let step = rows.shortest_of_independent(&at.gaps);
-    let trial = add_scaled(x, -1.0, &step);
-    let there = gaps(problem, &trial)?;
-    let falls = largest_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
-    falls.then_some((trial, there))
-}
-
-/// A Gauss-Newton step of least motion, halved a few times.
-fn plain<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    aim: &Aim<'_, N>,
-    radius: &mut f64,
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let step = aim.rows.shortest(&aim.at.gaps);
-    let size = largest_of(&step);
-    let limit = (*radius / size).min(1.0);
-    let mut length = limit;
-    for _ in 0..4 {
-        let trial = add_scaled(x, -length, &step);
-        if let Some(there) = gaps(problem, &trial)
-            && aim.improved(&there, 0.5 * length)
-        {
-            if length == limit && limit < 1.0 && aim.improved(&there, 1.5 * length) {
-                *radius *= 2.0;
-            }
-            return Some((trial, there));
-        }
-        length *= 0.5;
-    }
-    None
-}
-
-/// A step with as much damping as it takes.
-fn damped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    aim: &Aim<'_, N>,
-    (radius, damping): (&mut f64, &mut f64),
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    *damping = (*damping * 1e-2).max(LEAST_DAMPING);
-    while *damping <= MOST_DAMPING {
-        let mut step = aim.rows.damped(&aim.scaled, *damping)?;
-        let size = largest_of(&step);
-        if size > *radius {
-            step = step.map(|value| value * *radius / size);
-        }
-        let trial = add_scaled(x, -1.0, &step);
-        if let Some(there) = gaps(problem, &trial)
-            && aim.improved(&there, 1e-12)
-        {
-            return Some((trial, there));
-        }
-        *damping *= 4.0;
-    }
-    None
 }
 
 /// Why the gaps have a minimum.

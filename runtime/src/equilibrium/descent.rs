@@ -5,8 +5,8 @@
 
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
 use super::problem::{Failure, Problem};
+use super::settle::{Found, last_step};
 use super::space::{Base, Space, Trial};
-use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
 use crate::modes::neutral_threshold;

@@ -2,8 +2,8 @@
 
 use super::convergence::{Progress, TOLERANCE, Watch, escaped, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
+use super::settle::{Found, last_step};
 use super::space::{Base, Space, Trial};
-use super::{Found, last_step};
 use crate::Mechanism;
 use crate::array::{Cholesky, Lu, Square, times, transpose};
 

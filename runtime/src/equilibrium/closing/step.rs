@@ -1,0 +1,135 @@
+//! One step towards closed loops.
+
+use super::super::convergence::largest_of;
+use super::super::problem::Problem;
+use super::{FIRST_RADIUS, Gaps, free, gaps};
+use crate::Mechanism;
+use crate::array::{add_scaled, dot};
+use crate::constraints::Rows;
+
+/// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
+const FALLS: f64 = 0.1;
+/// Share of the gaps that constraints must still be able to close, else there is a minimum.
+const CLOSABLE: f64 = 1e-9;
+/// Damping relative to the constraints.
+pub(super) const LEAST_DAMPING: f64 = 1e-6;
+const MOST_DAMPING: f64 = 1e9;
+
+/// What a step aims at: the gaps over the sizes of their rows.
+pub(super) struct Aim<'a, const N: usize> {
+    at: &'a Gaps<N>,
+    rows: &'a Rows<N>,
+    scaled: [f64; N],
+}
+
+impl<'a, const N: usize> Aim<'a, N> {
+    pub(super) fn new(at: &'a Gaps<N>, rows: &'a Rows<N>) -> Self {
+        Self {
+            at,
+            rows,
+            scaled: scaled(&at.gaps, rows),
+        }
+    }
+
+    fn merit(&self) -> f64 {
+        dot(&self.scaled, &self.scaled)
+    }
+
+    /// Whether no motion makes the gaps smaller to first order: they lie across everything that rows can close.
+    pub(super) fn minimal(&self) -> bool {
+        let slope = self.rows.descent(&self.scaled);
+        dot(&slope, &slope) <= CLOSABLE * CLOSABLE * self.merit()
+    }
+
+    /// Whether gaps elsewhere are better by this share.
+    fn improved(&self, there: &Gaps<N>, share: f64) -> bool {
+        let merit = scaled(&there.gaps, self.rows);
+        dot(&merit, &merit) <= (1.0 - share) * self.merit()
+    }
+}
+
+pub(super) fn scaled<const N: usize>(gaps: &[f64; N], rows: &Rows<N>) -> [f64; N] {
+    core::array::from_fn(|k| gaps[k] / rows.size[k])
+}
+
+/// A Gauss-Newton step without the rows that almost depend on the others, if every gap falls with it. Redundant constraints
+/// depend on each other only where they are met: away from there their differences, which close by themselves as the
+/// squares of what is left, would slow the steps down to halves and leave half of the digits.
+pub(super) fn without_dependent<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    at: &Gaps<N>,
+    held: &[bool; N],
+    metric: [f64; N],
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let count = Problem::<M, N, U, P, O>::STRUCTURE.position_constraints;
+    let rows = Rows::nearly(count, |k| free(&at.rows[k], held), metric);
+    if rows.dependent() == 0 {
+        return None;
+    }
+    let step = rows.shortest_of_independent(&at.gaps);
+    let trial = add_scaled(x, -1.0, &step);
+    let there = gaps(problem, &trial)?;
+    let falls = largest_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
+    falls.then_some((trial, there))
+}
+
+/// A Gauss-Newton step of least motion, halved a few times.
+pub(super) fn plain<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    aim: &Aim<'_, N>,
+    radius: &mut f64,
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let step = aim.rows.shortest(&aim.at.gaps);
+    let size = largest_of(&step);
+    let limit = (*radius / size).min(1.0);
+    let mut length = limit;
+    for _ in 0..4 {
+        let trial = add_scaled(x, -length, &step);
+        if let Some(there) = gaps(problem, &trial)
+            && aim.improved(&there, 0.5 * length)
+        {
+            if length == limit && limit < 1.0 && aim.improved(&there, 1.5 * length) {
+                *radius *= 2.0;
+            }
+            return Some((trial, there));
+        }
+        length *= 0.5;
+    }
+    None
+}
+
+/// A step with as much damping as it takes.
+pub(super) fn damped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    x: &[f64; N],
+    aim: &Aim<'_, N>,
+    (radius, damping): (&mut f64, &mut f64),
+) -> Option<([f64; N], Gaps<N>)>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    *damping = (*damping * 1e-2).max(LEAST_DAMPING);
+    while *damping <= MOST_DAMPING {
+        let mut step = aim.rows.damped(&aim.scaled, *damping)?;
+        let size = largest_of(&step);
+        if size > *radius {
+            step = step.map(|value| value * *radius / size);
+        }
+        let trial = add_scaled(x, -1.0, &step);
+        if let Some(there) = gaps(problem, &trial)
+            && aim.improved(&there, 1e-12)
+        {
+            return Some((trial, there));
+        }
+        *damping *= 4.0;
+    }
+    None
+}

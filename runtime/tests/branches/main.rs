@@ -1,0 +1,160 @@
+//! Branches of equilibria: followed through folds and into each other, located to rounding, each once.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod ends;
+mod pendulums;
+mod settings;
+mod special;
+
+use common::branching::{
+    Away, Edge, Exchange, Field, Free, Imperfect, Lopsided, LopsidedSnap, NearlyTwo, Nothing,
+    Quintic, Ring, Rotor, Snap,
+};
+use common::chain::DOUBLE;
+use common::derived::Derived;
+use common::models::Plate;
+use common::pendulum::{Pendulum, W};
+use common::{GRAVITY, close};
+use eigentol::equilibrium::{
+    Branch, BranchEnd, BranchPoint, Branches, Continuation, Search, SpecialKind, SpecialPoint,
+    branch, branches, equilibrium, find_equilibria,
+};
+use eigentol::{Equilibrium, Error, Input, Mechanism, Policy, Stability, Study};
+
+const BAR: [f64; 2] = [3.0, 1.0];
+const BARS: [f64; 4] = [1.0, 1.0, 3.0, 3.0];
+const SOFT: SpecialKind = SpecialKind::Pitchfork {
+    supercritical: Some(true),
+};
+const HARD: SpecialKind = SpecialKind::Pitchfork {
+    supercritical: Some(false),
+};
+
+fn range(low: f64, high: f64) -> Continuation {
+    Continuation::new(Input(0), low, high)
+}
+
+fn near(actual: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (actual - expected).abs() <= tolerance,
+        "{actual:e} is not {expected:e} to {tolerance:e}"
+    );
+}
+
+/// All branches of a machine with one input, checked for what holds of any branch.
+fn of<M, const N: usize, const P: usize, const O: usize>(
+    machine: &M,
+    b: [f64; P],
+    start: [f64; N],
+    settings: Continuation,
+    search: Option<&Search<N>>,
+) -> Branches<N, 1, P>
+where
+    M: Mechanism<N, 1, P, O>,
+{
+    let found = branches(machine, &[0.0], &b, &start, &settings, search).unwrap();
+    println!("{found}");
+    assert!(!found.truncated);
+    for branch in &found.branches {
+        assert_sound(machine, branch, &settings);
+    }
+    found
+}
+
+fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
+    machine: &M,
+    branch: &Branch<N, 1, P>,
+    settings: &Continuation,
+) where
+    M: Mechanism<N, 1, P, O>,
+{
+    let range = (settings.high - settings.low).abs();
+    for (end, point) in [branch.points.first(), branch.points.last()]
+        .into_iter()
+        .enumerate()
+    {
+        let value = point.unwrap().value;
+        match branch.ends[end] {
+            BranchEnd::Low => assert_eq!(value, settings.low),
+            BranchEnd::High => assert_eq!(value, settings.high),
+            _ => {}
+        }
+    }
+    for pair in branch.points.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        let unit = |i: usize| settings.size + a.equilibrium.coordinates[i].abs();
+        let mut along = (b.value - a.value) * a.input_tangent / range.powi(2);
+        let mut length = (a.input_tangent / range).powi(2);
+        let mut distance = ((b.value - a.value) / range).powi(2);
+        for i in 0..N {
+            let step = (b.equilibrium.coordinates[i] - a.equilibrium.coordinates[i]) / unit(i);
+            along += step * a.tangent[i] / unit(i);
+            length += (a.tangent[i] / unit(i)).powi(2);
+            distance += step.powi(2);
+        }
+        near(length, 1.0, 1e-12);
+        assert!(
+            along > 0.8 * distance.sqrt() - 1e-9,
+            "{} {}",
+            a.value,
+            b.value
+        );
+        assert!(distance.sqrt() < 1.5 * settings.max_step);
+    }
+    for point in &branch.points {
+        let at = &point.equilibrium;
+        assert_eq!(at.inputs, [point.value]);
+        assert!(at.relative_residual <= 2e-10);
+        // A tangent keeps the residual at zero.
+        let (by_input, _) = machine.residual_partials(&at.coordinates, &at.inputs, &at.design);
+        for (i, by_input) in by_input.iter().enumerate() {
+            let (mut sum, mut size) =
+                (by_input[0] * point.input_tangent, by_input[0].abs() * range);
+            for j in 0..N {
+                sum += at.linear.stiffness[i][j] * point.tangent[j];
+                size += at.linear.stiffness[i][j].abs() * (settings.size + at.coordinates[j].abs());
+            }
+            assert!(sum.abs() <= 1e-9 * size + 1e-13, "{i}: {sum:e} of {size:e}");
+        }
+    }
+    for special in &branch.special {
+        assert!(
+            branch
+                .points
+                .iter()
+                .any(|point| point.value == special.value)
+        );
+        let at = &special.equilibrium;
+        for i in 0..N {
+            let right: f64 = (0..N)
+                .map(|j| at.linear.stiffness[i][j] * special.v[j])
+                .sum();
+            let left: f64 = (0..N)
+                .map(|j| at.linear.stiffness[j][i] * special.w[j])
+                .sum();
+            near(right, 0.0, 1e-11);
+            near(left, 0.0, 1e-11);
+        }
+        let mass = at.linear.mass;
+        let form = |x: &[f64; N], y: &[f64; N]| -> f64 {
+            (0..N)
+                .flat_map(|i| (0..N).map(move |j| x[i] * mass[i][j] * y[j]))
+                .sum()
+        };
+        near(form(&special.v, &special.v), 1.0, 1e-13);
+        near(form(&special.w, &special.v), 1.0, 1e-13);
+    }
+}
+
+fn only<const N: usize, const P: usize>(found: &Branches<N, 1, P>) -> SpecialPoint<N, 1, P> {
+    let all = found.special();
+    assert_eq!(all.len(), 1);
+    *all[0]
+}
+
+fn ends<const N: usize, const P: usize>(branch: &Branch<N, 1, P>) -> [&BranchEnd; 2] {
+    branch.ends.each_ref()
+}

@@ -1,0 +1,150 @@
+//! Settings, reports, and values that make no sense.
+
+use super::*;
+
+#[test]
+fn limits_are_kept_and_told() {
+    let few = Continuation {
+        max_points: 5,
+        ..range(0.0, 6.0)
+    };
+    let short = branch(&Pendulum, &[0.0], &BAR, &[0.3], &few).unwrap();
+    assert_eq!(short.ends, [BranchEnd::Low, BranchEnd::PointLimit]);
+    assert_eq!(short.points.len(), 6);
+    let few = Continuation {
+        max_branches: 2,
+        ..range(0.0, 6.0)
+    };
+    let some = branches(&Pendulum, &[0.0], &BAR, &[0.3], &few, None).unwrap();
+    assert!(some.truncated);
+    assert_eq!(some.branches.len(), 2);
+}
+
+#[test]
+fn one_branch_tells_what_crosses_it() {
+    let hanging = branch(&Pendulum, &[0.0], &BAR, &[0.3], &range(0.0, 6.0)).unwrap();
+    assert_sound(&Pendulum, &hanging, &range(0.0, 6.0));
+    assert_eq!(hanging.special.len(), 1);
+    assert_eq!(hanging.stable().len(), 1);
+}
+
+#[test]
+fn reports_name_what_they_show() {
+    let study = Study::new(Pendulum).start(eigentol::Coordinate(0), 0.3);
+    let found = study.branches(Input(0), 0.0, 6.0).unwrap();
+    let text = found.to_string();
+    for part in [
+        "Pendulum: 3 branches",
+        "from omega [rad/s]",
+        "theta [rad]",
+        "supercritical pitchfork",
+        "3.83601",
+        "branch 2: branch point to high end of the range",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    let one = found.branches[1].to_string();
+    assert!(one.contains("begins: branch point; ends: high end of the range"));
+    assert!(found.special()[0].to_string().contains("critical mode v"));
+}
+
+#[test]
+fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
+    let ask = |settings: Continuation, start: f64, b: [f64; 2]| {
+        branches(&Pendulum, &[0.0], &b, &[start], &settings, None)
+    };
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for settings in [
+            range(bad, 1.0),
+            range(0.0, bad),
+            Continuation {
+                max_step: bad,
+                ..range(0.0, 1.0)
+            },
+            Continuation {
+                min_step: bad,
+                ..range(0.0, 1.0)
+            },
+            Continuation {
+                size: bad,
+                ..range(0.0, 1.0)
+            },
+        ] {
+            let refused = ask(settings, 0.1, BAR);
+            assert!(matches!(refused, Err(Error::Setting { .. })), "{refused:?}");
+        }
+        assert!(matches!(
+            ask(range(0.0, 1.0), bad, BAR),
+            Err(Error::NotFinite { .. })
+        ));
+        assert!(matches!(
+            ask(range(0.0, 1.0), 0.1, [3.0, bad]),
+            Err(Error::NotFinite { .. })
+        ));
+    }
+    for settings in [
+        range(1.0, 1.0),
+        range(-1e308, 1e308),
+        Continuation {
+            max_points: 0,
+            ..range(0.0, 1.0)
+        },
+        Continuation {
+            max_branches: 0,
+            ..range(0.0, 1.0)
+        },
+        Continuation {
+            escape: 0.5,
+            ..range(0.0, 1.0)
+        },
+    ] {
+        assert!(matches!(
+            ask(settings, 0.1, BAR),
+            Err(Error::Setting { .. })
+        ));
+    }
+    let foreign = Continuation::new(Input(1), 0.0, 1.0);
+    assert!(matches!(
+        ask(foreign, 0.1, BAR),
+        Err(Error::UnknownHandle { index: 1, .. })
+    ));
+    assert!(matches!(
+        ask(range(0.0, 1.0), 0.1, [3.0, -1.0]),
+        Err(Error::Unphysical { .. })
+    ));
+    let wild = [0.0, -1.0, 3.836_013_555_763_326_5, 6.0, -1e9, 1e160, 1e300];
+    for low in wild {
+        for high in wild {
+            for start in [0.1, -1e7, 1e200] {
+                assert_numbers(ask(range(low, high), start, BAR), low, high);
+                for (b, u) in [([1.0, 1e-3], low), ([1e-200, 1e200], high)] {
+                    let found = branches(
+                        &Derived(Imperfect),
+                        &[u],
+                        &b,
+                        &[start],
+                        &range(low, high),
+                        None,
+                    );
+                    assert_numbers(found, low, high);
+                }
+            }
+        }
+    }
+}
+
+fn assert_numbers<const P: usize>(found: Result<Branches<1, 1, P>, Error>, low: f64, high: f64) {
+    for branch in found.iter().flat_map(|found| &found.branches) {
+        for point in &branch.points {
+            let (least, most) = (low.min(high), low.max(high));
+            assert!(
+                (least..=most).contains(&point.value),
+                "{least:e} {:e} {most:e}",
+                point.value
+            );
+            let q = point.equilibrium.coordinates[0];
+            let numbers = [q, point.tangent[0], point.input_tangent];
+            assert!(numbers.iter().all(|value| value.is_finite()));
+        }
+    }
+}
