@@ -11,6 +11,7 @@ mod assurance;
 mod constrained;
 mod general;
 mod kinetic;
+mod mode;
 mod per_mode;
 mod refine;
 pub(crate) mod symmetric;
@@ -19,6 +20,7 @@ mod whirl;
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged};
 pub(crate) use constrained::{Normalisation, free_pairs};
+pub use mode::{Behaviour, Mode};
 pub use per_mode::PerMode;
 pub use whirl::{Sense, Whirl, whirls};
 
@@ -26,93 +28,6 @@ use crate::array::asymmetry;
 use crate::constraints::Structure;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
 use symmetric::Trouble;
-
-/// How a disturbance along a mode develops.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Behaviour {
-    /// It oscillates and keeps its amplitude, to working accuracy; angular frequency, rad/s.
-    Oscillating(f64),
-    /// It oscillates and decays; angular frequency, rad/s.
-    Damped(f64),
-    /// It oscillates and grows (dynamic instability); angular frequency, rad/s.
-    Flutter(f64),
-    /// It decays without oscillation (overdamped); rate, 1/s.
-    Decaying(f64),
-    /// Nothing resists it: its eigenvalue is zero to working accuracy.
-    Neutral,
-    /// It grows without oscillation (static instability); rate, 1/s.
-    Divergent(f64),
-}
-
-impl Behaviour {
-    /// Whether a small disturbance grows.
-    pub fn grows(self) -> bool {
-        matches!(self, Self::Flutter(_) | Self::Divergent(_))
-    }
-
-    /// Angular frequency of the oscillation, rad/s; `None` without one.
-    pub fn frequency(self) -> Option<f64> {
-        match self {
-            Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
-            Self::Decaying(_) | Self::Neutral | Self::Divergent(_) => None,
-        }
-    }
-}
-
-/// One mode.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode<const N: usize> {
-    /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
-    /// undamped divergent mode the growing one.
-    pub s: Complex,
-    /// `-Re s^2`, 1/s^2. Of an undamped mode the eigenvalue of `Khat phi = lambda Mhat phi`: the square of the frequency,
-    /// negative for divergence.
-    pub lambda: f64,
-    /// Right vector `phi`, by unknown, the reactions of constraints included: `phi^H Mhat phi = 1`, its largest component
-    /// of a coordinate real and positive. With speeds or constraints on velocities, where a mode may move speeds only, the
-    /// largest component of a coordinate or speed is one. Real for an undamped mode.
-    pub shape: [Complex; N],
-    /// Left vector `psi`, normalised alike; with speeds or constraints on velocities its largest component of all is one.
-    /// Of an undamped mode the same as `shape`.
-    pub left: [Complex; N],
-    /// What `s` means.
-    pub behaviour: Behaviour,
-    /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
-    pub residual: f64,
-    /// Estimated absolute error of `s`, 1/s.
-    pub error: f64,
-    /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, great where
-    /// eigenvalues and their vectors are about to merge, infinite where they have.
-    pub condition: f64,
-    /// Number of the motion: modes with one number along a sweep are one motion. Without a sweep, the position.
-    pub label: usize,
-}
-
-impl<const N: usize> Mode<N> {
-    /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
-    pub fn frequency(&self) -> Option<f64> {
-        self.behaviour.frequency()
-    }
-
-    /// Natural angular frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
-    pub fn natural_frequency(&self) -> Option<f64> {
-        self.frequency().map(|_| self.s.norm())
-    }
-
-    /// Damping ratio `-Re s / |s|`; negative for a mode that grows, `None` for a neutral one.
-    pub fn damping_ratio(&self) -> Option<f64> {
-        match self.behaviour {
-            Behaviour::Oscillating(_) => Some(0.0),
-            Behaviour::Neutral => None,
-            _ => Some(-self.s.re / self.s.norm()),
-        }
-    }
-
-    /// Real parts of the shape: all of it for an undamped mode.
-    pub(crate) fn real_shape(&self) -> [f64; N] {
-        self.shape.map(|value| value.re)
-    }
-}
 
 /// Which equation modes solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

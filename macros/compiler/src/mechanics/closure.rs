@@ -5,8 +5,8 @@ use crate::base::ids::{ExprId, PointId};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Frame, Joint};
 
-use super::forces::Setting;
 use super::kinematics::PointMotion;
+use super::setting::Setting;
 
 /// A place fixed in a frame.
 #[derive(Clone, Copy)]

@@ -12,10 +12,11 @@ use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Unit};
 
 use super::closure::{Demand, Pair, aligned, coincident, distance, joint_demands};
 use super::derive::Problem;
-use super::forces::{AppliedForces, Setting, Wrench};
+use super::forces::{AppliedForces, Wrench};
 use super::kinematics::Kinematics;
 use super::properties::vanish;
 use super::rolling::rolling;
+use super::setting::Setting;
 use super::values::State;
 
 /// What an equation comes from.

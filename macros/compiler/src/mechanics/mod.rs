@@ -24,6 +24,7 @@ mod print;
 mod properties;
 mod requirements;
 mod rolling;
+mod setting;
 mod sources;
 mod steady_state;
 mod symbols;

@@ -8,9 +8,10 @@ use crate::model::mechanism::ConstraintLaw;
 use super::constraints::{Source, held};
 use super::derive::Problem;
 use super::energy::{kinetic, potential};
-use super::forces::{Setting, Wrench};
+use super::forces::Wrench;
 use super::kinematics::Kinematics;
 use super::newton_euler::dynamics;
+use super::setting::Setting;
 use super::sources::Sources;
 use super::values::State;
 

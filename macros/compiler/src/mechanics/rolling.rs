@@ -5,7 +5,7 @@ use crate::base::ids::PointId;
 use crate::model::expression::{Expr, Vector};
 
 use super::closure::{Demand, Pair, perpendiculars};
-use super::forces::Setting;
+use super::setting::Setting;
 
 /// Contact along the normal, an equation of positions; no slip forward and sideways, equations of velocities.
 ///

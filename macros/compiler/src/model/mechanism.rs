@@ -2,6 +2,7 @@
 
 use proc_macro2::Ident;
 
+pub use super::constraint::{Constraint, ConstraintLaw};
 use super::expression::{Expr, Vector};
 use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
 
@@ -434,68 +435,6 @@ pub enum ForceLaw {
         damping: Expr,
         /// N m s/rad.
         turning_damping: Expr,
-    },
-}
-
-/// A constraint.
-#[derive(Clone, Debug)]
-pub struct Constraint {
-    /// Declared name.
-    pub name: Ident,
-    /// What it demands.
-    pub law: ConstraintLaw,
-}
-
-/// Kinds of constraint.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ConstraintLaw {
-    /// Two points coincide, as seen along the chosen axes of `from`.
-    Coincident {
-        /// One point.
-        from: PointId,
-        /// The other.
-        to: PointId,
-        /// Which of the axes x, y, z of `from`.
-        along: [bool; 3],
-    },
-    /// The axes of two points agree.
-    Aligned {
-        /// One point.
-        from: PointId,
-        /// The other.
-        to: PointId,
-        /// Only this direction, a unit vector in the axes of either point; all three axes when not given.
-        axis: Option<Vector>,
-    },
-    /// Two points keep a distance.
-    Distance {
-        /// One end.
-        from: PointId,
-        /// The other end.
-        to: PointId,
-        /// m.
-        length: Expr,
-    },
-    /// An expression of coordinates and points is zero. Of coordinates only, it may hold running ones (a gear): then its
-    /// rate is zero.
-    Equation {
-        /// The expression.
-        zero: Expr,
-        /// Its SI unit.
-        unit: Unit,
-    },
-    /// A wheel (a thin disk, or a ball) rolls without slip on a plane.
-    Rolling {
-        /// The centre of the wheel.
-        wheel: PointId,
-        /// The axle, a unit vector in the axes of `wheel`; a ball when not given.
-        axis: Option<Vector>,
-        /// m.
-        radius: Expr,
-        /// A point of the plane.
-        on: PointId,
-        /// The normal of the plane towards the wheel, a unit vector in the axes of `on`.
-        normal: Vector,
     },
 }
 
