@@ -27,9 +27,10 @@ const ROOMS: [(&str, &[&str]); 8] = [
 ];
 
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 6] = [
+const TYPE_FILES: [(&str, &[&str]); 7] = [
     ("syntax/ast.rs", &[]),
-    ("model/mechanism.rs", &["expression"]),
+    ("model/mechanism.rs", &["constraint", "expression"]),
+    ("model/constraint.rs", &["expression", "mechanism"]),
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),
     ("algebra/function.rs", &["count", "graph"]),
