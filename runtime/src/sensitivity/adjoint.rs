@@ -2,10 +2,11 @@
 //! `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`; for general ones the same with
 //! `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both `Khat^T w = da/dq`.
 
-use super::pencil::{Form, form_gradient, pencil_slope_times, residual_gradient};
+use super::pencil::{Form, form_gradient, residual_gradient};
 use super::{Method, Sensitivities, Slopes, assemble, redundancy};
 use crate::array::{Lu, dot_complex, transpose};
 use crate::modes::Family;
+use crate::pencil::pencil_slope_times;
 use crate::{Complex, Equilibrium, Error, Mechanism, Mode, Modes};
 
 /// Total derivatives of every mode by every input and design variable.

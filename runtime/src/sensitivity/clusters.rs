@@ -2,10 +2,10 @@
 //! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
 
 use super::adjoint::normaliser;
-use super::pencil::pencil_times;
 use super::shift::directions;
 use crate::array::{dot_complex, times_complex};
 use crate::modes::Family;
+use crate::pencil::pencil_times;
 use crate::{Complex, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
 /// First-order motion of several modes together: along a change `db` their eigenvalues are those of

@@ -2,11 +2,11 @@
 //! adjoint, and the way that forgets the shift of the equilibrium.
 
 use super::adjoint::normaliser;
-use super::pencil::pencil_times;
 use super::shift::equilibrium_shift;
 use super::{Method, Sensitivities, Slopes, assemble};
 use crate::array::{dot_complex, form};
 use crate::modes::Family;
+use crate::pencil::pencil_times;
 use crate::{Complex, Equilibrium, Error, Linear, LinearPartials, Mechanism, Mode, Modes};
 
 /// Total derivatives of every mode, from explicit partials and the shift (eqs. 19-21 completed).

@@ -1,6 +1,5 @@
 //! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, by the real kernels.
 
-use crate::array::times_complex;
 use crate::{Complex, Equilibrium, Gradient, Linear, Mechanism, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`.
@@ -241,36 +240,4 @@ where
         )
     });
     parts(&re, &im)
-}
-
-/// `(s^2 M + s C + K) x` for three given matrices.
-pub(super) fn pencil_times<const N: usize>(
-    linear: &Linear<f64, N>,
-    s: Complex,
-    x: &[Complex; N],
-) -> [Complex; N] {
-    let m = times_complex(&linear.mass, x);
-    let c = times_complex(&linear.damping, x);
-    let k = times_complex(&linear.stiffness, x);
-    core::array::from_fn(|i| s * (s * m[i] + c[i]) + k[i])
-}
-
-/// `(2 s M + C) x`: the derivative of the pencil by `s`.
-pub(super) fn pencil_slope_times<const N: usize>(
-    linear: &Linear<f64, N>,
-    s: Complex,
-    x: &[Complex; N],
-) -> [Complex; N] {
-    let m = times_complex(&linear.mass, x);
-    let c = times_complex(&linear.damping, x);
-    core::array::from_fn(|i| 2.0 * s * m[i] + c[i])
-}
-
-/// The three matrices transposed.
-pub(super) fn transposed<const N: usize>(linear: &Linear<f64, N>) -> Linear<f64, N> {
-    Linear {
-        mass: crate::array::transpose(&linear.mass),
-        damping: crate::array::transpose(&linear.damping),
-        stiffness: crate::array::transpose(&linear.stiffness),
-    }
 }

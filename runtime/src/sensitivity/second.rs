@@ -3,8 +3,7 @@
 
 use super::adjoint::normaliser;
 use super::pencil::{
-    Direction, Form, form_gradient, form_gradient_along, pencil_slope_times, residual_gradient,
-    residual_gradient_along,
+    Direction, Form, form_gradient, form_gradient_along, residual_gradient, residual_gradient_along,
 };
 use super::quantity::{eigenvalue_curvature, eigenvalue_slope};
 use super::shapes::Shapes;
@@ -12,6 +11,7 @@ use super::shift::{directions, outside_domain};
 use super::{ModeSensitivity, Quantity, Slopes};
 use crate::array::{Lu, dot_complex, times_complex, transpose};
 use crate::modes::Family;
+use crate::pencil::pencil_slope_times;
 use crate::{Complex, Description, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
 /// Second derivatives of one number, SI.

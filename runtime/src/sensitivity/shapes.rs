@@ -7,10 +7,10 @@
 
 use super::CLUSTER_GAP;
 use super::explicit::rate_of;
-use super::pencil::{pencil_slope_times, pencil_times, transposed};
 use super::shift::{directions, outside_domain};
 use crate::array::{Lu, dot_complex, largest_element, times_complex};
 use crate::modes::{Family, Normalisation, clusters, lead};
+use crate::pencil::{pencil_slope_times, pencil_times, transposed};
 use crate::{Complex, Description, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
 /// Total derivatives of the shapes of one mode, normalised as the mode is ([`Mode::shape`]).

@@ -2,11 +2,12 @@
 //! of the bordered pencil.
 
 use super::system::System;
-use super::{Gathered, Normalisation, is_shared, lift, measure, with_reactions};
+use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
 use crate::array::Square;
 use crate::constraints::Tangent;
 use crate::modes::general::{Eigenproblem, Numbers, Roots, solve_on};
 use crate::modes::symmetric::Trouble;
+use crate::pencil::pencil_transposed_times;
 use crate::{Complex, Linear};
 
 pub(super) fn roots<const N: usize>(
@@ -95,7 +96,7 @@ impl<const N: usize> System<'_, N> {
         for (k, place) in structure.velocity_rows().enumerate() {
             psi[place] = Complex::new(re[k], im[k]);
         }
-        let rest = measure::times_transposed(self.linear, s, &psi);
+        let rest = pencil_transposed_times(self.linear, s, &psi);
         let rest: [Complex; N] = core::array::from_fn(|i| {
             if i < structure.coordinates {
                 -rest[i]

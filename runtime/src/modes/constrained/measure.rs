@@ -1,6 +1,7 @@
 //! What a pair of vectors says about an eigenvalue of the bordered pencil.
 
 use crate::array::{Lu, Square, dot_complex, times_complex};
+use crate::pencil::{pencil_times, pencil_transposed_times};
 use crate::{Complex, Linear};
 
 /// Accepted residual.
@@ -9,41 +10,6 @@ pub(super) const ACCEPTED: f64 = 1e-9;
 pub(super) const INACCURATE: f64 = 1e-13;
 /// Residual of vectors that have nothing but rounding in it.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// `(s^2 M + s C + K) x`.
-pub(super) fn times_pencil<const N: usize>(
-    linear: &Linear<f64, N>,
-    s: Complex,
-    x: &[Complex; N],
-) -> [Complex; N] {
-    let m = times_complex(&linear.mass, x);
-    let c = times_complex(&linear.damping, x);
-    let k = times_complex(&linear.stiffness, x);
-    core::array::from_fn(|i| s * (s * m[i] + c[i]) + k[i])
-}
-
-/// `(s^2 M + s C + K)^T x`.
-pub(super) fn times_transposed<const N: usize>(
-    linear: &Linear<f64, N>,
-    s: Complex,
-    x: &[Complex; N],
-) -> [Complex; N] {
-    let product = |matrix: &Square<N>| -> [Complex; N] {
-        let mut sum = [Complex::default(); N];
-        for (row, x) in matrix.iter().zip(x) {
-            for (sum, value) in sum.iter_mut().zip(row) {
-                *sum += x * value;
-            }
-        }
-        sum
-    };
-    let (m, c, k) = (
-        product(&linear.mass),
-        product(&linear.damping),
-        product(&linear.stiffness),
-    );
-    core::array::from_fn(|i| s * (s * m[i] + c[i]) + k[i])
-}
 
 /// A measured pair.
 #[derive(Clone, Copy, Debug)]
@@ -68,8 +34,8 @@ impl Measure {
         right: &[Complex; N],
         left: &[Complex; N],
     ) -> Self {
-        let of_right = times_pencil(linear, s, right);
-        let of_left = times_transposed(linear, s, left);
+        let of_right = pencil_times(linear, s, right);
+        let of_left = pencil_transposed_times(linear, s, left);
         let size = |i: usize, j: usize| {
             let (m, c, k) = (
                 linear.mass[i][j],

@@ -18,6 +18,7 @@ use super::general::{Numbers, Root, Roots};
 use super::symmetric::Trouble;
 use crate::array::Square;
 use crate::constraints::{Structure, Tangent};
+use crate::pencil::pencil_times;
 use crate::{Complex, Description, Linear};
 use measure::Measure;
 
@@ -43,7 +44,7 @@ fn with_reactions<const N: usize>(
     s: Complex,
     motion: &[Complex; N],
 ) -> [Complex; N] {
-    let force = measure::times_pencil(linear, s, motion).map(|value| -value);
+    let force = pencil_times(linear, s, motion).map(|value| -value);
     let re = tangent.multipliers(&force.map(|value| value.re));
     let im = tangent.multipliers(&force.map(|value| value.im));
     let motions = tangent.structure.motions();
