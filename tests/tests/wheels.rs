@@ -10,6 +10,8 @@ mod events;
 mod free;
 #[path = "wheels/mechanisms.rs"]
 mod mechanisms;
+#[path = "wheels/motion.rs"]
+mod motion;
 #[path = "wheels/projection.rs"]
 mod projection;
 #[path = "wheels/spreads.rs"]
