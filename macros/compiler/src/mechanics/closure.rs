@@ -125,27 +125,21 @@ fn tilts(g: &mut Graph, from: Matrix3, to: Matrix3, axis: Vector3) -> Vec<Demand
 /// The angle by which `b`, fixed in `to`, has left `a` towards `across`, both fixed in `from`: `atan2(across . b, a . b)`.
 fn angle(g: &mut Graph, label: &'static str, across: Vector3, a: Vector3, b: Vector3) -> Demand {
     let (sine, cosine) = (across.dot(g, b), a.dot(g, b));
-    let value = if g.is(sine, 0.0) {
-        sine
-    } else {
-        g.binary(Operator::Atan2, sine, cosine)
-    };
+    // Also where the sine is nothing: of opposite directions the angle is half a turn.
+    let value = g.binary(Operator::Atan2, sine, cosine);
     // d(a . b) = (b x a) . omega for b turning with omega relative to a
     let [by_sine, by_cosine] = [across, a].map(|fixed| b.cross(g, fixed));
-    let (squares, scaled) = {
-        let squares = [sine, cosine].map(|x| g.mul(x, x));
-        let sum = g.add(squares[0], squares[1]);
-        let first = by_sine.scale(g, cosine);
-        let second = by_cosine.scale(g, sine);
-        (sum, first.sub(g, second))
-    };
+    let squares = [sine, cosine].map(|x| g.mul(x, x));
+    let square = g.add(squares[0], squares[1]);
+    let first = by_sine.scale(g, cosine);
+    let second = by_cosine.scale(g, sine);
     let one = g.constant(1.0);
-    let inverse = g.div(one, squares);
+    let inverse = g.div(one, square);
     Demand {
         label,
         value,
         force: Vector3::zero(g),
-        moment: scaled.scale(g, inverse),
+        moment: first.sub(g, second).scale(g, inverse),
         of_velocities: false,
     }
 }

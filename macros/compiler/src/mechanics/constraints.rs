@@ -3,9 +3,9 @@
 //! Every equation has a multiplier `mu`. The generalised forces that hold it are `-mu` times the derivative of the equation
 //! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments.
 
-use crate::algebra::{Graph, Vector3, gradient, substitute};
 use proc_macro2::Ident;
 
+use crate::algebra::{Graph, Vector3, gradient, substitute};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Unit};

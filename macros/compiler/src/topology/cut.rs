@@ -5,7 +5,7 @@ use crate::base::ids::JointId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
 
-/// Kinds of joint that can be written as equations, with the number of motions they leave.
+/// Kinds of joint that can be written as equations.
 pub(crate) const CLOSING: [&str; 7] = [
     "fixed",
     "revolute",
