@@ -10,6 +10,7 @@ mod descent;
 mod multistart;
 mod newton;
 mod problem;
+mod quick;
 mod range;
 mod root;
 mod settle;

@@ -18,7 +18,7 @@ pub(crate) mod symmetric;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged};
+pub(crate) use assurance::{match_with_assurance, merged, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub use per_mode::PerMode;
