@@ -174,12 +174,15 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
 
     #[inline]
     fn finite(&self) -> bool {
-        let lambda = all_finite(&self.lambda_by_input) && all_finite(&self.lambda_by_design);
-        lambda
-            && self.s.is_none_or(|s| {
-                let mut all = s.by_input.iter().chain(&s.by_design);
-                all.all(|ds| ds.re.is_finite() && ds.im.is_finite())
-            })
+        match &self.s {
+            // As finite as those of `lambda`, from which they come or which come from them.
+            Some(s) => {
+                let all = s.by_input.iter().chain(&s.by_design);
+                let rest = |z: &Complex| (z.re - z.re) + (z.im - z.im);
+                all.fold(0.0, |sum, ds| sum + rest(ds)) == 0.0
+            }
+            None => all_finite(&self.lambda_by_input) && all_finite(&self.lambda_by_design),
+        }
     }
 }
 
