@@ -185,17 +185,33 @@ where
 {
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
     let reaction = largest_of(&q[motions..]);
-    let force = |i: usize| {
-        let own = greater(parts.inertia[i].abs(), parts.applied[i].abs());
-        let reactions =
-            (motions..N).map(|j| stiffness[i][j].abs() * greater(SMALL_MOTION * reaction, q[j].abs()));
-        let force = reactions.fold(own, greater);
-        if force.is_finite() { force } else { 0.0 }
-    };
-    (0..N).fold(0.0, |most: f64, i| {
-        let force = if i < motions { force(i) } else { 0.0 };
-        greater(most, relative(residual[i], force, &q[..motions], &stiffness[i]))
-    })
+    let small: [f64; N] = core::array::from_fn(|j| small_motion(q[j]));
+    let mut most = 0.0;
+    for i in 0..N {
+        let mut force = 0.0;
+        if i < motions {
+            force = greater(parts.inertia[i].abs(), parts.applied[i].abs());
+            for j in motions..N {
+                let size = greater(SMALL_MOTION * reaction, q[j].abs());
+                force = greater(force, stiffness[i][j].abs() * size);
+            }
+        }
+        let scale = (0..motions).fold(force, |sum, j| sum + stiffness[i][j].abs() * small[j]);
+        let own = if scale > 0.0 && scale < f64::INFINITY {
+            residual[i].abs() / scale
+        } else {
+            let force = if force.is_finite() { force } else { 0.0 };
+            relative(residual[i], force, &q[..motions], &stiffness[i])
+        };
+        most = greater(most, own);
+    }
+    most
+}
+
+/// A small motion of a coordinate: [`SMALL_MOTION`] and a few roundings.
+#[inline]
+fn small_motion(q: f64) -> f64 {
+    SMALL_MOTION + ROUNDED * q.abs()
 }
 
 /// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
@@ -209,7 +225,7 @@ pub(super) fn relative_gap<const N: usize>(gap: f64, motions: &[f64], row: &[f64
 fn relative<const N: usize>(residual: f64, force: f64, q: &[f64], row: &[f64; N]) -> f64 {
     let scale = |unit: f64| {
         q.iter().zip(row).fold(unit * force, |sum, (q, slope)| {
-            sum + unit * slope.abs() * (SMALL_MOTION + ROUNDED * q.abs())
+            sum + unit * slope.abs() * small_motion(*q)
         })
     };
     let plain = scale(1.0);

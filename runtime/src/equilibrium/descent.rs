@@ -19,17 +19,18 @@ const FIRST_RADIUS: f64 = 1.0;
 /// Displacement (rad or m) by which an unstable equilibrium is left.
 const DEPARTURE: f64 = 1e-3;
 
-/// Descends from `start`, which meets the constraints, to a minimum of the amended potential.
+/// Descends to a minimum of the amended potential from `from`, a state on the way from `start`; both meet the constraints.
 pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
+    from: &[f64; N],
 ) -> Result<Found<N>, Failure<N>>
 where
     S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, start)?;
+    let mut base: Base<N, S> = S::base(problem, from)?;
     let mut radius = FIRST_RADIUS;
     let mut departures = 0;
     let mut left_unstable_region = false;

@@ -14,12 +14,12 @@ const MAX_ITERATIONS: usize = 8;
 const RADIUS: f64 = 1.0;
 
 /// The minimum of the amended potential to which full Newton steps lead from `start`, all of them through states where it is
-/// convex; `None` where that is not so. For mechanisms without constraints.
+/// convex; otherwise the last such state, or the start. For mechanisms without constraints.
 #[inline]
 pub(super) fn quick<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-) -> Option<Found<N>>
+) -> Result<Found<N>, [f64; N]>
 where
     M: Mechanism<N, U, P, O>,
 {
@@ -30,7 +30,9 @@ where
     let mut q = *start;
     let (mut residual, mut stiffness) = evaluate(&q);
     for iterations in 0..MAX_ITERATIONS {
-        let factors = Cholesky::new(&stiffness).ok()?;
+        let Ok(factors) = Cholesky::new(&stiffness) else {
+            return Err(q);
+        };
         let step = factors.solve(&residual).map(|value| -value);
         let found = |end: End<N>, iterations| Found {
             coordinates: end.coordinates,
@@ -43,27 +45,29 @@ where
             Last::Reached => {
                 let end = End::at(problem, &q);
                 let solved = end.is_solved(problem, &stiffness, ACCEPTED);
-                return solved.then(|| found(end, iterations));
+                return if solved { Ok(found(end, iterations)) } else { Err(q) };
             }
             Last::OneMore => {
                 let rest = |rest: &[f64; N]| factors.solve(rest);
-                let end = last_step(problem, &q, (&residual, &stiffness), &step, rest)?;
-                return Some(found(end, iterations + 1));
+                return last_step(problem, &q, (&residual, &stiffness), &step, rest)
+                    .map(|end| found(end, iterations + 1))
+                    .ok_or(q);
             }
             Last::More => {}
         }
         if largest(&step) > RADIUS {
-            return None;
+            return Err(q);
         }
         let before = dot(&step, &residual);
-        q = add_scaled(&q, 1.0, &step);
-        (residual, stiffness) = evaluate(&q);
+        let next = add_scaled(&q, 1.0, &step);
+        (residual, stiffness) = evaluate(&next);
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(&step, &residual);
         let curvature = form(&step, &stiffness, &step);
         if !(slope.abs() <= 0.5 * before.abs() && (0.0..f64::INFINITY).contains(&curvature)) {
-            return None;
+            return Err(q);
         }
+        q = next;
     }
-    None
+    Err(q)
 }

@@ -30,19 +30,21 @@ where
     if policy == Policy::Nearest || !potential {
         return nearest(problem, start).and_then(|found| finish(problem, found));
     }
-    if const { Structure::of(&M::DESCRIPTION).open() }
-        && let Some(found) = quick::quick(problem, start)
-    {
-        return finish(problem, found);
+    if const { Structure::of(&M::DESCRIPTION).open() } {
+        return match quick::quick(problem, start) {
+            Ok(found) => finish(problem, found),
+            Err(base) => from_afar(problem, start, &base),
+        };
     }
-    from_afar(problem, start)
+    from_afar(problem, start, start)
 }
 
-/// As [`settle`], for a stable equilibrium to which no straight way leads.
+/// As [`settle`], for a stable equilibrium to which no straight way leads; the search begins at `base`.
 #[cold]
 fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
+    base: &[f64; N],
 ) -> Result<Equilibrium<N, U, P>, Failure<N>>
 where
     M: Mechanism<N, U, P, O>,
@@ -52,9 +54,9 @@ where
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, base)
     } else {
-        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, base)
             .and_then(|found| polished(problem, found))
     };
     found
@@ -241,6 +243,11 @@ where
     }
     let stability = if constraints.singular {
         Stability::Undecided
+    } else if const { at_rest_by_stiffness(&M::DESCRIPTION) }
+        && Cholesky::new(&linear.mass).is_ok()
+        && Cholesky::new(&linear.stiffness).is_ok()
+    {
+        Stability::Stable
     } else {
         stability::judge(problem.description(), &linear)?
     };
@@ -260,6 +267,12 @@ where
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),
     })
+}
+
+/// Whether positive masses and stiffnesses alone make a state stable.
+const fn at_rest_by_stiffness(description: &Description) -> bool {
+    let undamped = matches!(description.damping, DampingKind::Zero);
+    undamped && description.symmetric_stiffness && Structure::of(description).open()
 }
 
 /// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.
