@@ -9,6 +9,7 @@ mod crossing;
 mod descent;
 mod multistart;
 mod newton;
+mod prediction;
 mod problem;
 mod quick;
 mod range;

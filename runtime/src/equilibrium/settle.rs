@@ -3,6 +3,7 @@
 use super::convergence::{
     ACCEPTED, TOLERANCE, is_rounding, relative_residual, relative_to, settled,
 };
+use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
 use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
 use crate::array::{Cholesky, Square, add_scaled, all_finite, dot, largest};
@@ -37,6 +38,32 @@ where
         };
     }
     from_afar(problem, start, start)
+}
+
+/// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
+/// it is what was predicted. For mechanisms with a potential and without constraints.
+pub(super) fn settle_from_prediction<
+    M,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    last: &[f64; N],
+    predicted: &[f64; N],
+) -> Option<Equilibrium<N, U, P>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    if const { !(M::DESCRIPTION.symmetric_stiffness && Structure::of(&M::DESCRIPTION).open()) } {
+        return None;
+    }
+    let found = quick::quick(problem, predicted).ok()?;
+    if !confirmed(&found.coordinates, predicted, last) {
+        return None;
+    }
+    finish(problem, found).ok()
 }
 
 /// As [`settle`], for a stable equilibrium to which no straight way leads; the search begins at `base`.

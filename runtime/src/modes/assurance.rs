@@ -124,15 +124,25 @@ impl<const N: usize> Modes<N> {
     /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
     /// come last, under labels from `next` on.
     pub(crate) fn continuing(&self, before: &Self, linear: &Linear<f64, N>, next: usize) -> Self {
-        self.arranged(before, &match_modes(before, self, linear), next)
+        let mut arranged = *self;
+        arranged.arrange(before, &match_modes(before, self, linear), next);
+        arranged
     }
 
-    pub(crate) fn arranged(
-        &self,
+    /// Brings the modes into the order of those of `before`, `order` by position, as [`Self::continuing`].
+    pub(crate) fn arrange(
+        &mut self,
         before: &Self,
         order: &PerMode<Option<usize>, N>,
         mut next: usize,
-    ) -> Self {
+    ) {
+        let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
+        if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
+            for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
+                mode.label = before.label;
+            }
+            return;
+        }
         let continued = order
             .iter()
             .zip(&before.modes)
@@ -152,7 +162,7 @@ impl<const N: usize> Modes<N> {
                 ..self.modes[place]
             }
         });
-        Self { modes, ..*self }
+        self.modes = modes;
     }
 }
 

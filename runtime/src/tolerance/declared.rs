@@ -139,8 +139,7 @@ impl<const P: usize> Tolerances<P> {
         if !ORDINARY.contains(&variance) {
             return self.spread_of_any_size(slopes);
         }
-        let unit = 1.0 / variance;
-        let shares = core::array::from_fn(|j| parts[j] * weighted[j] * unit);
+        let shares = core::array::from_fn(|j| parts[j] * weighted[j] / variance);
         (variance.sqrt(), shares)
     }
 
