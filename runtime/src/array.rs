@@ -75,14 +75,20 @@ pub(crate) fn largest_element<const N: usize>(matrix: &Square<N>) -> f64 {
 /// Whether no value is NaN or infinite; of a few values, without a branch for each.
 #[inline]
 pub(crate) fn all_finite<const N: usize>(x: &[f64; N]) -> bool {
-    x.iter().fold(0.0, |sum, value| sum + (value - value)) == 0.0
+    x.iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
+}
+
+/// NaN unless a value is finite: then zero.
+#[inline]
+pub(crate) fn unless_finite(value: f64) -> f64 {
+    0.0 * value
 }
 
 /// As [`all_finite`].
 #[inline]
 pub(crate) fn all_finite_square<const N: usize>(matrix: &Square<N>) -> bool {
     let values = matrix.iter().flatten();
-    values.fold(0.0, |sum, value| sum + (value - value)) == 0.0
+    values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
 /// Greatest difference of mirrored elements, relative to the greatest element.

@@ -45,7 +45,11 @@ where
             Last::Reached => {
                 let end = End::at(problem, &q);
                 let solved = end.is_solved(problem, &stiffness, ACCEPTED);
-                return if solved { Ok(found(end, iterations)) } else { Err(q) };
+                return if solved {
+                    Ok(found(end, iterations))
+                } else {
+                    Err(q)
+                };
             }
             Last::OneMore => {
                 let rest = |rest: &[f64; N]| factors.solve(rest);

@@ -201,8 +201,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             self.smooth = confirmed && even(&last.modes, &found);
             let order = match_with_assurance(&last.modes, &found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
-            let repeated =
-                |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
+            let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
             let doubtful = order
                 .iter()
                 .flatten()

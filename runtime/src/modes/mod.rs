@@ -169,11 +169,7 @@ pub(crate) fn solve_modes<const N: usize>(
 impl<const N: usize> Modes<N> {
     /// None yet.
     #[inline]
-    fn empty(
-        linear: &Linear<f64, N>,
-        family: Family,
-        description: &'static Description,
-    ) -> Self {
+    fn empty(linear: &Linear<f64, N>, family: Family, description: &'static Description) -> Self {
         Self {
             modes: PerMode::blank(Mode::BLANK),
             family,
@@ -218,14 +214,26 @@ fn undamped<const N: usize>(
         let threshold = neutral_threshold(&pairs.lambda);
         for r in 0..N {
             let (lambda, residual) = (pairs.lambda[r], pairs.residuals[r]);
-            modes.push(undamped_mode(r, lambda, &pairs.shapes[r], residual, threshold));
+            modes.push(undamped_mode(
+                r,
+                lambda,
+                &pairs.shapes[r],
+                residual,
+                threshold,
+            ));
         }
         return Ok(());
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
     let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
     for r in 0..lambda.len() {
-        modes.push(undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold));
+        modes.push(undamped_mode(
+            r,
+            lambda[r],
+            &shapes[r],
+            residuals[r],
+            pairs.threshold,
+        ));
     }
     Ok(())
 }

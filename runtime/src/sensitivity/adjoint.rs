@@ -66,8 +66,7 @@ impl<const N: usize> Factors<N> {
     }
 }
 
-impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize>
-    State<'a, M, N, U, P, O>
+impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> State<'a, M, N, U, P, O>
 where
     M: Mechanism<N, U, P, O>,
 {

@@ -26,7 +26,7 @@ pub use second::{ModeCurvature, SecondDerivatives, mode_curvature};
 pub use shapes::{ShapeSensitivity, shape_sensitivity};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 
-use crate::array::all_finite;
+use crate::array::{all_finite, unless_finite};
 use crate::modes::{Family, PerMode, merged, near_another};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes};
 
@@ -178,7 +178,7 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
             // As finite as those of `lambda`, from which they come or which come from them.
             Some(s) => {
                 let all = s.by_input.iter().chain(&s.by_design);
-                let rest = |z: &Complex| (z.re - z.re) + (z.im - z.im);
+                let rest = |z: &Complex| unless_finite(z.re) + unless_finite(z.im);
                 all.fold(0.0, |sum, ds| sum + rest(ds)) == 0.0
             }
             None => all_finite(&self.lambda_by_input) && all_finite(&self.lambda_by_design),

@@ -147,8 +147,7 @@ impl<const P: usize> Tolerances<P> {
     /// correlation.
     #[inline]
     fn parts(&self, slopes: &[f64; P], unit: f64) -> ([f64; P], [f64; P]) {
-        let parts =
-            core::array::from_fn(|j| (unit * slopes[j]) * (unit * self.deviations[j]));
+        let parts = core::array::from_fn(|j| (unit * slopes[j]) * (unit * self.deviations[j]));
         let weighted = match &self.correlation {
             None => parts,
             Some(matrix) => times(matrix, &parts),
