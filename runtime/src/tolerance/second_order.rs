@@ -78,8 +78,7 @@ fn mode_second_order<M, const N: usize, const U: usize, const P: usize, const O:
 where
     M: Mechanism<N, U, P, O>,
 {
-    // On the heap: Hessians of many variables would fill the stack.
-    let curvature = Box::new(mode_curvature(mechanism, at, modes, mode)?);
+    let curvature = boxed_curvature(mechanism, at, modes, mode)?;
     let lambda = modes.modes[mode].lambda;
     let spread = |quantity| {
         let found = second_order_spread(&curvature, quantity, tolerances).transpose();
@@ -90,6 +89,20 @@ where
         natural_frequency: spread(Quantity::NaturalFrequency)?,
         damping_ratio: spread(Quantity::DampingRatio)?,
     })
+}
+
+/// On the heap: Hessians of many variables would fill the stack.
+#[inline(never)]
+fn boxed_curvature<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    mode: usize,
+) -> Result<Box<ModeCurvature<U, P>>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    mode_curvature(mechanism, at, modes, mode).map(Box::new)
 }
 
 /// The spread of one quantity; `None` where the mode has no such quantity.
