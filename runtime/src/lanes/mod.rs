@@ -42,4 +42,8 @@ pub use kernels::{
     residual_partials,
 };
 
+#[cfg(feature = "std")]
+pub(crate) use instructions::Task;
+#[cfg(feature = "std")]
+pub(crate) use kernels::generated;
 pub(crate) use vector::Vector;

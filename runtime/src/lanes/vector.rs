@@ -26,6 +26,8 @@ pub(crate) trait Vector: Real {
     fn bits(mask: Self::Mask) -> u32;
     /// With an integer in the last bits of `self`: (`sine`, `cosine`) turned by so many right angles.
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self);
+    /// (`e`, `m`) with `self = m 2^e` and `m` between 0.7 and 1.5, for positive normal numbers.
+    fn split(self) -> (Self, Self);
 
     /// True in every lane.
     #[inline(always)]
@@ -33,6 +35,15 @@ pub(crate) trait Vector: Real {
         Self::bits(mask) == (1 << Self::WIDTH) - 1
     }
 }
+
+/// Bits of the least mantissa of [`Vector::split`], next to the root of 1/2.
+pub(super) const LEAST: u64 = 0x3fe6_a09e_0000_0000;
+/// Added to the bits of a number it makes the bits above [`MANTISSA`] 1023 more than the exponent for that mantissa.
+pub(super) const SHIFT: u64 = (1023 << 52) - LEAST;
+/// The bits below the exponent.
+pub(super) const MANTISSA: u64 = (1 << 52) - 1;
+/// 2^52: what is added to its bits is added to its value.
+pub(super) const INTEGER: f64 = 4503599627370496.0;
 
 impl Vector for f64 {
     const WIDTH: usize = 1;
@@ -65,6 +76,13 @@ impl Vector for f64 {
     #[inline(always)]
     fn bits(mask: bool) -> u32 {
         u32::from(mask)
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let shifted = self.to_bits().wrapping_add(SHIFT);
+        let exponent = Self::from_bits((shifted >> 52) + INTEGER.to_bits());
+        let mantissa = Self::from_bits((shifted & MANTISSA) + LEAST);
+        (exponent - (INTEGER + 1023.0), mantissa)
     }
     #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {

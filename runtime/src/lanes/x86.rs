@@ -8,6 +8,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::instructions::Task;
+use super::vector::{INTEGER, LEAST, MANTISSA, SHIFT};
 use super::{Batch, Vector, WIDTH};
 use crate::{Real, trigonometry};
 
@@ -233,6 +234,22 @@ impl Vector for Four {
         unsafe { _mm256_movemask_pd(mask) }.cast_unsigned()
     }
     #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        // SAFETY: see the module.
+        unsafe {
+            let all = |bits: u64| _mm256_set1_epi64x(bits.cast_signed());
+            let shifted = _mm256_add_epi64(_mm256_castpd_si256(self.0), all(SHIFT));
+            let exponent = _mm256_srli_epi64::<52>(shifted);
+            let exponent = _mm256_add_epi64(exponent, all(INTEGER.to_bits()));
+            let mantissa = _mm256_and_si256(shifted, all(MANTISSA));
+            let mantissa = _mm256_add_epi64(mantissa, all(LEAST));
+            (
+                Self(_mm256_castsi256_pd(exponent)) - Self::constant(INTEGER + 1023.0),
+                Self(_mm256_castsi256_pd(mantissa)),
+            )
+        }
+    }
+    #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the module.
         unsafe {
@@ -291,6 +308,22 @@ impl Vector for Eight {
     #[inline(always)]
     fn bits(mask: __mmask8) -> u32 {
         u32::from(mask)
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        // SAFETY: see the module.
+        unsafe {
+            let all = |bits: u64| _mm512_set1_epi64(bits.cast_signed());
+            let shifted = _mm512_add_epi64(_mm512_castpd_si512(self.0), all(SHIFT));
+            let exponent = _mm512_srli_epi64::<52>(shifted);
+            let exponent = _mm512_add_epi64(exponent, all(INTEGER.to_bits()));
+            let mantissa = _mm512_and_si512(shifted, all(MANTISSA));
+            let mantissa = _mm512_add_epi64(mantissa, all(LEAST));
+            (
+                Self(_mm512_castsi512_pd(exponent)) - Self::constant(INTEGER + 1023.0),
+                Self(_mm512_castsi512_pd(mantissa)),
+            )
+        }
     }
     #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {

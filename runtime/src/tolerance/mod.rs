@@ -13,6 +13,7 @@ mod monte_carlo;
 mod pool;
 mod probability;
 mod quadratic;
+mod quantile;
 mod sampling;
 mod second_order;
 mod statistics;
