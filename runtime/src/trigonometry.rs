@@ -61,11 +61,11 @@ pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
     let z = r * r;
     let w = z * z;
     let v = z * r;
-    let [s0, s1, s2, s3, s4, s5] = SINE.map(number);
-    let high = (s1 + z * s2) + w * ((s3 + z * s4) + w * s5);
-    let sine = r - ((z * (number(0.5) * tail - v * high) - tail) - v * s0);
-    let [c0, c1, c2, c3, c4, c5] = COSINE.map(number);
-    let (low, high) = (c0 + z * (c1 + z * c2), (c3 + z * c4) + w * c5);
+    let high = (number(SINE[1]) + z * number(SINE[2]))
+        + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]));
+    let sine = r - ((z * (number(0.5) * tail - v * high) - tail) - v * number(SINE[0]));
+    let low = number(COSINE[0]) + z * (number(COSINE[1]) + z * number(COSINE[2]));
+    let high = (number(COSINE[3]) + z * number(COSINE[4])) + w * number(COSINE[5]);
     let half = number(0.5) * z;
     let near_one = number(1.0) - half;
     let correction = w * (low + (z * w) * high) - r * tail;

@@ -32,7 +32,11 @@ impl Default for Batch {
 /// The vectors of the states from `at` on.
 #[inline(always)]
 pub(super) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [V; K] {
-    core::array::from_fn(|k| V::load(&from[k], at))
+    let mut vectors = [V::constant(0.0); K];
+    for (vector, from) in vectors.iter_mut().zip(from) {
+        *vector = V::load(from, at);
+    }
+    vectors
 }
 
 /// Writes results for the states from `at` on: the same shape, of vectors here and of batches there.

@@ -1,6 +1,7 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
 mod band;
+mod batched;
 mod cluster_sampling;
 mod clusters;
 mod declared;

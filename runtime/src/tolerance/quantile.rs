@@ -31,10 +31,11 @@ pub(super) fn standard_normal<V: Vector>(probability: V) -> V {
 
 #[inline(always)]
 fn polynomial<V: Vector, const K: usize>(coefficients: &[f64; K], x: V) -> V {
-    let last = V::constant(coefficients[K - 1]);
-    (1..K).fold(last, |sum, k| {
-        sum * x + V::constant(coefficients[K - 1 - k])
-    })
+    let mut sum = V::constant(coefficients[K - 1]);
+    for coefficient in coefficients[..K - 1].iter().rev() {
+        sum = sum * x + V::constant(*coefficient);
+    }
+    sum
 }
 
 /// Natural logarithm of a positive normal number: of its mantissa `m` by `2 artanh((m - 1) / (m + 1))`.

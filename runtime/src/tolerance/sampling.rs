@@ -2,6 +2,7 @@
 
 use super::Tolerances;
 use super::quantile::standard_normal;
+use crate::lanes::{Batch, WIDTH};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -33,6 +34,21 @@ impl<'a, const P: usize> Draw<'a, P> {
             tolerances,
             used,
         }
+    }
+
+    /// The probabilities that the next `number` samples are made of, up to a batch of them; one half in other places, and for
+    /// variables on which nothing depends.
+    pub(super) fn probabilities(&mut self, number: usize) -> [Batch; P] {
+        let mut probabilities = [Batch::all(0.5); P];
+        for sample in 0..number.min(WIDTH) {
+            for (batch, used) in probabilities.iter_mut().zip(self.used) {
+                let bits = self.random.next_u64();
+                if used {
+                    batch.0[sample] = probability(bits);
+                }
+            }
+        }
+        probabilities
     }
 
     pub(super) fn next(&mut self) -> [f64; P] {
