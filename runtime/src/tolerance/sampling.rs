@@ -36,15 +36,17 @@ impl<'a, const P: usize> Draw<'a, P> {
         }
     }
 
-    /// The probabilities that the next `number` samples are made of, up to a batch of them; one half in other places, and for
-    /// variables on which nothing depends.
+    /// The probabilities that the next `number` samples are made of, up to a batch of them; other places mean
+    /// nothing, nor do variables on which nothing depends.
     pub(super) fn probabilities(&mut self, number: usize) -> [Batch; P] {
         let mut probabilities = [Batch::all(0.5); P];
-        for sample in 0..number.min(WIDTH) {
-            for (batch, used) in probabilities.iter_mut().zip(self.used) {
-                let bits = self.random.next_u64();
-                if used {
-                    batch.0[sample] = probability(bits);
+        let mut bytes = [[[0; 8]; P]; WIDTH];
+        let filled = bytes[..number.min(WIDTH)].as_flattened_mut();
+        self.random.fill_bytes(filled.as_flattened_mut());
+        for (j, batch) in probabilities.iter_mut().enumerate() {
+            if self.used[j] {
+                for (value, bytes) in batch.0.iter_mut().zip(&bytes) {
+                    *value = probability(u64::from_le_bytes(bytes[j]));
                 }
             }
         }
@@ -70,7 +72,8 @@ impl<'a, const P: usize> Draw<'a, P> {
 
 /// A probability strictly inside (0, 1) of 64 random bits, which takes one bit less than a double has.
 pub(super) fn probability(bits: u64) -> f64 {
-    ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+    // As a signed number, which processors convert at once.
+    ((bits >> 12).cast_signed() as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
 #[cfg(test)]
