@@ -1,6 +1,6 @@
 //! What all samples share: how the nominal state answers to the design, to first and second order.
 
-use crate::array::{Cholesky, all_finite, all_finite_square};
+use crate::array::{Cholesky, all_finite, all_finite_square, form};
 use crate::constraints::Structure;
 use crate::lanes::{Instructions, generated};
 use crate::modes::Family;
@@ -30,7 +30,7 @@ pub(in crate::tolerance) struct Prepared<
     pub(super) nominal: &'a Equilibrium<N, U, P>,
     /// (`i`, `j`, `L_ij`) of the factor of the covariance, row by row, without zeros.
     pub(super) draws: Vec<(usize, usize, f64)>,
-    /// Random numbers that anything depends on.
+    /// Pairs of random numbers on which anything depends.
     pub(super) drawn: Vec<usize>,
     /// Design variables that vary.
     pub(super) varied: Vec<usize>,
@@ -43,6 +43,9 @@ pub(in crate::tolerance) struct Prepared<
     /// Their `lambda`, 1/s^2, and frequencies, rad/s.
     pub(super) lambda: [f64; N],
     pub(in crate::tolerance) frequencies: [f64; N],
+    /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
+    /// residual.
+    pub(super) curvature: [[[f64; N]; N]; N],
     /// `dKhat/dq_k` between the nominal modes.
     pub(super) stiffening: [[[f64; N]; N]; N],
 }
@@ -85,21 +88,22 @@ where
             .flat_map(|i| (0..=i).map(move |j| (i, j, factor[i][j])))
             .filter(|(_, _, value)| *value != 0.0)
             .collect();
-        let drawn = (0..P)
-            .filter(|j| draws.iter().any(|draw| draw.1 == *j))
-            .collect();
+        let drawn = |pair: &usize| draws.iter().any(|draw| draw.1 / 2 == *pair);
+        let drawn = (0..P.div_ceil(2)).filter(drawn).collect();
         let varied: Vec<_> = (0..P)
             .filter(|i| draws.iter().any(|draw| draw.0 == *i))
             .collect();
         let answer = Answer { mechanism, nominal };
         let first = answer.slopes(&nominal.coordinates, &nominal.design, &varied)?;
         let deviations = tolerances.standard_deviations();
+        let slopes = answer.stiffening(&varied, &first, &deviations)?;
         Some(Self {
             mechanism,
             instructions,
             nominal,
             second: answer.curvatures(&varied, &first, &deviations)?,
-            stiffening: answer.stiffening(&shapes, &varied, &first, &deviations)?,
+            curvature: quadratic_terms(&slopes),
+            stiffening: slopes.map(|slope| between(&slope, &shapes)),
             draws,
             drawn,
             varied,
@@ -191,10 +195,9 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
         finite.then_some(second)
     }
 
-    /// `dKhat/dq_k` between the modes, by differences over the displacement that one standard deviation causes.
+    /// `dKhat/dq_k` by differences over the displacement that one standard deviation causes.
     fn stiffening<const O: usize>(
         &self,
-        shapes: &[[f64; N]; N],
         varied: &[usize],
         first: &[[f64; N]],
         deviations: &[f64; P],
@@ -208,12 +211,10 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
             design,
             ..
         } = self.nominal;
-        let mut stiffening = [[[0.0; N]; N]; N];
-        for (k, result) in stiffening.iter_mut().enumerate() {
-            let motions = first
-                .iter()
-                .zip(varied)
-                .map(|(slope, &j)| (slope[k] * deviations[j]).abs());
+        let mut slopes = [[[0.0; N]; N]; N];
+        for (k, slope) in slopes.iter_mut().enumerate() {
+            let motions = first.iter().zip(varied);
+            let motions = motions.map(|(slope, &j)| (slope[k] * deviations[j]).abs());
             let step = motions.fold(SMALL, f64::max);
             let at = |step: f64| {
                 let mut q = *coordinates;
@@ -221,20 +222,27 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
                 self.mechanism.residual_and_stiffness(&q, inputs, design).1
             };
             let (above, below) = (at(step), at(-step));
-            for r in 0..N {
-                for s in 0..N {
-                    for i in 0..N {
-                        for j in 0..N {
-                            let slope = (above[i][j] - below[i][j]) / (2.0 * step);
-                            result[r][s] += shapes[r][i] * slope * shapes[s][j];
-                        }
-                    }
-                }
-            }
-            if !all_finite_square(result) {
+            let change = |i: usize, j: usize| (above[i][j] - below[i][j]) / (2.0 * step);
+            *slope = core::array::from_fn(|i| core::array::from_fn(|j| change(i, j)));
+            if !all_finite_square(slope) {
                 return None;
             }
         }
-        Some(stiffening)
+        Some(slopes)
     }
+}
+
+/// `1/2 dKhat/dq_k`, row `j < k` standing for row `k` of `j` too.
+fn quadratic_terms<const N: usize>(slopes: &[[[f64; N]; N]; N]) -> [[[f64; N]; N]; N] {
+    core::array::from_fn(|k| {
+        core::array::from_fn(|j| {
+            let share = if j == k { 0.5 } else { 1.0 };
+            slopes[k][j].map(|slope| share * slope)
+        })
+    })
+}
+
+/// A symmetric matrix between the modes.
+fn between<const N: usize>(matrix: &[[f64; N]; N], shapes: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|r| core::array::from_fn(|s| form(&shapes[r], matrix, &shapes[s])))
 }
