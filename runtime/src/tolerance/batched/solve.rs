@@ -17,10 +17,11 @@ const SMALL_MOTION: f64 = 1e-3;
 const POSITIVE: f64 = 1e-10;
 /// Least pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
 const CLEARLY_POSITIVE: f64 = 1e-3;
-/// Least `lambda` relative to the nominal one.
-const WEAKENED: f64 = 0.1;
-/// Greatest displacement from the nominal position, rad or m.
-const FAR: f64 = 0.5;
+/// Least and greatest `lambda` relative to the nominal one: what changes more may have changed on its way too.
+const WEAKENED: f64 = 0.5;
+const STIFFENED: f64 = 2.0;
+/// Greatest displacement from the nominal position, in displacements of one standard deviation.
+pub(super) const FAR: f64 = 6.0;
 
 /// Samples of one batch.
 pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
@@ -199,8 +200,9 @@ where
         }
     }
     flag = keep(flag, one.at_most(resting));
-    for (q, start) in q.iter().zip(start) {
-        flag = keep(flag, (*q - start).abs().at_most(V::constant(FAR)));
+    for ((q, start), reach) in q.iter().zip(start).zip(&prepared.reach) {
+        let displacement = (*q - start).abs();
+        flag = keep(flag, displacement.at_most(V::constant(FAR * reach)));
     }
     (q, flag)
 }
@@ -257,6 +259,7 @@ where
     let mut flag = keep(flag, one.at_most(recognised));
     for (lambda, nominal) in lambda.iter().zip(prepared.lambda) {
         flag = keep(flag, V::constant(WEAKENED * nominal).at_most(*lambda));
+        flag = keep(flag, lambda.at_most(V::constant(STIFFENED * nominal)));
     }
     (lambda, flag)
 }
