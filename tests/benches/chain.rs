@@ -1,8 +1,9 @@
 //! The chain of bars in the language of the macro; shared by the build script and the suite.
 
 /// `bars` uniform bars in series on a spinning shaft; design variables are the lengths, then the masses.
-pub(super) fn declaration(bars: usize) -> String {
-    let mut text = format!("/// A chain.\npub mechanism Chain{bars} {{ input omega: rad/s;");
+pub(crate) fn declaration(name: &str, bars: usize) -> String {
+    let mut text =
+        format!("/// Bars in series.\npub(crate) mechanism {name} {{ input omega: rad/s;");
     for k in 1..=bars {
         text += &format!("design l{k} = 1 m +/- 1%;");
     }
