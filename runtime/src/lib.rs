@@ -58,6 +58,8 @@
 
 mod mechanism;
 mod real;
+#[cfg(any(feature = "std", feature = "libm"))]
+mod trigonometry;
 
 #[cfg(feature = "std")]
 mod array;

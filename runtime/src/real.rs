@@ -45,18 +45,24 @@ pub trait Real:
     }
 }
 
-/// One implementation for the two floating-point types, over the standard library's functions or libm's.
+/// One implementation for the two floating-point types, over the standard library's functions or libm's. Sine and cosine
+/// of `f64` are our own.
 #[cfg(any(feature = "std", feature = "libm"))]
 macro_rules! float {
-    ($float:ident, $($libm:ident),*) => {
+    ($float:ident, $sin_cos:expr, $($libm:ident),*) => {
         impl Real for $float {
+            #[inline]
             fn constant(value: f64) -> Self {
                 value as $float
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
             }
             float!(@functions $float, $($libm),*);
         }
     };
-    (@functions $float:ident, $sqrt:ident, $sincos:ident, $tan:ident, $asin:ident, $acos:ident,
+    (@functions $float:ident, $sqrt:ident, $tan:ident, $asin:ident, $acos:ident,
      $atan2:ident, $exp:ident, $log:ident, $pow:ident) => {
         #[inline]
         fn sqrt(self) -> Self {
@@ -64,13 +70,6 @@ macro_rules! float {
             return self.sqrt();
             #[cfg(not(feature = "std"))]
             return libm::$sqrt(self);
-        }
-        #[inline]
-        fn sin_cos(self) -> (Self, Self) {
-            #[cfg(feature = "std")]
-            return self.sin_cos();
-            #[cfg(not(feature = "std"))]
-            return libm::$sincos(self);
         }
         #[inline]
         fn tan(self) -> Self {
@@ -132,8 +131,28 @@ macro_rules! float {
 }
 
 #[cfg(any(feature = "std", feature = "libm"))]
-float!(f64, sqrt, sincos, tan, asin, acos, atan2, exp, log, pow);
+float!(
+    f64,
+    crate::trigonometry::sin_cos,
+    sqrt,
+    tan,
+    asin,
+    acos,
+    atan2,
+    exp,
+    log,
+    pow
+);
 #[cfg(any(feature = "std", feature = "libm"))]
 float!(
-    f32, sqrtf, sincosf, tanf, asinf, acosf, atan2f, expf, logf, powf
+    f32,
+    libm::sincosf,
+    sqrtf,
+    tanf,
+    asinf,
+    acosf,
+    atan2f,
+    expf,
+    logf,
+    powf
 );

@@ -6,10 +6,10 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use proc_macro2::TokenStream;
 
-use crate::declaration::declaration;
-use crate::kernels::{At, Gradient, Kernels, Pencil};
-use crate::model::Model;
-use crate::oracle::{Linear, LinearPartials};
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::kernels::{At, Gradient, Kernels, Pencil};
+use eigentol_oracle::model::Model;
+use eigentol_oracle::{Linear, LinearPartials};
 
 /// Explicit partial derivatives whatever their number.
 const EVERYTHING: Limits = Limits {

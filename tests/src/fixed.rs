@@ -8,7 +8,7 @@ use eigentol_compiler::model::evaluate::Values as Evaluation;
 use eigentol_compiler::model::expression::{Expr as Written, Function, Vector};
 use eigentol_compiler::model::mechanism as declared;
 
-use crate::model::{
+use eigentol_oracle::model::{
     Amount, Body, Coordinate, Drive, Expr, Force, ForceLaw, Frame, Input, Joint, Model, Motion,
     Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
 };

@@ -2,13 +2,13 @@
 
 use std::cell::Cell;
 
-use eigentol_tests::agreement::{Case, Reference, assert_agrees};
+use eigentol_oracle::agreement::{Case, Reference, assert_agrees};
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::kernels::{At, Gradient, Kernels, Pencil};
+use eigentol_oracle::model::Model;
+use eigentol_oracle::random::{Plan, Setting, on_plans};
+use eigentol_oracle::{Linear, LinearPartials, Oracle};
 use eigentol_tests::compiled::Compiled;
-use eigentol_tests::declaration::declaration;
-use eigentol_tests::kernels::{At, Gradient, Kernels, Pencil};
-use eigentol_tests::model::Model;
-use eigentol_tests::oracle::{Linear, LinearPartials, Oracle};
-use eigentol_tests::random::{Plan, Setting, on_plans};
 
 /// The only trees refused are those in which the oracle, too, finds a coordinate that nothing resists.
 #[test]

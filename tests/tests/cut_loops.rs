@@ -12,8 +12,8 @@ mod pose;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use eigentol_tests::model::Word;
-use eigentol_tests::random::on_plans;
+use eigentol_oracle::model::Word;
+use eigentol_oracle::random::on_plans;
 
 use double::Closing;
 use pair::Pair;

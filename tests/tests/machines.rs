@@ -6,11 +6,11 @@ use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::mechanism::{CoordinateQuantity, Mechanism};
 use eigentol_compiler::program::Program;
+use eigentol_oracle::Oracle;
+use eigentol_oracle::kernels::Kernels;
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::corpus;
 use eigentol_tests::fixed::fixed;
-use eigentol_tests::kernels::Kernels;
-use eigentol_tests::oracle::Oracle;
-use eigentol_tests::truth::Truth;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

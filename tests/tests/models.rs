@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::mem::discriminant;
 
-use eigentol_tests::declaration::declaration;
-use eigentol_tests::examples::{
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::examples::{
     anisotropic_bearing, blade, chain, jeffcott_in_the_ground, screw_pendulum,
     steadied_by_the_shaft, top, two_sliders,
 };
-use eigentol_tests::model::{Amount, ForceLaw, Frame, Motion, ORIGIN, Shape, Value};
-use eigentol_tests::random::on_plans;
+use eigentol_oracle::model::{Amount, ForceLaw, Frame, Motion, ORIGIN, Shape, Value};
+use eigentol_oracle::random::on_plans;
 
 #[test]
 fn a_chain_reads_as_a_person_would_write_it() {

@@ -4,8 +4,8 @@
 use eigentol_compiler::algebra::{Cost, Function, cost};
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Functions, Limits};
-use eigentol_tests::declaration::declaration;
-use eigentol_tests::examples::chain;
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::examples::chain;
 
 /// Bars, full adjoint gradient, all explicit partial matrices, as counted on a sketch.
 const SKETCH: [(usize, usize, Option<usize>); 5] = [

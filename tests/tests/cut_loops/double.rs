@@ -1,7 +1,7 @@
 //! The double of a tree: a free joint in the place of one joint, which is declared once more to close the loop.
 
-use eigentol_tests::declaration::declaration;
-use eigentol_tests::model::{Expr, ForceLaw, Joint, Model, Motion, Point, Step, Word};
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::model::{Expr, ForceLaw, Joint, Model, Motion, Point, Step, Word};
 
 use super::pose::Embedding;
 

@@ -5,10 +5,10 @@ use std::fmt::{self, Display};
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::Program;
-use eigentol_tests::agreement::Case;
-use eigentol_tests::declaration::declaration;
-use eigentol_tests::model::{Joint, Model, Word};
-use eigentol_tests::random::{Plan, Random};
+use eigentol_oracle::agreement::Case;
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::model::{Joint, Model, Word};
+use eigentol_oracle::random::{Plan, Random};
 use nalgebra::DMatrix;
 
 use super::double::{Closing, LOOSE, cut_text, without_forces_on};

@@ -2,8 +2,8 @@
 //! hyper-dual numbers. Shares nothing with the compiler.
 
 use eigentol::Real;
+use eigentol_oracle::model::{Joint, Motion, Placement, Step, Value};
 use eigentol_tests::hyper::Hyper;
-use eigentol_tests::model::{Joint, Motion, Placement, Step, Value};
 
 type Matrix = [[Hyper; 3]; 3];
 

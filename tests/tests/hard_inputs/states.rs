@@ -1,9 +1,9 @@
 //! States at the edge: nothing to hold the machine, starts far off or exactly on an unstable state, critical speeds.
 
 use eigentol::{Behaviour, Coordinate, DesignVariable, Error, Policy, Stability, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
-use eigentol_tests::truth::Truth;
 
 use super::sound::{assert_answers, assert_equilibrium};
 use eigentol_tests::unheld::{Falling, FreeBar, SprungMass, StandingBar};

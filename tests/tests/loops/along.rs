@@ -3,8 +3,8 @@
 use eigentol::equilibrium::{Condition, SpecialKind};
 use eigentol::tolerance::EventTolerance;
 use eigentol::{Input, Mechanism};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};
-use eigentol_tests::truth::Truth;
 
 use super::common::{Case, assert_close, assert_near, complex};
 use super::study::study;

@@ -1,10 +1,10 @@
 //! The file's points, and comparisons.
 
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
     five_bar, four_bar, geared_coasting, geared_motor, geared_rotors, governor, porter_governor,
     slider_crank,
 };
-use eigentol_tests::truth::Truth;
 use nalgebra::Complex;
 
 /// Names of the file with the declarations they belong to.

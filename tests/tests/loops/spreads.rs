@@ -2,8 +2,8 @@
 //! are closed anew.
 
 use eigentol::Mechanism;
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};
-use eigentol_tests::truth::Truth;
 
 use super::common::{Case, assert_close, complex};
 use super::study::study;

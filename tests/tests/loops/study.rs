@@ -7,11 +7,11 @@ use eigentol::sensitivity::{
     sensitivities_explicit,
 };
 use eigentol::{Complex, Coordinate, Equilibrium, Input, Mechanism, Mode, Modes, Role, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
     FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
     SliderCrank,
 };
-use eigentol_tests::truth::Truth;
 
 use super::common::{Case, Point, assert_close, assert_near, complex};
 

@@ -5,11 +5,11 @@ use eigentol::sensitivity::{
     equilibrium_shift, sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
 };
 use eigentol::{Coordinate, DesignVariable, Input, Linear, Mechanism, Stability, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::chain_of_eight::ChainOfEight;
 use eigentol_tests::corpus::chain_of_four::ChainOfFour;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
-use eigentol_tests::truth::Truth;
 
 use super::common::{By, assert_close, assert_equilibrium, flat, moved};
 

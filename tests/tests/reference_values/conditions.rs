@@ -5,10 +5,10 @@ use eigentol::sensitivity::{
     sensitivities_with_frozen_equilibrium,
 };
 use eigentol::{Coordinate, DesignVariable, Family, Input, Mechanism, Stability, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
-use eigentol_tests::truth::Truth;
 
 use super::common::{By, TIGHT, assert_close, assert_equilibrium, flat, moved, total_linear};
 

@@ -3,11 +3,11 @@
 use eigentol::equilibrium::{Policy, SpecialKind};
 use eigentol::sensitivity::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Stability, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::chain_of_eight::ChainOfEight;
 use eigentol_tests::corpus::chain_of_four::ChainOfFour;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
-use eigentol_tests::truth::Truth;
 
 use super::common::{assert_close, assert_equilibrium};
 

@@ -6,10 +6,10 @@ use eigentol::sensitivity::{
     sensitivities_explicit,
 };
 use eigentol::{Complex, DesignVariable, Family, Mechanism, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 use eigentol_tests::corpus::sliders_on_plate::SlidersOnPlate;
-use eigentol_tests::truth::Truth;
 
 use super::common::{By, assert_close};
 use super::conditions::study;

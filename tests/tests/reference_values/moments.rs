@@ -1,8 +1,8 @@
 //! Monte Carlo against moments by quadrature: `w1_moments`, and closed integrals near the critical speed.
 
 use eigentol::{Coordinate, DesignVariable, Input, MonteCarlo, Study};
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
-use eigentol_tests::truth::Truth;
 
 const SAMPLES: usize = 20_000;
 

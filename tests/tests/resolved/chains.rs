@@ -1,10 +1,10 @@
 //! `W1`, `W2`, `W3`: frequencies of bars in series and their first derivatives, equilibria bent and straight.
 
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{
     chain_of_eight, chain_of_four, rotating_double_pendulum, rotating_pendulum,
 };
 use eigentol_tests::resolved::{Derived, Machine};
-use eigentol_tests::truth::Truth;
 
 use super::common::{assert_within, largest};
 

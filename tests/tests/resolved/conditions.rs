@@ -1,8 +1,8 @@
 //! `P1`, `P2`, `P3`: every first and second derivative of the files, undamped and of the whole pencil.
 
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::{rotating_double_pendulum, rotating_pendulum, sliders_on_plate};
 use eigentol_tests::resolved::{ComplexDerived, Derived, Machine};
-use eigentol_tests::truth::Truth;
 
 use super::common::{assert_close, largest};
 

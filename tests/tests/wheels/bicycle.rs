@@ -1,7 +1,7 @@
 //! Matrices and eigenvalues of the bicycle, against the paper and against its formulas in high precision.
 
 use eigentol::{Complex, Study};
-use eigentol_tests::truth::Truth;
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::wheels::WhippleBicycle;
 
 use super::common::{

@@ -1,7 +1,7 @@
 //! Comparisons with `truth/rolling.json`.
 
 use eigentol::{Complex, Input, Mechanism, Study};
-use eigentol_tests::truth::Truth;
+use eigentol_oracle::truth::Truth;
 
 /// Relative error allowed.
 pub(crate) const TIGHT: f64 = 1e-9;

@@ -2,7 +2,7 @@
 
 use eigentol::tolerance::EventTolerance;
 use eigentol::{Behaviour, Error, Mechanism, Stability, Study};
-use eigentol_tests::truth::Truth;
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::wheels::{CirclingTrailer, TowedCaster, WhippleBicycle};
 
 use super::common::{close, close_real_slopes, design_names, truth};

@@ -1,7 +1,7 @@
 //! Tolerances of the bicycle: first order, second order and Monte Carlo against the derivatives of the reference.
 
 use eigentol::{Complex, Study};
-use eigentol_tests::truth::Truth;
+use eigentol_oracle::truth::Truth;
 use eigentol_tests::wheels::WhippleBicycle;
 
 use super::common::{close, complex, truth};

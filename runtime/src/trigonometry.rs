@@ -1,0 +1,96 @@
+//! Sine and cosine of `f64` without a branch, so that a loop over several angles becomes vector code, and without fused
+//! operations, so that every processor gives the same bits.
+
+use core::f64::consts::FRAC_2_PI;
+
+/// Greatest `|x|` that [`sin_cos_within`] takes, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves free.
+const LIMIT: f64 = 1e5;
+
+/// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. What is missing is
+/// below 2^-130.
+const PI_2: [f64; 3] = [
+    1.5707963267923333,
+    2.5633441515839558e-12,
+    1.0562999066987428e-23,
+];
+
+/// 1.5 * 2^52: added and subtracted, it rounds to an integer, and the last bits of the sum are those of the integer.
+const ROUND: f64 = 6755399441055744.0;
+
+/// `sin r = r + r^3 (S0 + S1 r^2 + ..)` on `|r| <= pi/4`, relative error below 2^-57 (Remez, coefficients rounded in turn).
+const SINE: [f64; 6] = [
+    -0.1666666666666663,
+    0.00833333333332184,
+    -0.0001984126982935853,
+    2.7557313538516423e-6,
+    -2.5050734389815377e-8,
+    1.5895433334855847e-10,
+];
+
+/// `cos r = 1 - r^2/2 + r^4 (C0 + C1 r^2 + ..)` on `|r| <= pi/4`, absolute error below 2^-64.
+const COSINE: [f64; 6] = [
+    0.0416666666666666,
+    -0.001388888888887447,
+    2.4801587289666912e-5,
+    -2.755731439926948e-7,
+    2.0875728994954886e-9,
+    -1.1359917371461161e-11,
+];
+
+/// Sine and cosine of `x` rad for `|x| <= 1e5`, each within one unit in the last place; NaN beyond.
+///
+/// Reduction by multiples of pi/2 after Cody and Waite (1980), with the rounding error of the difference carried on, so that
+/// digits stay where `x` is next to a multiple.
+#[inline(always)]
+pub(crate) fn sin_cos_within(x: f64) -> (f64, f64) {
+    let x = if x.abs() <= LIMIT { x } else { f64::NAN };
+    let shifted = x * FRAC_2_PI + ROUND;
+    let quarter = shifted.to_bits();
+    let turns = shifted - ROUND;
+    // r + tail = x - turns pi/2
+    let first = x - turns * PI_2[0];
+    let second = turns * PI_2[1];
+    let both = first - second;
+    let lost = (first - both) - second;
+    let rest = turns * PI_2[2] - lost;
+    let r = both - rest;
+    let tail = (both - r) - rest;
+
+    let z = r * r;
+    let w = z * z;
+    let v = z * r;
+    let high = (SINE[1] + z * SINE[2]) + w * ((SINE[3] + z * SINE[4]) + w * SINE[5]);
+    let sine = r - ((z * (0.5 * tail - v * high) - tail) - v * SINE[0]);
+    let low = COSINE[0] + z * (COSINE[1] + z * COSINE[2]);
+    let high = (COSINE[3] + z * COSINE[4]) + w * COSINE[5];
+    let half = 0.5 * z;
+    let one = 1.0 - half;
+    let cosine = one + (((1.0 - one) - half) + (w * (low + (z * w) * high) - r * tail));
+
+    let (s, c) = if quarter & 1 == 0 {
+        (sine, cosine)
+    } else {
+        (cosine, sine)
+    };
+    let sign = |bits: u64| (bits & 2) << 62;
+    (
+        f64::from_bits(s.to_bits() ^ sign(quarter)),
+        f64::from_bits(c.to_bits() ^ sign(quarter.wrapping_add(1))),
+    )
+}
+
+/// Sine and cosine of `x` rad, each within one unit in the last place; the same bits on every machine. NaN for what is not
+/// finite.
+#[inline]
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    if x.abs() <= LIMIT {
+        sin_cos_within(x)
+    } else {
+        beyond(x)
+    }
+}
+
+#[cold]
+fn beyond(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}

@@ -1,0 +1,71 @@
+//! Sine and cosine of `f64` against stored values and against another implementation.
+
+mod values;
+
+use eigentol::Real;
+
+/// Distance of `value` from `exact + lacking`, in units of the last place of `exact`.
+fn units(value: f64, exact: f64, lacking: f64) -> f64 {
+    let place = (exact.abs().next_up() - exact.abs()).max(f64::from_bits(1));
+    ((value - exact) - lacking).abs() / place
+}
+
+#[test]
+fn stored_values_to_one_unit_in_the_last_place() {
+    for [x, sine, sine_rest, cosine, cosine_rest] in values::EXACT {
+        let (s, c) = Real::sin_cos(x);
+        let errors = [units(s, sine, sine_rest), units(c, cosine, cosine_rest)];
+        assert!(
+            errors.iter().all(|&error| error <= 1.0),
+            "{x:e}: {errors:?}"
+        );
+    }
+}
+
+/// The measure itself: the neighbour of a right value is too far away.
+#[test]
+fn a_wrong_last_digit_is_seen() {
+    let [x, sine, rest, ..] = values::EXACT[0];
+    let (right, _) = Real::sin_cos(x);
+    assert!(units(right.next_up().next_up(), sine, rest) > 1.0);
+}
+
+#[test]
+fn agrees_with_the_standard_library_everywhere() {
+    let mut state = 1_u64;
+    let mut uniform = || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for k in 0..300_000 {
+        let size = [1e5, 10.0, 1.0, 1e-3, 1e9][k % 5];
+        let x = size * (2.0 * uniform() - 1.0);
+        // Next to a multiple of pi/2 every second time.
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let x = if k % 2 == 0 {
+            x
+        } else {
+            (x / quarter).round() * quarter
+        };
+        let (s, c) = Real::sin_cos(x);
+        let (sine, cosine) = f64::sin_cos(x);
+        assert!(
+            units(s, sine, 0.0) <= 1.0 && units(c, cosine, 0.0) <= 1.0,
+            "{x:e}"
+        );
+        assert_eq!((Real::sin(x), Real::cos(x)), (s, c));
+        assert_eq!(Real::sin_cos(-x), (-s, c));
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_not_a_number() {
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (s, c) = Real::sin_cos(x);
+        assert!(s.is_nan() && c.is_nan());
+    }
+    let (s, c) = Real::sin_cos(-0.0_f64);
+    assert!(s == 0.0 && s.is_sign_negative() && c == 1.0);
+}

@@ -1,0 +1,197 @@
+//! Random mechanisms: trees nobody would draw, so that no special case can hide.
+//!
+//! Every model has a steady state and a regular mass matrix. Joints are declared in random order and in either
+//! direction, axes are not normalised, values are numbers or multiples of design variables that several places share.
+//! Bodies are sums with holes, every word of joint and every force law occurs, and drives are wherever they leave a
+//! steady state.
+
+mod expressions;
+mod forces;
+mod joints;
+mod shapes;
+mod tree;
+mod values;
+
+use nalgebra::DMatrix;
+use proptest::prelude::{Just, Strategy, any, prop_oneof};
+use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::agreement::Case;
+use crate::matrices::{Oracle, State};
+use crate::model::{Model, Motion};
+
+/// How the ground carries a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// No drive, gravity anywhere.
+    Still,
+    /// A body driven about the vertical, gravity along it; further bodies may stand beside it on the ground.
+    Spinning,
+    /// A body driven along straight lines, gravity anywhere: by Galileo's principle nothing changes.
+    Conveyed,
+    /// A body driven along the vertical, and on it a body driven about the vertical.
+    Climbing,
+}
+
+/// What to make.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// How the ground carries it.
+    pub setting: Setting,
+    /// Bodies besides the driven ones of the setting and the rotor.
+    pub bodies: usize,
+    /// One more body driven about its own axis of symmetry.
+    pub rotor: bool,
+    /// Of the random numbers.
+    pub seed: u64,
+}
+
+impl Plan {
+    /// The model of this plan.
+    ///
+    /// # Panics
+    /// When a hundred attempts in a row have a singular mass matrix.
+    pub fn model(&self) -> Model {
+        let mut random = Random::new(self.seed);
+        for _ in 0..100 {
+            let model = tree::Builder::new(random.clone()).build(self);
+            if !model.free().is_empty() && is_regular(&model) {
+                return model;
+            }
+            random = Random::new(random.bits());
+        }
+        panic!("no regular model: {self:?}");
+    }
+}
+
+/// All plans with up to seven bodies. Shrinking takes bodies away.
+pub fn plans() -> impl Strategy<Value = Plan> {
+    let setting = prop_oneof![
+        Just(Setting::Still),
+        Just(Setting::Spinning),
+        Just(Setting::Conveyed),
+        Just(Setting::Climbing),
+    ];
+    (setting, 1..=7_usize, any::<bool>(), any::<u64>()).prop_map(
+        |(setting, bodies, rotor, seed)| {
+            let driven = match setting {
+                Setting::Still => 0,
+                Setting::Spinning | Setting::Conveyed => 1,
+                Setting::Climbing => 2,
+            };
+            let bodies = bodies.min(7 - driven - usize::from(rotor));
+            Plan {
+                setting,
+                bodies,
+                rotor,
+                seed,
+            }
+        },
+    )
+}
+
+/// Runs a check on as many random plans, always the same ones, and shrinks a plan on which it panics.
+///
+/// # Panics
+/// With the smallest plan found, and what the check said about it.
+pub fn on_plans(cases: u32, check: impl Fn(Plan)) {
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        max_shrink_iters: 20,
+        ..Config::default()
+    };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let run = TestRunner::new_with_rng(config, rng).run(&plans(), |plan| {
+        check(plan);
+        Ok(())
+    });
+    match run {
+        Ok(()) => {}
+        Err(TestError::Fail(reason, plan)) => panic!("{plan:?}\n{reason}"),
+        Err(TestError::Abort(reason)) => panic!("{reason}"),
+    }
+}
+
+/// A random state of the free coordinates, well away from poses in which a joint loses one.
+pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
+    let limit = |coordinate| match model.step(coordinate).motion {
+        Motion::Slide => 0.4,
+        Motion::Turn | Motion::Screw { .. } => 1.2,
+    };
+    let free = model.free();
+    let mut q = free
+        .iter()
+        .map(|&coordinate| random.between(-1.0, 1.0) * limit(coordinate))
+        .collect::<Vec<_>>();
+    joints::leave_singular_poses(model, &mut q);
+    q
+}
+
+/// The mass matrix, scaled to ones on the diagonal, is well away from singular at three states.
+fn is_regular(model: &Model) -> bool {
+    let oracle = Oracle::new(model);
+    (0..3).all(|seed| {
+        let [q, u, b] = Case::random(model, seed).at;
+        let mass = oracle.motion(&State::at_rest(&q, &u, &b)).mass;
+        let scaled = |i: usize, j: usize| mass[i][j] / (mass[i][i] * mass[j][j]).sqrt();
+        let heavy = (0..q.len()).all(|i| mass[i][i] > 1e-6);
+        heavy
+            && DMatrix::from_fn(q.len(), q.len(), scaled)
+                .symmetric_eigenvalues()
+                .min()
+                > 1e-5
+    })
+}
+
+/// A seeded source of random numbers, the same on every machine.
+#[derive(Clone, Debug)]
+pub struct Random(ChaCha8Rng);
+
+impl Random {
+    /// From a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0.next_u64()
+    }
+
+    /// Uniform in `[low, high)`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
+        low + (high - low) * unit
+    }
+
+    /// An index below `count`.
+    pub fn below(&mut self, count: usize) -> usize {
+        assert!(count > 0, "something to choose from");
+        (self.bits() % count as u64) as usize
+    }
+
+    /// True with the given probability.
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.between(0.0, 1.0) < probability
+    }
+
+    /// `size` with either sign.
+    pub fn signed(&mut self, size: f64) -> f64 {
+        if self.chance(0.5) { size } else { -size }
+    }
+
+    /// A vector with components in `[-limit, limit)`.
+    pub fn vector(&mut self, limit: f64) -> [f64; 3] {
+        std::array::from_fn(|_| self.between(-limit, limit))
+    }
+
+    /// Puts a list in random order.
+    pub fn shuffle<T>(&mut self, list: &mut [T]) {
+        for last in (1..list.len()).rev() {
+            list.swap(last, self.below(last + 1));
+        }
+    }
+}
