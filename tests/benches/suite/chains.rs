@@ -6,7 +6,7 @@ use eigentol::{Linear, Mechanism};
 
 use crate::casadi::CasadiWork;
 use crate::tools::{Tools, newer, source};
-use crate::work::{Closures, INPUTS, Random, Task, Work};
+use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
 
 /// Sees every chain.
 pub(crate) trait Visitor {
@@ -58,6 +58,7 @@ impl Visitor for Collector<'_> {
             self.tasks.push(Task {
                 name,
                 units: 1,
+                agreement: AGREEMENT,
                 ours: ours(chain.clone(), function),
                 peer: peer::<N, P>(self.tools, function),
             });
