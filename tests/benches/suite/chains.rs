@@ -22,6 +22,8 @@ mod generated {
     include!(concat!(env!("OUT_DIR"), "/chains.rs"));
 }
 
+pub(crate) use generated::{LONGEST, Longest};
+
 /// Functions that are timed, by the names of CasADi's side.
 const FUNCTIONS: [&str; 4] = ["residual_and_stiffness", "linear", "mode_gradient", "all"];
 

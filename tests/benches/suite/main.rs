@@ -1,10 +1,12 @@
 //! The benchmark suite: eigentol beside its strongest peers. `tests/benches/README.md` says how to run and read it.
 
+mod arm;
 mod casadi;
 mod chains;
 mod counting;
 #[path = "../chain.rs"]
 mod declaration;
+mod facts;
 mod growth;
 mod operations;
 mod pendulum;
@@ -57,15 +59,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     criterion.final_summary();
 
     let operations = match wanted("operations") {
-        true => operations::count(&mut tools),
+        true => operations::count(&mut tools)?,
         false => Vec::new(),
     };
+    let mut singles = Vec::new();
+    if wanted(facts::PENDULUM) {
+        singles.extend(facts::pendulum());
+    }
+    if wanted(facts::LONG_CHAIN) {
+        singles.extend(facts::long_chain());
+    }
     let report = Report {
         counts: counting::count(&folder),
         rows,
         operations,
         growth,
-        facts: Vec::new(),
+        facts: singles,
     };
     report.write(&folder)?;
     println!("{}", report.table());
@@ -76,6 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Everything that has a peer.
 fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, Box<dyn Error>> {
     let mut tasks = pendulum::tasks(wanted, tools)?;
+    tasks.extend(arm::tasks(wanted, tools));
     tasks.extend(chains::tasks(wanted, tools));
     Ok(tasks)
 }
