@@ -60,15 +60,15 @@ impl CasadiWork {
                 Ok(number() as usize)
             };
             let lengths = dense("in", number("in")?)?;
-            let fits = |input: &Vec<Vec<f64>>| {
-                input.iter().map(Vec::len).collect::<Vec<_>>() == lengths
-            };
+            let fits =
+                |input: &Vec<Vec<f64>>| input.iter().map(Vec::len).collect::<Vec<_>>() == lengths;
             if !inputs.iter().all(fits) {
                 return Err(format!("{name} takes arrays of lengths {lengths:?}"));
             }
             type Sizes = unsafe extern "C" fn(*mut i64, *mut i64, *mut i64, *mut i64) -> c_int;
-            let work: Symbol<Sizes> =
-                library.get(format!("{name}_work").as_bytes()).map_err(fail)?;
+            let work: Symbol<Sizes> = library
+                .get(format!("{name}_work").as_bytes())
+                .map_err(fail)?;
             let [mut arguments, mut results, mut integers, mut reals] = [0_i64; 4];
             work(&mut arguments, &mut results, &mut integers, &mut reals);
             let lengths = dense("out", number("out")?)?.into_iter();

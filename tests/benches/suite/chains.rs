@@ -124,7 +124,11 @@ where
             results: move |s: &State<N, P>| {
                 let gradient = again.mode_gradient(&s.q, &s.u, &s.b, &s.phi, s.lambda);
                 let by_coordinate = gradient.coordinates.to_vec();
-                vec![by_coordinate, gradient.inputs.to_vec(), gradient.design.to_vec()]
+                vec![
+                    by_coordinate,
+                    gradient.inputs.to_vec(),
+                    gradient.design.to_vec(),
+                ]
             },
         }),
         _ => Box::new(Closures {
@@ -147,8 +151,8 @@ where
     let columns = (0..P).flat_map(|k| by_design.map(|row| row[k])).collect();
     let partials = chain.linear_partials(&s.q, &s.u, &s.b);
     let mut results = vec![by_input.concat(), columns];
-    let matrices: [fn(&Linear<f64, N>) -> [[f64; N]; N]; 2] = [|x| x.mass, |x| x.stiffness];
-    for matrix in matrices {
+    for mass in [true, false] {
+        let matrix = |x: &Linear<f64, N>| if mass { x.mass } else { x.stiffness };
         let flat = |all: &[Linear<f64, N>]| all.iter().flat_map(|x| matrix(x).concat()).collect();
         results.push(flat(&partials.by_coordinate));
         results.push(flat(&partials.by_input));
@@ -176,5 +180,9 @@ fn peer<const N: usize, const P: usize>(
         }
         arguments
     });
-    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
+    Ok(Box::new(CasadiWork::load(
+        &library,
+        &name,
+        inputs.collect(),
+    )?))
 }

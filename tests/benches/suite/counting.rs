@@ -89,8 +89,8 @@ pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
 
 /// The total of a profile: its line `summary: N`.
 fn total(profile: &Path) -> Result<f64, String> {
-    let text = fs::read_to_string(profile)
-        .map_err(|error| format!("{}: {error}", profile.display()))?;
+    let text =
+        fs::read_to_string(profile).map_err(|error| format!("{}: {error}", profile.display()))?;
     text.lines()
         .find_map(|line| line.strip_prefix("summary: "))
         .and_then(|number| number.trim().parse().ok())

@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         true => operations::count(&mut tools)?,
         false => Vec::new(),
     };
-    let mut singles = Vec::new();
+    let mut singles = tools::setting();
     if wanted(facts::PENDULUM) {
         singles.extend(facts::pendulum());
     }
@@ -108,7 +108,10 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let units = task.units;
     let ours = timing::time(criterion, &id("eigentol"), units, &mut *task.ours);
     let (peer, absent) = match &mut task.peer {
-        Ok(peer) => (timing::time(criterion, &id("peer"), units, &mut **peer), None),
+        Ok(peer) => (
+            timing::time(criterion, &id("peer"), units, &mut **peer),
+            None,
+        ),
         Err(reason) => (None, Some(reason.clone())),
     };
     Ok(Row {
@@ -129,5 +132,7 @@ fn results_folder() -> PathBuf {
 
 /// Criterion's filter: the first argument that is no option.
 fn filter() -> Option<String> {
-    env::args().skip(1).find(|argument| !argument.starts_with('-'))
+    env::args()
+        .skip(1)
+        .find(|argument| !argument.starts_with('-'))
 }

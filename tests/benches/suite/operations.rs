@@ -1,7 +1,7 @@
 //! Operations: every node of the expression graph but inputs, outputs and constants, by the same rule for both sides.
 
-use eigentol_compiler::algebra::{Node, Unary, derivatives_along, reachable};
 use eigentol_compiler::algebra::{Direction, gradient};
+use eigentol_compiler::algebra::{Node, Unary, derivatives_along, reachable};
 use eigentol_compiler::base::ids::{ExprId, SymbolId};
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Functions, Limits};

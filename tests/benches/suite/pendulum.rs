@@ -220,9 +220,8 @@ impl Work for SweepByHand {
     fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
         let done = self.call(input) as usize;
         let rows = self.out[..done * WIDTH].chunks(WIDTH);
-        let arrays = |row: &[f64]| {
-            [&row[..2], &row[2..4], &row[4..8], &row[8..]].map(<[f64]>::to_vec)
-        };
+        let arrays =
+            |row: &[f64]| [&row[..2], &row[2..4], &row[4..8], &row[8..]].map(<[f64]>::to_vec);
         rows.flat_map(arrays).collect()
     }
 }

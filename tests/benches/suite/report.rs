@@ -113,7 +113,8 @@ impl Report {
             );
         }
         if !self.operations.is_empty() {
-            text += "\n| operations | eigentol | of them signs | CasADi | ratio | CasADi, energies |\n";
+            text +=
+                "\n| operations | eigentol | of them signs | CasADi | ratio | CasADi, energies |\n";
             text += "| --- | ---: | ---: | ---: | ---: | ---: |\n";
         }
         for row in &self.operations {
