@@ -44,6 +44,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         items,
         "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
     )?;
+    let longest = COMPARED[checked].iter().max().ok_or("no chain")?;
+    write!(
+        items,
+        "/// The longest chain.\npub(crate) type Longest = Chain{longest};\n\
+         /// Its number of bars.\npub(crate) const LONGEST: usize = {longest};"
+    )?;
     fs::write(folder.join("chains.rs"), in_lines(&items))?;
 
     let (mut items, mut visits) = (String::new(), String::new());

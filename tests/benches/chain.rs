@@ -18,9 +18,8 @@ pub(crate) fn declaration(name: &str, bars: usize) -> String {
     text += "joint q1: revolute(y) from shaft to bar1;";
     for k in 2..=bars {
         let before = k - 1;
-        text += &format!(
-            "joint q{k}: revolute(y) from bar{before} to bar{k} at [0, 0, -l{before}];"
-        );
+        text +=
+            &format!("joint q{k}: revolute(y) from bar{before} to bar{k} at [0, 0, -l{before}];");
     }
     text + "}"
 }

@@ -12,18 +12,22 @@ use crate::work::Work;
 type Evaluate =
     unsafe extern "C" fn(*const *const f64, *const *mut f64, *mut i64, *mut f64, c_int) -> c_int;
 
-/// A loaded function and its prepared inputs: for each evaluation one array per argument.
+/// A loaded function and its prepared inputs.
 pub(crate) struct CasadiWork {
     evaluate: Evaluate,
-    inputs: Vec<Vec<Vec<f64>>>,
+    /// For every input one pointer per argument, into `_inputs`.
+    arguments: Vec<Vec<*const f64>>,
+    /// One pointer per result, into `outputs`.
+    results: Vec<*mut f64>,
     outputs: Vec<Vec<f64>>,
     integers: Vec<i64>,
     reals: Vec<f64>,
+    _inputs: Vec<Vec<Vec<f64>>>,
     _library: Library,
 }
 
 impl CasadiWork {
-    /// Loads `name`, whose arguments have the lengths of the arrays in `inputs`.
+    /// Loads `name`; each of `inputs` has one array per argument.
     ///
     /// # Errors
     /// Where the library or the function is missing, or the arguments do not fit.
@@ -56,24 +60,28 @@ impl CasadiWork {
                 Ok(number() as usize)
             };
             let lengths = dense("in", number("in")?)?;
-            let fits = |input: &Vec<Vec<f64>>| {
-                input.iter().map(Vec::len).collect::<Vec<_>>() == lengths
-            };
+            let fits =
+                |input: &Vec<Vec<f64>>| input.iter().map(Vec::len).collect::<Vec<_>>() == lengths;
             if !inputs.iter().all(fits) {
                 return Err(format!("{name} takes arrays of lengths {lengths:?}"));
             }
             type Sizes = unsafe extern "C" fn(*mut i64, *mut i64, *mut i64, *mut i64) -> c_int;
-            let work: Symbol<Sizes> =
-                library.get(format!("{name}_work").as_bytes()).map_err(fail)?;
+            let work: Symbol<Sizes> = library
+                .get(format!("{name}_work").as_bytes())
+                .map_err(fail)?;
             let [mut arguments, mut results, mut integers, mut reals] = [0_i64; 4];
             work(&mut arguments, &mut results, &mut integers, &mut reals);
-            let outputs = dense("out", number("out")?)?;
+            let lengths = dense("out", number("out")?)?.into_iter();
+            let mut outputs: Vec<Vec<f64>> = lengths.map(|length| vec![0.0; length]).collect();
+            let pointers = |input: &Vec<Vec<f64>>| input.iter().map(|x| x.as_ptr()).collect();
             Ok(Self {
                 evaluate,
-                inputs,
-                outputs: outputs.into_iter().map(|length| vec![0.0; length]).collect(),
+                arguments: inputs.iter().map(pointers).collect(),
+                results: outputs.iter_mut().map(|x| x.as_mut_ptr()).collect(),
+                outputs,
                 integers: vec![0; integers as usize + 1],
                 reals: vec![0.0; reals as usize + 1],
+                _inputs: inputs,
                 _library: library,
             })
         }
@@ -81,39 +89,28 @@ impl CasadiWork {
 }
 
 impl Work for CasadiWork {
-    fn run(&mut self, repetitions: u64) {
-        let pointers: Vec<Vec<*const f64>> = self
-            .inputs
-            .iter()
-            .map(|input| input.iter().map(|array| array.as_ptr()).collect())
-            .collect();
-        let outputs: Vec<*mut f64> = self.outputs.iter_mut().map(|x| x.as_mut_ptr()).collect();
-        let count = pointers.len();
-        let mut next = 0;
-        for _ in 0..repetitions {
-            // SAFETY: `load` checked the lengths of the arguments and took those of results and work space from the function.
-            #[allow(unsafe_code)]
-            unsafe {
-                (self.evaluate)(
-                    black_box(pointers[next].as_ptr()),
-                    outputs.as_ptr(),
-                    self.integers.as_mut_ptr(),
-                    self.reals.as_mut_ptr(),
-                    0,
-                );
-            }
-            black_box(&outputs);
-            next += 1;
-            if next == count {
-                next = 0;
-            }
+    fn inputs(&self) -> usize {
+        self.arguments.len()
+    }
+
+    fn evaluate(&mut self, input: usize) {
+        // SAFETY: `load` checked the lengths of the arguments and took those of results and work space from the function;
+        // the arrays behind the pointers live as long as `self` and are never moved.
+        #[allow(unsafe_code)]
+        unsafe {
+            (self.evaluate)(
+                black_box(self.arguments[input].as_ptr()),
+                self.results.as_ptr(),
+                self.integers.as_mut_ptr(),
+                self.reals.as_mut_ptr(),
+                0,
+            );
         }
+        black_box(&self.outputs);
     }
 
     fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
-        self.inputs.swap(0, input);
-        self.run(1);
-        self.inputs.swap(0, input);
+        self.evaluate(input);
         self.outputs.clone()
     }
 }

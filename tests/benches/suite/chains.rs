@@ -6,7 +6,7 @@ use eigentol::{Linear, Mechanism};
 
 use crate::casadi::CasadiWork;
 use crate::tools::{Tools, newer, source};
-use crate::work::{Closures, INPUTS, Random, Task, Work};
+use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
 
 /// Sees every chain.
 pub(crate) trait Visitor {
@@ -21,6 +21,8 @@ mod generated {
 
     include!(concat!(env!("OUT_DIR"), "/chains.rs"));
 }
+
+pub(crate) use generated::{LONGEST, Longest};
 
 /// Functions that are timed, by the names of CasADi's side.
 const FUNCTIONS: [&str; 4] = ["residual_and_stiffness", "linear", "mode_gradient", "all"];
@@ -58,6 +60,7 @@ impl Visitor for Collector<'_> {
             self.tasks.push(Task {
                 name,
                 units: 1,
+                agreement: AGREEMENT,
                 ours: ours(chain.clone(), function),
                 peer: peer::<N, P>(self.tools, function),
             });
@@ -121,7 +124,11 @@ where
             results: move |s: &State<N, P>| {
                 let gradient = again.mode_gradient(&s.q, &s.u, &s.b, &s.phi, s.lambda);
                 let by_coordinate = gradient.coordinates.to_vec();
-                vec![by_coordinate, gradient.inputs.to_vec(), gradient.design.to_vec()]
+                vec![
+                    by_coordinate,
+                    gradient.inputs.to_vec(),
+                    gradient.design.to_vec(),
+                ]
             },
         }),
         _ => Box::new(Closures {
@@ -144,8 +151,8 @@ where
     let columns = (0..P).flat_map(|k| by_design.map(|row| row[k])).collect();
     let partials = chain.linear_partials(&s.q, &s.u, &s.b);
     let mut results = vec![by_input.concat(), columns];
-    let matrices: [fn(&Linear<f64, N>) -> [[f64; N]; N]; 2] = [|x| x.mass, |x| x.stiffness];
-    for matrix in matrices {
+    for mass in [true, false] {
+        let matrix = |x: &Linear<f64, N>| if mass { x.mass } else { x.stiffness };
         let flat = |all: &[Linear<f64, N>]| all.iter().flat_map(|x| matrix(x).concat()).collect();
         results.push(flat(&partials.by_coordinate));
         results.push(flat(&partials.by_input));
@@ -173,5 +180,9 @@ fn peer<const N: usize, const P: usize>(
         }
         arguments
     });
-    Ok(Box::new(CasadiWork::load(&library, &name, inputs.collect())?))
+    Ok(Box::new(CasadiWork::load(
+        &library,
+        &name,
+        inputs.collect(),
+    )?))
 }

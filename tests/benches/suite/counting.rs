@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::work::{INPUTS, Task, Work};
+use crate::work::{Task, Work};
 
 /// Set in the run under valgrind.
 const VARIABLE: &str = "EIGENTOL_BENCH_COUNTED";
@@ -26,7 +26,7 @@ pub(crate) type Counts = BTreeMap<String, [Option<f64>; 2]>;
 // SAFETY: no other symbol of the program has this name.
 #[unsafe(no_mangle)]
 fn eigentol_bench_counted(work: &mut dyn Work) {
-    work.run(INPUTS as u64);
+    work.run(work.inputs() as u64);
     // Not a tail call: callgrind has to see the return.
     black_box(());
 }
@@ -34,7 +34,7 @@ fn eigentol_bench_counted(work: &mut dyn Work) {
 /// In the run under valgrind: every task once over all inputs, and its name.
 pub(crate) fn run(tasks: Vec<Task>) {
     for mut task in tasks {
-        let runs = INPUTS * task.units;
+        let runs = task.ours.inputs() * task.units;
         task.ours.run(1);
         eigentol_bench_counted(&mut *task.ours);
         println!("{} 0 {runs}", task.name);
@@ -89,8 +89,8 @@ pub(crate) fn count(folder: &Path) -> Result<Counts, String> {
 
 /// The total of a profile: its line `summary: N`.
 fn total(profile: &Path) -> Result<f64, String> {
-    let text = fs::read_to_string(profile)
-        .map_err(|error| format!("{}: {error}", profile.display()))?;
+    let text =
+        fs::read_to_string(profile).map_err(|error| format!("{}: {error}", profile.display()))?;
     text.lines()
         .find_map(|line| line.strip_prefix("summary: "))
         .and_then(|number| number.trim().parse().ok())

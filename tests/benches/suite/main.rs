@@ -1,12 +1,15 @@
 //! The benchmark suite: eigentol beside its strongest peers. `tests/benches/README.md` says how to run and read it.
 
+mod arm;
 mod casadi;
 mod chains;
 mod counting;
 #[path = "../chain.rs"]
 mod declaration;
+mod facts;
 mod growth;
 mod operations;
+mod pendulum;
 mod report;
 mod timing;
 mod tools;
@@ -21,10 +24,10 @@ use criterion::Criterion;
 
 use report::{Growth, Report, Row};
 use tools::{Target, Tools};
-use work::{INPUTS, Task, difference};
+use work::{Task, difference};
 
-/// Results of both sides agree to this, relative to the greatest entry of their array, or nothing is timed.
-const AGREEMENT: f64 = 1e-12;
+/// Its peer takes a C compiler minutes: once is enough, its instructions are not counted.
+const SLOW_TO_COMPILE: &str = "chain16/all";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = results_folder();
@@ -32,14 +35,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let wanted = |name: &str| filter().is_none_or(|part| name.contains(&part));
     if counting::counted() {
         let mut tools = Tools::new(&folder, Target::Counted);
-        counting::run(tasks(&wanted, &mut tools));
+        let quick = |name: &str| wanted(name) && name != SLOW_TO_COMPILE;
+        counting::run(tasks(&quick, &mut tools)?);
         return Ok(());
     }
 
     let mut tools = Tools::new(&folder, Target::Native);
     let mut criterion = timing::criterion().output_directory(&folder.join("criterion"));
     let mut rows = Vec::new();
-    for task in tasks(&wanted, &mut tools) {
+    for task in tasks(&wanted, &mut tools)? {
         rows.push(measure(&mut criterion, task)?);
     }
     let growth = growth::kernels().into_iter();
@@ -55,15 +59,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     criterion.final_summary();
 
     let operations = match wanted("operations") {
-        true => operations::count(&mut tools),
+        true => operations::count(&mut tools)?,
         false => Vec::new(),
     };
+    let mut singles = tools::setting();
+    if wanted(facts::PENDULUM) {
+        singles.extend(facts::pendulum());
+    }
+    if wanted(facts::LONG_CHAIN) {
+        singles.extend(facts::long_chain());
+    }
     let report = Report {
         counts: counting::count(&folder),
         rows,
         operations,
         growth,
-        facts: Vec::new(),
+        facts: singles,
     };
     report.write(&folder)?;
     println!("{}", report.table());
@@ -72,8 +83,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Everything that has a peer.
-fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Task> {
-    chains::tasks(wanted, tools)
+fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, Box<dyn Error>> {
+    let mut tasks = pendulum::tasks(wanted, tools)?;
+    tasks.extend(arm::tasks(wanted, tools));
+    tasks.extend(chains::tasks(wanted, tools));
+    Ok(tasks)
 }
 
 /// Compares the results of both sides, then times them.
@@ -81,10 +95,10 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let name = task.name;
     let mut worst = None;
     if let Ok(peer) = &mut task.peer {
-        for input in 0..INPUTS {
+        for input in 0..peer.inputs() {
             let found = difference(&task.ours.results(input), &peer.results(input))
                 .map_err(|reason| format!("{name}: {reason}"))?;
-            if found > AGREEMENT {
+            if found > task.agreement {
                 return Err(format!("{name}: results differ by {found:e}"));
             }
             worst = Some(found.max(worst.unwrap_or(0.0)));
@@ -94,7 +108,10 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
     let units = task.units;
     let ours = timing::time(criterion, &id("eigentol"), units, &mut *task.ours);
     let (peer, absent) = match &mut task.peer {
-        Ok(peer) => (timing::time(criterion, &id("peer"), units, &mut **peer), None),
+        Ok(peer) => (
+            timing::time(criterion, &id("peer"), units, &mut **peer),
+            None,
+        ),
         Err(reason) => (None, Some(reason.clone())),
     };
     Ok(Row {
@@ -115,5 +132,7 @@ fn results_folder() -> PathBuf {
 
 /// Criterion's filter: the first argument that is no option.
 fn filter() -> Option<String> {
-    env::args().skip(1).find(|argument| !argument.starts_with('-'))
+    env::args()
+        .skip(1)
+        .find(|argument| !argument.starts_with('-'))
 }

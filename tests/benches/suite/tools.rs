@@ -86,6 +86,32 @@ impl Tools {
     }
 }
 
+/// What this was measured with: names and versions, as far as they can be asked for.
+pub(crate) fn setting() -> Vec<(String, String)> {
+    let version = |program: String| {
+        let output = Command::new(program).arg("--version").output().ok()?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.lines().next().map(str::to_owned)
+    };
+    let named = |variable: &str, default: &str| {
+        version(env::var(variable).unwrap_or_else(|_| default.to_owned()))
+    };
+    let processor = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_owned())
+    });
+    let found = [
+        ("processor", processor),
+        ("C", named("CC", "cc")),
+        ("C++", named("CXX", "c++")),
+        ("Rust", named("RUSTC", "rustc")),
+    ];
+    let found = found.into_iter();
+    found
+        .map(|(name, value)| (name.to_owned(), value.unwrap_or_else(|| "-".to_owned())))
+        .collect()
+}
+
 /// A file of the folder `peers`.
 pub(crate) fn source(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -5,12 +5,30 @@ use std::hint::black_box;
 /// Prepared inputs of every task; a run goes round them, so that nothing can be carried over from call to call.
 pub(crate) const INPUTS: usize = 64;
 
+/// Results of both sides agree to this, relative to the greatest entry of their array, or nothing is timed.
+pub(crate) const AGREEMENT: f64 = 1e-12;
+
 /// An implementation of a task.
 pub(crate) trait Work {
-    /// Evaluates `repetitions` times.
-    fn run(&mut self, repetitions: u64);
+    /// Number of prepared inputs.
+    fn inputs(&self) -> usize;
+    /// Evaluates one input; results go to the optimiser's barrier.
+    fn evaluate(&mut self, input: usize);
     /// The results for one input, array by array, to be compared with those of another implementation.
     fn results(&mut self, input: usize) -> Vec<Vec<f64>>;
+
+    /// Evaluates `repetitions` times, round the inputs.
+    fn run(&mut self, repetitions: u64) {
+        let count = self.inputs();
+        let mut next = 0;
+        for _ in 0..repetitions {
+            self.evaluate(next);
+            next += 1;
+            if next == count {
+                next = 0;
+            }
+        }
+    }
 }
 
 /// A task that both sides do, or only we where the peer is absent.
@@ -19,6 +37,8 @@ pub(crate) struct Task {
     pub(crate) name: String,
     /// Evaluations, speeds or samples in one repetition: times and counts are given for one of them.
     pub(crate) units: usize,
+    /// The results agree to this.
+    pub(crate) agreement: f64,
     pub(crate) ours: Box<dyn Work>,
     /// The peer, or why it is absent.
     pub(crate) peer: Result<Box<dyn Work>, String>,
@@ -37,16 +57,12 @@ where
     E: FnMut(&S),
     R: FnMut(&S) -> Vec<Vec<f64>>,
 {
-    fn run(&mut self, repetitions: u64) {
-        let count = self.inputs.len();
-        let mut next = 0;
-        for _ in 0..repetitions {
-            (self.evaluate)(black_box(&self.inputs[next]));
-            next += 1;
-            if next == count {
-                next = 0;
-            }
-        }
+    fn inputs(&self) -> usize {
+        self.inputs.len()
+    }
+
+    fn evaluate(&mut self, input: usize) {
+        (self.evaluate)(black_box(&self.inputs[input]));
     }
 
     fn results(&mut self, input: usize) -> Vec<Vec<f64>> {
