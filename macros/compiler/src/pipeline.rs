@@ -1,5 +1,7 @@
 //! The recipe: every stage in order.
 
+use std::fmt::Debug;
+
 use proc_macro2::TokenStream;
 
 use crate::algebra::Function;
@@ -66,6 +68,14 @@ impl Compilation {
 
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
-        emit(&self.mechanism, &self.functions, &self.program)
+        self.emit_with(str::parse)
+    }
+
+    /// The generated items, their text taken apart by another lexer.
+    pub fn emit_with<E: Debug>(
+        &self,
+        lexer: impl Fn(&str) -> Result<TokenStream, E>,
+    ) -> TokenStream {
+        emit(&self.mechanism, &self.functions, &self.program, lexer)
     }
 }
