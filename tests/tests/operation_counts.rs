@@ -1,12 +1,14 @@
-//! What the generated code costs: additions and multiplications for a chain of `n` bars on a spinning shaft, with the
-//! length and the mass of every bar as design variables.
+//! What the generated code costs, for a chain of `n` bars on a spinning shaft with the length and the mass of every bar as
+//! design variables, and for a robot arm.
 
 use eigentol_compiler::algebra::{Cost, Function, cost, regroup};
 use eigentol_compiler::base::ids::ExprId;
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Functions, Limits};
 use eigentol_oracle::declaration::declaration;
-use eigentol_oracle::examples::chain;
+use eigentol_oracle::examples::{arm, chain};
+use eigentol_oracle::model::{Coordinate, Force, ForceLaw, Model, Value};
+use eigentol_oracle::truth::Truth;
 
 /// Bars, and what an expert's closed forms cost in CasADi 3.8: residual, mass and stiffness matrix; gradient of a mode's
 /// functional; these with all partial derivatives. Every node counts but inputs, outputs and constants.
@@ -90,7 +92,10 @@ fn chain_counts(bars: usize) -> (usize, usize, Option<usize>) {
 
 /// Partial derivatives of mass and stiffness by coordinates and design variables.
 fn partials_without_inputs(functions: &Functions) -> Vec<ExprId> {
-    let kernel = functions.functions.iter().find(|f| f.name == "linear_partials");
+    let kernel = functions
+        .functions
+        .iter()
+        .find(|f| f.name == "linear_partials");
     let kernel = kernel.expect("partials are written out");
     // three matrices by coordinates, by inputs, by design variables
     let [by_coordinate, _, by_design] = [0, 1, 2].map(|k| &kernel.results[3 * k..3 * k + 3]);

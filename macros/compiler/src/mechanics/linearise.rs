@@ -195,6 +195,18 @@ impl Linear {
         [&self.mass[..], &self.damping, &self.stiffness].concat()
     }
 
+    /// All entries of the matrices linearised along any motion: the mass matrix does not know of it, and the other two have
+    /// no symmetry.
+    pub(super) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
+        let n = e.motion.len();
+        let mut roots = self.mass.clone();
+        for list in [&s.velocity, &s.q] {
+            let columns = columns(g, &e.motion, list);
+            roots.extend(entries(n).map(|(i, j)| columns[j][i]));
+        }
+        roots
+    }
+
     /// The three matrices.
     pub(super) fn arrays(&self, n: usize) -> Vec<Array> {
         linear_arrays(&self.roots(), n)
