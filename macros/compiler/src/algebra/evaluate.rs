@@ -128,6 +128,15 @@ pub(crate) fn apply_unary(operator: Unary, a: f64) -> f64 {
     }
 }
 
+/// [`apply_unary`] for a number known to the compiler: sine and cosine are exact at the doubles nearest to quarter turns,
+/// so that a frame declared as turned by 90 degrees has axes with zeros.
+pub(crate) fn fold_unary(operator: Unary, a: f64) -> f64 {
+    let value = apply_unary(operator, a);
+    let nearly_quarter = (value.abs() <= 2.0 * f64::EPSILON * a.abs())
+        && matches!(operator, Unary::Sin | Unary::Cos);
+    if nearly_quarter { 0.0 } else { value }
+}
+
 /// `a operator b`.
 pub(crate) fn apply_binary(operator: Operator, a: f64, b: f64) -> f64 {
     match operator {

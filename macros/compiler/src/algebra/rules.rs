@@ -3,7 +3,7 @@
 //! A rule sees the operands of a node about to be built and may answer with something simpler. Every rule is sampled
 //! numerically by a test that also checks that it fires.
 
-use super::evaluate::{apply_binary, apply_unary};
+use super::evaluate::{apply_binary, fold_unary};
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::ExprId;
 
@@ -322,7 +322,7 @@ pub(super) fn simplify_binary(
 /// Simplifies an operator of one operand, if a rule applies.
 pub(super) fn simplify_unary(g: &mut Graph, operator: Unary, a: ExprId) -> Option<ExprId> {
     if let Some(x) = g.constant_value(a) {
-        let value = apply_unary(operator, x);
+        let value = fold_unary(operator, x);
         if value.is_finite() {
             return Some(g.constant(value));
         }

@@ -1,6 +1,6 @@
 //! The recipe from a mechanism to its functions.
 
-use crate::algebra::{Array, Function, Graph, substitute};
+use crate::algebra::{Array, Function, Graph, Vector3, substitute};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::{Mechanism, Motion};
@@ -8,15 +8,17 @@ use crate::topology::Topology;
 
 use super::constraints::{self, Row};
 use super::functions::{Functions, Limits, Pose, Requirement, Role, Unknown};
+use super::inertial::{Inertial, inertial};
 use super::kernels::{kernels, parameter};
 use super::kinematics::{CoordinateMotion, Kinematics};
+use super::layout::{Layout, Runs};
 use super::linearise::{Jacobians, Linear, at_rest};
-use super::newton_euler::dynamics;
+use super::loads::transmitted;
 use super::outputs::outputs;
 use super::poses::poses;
 use super::properties;
 use super::requirements::requirements;
-use super::sources::Sources;
+use super::sources::{Selection, Sources};
 use super::steady_state;
 use super::symbols::Symbols;
 use super::values::Values;
@@ -33,28 +35,32 @@ pub fn derive(
     let g = &mut graph;
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
+    let runs = Runs::new(g, mechanism, topology, &values, &symbols);
     let unconstrained = Problem {
         mechanism,
         topology,
         symbols: &symbols,
         values: &values,
+        runs: &runs,
         rows: &[],
     };
     let rows = constraints::rows(g, &unconstrained);
     let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
     let symbols = symbols.clone().with_reactions(g, &labels);
+    let runs = runs.with_reactions(&symbols);
     let values = Values::new(g, mechanism, &symbols);
     let problem = Problem {
         mechanism,
         topology,
         symbols: &symbols,
         values: &values,
+        runs: &runs,
         rows: &rows,
     };
 
     steady_state::check(g, &problem)?;
     let equations = Equations::new(g, &problem);
-    let jacobians = Jacobians::new(g, &symbols, &equations);
+    let jacobians = Jacobians::new(g, &problem, &equations);
     properties::check(g, &problem, &jacobians)?;
     let properties = properties::establish(g, &problem, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &problem);
@@ -159,6 +165,8 @@ pub(super) struct Problem<'a> {
     pub(super) topology: &'a Topology,
     pub(super) symbols: &'a Symbols,
     pub(super) values: &'a Values<'a>,
+    /// The coordinates in which inertia and weight are derived.
+    pub(super) runs: &'a Runs,
     /// The equations of constraints.
     pub(super) rows: &'a [Row],
 }
@@ -183,6 +191,63 @@ impl Problem<'_> {
 
     /// Motion of every frame while the running coordinates stand at `running`.
     pub(super) fn kinematics(&self, g: &mut Graph, running: &[ExprId]) -> Kinematics {
+        let symbols = self.symbols;
+        let motions = self.motions(g, running, |k| CoordinateMotion {
+            position: symbols.q.values[k],
+            velocity: symbols.velocity.values[k],
+            acceleration: symbols.acceleration.values[k],
+        });
+        let layout = Layout::common(self.mechanism.bodies.len());
+        let still = Vector3::zero(g);
+        Kinematics::new(
+            g,
+            self.mechanism,
+            self.topology,
+            self.values,
+            motions,
+            &layout,
+            still,
+        )
+    }
+
+    /// Motion of every body as inertia and weight need it: along runs, the ground accelerated against gravity.
+    pub(super) fn inertial_kinematics(
+        &self,
+        g: &mut Graph,
+        running: &[ExprId],
+        sources: Sources,
+    ) -> Kinematics {
+        let mut motions = self.motions(g, running, |k| self.runs.motion(k));
+        let zero = g.zero();
+        if sources.inertia == Selection::None {
+            for motion in &mut motions {
+                motion.velocity = zero;
+                motion.acceleration = zero;
+            }
+        }
+        let ground = match sources.gravity {
+            true => self.values.vector(g, &self.mechanism.gravity).neg(g),
+            false => Vector3::zero(g),
+        };
+        let layout = &self.runs.layout;
+        Kinematics::new(
+            g,
+            self.mechanism,
+            self.topology,
+            self.values,
+            motions,
+            layout,
+            ground,
+        )
+    }
+
+    /// By coordinate id: the motion of all coordinates, `free` of the free ones.
+    fn motions(
+        &self,
+        g: &mut Graph,
+        running: &[ExprId],
+        free: impl Fn(usize) -> CoordinateMotion,
+    ) -> Vec<CoordinateMotion> {
         let zero = g.zero();
         let still = CoordinateMotion {
             position: zero,
@@ -191,11 +256,7 @@ impl Problem<'_> {
         };
         let mut coordinates = vec![still; self.mechanism.coordinates.len()];
         for (k, id) in self.topology.free.iter().enumerate() {
-            coordinates[id.index()] = CoordinateMotion {
-                position: self.symbols.q.values[k],
-                velocity: self.symbols.velocity.values[k],
-                acceleration: self.symbols.acceleration.values[k],
-            };
+            coordinates[id.index()] = free(k);
         }
         for (k, id) in self.topology.driven.iter().enumerate() {
             let coordinate = &self.mechanism.coordinates[id.index()];
@@ -217,7 +278,7 @@ impl Problem<'_> {
                 acceleration: self.symbols.velocity.values[free + k],
             };
         }
-        Kinematics::new(g, self.mechanism, self.topology, self.values, coordinates)
+        coordinates
     }
 
     /// For each unknown, the position of its joint on the way from the ground to the leaves; reactions stand behind them.
@@ -235,26 +296,85 @@ impl Problem<'_> {
         moving.map(place).chain(reactions).collect()
     }
 
-    /// The residual: along free and coasting coordinates, then the equations of constraints.
+    /// Inertia less weight of every body and along every coordinate.
+    pub(super) fn inertial(&self, g: &mut Graph, running: &[ExprId], sources: Sources) -> Inertial {
+        let kinematics = self.inertial_kinematics(g, running, sources);
+        inertial(g, self, &kinematics, sources)
+    }
+
+    /// The residual in its two parts.
+    fn parts(
+        &self,
+        g: &mut Graph,
+        running: &[ExprId],
+        kinematics: &Kinematics,
+        sources: Sources,
+    ) -> Parts {
+        let inertial = self.inertial(g, running, sources).along;
+        let loads = transmitted(g, self, kinematics, sources);
+        let moving = || self.topology.free.iter().chain(&self.topology.coasting);
+        let zeros = loads.constraints.iter().map(|_| g.zero());
+        Parts {
+            inertial: moving()
+                .map(|id| inertial[id.index()])
+                .chain(zeros)
+                .collect(),
+            applied: moving()
+                .map(|id| loads.along[id.index()])
+                .chain(loads.constraints.iter().copied())
+                .collect(),
+        }
+    }
+
+    /// The residual: along free and coasting coordinates, then the equations of constraints. `kinematics` is the motion while
+    /// the running coordinates stand at `running`.
     pub(super) fn residual(
         &self,
         g: &mut Graph,
+        running: &[ExprId],
         kinematics: &Kinematics,
         sources: Sources,
     ) -> Vec<ExprId> {
-        let all = dynamics(g, self, kinematics, sources);
-        let moving = self.topology.free.iter().chain(&self.topology.coasting);
-        moving
-            .map(|id| all.residual[id.index()])
-            .chain(all.constraints)
-            .collect()
+        let parts = self.parts(g, running, kinematics, sources);
+        self.together(g, &parts)
     }
+
+    fn together(&self, g: &mut Graph, parts: &Parts) -> Vec<ExprId> {
+        let inertial = self.runs.forces(g, &parts.inertial);
+        let inertial = self.in_unknowns(g, &inertial);
+        let sums: Vec<ExprId> = inertial
+            .into_iter()
+            .zip(&parts.applied)
+            .map(|(inertial, &applied)| g.add(inertial, applied))
+            .collect();
+        let coordinates = self.topology.free.iter().chain(&self.topology.coasting);
+        for (&value, id) in sums.iter().zip(coordinates) {
+            let name = &self.mechanism.coordinates[id.index()].name;
+            g.set_name(value, || format!("residual_{name}"));
+        }
+        sums
+    }
+
+    /// With the sums of the unknowns for the angles in all.
+    pub(super) fn in_unknowns(&self, g: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
+        let sums = self.runs.sums(g, self.symbols);
+        substitute(g, roots, &sums)
+    }
+}
+
+/// The residual in two parts: their sum, once the first is summed along runs.
+pub(super) struct Parts {
+    /// By unknown: inertia less weight, over the angles in all.
+    pub(super) inertial: Vec<ExprId>,
+    /// By unknown: forces and constraints, with the sign of inertia.
+    pub(super) applied: Vec<ExprId>,
 }
 
 /// The equations with the running coordinates at zero, which a steady state allows.
 pub(super) struct Equations {
-    /// `g(qddot, qdot, q; u, b)`.
+    /// `g(qddot, qdot, q; u, b)`, and its parts.
     pub(super) motion: Vec<ExprId>,
+    pub(super) parts: Parts,
     /// `g(qddot, 0, q; u, b)`.
     pub(super) without_velocity: Vec<ExprId>,
     /// `g(0, 0, q; u, b)`.
@@ -271,12 +391,14 @@ impl Equations {
     fn new(g: &mut Graph, problem: &Problem) -> Self {
         let zero = g.zero();
         let symbols = problem.symbols;
-        let kinematics = problem.kinematics_at_zero(g);
+        let running = vec![zero; symbols.running.ids.len()];
+        let kinematics = problem.kinematics(g, &running);
         let zeros = vec![zero; symbols.q.ids.len()];
-        let motion = problem.residual(g, &kinematics, Sources::ALL);
-        let inertia = problem.residual(g, &kinematics, Sources::INERTIA);
-        let applied = problem.residual(g, &kinematics, Sources::APPLIED);
-        let outputs = outputs(g, problem, &kinematics);
+        let parts = problem.parts(g, &running, &kinematics, Sources::ALL);
+        let motion = problem.together(g, &parts);
+        let inertia = problem.residual(g, &running, &kinematics, Sources::INERTIA);
+        let applied = problem.residual(g, &running, &kinematics, Sources::APPLIED);
+        let outputs = outputs(g, problem, &running, &kinematics);
         let without: Vec<_> = symbols.velocity.with(&zeros).collect();
         let without_velocity = substitute(g, &motion, &without);
         let rest = at_rest(g, symbols, &motion);
@@ -289,6 +411,7 @@ impl Equations {
         let outputs = at_rest(g, symbols, &outputs);
         Self {
             motion,
+            parts,
             without_velocity,
             rest,
             rest_inertia,

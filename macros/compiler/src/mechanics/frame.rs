@@ -17,6 +17,8 @@ pub(super) struct FrameMotion {
     pub(super) acceleration: Vector3,
     pub(super) angular_velocity: Vector3,
     pub(super) angular_acceleration: Vector3,
+    /// Both before the last turn, or before all turns of a run.
+    before_turn: (Vector3, Vector3),
     /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
     second_rate: Matrix3,
     /// Second time derivatives of the axes: `W` applied to each.
@@ -24,8 +26,8 @@ pub(super) struct FrameMotion {
 }
 
 impl FrameMotion {
-    /// The inertial frame.
-    pub(super) fn ground(g: &mut Graph) -> Self {
+    /// The inertial frame, or one accelerated against gravity.
+    pub(super) fn ground(g: &mut Graph, acceleration: Vector3) -> Self {
         let zero = Vector3::zero(g);
         let still = Matrix3([zero; 3]);
         Self {
@@ -33,9 +35,10 @@ impl FrameMotion {
             position: zero,
             offset: zero,
             velocity: zero,
-            acceleration: zero,
+            acceleration,
             angular_velocity: zero,
             angular_acceleration: zero,
+            before_turn: (zero, zero),
             second_rate: still,
             axes_second_rate: still,
         }
@@ -57,6 +60,11 @@ impl FrameMotion {
                 (arm, self.second_rate.apply(g, arm))
             }
         }
+    }
+
+    /// The body axes and their second time derivatives.
+    pub(super) fn axes(&self) -> [(Vector3, Vector3); 3] {
+        std::array::from_fn(|k| (self.orientation.axes.0[k], self.axes_second_rate.0[k]))
     }
 
     /// The same frame, from which the next body is counted.
@@ -148,22 +156,79 @@ impl FrameMotion {
         motion: CoordinateMotion,
         name: &str,
     ) -> Self {
+        let before = (self.angular_velocity, self.angular_acceleration);
+        let orientation = self.orientation.then_turned(g, axis, motion.position, name);
+        self.spun(g, before, direction, motion, orientation, name)
+    }
+
+    /// The frame after one more turn of a run about the same axis: `motion` is the sum over the run.
+    pub(super) fn turned_on(
+        self,
+        g: &mut Graph,
+        (axis, direction): (Vector3, Vector3),
+        motion: CoordinateMotion,
+        name: &str,
+    ) -> Self {
+        let orientation = self.orientation.turned_on(g, axis, motion.position, name);
+        self.spun(g, self.before_turn, direction, motion, orientation, name)
+    }
+
+    /// `omega = omega_before + d qdot`, `alpha = alpha_before + d qddot + omega_before x d qdot`.
+    fn spun(
+        self,
+        g: &mut Graph,
+        before: (Vector3, Vector3),
+        direction: Vector3,
+        motion: CoordinateMotion,
+        orientation: Orientation,
+        name: &str,
+    ) -> Self {
         let spin = direction.scale(g, motion.velocity);
         let growth = direction.scale(g, motion.acceleration);
-        let gyroscopic = self.angular_velocity.cross(g, spin);
+        let gyroscopic = before.0.cross(g, spin);
         let relative = growth.add(g, gyroscopic);
-        let omega = self.angular_velocity.add(g, spin);
-        let alpha = self.angular_acceleration.add(g, relative);
+        let omega = before.0.add(g, spin);
+        let alpha = before.1.add(g, relative);
         let angular_velocity = omega.set_name(g, &format!("{name}_angular_velocity"));
         let angular_acceleration = alpha.set_name(g, &format!("{name}_angular_acceleration"));
-        let orientation = self.orientation.then_turned(g, axis, motion.position, name);
         let second_rate = second_rate(g, angular_velocity, angular_acceleration);
         Self {
             orientation,
             angular_velocity,
             angular_acceleration,
+            before_turn: before,
             second_rate,
             axes_second_rate: second_rate.multiply(g, orientation.axes),
+            ..self
+        }
+    }
+
+    /// The frame with its motion written along its own axes; the offset stays as it is written.
+    pub(super) fn along_own_axes(self, g: &mut Graph) -> Self {
+        let to_own = self.orientation.axes.transpose();
+        let mut turn = |vector: Vector3| to_own.apply(g, vector);
+        let [
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+        ] = [
+            self.velocity,
+            self.acceleration,
+            self.angular_velocity,
+            self.angular_acceleration,
+        ]
+        .map(&mut turn);
+        let second_rate = second_rate(g, angular_velocity, angular_acceleration);
+        Self {
+            orientation: Orientation::aligned(g),
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+            before_turn: (angular_velocity, angular_acceleration),
+            second_rate,
+            axes_second_rate: second_rate,
             ..self
         }
     }

@@ -10,6 +10,7 @@ use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
 use crate::topology::Topology;
 
 use super::frame::FrameMotion;
+use super::layout::{BodyLayout, Layout};
 use super::values::{State, Values};
 
 /// A joint coordinate and its two time derivatives.
@@ -30,6 +31,20 @@ pub(super) struct BodyMotion {
     pub(super) from_origin: Vector3,
     /// The elementary motions of the joint, from the parent to the body.
     pub(super) steps: Vec<StepAxis>,
+    /// The place of the joint on its parent.
+    pub(super) seat: Seat,
+    /// Takes a vector from the axes in which this body's motion is written to those of its parent's; `None` where they
+    /// are the same.
+    pub(super) to_parent: Option<Matrix3>,
+}
+
+/// The place of a joint on the body nearer to the ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seat {
+    /// From the parent's origin, in the parent's body frame.
+    pub(super) arm: Vector3,
+    /// The same as the parent's motion is written.
+    pub(super) offset: Vector3,
 }
 
 /// Where an elementary motion acts.
@@ -40,6 +55,8 @@ pub(super) struct StepAxis {
     pub(super) turn: Option<Vector3>,
     /// Direction and amount of translation per unit of the coordinate; `None` for a turn.
     pub(super) slide: Option<Vector3>,
+    /// The axis of either in the body frame.
+    pub(super) own_axis: Vector3,
     /// A point of the axis, from the body's origin.
     pub(super) point: Vector3,
 }
@@ -96,20 +113,28 @@ pub(super) struct Kinematics {
 }
 
 impl Kinematics {
-    /// Runs the recursion. `coordinates` is by coordinate id.
+    /// Runs the recursion. `coordinates` is by coordinate id. Only with everything in the common frame do positions and
+    /// points have a meaning.
     pub(super) fn new(
         g: &mut Graph,
         mechanism: &Mechanism,
         topology: &Topology,
         values: &Values,
         coordinates: Vec<CoordinateMotion>,
+        layout: &Layout,
+        ground_acceleration: Vector3,
     ) -> Self {
-        let ground = FrameMotion::ground(g);
+        let ground = FrameMotion::ground(g, ground_acceleration);
         let placeholder = BodyMotion {
             frame: ground,
             from_axes: ground.orientation.axes,
             from_origin: ground.position,
             steps: Vec::new(),
+            seat: Seat {
+                arm: ground.position,
+                offset: ground.position,
+            },
+            to_parent: None,
         };
         let mut this = Self {
             coordinates,
@@ -122,7 +147,9 @@ impl Kinematics {
             let name = mechanism.bodies[branch.body.index()].name.to_string();
             let joint = &mechanism.joints[branch.joint.index()];
             let gliding = mechanism.glides(joint);
-            let motion = this.body(g, values, joint, (branch.reversed, gliding), &parent, &name);
+            let place = layout.of(branch.body);
+            let walk = (branch.reversed, gliding);
+            let motion = this.body(g, values, joint, walk, place, &parent, &name);
             this.bodies[branch.body.index()] = motion;
         }
         for point in &mechanism.points {
@@ -166,12 +193,14 @@ impl Kinematics {
 
     /// From the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
     /// the body to its parent is walked backwards, each motion about the opposite axis.
+    #[allow(clippy::too_many_arguments)]
     fn body(
         &self,
         g: &mut Graph,
         values: &Values,
         joint: &Joint,
         (reversed, gliding): (bool, bool),
+        layout: BodyLayout,
         parent: &FrameMotion,
         name: &str,
     ) -> BodyMotion {
@@ -213,13 +242,18 @@ impl Kinematics {
                 coordinate: step.coordinate,
                 turn,
                 slide,
+                own_axis: axis,
                 point,
             });
             if let Some(slide) = slide {
                 moving = moving.slid(g, slide, motion);
             }
             if let Some(direction) = turn {
-                moving = moving.turned(g, (axis, direction), motion, name);
+                let turn = (axis, direction);
+                moving = match layout.continues_run {
+                    false => moving.turned(g, turn, motion, name),
+                    true => moving.turned_on(g, turn, motion, name),
+                };
             }
         }
 
@@ -242,16 +276,75 @@ impl Kinematics {
                 frame.orientation.express(g, outboard_offset),
             ),
         };
+        let to_parent = layout.own_axes.then_some(frame.orientation.axes);
+        if gliding {
+            for step in &mut steps {
+                step.own_axis = outboard_rotation
+                    .map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
+            }
+        } else {
+            let axes = self.axes_in_body(g, values, joint, reversed, outboard_rotation);
+            for (step, axis) in steps.iter_mut().zip(axes) {
+                step.own_axis = axis;
+            }
+        }
+        if let Some(axes) = to_parent {
+            let to_own = axes.transpose();
+            for step in &mut steps {
+                step.slide = step.slide.map(|slide| match step.turn {
+                    Some(_) => to_own.apply(g, slide),
+                    None => step.own_axis,
+                });
+                step.turn = step.turn.map(|_| step.own_axis);
+                step.point = to_own.apply(g, step.point);
+            }
+            frame = frame.along_own_axes(g);
+        }
         BodyMotion {
             frame,
             from_axes,
             from_origin,
             steps,
+            seat: Seat {
+                arm: inboard_offset,
+                offset: joint_frame.offset,
+            },
+            to_parent,
         }
     }
 }
 
 impl Kinematics {
+    /// The axes of a joint's motions, from the parent to the body, in the frame of the body: each is turned by the motions
+    /// after it.
+    fn axes_in_body(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        joint: &Joint,
+        reversed: bool,
+        outboard: Option<Matrix3>,
+    ) -> Vec<Vector3> {
+        let mut to_body = outboard.unwrap_or_else(|| Matrix3::identity(g));
+        let mut axes = Vec::new();
+        let inwards: Vec<_> = match reversed {
+            false => joint.steps.iter().rev().collect(),
+            true => joint.steps.iter().collect(),
+        };
+        for step in inwards {
+            let axis = values.vector(g, &step.axis);
+            let axis = if reversed { axis.neg(g) } else { axis };
+            axes.push(to_body.apply(g, axis));
+            if step.motion != StepMotion::Slide {
+                let angle = self.coordinates[step.coordinate.index()].position;
+                let back = Matrix3::rotation(g, axis, angle).transpose();
+                to_body = to_body.multiply(g, back);
+            }
+        }
+        axes.reverse();
+        axes
+    }
+
     /// A motion in a plane that nothing depends on, by its speeds along the turned axes: quasi-velocities, with
     /// `a = vdot + omega x v`.
     fn glide(
@@ -278,6 +371,7 @@ impl Kinematics {
                 coordinate: step.coordinate,
                 turn: turns.then_some(direction),
                 slide: (!turns).then_some(direction),
+                own_axis: axis,
                 point: moving.offset,
             });
         }

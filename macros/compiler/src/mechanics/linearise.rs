@@ -3,8 +3,11 @@
 use crate::algebra::{Array, Direction, Graph, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};
 
+use super::composite::mass_matrix;
 use super::derive::{Equations, Problem};
 use super::functions::{Damping, Properties};
+use super::properties::vanish;
+use super::sources::Sources;
 use super::symbols::{SymbolList, Symbols};
 
 /// Derivative of `roots` by one symbol.
@@ -34,7 +37,7 @@ pub(super) fn at_rest(g: &mut Graph, s: &Symbols, roots: &[ExprId]) -> Vec<ExprI
 
 /// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.
 pub(super) struct Jacobians {
-    /// `Mhat = dg/dqddot` (eq. 15). It holds at any velocity, so it is taken at none.
+    /// `Mhat = dg/dqddot` (eq. 15). It holds at any velocity.
     pub(super) mass: Vec<Vec<ExprId>>,
     /// `Chat = dg/dqdot` (eq. 16, of the complete residual).
     pub(super) damping: Vec<Vec<ExprId>>,
@@ -43,14 +46,72 @@ pub(super) struct Jacobians {
 }
 
 impl Jacobians {
-    pub(super) fn new(g: &mut Graph, s: &Symbols, e: &Equations) -> Self {
-        let moving = columns(g, &e.motion, &s.velocity);
+    /// Inertia and weight are differentiated by the angles in all, forces and constraints by the unknowns.
+    pub(super) fn new(g: &mut Graph, problem: &Problem, e: &Equations) -> Self {
+        let (s, runs) = (problem.symbols, problem.runs);
+        let outward = problem.outward_order();
+        let running = vec![g.zero(); s.running.ids.len()];
+        let kinematics = problem.inertial_kinematics(g, &running, Sources::INERTIA);
+        let mass = mass_matrix(g, problem, &kinematics);
+        let mass = runs.matrix(g, &mass, true, &outward);
+
+        let inertial = &e.parts.inertial;
+        let still = |g: &mut Graph, roots: &[ExprId]| {
+            let zeros = vec![g.zero(); s.q.ids.len()];
+            let rates = runs.velocity.with(&zeros);
+            let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
+            let roots = substitute(g, roots, &all);
+            at_rest(g, s, &roots)
+        };
+        let at_rest_inertial = still(g, inertial);
+        let stiffness = columns(g, &at_rest_inertial, &runs.position);
+        let moving = columns(g, inertial, &runs.velocity);
+        let damping: Vec<_> = moving.iter().map(|column| still(g, column)).collect();
+        let stiffness = summed(g, problem, &stiffness, &outward);
+        let damping = summed(g, problem, &damping, &outward);
+
+        let applied = &e.parts.applied;
+        let applied_at_rest = at_rest(g, s, applied);
+        let by_position = columns(g, &applied_at_rest, &s.q);
+        let moving = columns(g, applied, &s.velocity);
+        let by_velocity: Vec<_> = moving.iter().map(|column| at_rest(g, s, column)).collect();
+        let mut in_unknowns = |columns: Vec<Vec<ExprId>>| -> Vec<Vec<ExprId>> {
+            let n = columns.len();
+            let flat = problem.in_unknowns(g, &columns.concat());
+            flat.chunks(n.max(1)).map(<[_]>::to_vec).collect()
+        };
+        let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
         Self {
-            mass: columns(g, &e.without_velocity, &s.acceleration),
-            damping: moving.iter().map(|column| at_rest(g, s, column)).collect(),
-            stiffness: columns(g, &e.rest, &s.q),
+            mass,
+            damping: added(g, &damping, &by_velocity),
+            stiffness: added(g, &stiffness, &by_position),
         }
     }
+}
+
+/// A matrix over the unknowns from one over the angles in all.
+fn summed(
+    g: &mut Graph,
+    problem: &Problem,
+    columns: &[Vec<ExprId>],
+    outward: &[usize],
+) -> Vec<Vec<ExprId>> {
+    let n = columns.len();
+    let mut asymmetry = Vec::new();
+    for j in 0..n {
+        for i in 0..j {
+            asymmetry.push(g.sub(columns[j][i], columns[i][j]));
+        }
+    }
+    let symmetric = vanish(g, problem, &asymmetry).into_iter().all(|zero| zero);
+    problem.runs.matrix(g, columns, symmetric, outward)
+}
+
+fn added(g: &mut Graph, a: &[Vec<ExprId>], b: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| g.add(a, b)).collect())
+        .collect()
 }
 
 /// The three linearised matrices, row by row, with what is known of them put to use.

@@ -4,7 +4,9 @@
 //! The only bridge between the wing that knows mechanisms and the wing that knows expressions.
 
 mod adjoint;
+mod augmented;
 mod closure;
+mod composite;
 mod constraints;
 mod derive;
 mod energy;
@@ -12,10 +14,12 @@ mod forces;
 mod frame;
 mod functions;
 mod inertia;
+mod inertial;
 mod kernels;
 mod kinematics;
+mod layout;
 mod linearise;
-mod newton_euler;
+mod loads;
 mod orientation;
 mod outputs;
 mod path;

@@ -9,6 +9,8 @@ use crate::base::ids::ExprId;
 pub(super) struct Orientation {
     base: Matrix3,
     turn: Option<(Vector3, ExprId)>,
+    /// The angle about the same axis before the last turn, or before all turns of a run.
+    before: Option<ExprId>,
     /// The axes of the body in the common frame.
     pub(super) axes: Matrix3,
 }
@@ -23,6 +25,7 @@ impl Orientation {
         Self {
             base: axes,
             turn: None,
+            before: None,
             axes,
         }
     }
@@ -43,9 +46,26 @@ impl Orientation {
         angle: ExprId,
         name: &str,
     ) -> Self {
-        let (base, total) = match self.turn {
-            Some((same, before)) if same == axis => (self.base, g.add(before, angle)),
-            _ => (self.axes, angle),
+        let (base, before) = match self.turn {
+            Some((same, before)) if same == axis => (self.base, Some(before)),
+            _ => (self.axes, None),
+        };
+        if g.is(angle, 0.0) {
+            return self;
+        }
+        let turned = Self {
+            base,
+            before,
+            ..self
+        };
+        turned.turned_on(g, axis, angle, name)
+    }
+
+    /// Turned about `axis` by `angle` since the last turn or the beginning of a run of turns.
+    pub(super) fn turned_on(self, g: &mut Graph, axis: Vector3, angle: ExprId, name: &str) -> Self {
+        let total = match self.before {
+            Some(before) => g.add(before, angle),
+            None => angle,
         };
         if g.is(total, 0.0) {
             return self;
@@ -57,11 +77,11 @@ impl Orientation {
             g.set_name(value, || format!("{function}_{angle}"));
         }
         let rotation = Matrix3::rotation(g, axis, total);
-        let axes = base.multiply(g, rotation);
+        let axes = self.base.multiply(g, rotation);
         Self {
-            base,
             turn: Some((axis, total)),
             axes,
+            ..self
         }
     }
 

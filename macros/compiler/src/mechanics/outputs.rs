@@ -3,23 +3,28 @@
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::model::expression::Expr;
-use crate::model::mechanism::ConstraintLaw;
+use crate::model::mechanism::{ConstraintLaw, Frame};
 
 use super::constraints::{Source, held};
 use super::derive::Problem;
 use super::energy::{kinetic, potential};
 use super::forces::Wrench;
 use super::kinematics::Kinematics;
-use super::newton_euler::dynamics;
+use super::loads::transmitted;
 use super::setting::Setting;
 use super::sources::Sources;
 use super::values::State;
 
 /// The declared outputs.
-pub(super) fn outputs(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<ExprId> {
+pub(super) fn outputs(
+    g: &mut Graph,
+    problem: &Problem,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<ExprId> {
     let state = Everything {
         kinematics,
-        reactions: reactions(g, problem, kinematics),
+        reactions: reactions(g, problem, running, kinematics),
         constraints: constraint_reactions(g, problem, kinematics),
         kinetic: kinetic(g, problem, kinematics),
         potential: potential(g, problem, kinematics),
@@ -62,13 +67,20 @@ impl State for Everything<'_> {
 
 /// What the `from` side of each joint exerts on its `to` side: force and moment at the origin of the joint frame on the
 /// `from` side, along its axes.
-fn reactions(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<[Vector3; 2]> {
-    let transmitted = dynamics(g, problem, kinematics, Sources::ALL).transmitted;
+fn reactions(
+    g: &mut Graph,
+    problem: &Problem,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<[Vector3; 2]> {
+    let loads = transmitted(g, problem, kinematics, Sources::ALL).wrenches;
+    let inertial = inertial_wrenches(g, problem, running, kinematics);
     let zero = Vector3::zero(g);
     let mut reactions = vec![[zero; 2]; problem.mechanism.joints.len()];
     for branch in &problem.topology.branches {
         let motion = kinematics.of(branch.body);
-        let load = transmitted[branch.body.index()];
+        let index = branch.body.index();
+        let load = loads[index].add(g, inertial[index]);
         let load = if branch.reversed { load.neg(g) } else { load };
         let shift = motion.from_origin.cross(g, load.force);
         let moment = load.moment.sub(g, shift);
@@ -82,6 +94,40 @@ fn reactions(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<[
         }
     }
     reactions
+}
+
+/// By body id: inertia less weight of a body and all it carries, about its origin, in the common frame.
+fn inertial_wrenches(
+    g: &mut Graph,
+    problem: &Problem,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<Wrench> {
+    let wrenches = problem.inertial(g, running, Sources::ALL).wrenches;
+    let mut axes = vec![kinematics.ground.orientation.axes; wrenches.len()];
+    for branch in &problem.topology.branches {
+        let index = branch.body.index();
+        axes[index] = match (problem.runs.layout.of(branch.body).own_axes, branch.parent) {
+            (true, _) => kinematics.of(branch.body).frame.orientation.axes,
+            (false, Frame::Body(parent)) => axes[parent.index()],
+            (false, Frame::Ground) => kinematics.ground.orientation.axes,
+        };
+    }
+    let parts: Vec<ExprId> = wrenches
+        .iter()
+        .zip(&axes)
+        .flat_map(|(wrench, axes)| [wrench.force, wrench.moment].map(|v| axes.apply(g, v).0))
+        .flatten()
+        .collect();
+    let vectors = problem.in_unknowns(g, &parts);
+    let vector = |c: &[ExprId]| Vector3([c[0], c[1], c[2]]);
+    vectors
+        .chunks_exact(6)
+        .map(|c| Wrench {
+            force: vector(&c[..3]),
+            moment: vector(&c[3..]),
+        })
+        .collect()
 }
 
 /// What each constraint exerts; see [`Expr::ConstraintReaction`].

@@ -1,6 +1,7 @@
 //! The way from a frame to the ground: common ancestors, and velocities relative to them.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::ids::BodyId;
 use crate::model::mechanism::{Frame, Mechanism};
 use crate::topology::{Branch, Topology};
 
@@ -20,10 +21,15 @@ impl Tree {
         Self { branch }
     }
 
+    /// How a body hangs on the one before.
+    pub(super) fn branch(&self, body: BodyId) -> Option<Branch> {
+        self.branch[body.index()]
+    }
+
     fn parent(&self, frame: Frame) -> Option<Branch> {
         match frame {
             Frame::Ground => None,
-            Frame::Body(body) => self.branch[body.index()],
+            Frame::Body(body) => self.branch(body),
         }
     }
 

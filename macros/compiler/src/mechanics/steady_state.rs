@@ -16,12 +16,13 @@ use super::sources::{Selection, Sources};
 /// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
 pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    let kinematics = problem.kinematics(g, &problem.symbols.running.values);
-    let residual = problem.residual(g, &kinematics, Sources::ALL);
-    let outputs = outputs(g, problem, &kinematics);
+    let running = &problem.symbols.running.values;
+    let kinematics = problem.kinematics(g, running);
+    let residual = problem.residual(g, running, &kinematics, Sources::ALL);
+    let outputs = outputs(g, problem, running, &kinematics);
     let outputs = at_rest(g, problem.symbols, &outputs);
-    let running: Vec<_> = problem.topology.running().collect();
-    for (&symbol, id) in problem.symbols.running.ids.iter().zip(running) {
+    let coordinates: Vec<_> = problem.topology.running().collect();
+    for (&symbol, id) in problem.symbols.running.ids.iter().zip(coordinates) {
         // Driven at a speed of zero is locked: the equations hold where it stands.
         if g.is(kinematics.coordinates[id.index()].velocity, 0.0) {
             continue;
@@ -76,6 +77,7 @@ fn causes(
     kinematics: &Kinematics,
     symbol: SymbolId,
 ) -> Vec<String> {
+    let running = &problem.symbols.running.values;
     let none = Sources {
         inertia: Selection::None,
         forces: Selection::None,
@@ -108,7 +110,7 @@ fn causes(
         ));
     }
     candidates.retain(|(sources, _)| {
-        let part = problem.residual(g, kinematics, *sources);
+        let part = problem.residual(g, running, kinematics, *sources);
         depends(g, problem, &part, symbol)
     });
     let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
@@ -116,7 +118,7 @@ fn causes(
         constraints: true,
         ..none
     };
-    let values = problem.residual(g, kinematics, constraints);
+    let values = problem.residual(g, running, kinematics, constraints);
     for (row, &value) in problem.rows.iter().zip(&values[problem.moving().1..]) {
         if depends(g, problem, &[value], symbol) {
             let source = row.source.name(problem.mechanism);

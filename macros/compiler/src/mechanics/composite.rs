@@ -1,0 +1,242 @@
+//! The mass matrix by composite bodies: what has to act on a coordinate for one to accelerate is read off the force and the
+//! moment that accelerate all the body carries as if it were rigid.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::model::mechanism::Frame;
+
+use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
+use super::derive::Problem;
+use super::forces::Wrench;
+use super::frame::FrameMotion;
+use super::kinematics::{BodyMotion, Kinematics, StepAxis};
+use super::path::Tree;
+use super::sources::Sources;
+
+/// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, as the body's motion is written.
+#[derive(Clone, Copy)]
+struct Composite {
+    mass: ExprId,
+    first: Vector3,
+    second: [[ExprId; 3]; 3],
+}
+
+impl Composite {
+    fn empty(g: &mut Graph) -> Self {
+        let zero = g.zero();
+        Self {
+            mass: zero,
+            first: Vector3::zero(g),
+            second: [[zero; 3]; 3],
+        }
+    }
+
+    fn of_body(g: &mut Graph, body: &AugmentedBody, motion: &FrameMotion) -> Self {
+        let axes = motion.axes().map(|(axis, _)| axis);
+        let mut this = Self::empty(g);
+        this.mass = body.mass;
+        for k in 0..3 {
+            let share = axes[k].scale(g, body.first.0[k]);
+            this.first = this.first.add(g, share);
+            let diagonal = axes[k].scale(g, body.second[k][k]);
+            this.add_second(g, |g, i, j| g.mul(diagonal.0[i], axes[k].0[j]));
+            for j in k + 1..3 {
+                let weighted = axes[j].scale(g, body.second[k][j]);
+                this.add_products(g, axes[k], weighted);
+            }
+        }
+        let zero = g.zero();
+        this.add_second(g, |_, i, j| if i == j { body.isotropic } else { zero });
+        this
+    }
+
+    fn add(&mut self, g: &mut Graph, other: &Self) {
+        self.mass = g.add(self.mass, other.mass);
+        self.first = self.first.add(g, other.first);
+        self.add_second(g, |_, i, j| other.second[i][j]);
+    }
+
+    /// Adds a symmetric matrix, given by its entries on and above the diagonal, to the second moment.
+    fn add_second(
+        &mut self,
+        g: &mut Graph,
+        mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
+    ) {
+        for i in 0..3 {
+            for j in i..3 {
+                let more = entry(g, i, j);
+                let sum = g.add(self.second[i][j], more);
+                (self.second[i][j], self.second[j][i]) = (sum, sum);
+            }
+        }
+    }
+
+    /// Adds `a b^T + b a^T` to the second moment.
+    fn add_products(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
+        self.add_second(g, |g, i, j| {
+            let product = g.mul(a.0[i], b.0[j]);
+            let mirrored = g.mul(b.0[i], a.0[j]);
+            g.add(product, mirrored)
+        });
+    }
+
+    /// As the parent's motion is written, about the parent's origin. Only `mass` is not part of the augmented parent.
+    fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
+        let mut moved = Self { mass, ..*self };
+        if let Some(rotation) = motion.to_parent {
+            moved.first = rotation.apply(g, self.first);
+            moved.second = rotation.turn_symmetric(g, self.second);
+        }
+        let offset = motion.frame.offset;
+        let first = moved.first;
+        moved.add_products(g, offset, first);
+        let share = offset.scale(g, mass);
+        moved.add_second(g, |g, i, j| g.mul(offset.0[i], share.0[j]));
+        moved.first = moved.first.add(g, share);
+        moved
+    }
+}
+
+/// Force and moment that a unit acceleration along `step` takes: of a body and of what it carries.
+fn accelerating(
+    g: &mut Graph,
+    step: &StepAxis,
+    body: &AugmentedBody,
+    motion: &FrameMotion,
+    carried: &Composite,
+) -> Wrench {
+    let own = Composite::of_body(g, body, motion);
+    let mass = g.add(own.mass, carried.mass);
+    let first = own.first.add(g, carried.first);
+    let zero = Vector3::zero(g);
+    let (mut force, mut moment) = (zero, zero);
+    if let Some(axis) = step.turn {
+        // the body's own in its axes, where it is constant
+        let twice = g.scale(2.0, body.isotropic);
+        let own_moment = spun(g, body.second, step.own_axis);
+        let isotropic = step.own_axis.scale(g, twice);
+        let own_moment = own_moment.add(g, isotropic);
+        let own_moment = motion.orientation.express(g, own_moment);
+        let carried_moment = spun(g, carried.second, axis);
+        let about_point = step.point.scale(g, mass);
+        let lever = first.sub(g, about_point);
+        force = axis.cross(g, lever);
+        let at_origin = axis.cross(g, step.point);
+        let shift = first.cross(g, at_origin);
+        moment = own_moment.add(g, carried_moment).sub(g, shift);
+    }
+    if let Some(slide) = step.slide {
+        let push = slide.scale(g, mass);
+        let turning = first.cross(g, slide);
+        force = force.add(g, push);
+        moment = moment.add(g, turning);
+    }
+    Wrench { force, moment }
+}
+
+/// `integral rho x (axis x rho) dm = (tr second 1 - second) axis`, without the terms that cancel.
+fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Vector3 {
+    Vector3(std::array::from_fn(|i| {
+        let mut sum = g.zero();
+        for j in (0..3).filter(|&j| j != i) {
+            let across = g.mul(second[j][j], axis.0[i]);
+            let along = g.mul(second[i][j], axis.0[j]);
+            let difference = g.sub(across, along);
+            sum = g.add(sum, difference);
+        }
+        sum
+    }))
+}
+
+/// The mass matrix over the angles in all, by columns; zero beyond the coordinates that move. Only accelerations of free
+/// coordinates have columns.
+pub(super) fn mass_matrix(
+    g: &mut Graph,
+    problem: &Problem,
+    kinematics: &Kinematics,
+) -> Vec<Vec<ExprId>> {
+    let topology = problem.topology;
+    let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);
+    let count = problem.mechanism.bodies.len();
+    let empty = Composite::empty(g);
+    // carried: what turns with the body's angle; going on: what continues its run
+    let mut carried = vec![empty; count];
+    let mut going_on = vec![empty; count];
+    for branch in topology.branches.iter().rev() {
+        let Frame::Body(parent) = branch.parent else {
+            continue;
+        };
+        let index = branch.body.index();
+        let motion = kinematics.of(branch.body);
+        let mut all = carried[index];
+        all.add(g, &going_on[index]);
+        let apart = all.mass;
+        let own = Composite::of_body(g, &bodies[index], &motion.frame);
+        all.add(g, &own);
+        let mass = if rides_on_seat(g, motion) {
+            apart
+        } else {
+            all.mass
+        };
+        let moved = all.moved_to_parent(g, motion, mass);
+        let slot = match problem.runs.layout.of(branch.body).continues_run {
+            true => &mut going_on[parent.index()],
+            false => &mut carried[parent.index()],
+        };
+        slot.add(g, &moved);
+    }
+
+    let n = problem.symbols.q.ids.len();
+    let free = topology.free.len();
+    let tree = Tree::new(problem.mechanism, topology);
+    let unknown = |step: &StepAxis| {
+        let mut moving = topology.free.iter().chain(&topology.coasting);
+        moving.position(|&id| id == step.coordinate)
+    };
+    let mut columns = vec![vec![g.zero(); n]; n];
+    for branch in &topology.branches {
+        let index = branch.body.index();
+        let motion = kinematics.of(branch.body);
+        for step in &motion.steps {
+            let Some(j) = unknown(step) else { continue };
+            let load = accelerating(g, step, &bodies[index], &motion.frame, &carried[index]);
+            let mut set = |g: &mut Graph, at: &BodyMotion, load: Wrench| {
+                for other in &at.steps {
+                    let Some(i) = unknown(other) else { continue };
+                    let entry = other.project(g, load.force, load.moment);
+                    for (row, column) in [(i, j), (j, i)] {
+                        if column < free {
+                            columns[column][row] = entry;
+                        }
+                    }
+                }
+            };
+            set(g, motion, load);
+            let mut load = load;
+            let mut at = *branch;
+            while let Frame::Body(parent) = at.parent {
+                let motion = kinematics.of(at.body);
+                if let Some(rotation) = motion.to_parent {
+                    load.force = rotation.apply(g, load.force);
+                    load.moment = rotation.apply(g, load.moment);
+                }
+                let shift = motion.frame.offset.cross(g, load.force);
+                load.moment = load.moment.add(g, shift);
+                let turning = match problem.runs.layout.of(at.body).continues_run {
+                    true => shift,
+                    false => load.moment,
+                };
+                let seen = Wrench {
+                    moment: turning,
+                    ..load
+                };
+                set(g, kinematics.of(parent), seen);
+                let Some(next) = tree.branch(parent) else {
+                    break;
+                };
+                at = next;
+            }
+        }
+    }
+    columns
+}

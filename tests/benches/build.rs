@@ -1,0 +1,102 @@
+//! Kernels of the chain of bars, one mechanism for every size that is timed.
+//!
+//! A build script rather than `mechanism!`: only it can lift the bound on explicit partials, so that all of them are timed up
+//! to 16 bars, and only it knows the profile: what is merely checked (`cargo clippy`) gets the small chains.
+
+use std::env;
+use std::error::Error;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::lower;
+use eigentol_compiler::{Compilation, compile};
+
+#[path = "chain.rs"]
+mod chain;
+
+/// Sizes of the chains that are compared with a peer, and of those whose growth is measured.
+const COMPARED: [&[usize]; 2] = [&[2, 4, 8, 16, 32], &[2]];
+const GROWN: [&[usize]; 2] = [&[1, 2, 4, 8, 16, 32, 64], &[1]];
+
+/// The largest chain whose explicit partials are written out.
+const MOST_WITH_PARTIALS: usize = 16;
+
+/// The kernels whose growth is measured: `growth::Kernels` is the contract cut down to them.
+const GROWING: [&str; 3] = ["residual", "mode_gradient", "mode_gradient_along"];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=chain.rs");
+    let checked = usize::from(env::var("PROFILE")? != "release");
+    let folder = env::var("OUT_DIR")?;
+    let folder = Path::new(&folder);
+
+    let (mut items, mut visits) = (String::new(), String::new());
+    for &bars in COMPARED[checked] {
+        let name = format!("Chain{bars}");
+        write!(items, "{}", compiled(&name, bars)?.emit())?;
+        write!(visits, "visitor.visit({name});")?;
+    }
+    let visitor = "/// Shows every chain to the visitor, shortest first.\npub(crate) fn visit_all";
+    write!(
+        items,
+        "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
+    )?;
+    let longest = COMPARED[checked].iter().max().ok_or("no chain")?;
+    write!(
+        items,
+        "/// The longest chain.\npub(crate) type Longest = Chain{longest};\n\
+         /// Its number of bars.\npub(crate) const LONGEST: usize = {longest};"
+    )?;
+    fs::write(folder.join("chains.rs"), in_lines(&items))?;
+
+    let (mut items, mut visits) = (String::new(), String::new());
+    for &bars in GROWN[checked] {
+        let name = format!("Growing{bars}");
+        let text = growing(&name, bars)?;
+        let bytes = text.len();
+        items += &text;
+        write!(visits, "visitor.visit({name}, {bytes});")?;
+    }
+    write!(
+        items,
+        "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
+    )?;
+    fs::write(folder.join("growing.rs"), in_lines(&items))?;
+    Ok(())
+}
+
+/// Statements on lines of their own: rustc looks up the column of every operation, which takes as long as its line.
+fn in_lines(items: &str) -> String {
+    items.replace("; ", ";\n")
+}
+
+fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
+    let explicit_partials = match bars <= MOST_WITH_PARTIALS {
+        true => usize::MAX,
+        false => 0,
+    };
+    let declaration = chain::declaration(name, bars).parse()?;
+    let compilation = compile(declaration, Limits { explicit_partials })
+        .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
+    Ok(compilation)
+}
+
+/// A chain with the growing kernels alone: the whole of a long one would be tens of megabytes that nobody times.
+fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
+    let mut compilation = compiled(name, bars)?;
+    let functions = &mut compilation.functions;
+    functions
+        .functions
+        .retain(|function| GROWING.contains(&function.name));
+    compilation.program = lower(&functions.graph, &functions.functions);
+    let text = compilation.emit().to_string();
+    let (contract, rest) = text
+        .split_once(":: eigentol :: Mechanism <")
+        .ok_or("no contract in the emitted items")?;
+    let (_, rest) = rest.split_once('>').ok_or("a contract without sizes")?;
+    let design = 2 * bars;
+    Ok(format!("{contract} Kernels<{bars}, {design}> {rest}"))
+}

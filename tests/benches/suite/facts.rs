@@ -1,0 +1,177 @@
+//! Single measurements without a peer: the ratio that the paper reports, many speeds on two cores, a long chain as a whole.
+
+use std::hint::black_box;
+use std::thread;
+use std::time::Instant;
+
+use eigentol::equilibrium::equilibrium;
+use eigentol::modes::modes;
+use eigentol::sensitivity::{mode_curvature, sensitivities};
+use eigentol::tolerance::second_order;
+use eigentol::{Error, Mechanism, Policy, Study, Tolerances};
+
+use crate::chains::{LONGEST, Longest};
+use crate::pendulum::DoublePendulum;
+
+/// Names of the sections, for the filter.
+pub(crate) const PENDULUM: &str = "facts/pendulum";
+pub(crate) const LONG_CHAIN: &str = "facts/long-chain";
+
+/// Samples and speeds of the paper.
+const SAMPLES: usize = 3000;
+const SPEEDS: usize = 100;
+
+/// A name and a value.
+pub(crate) type Fact = (String, String);
+
+type PendulumStudy = Study<DoublePendulum, 2, 1, 4, 0>;
+
+/// One study per speed, below and above the critical speed, looked for from the same start as the paper does.
+fn studies() -> Vec<PendulumStudy> {
+    let start = 60f64.to_radians();
+    let study = Study::new(DoublePendulum)
+        .start(DoublePendulum::theta1, start)
+        .samples(SAMPLES);
+    let speed = |k: usize| 8.0 * (k + 1) as f64 / SPEEDS as f64;
+    let at = |k| study.clone().input(DoublePendulum::omega, speed(k));
+    (0..SPEEDS).map(at).collect()
+}
+
+/// Seconds of the fastest of some runs.
+fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
+    let timed = (0..runs).map(|_| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64()
+    });
+    timed.fold(f64::INFINITY, f64::min)
+}
+
+/// Exact first order against Monte Carlo, all four dimensions, one thread; then Monte Carlo on two.
+pub(crate) fn pendulum() -> Vec<Fact> {
+    let mut studies = studies();
+    let analytic = fastest(50, || {
+        for study in &studies {
+            let _ = black_box(&study.first_order());
+        }
+    });
+    let sampled = |studies: &[PendulumStudy]| {
+        fastest(3, || {
+            for study in studies {
+                let _ = black_box(&study.monte_carlo());
+            }
+        })
+    };
+    let threads = |number: usize, studies: &mut Vec<PendulumStudy>| {
+        *studies = studies
+            .iter()
+            .map(|study| study.clone().threads(number))
+            .collect();
+    };
+    threads(1, &mut studies);
+    let one = sampled(&studies);
+    threads(2, &mut studies);
+    let two = sampled(&studies);
+    let fact = |name: &str, value: String| (format!("double pendulum: {name}"), value);
+    vec![
+        fact(
+            "first-order analysis from a cold start, per speed",
+            format!("{:.0} ns", analytic * 1e9 / SPEEDS as f64),
+        ),
+        fact(
+            "Monte Carlo of 3000 samples, one thread, per speed",
+            format!("{:.3} ms", one * 1e3 / SPEEDS as f64),
+        ),
+        fact(
+            "Monte Carlo against first order, both one thread",
+            format!("{:.0}x", one / analytic),
+        ),
+        fact(
+            "Monte Carlo, 3000 samples x 100 speeds, two threads",
+            format!("{:.1} ms", two * 1e3),
+        ),
+    ]
+}
+
+/// Stack for the long chain: its results are arrays.
+const STACK: usize = 1 << 29;
+
+/// Every step of the analysis of the longest chain, all its design variables, second order included.
+pub(crate) fn long_chain() -> Vec<Fact> {
+    let steps = thread::Builder::new()
+        .stack_size(STACK)
+        .spawn(|| analysis(&Longest::default()));
+    let steps = match steps.map(|thread| thread.join()) {
+        Ok(Ok(steps)) => steps,
+        _ => vec![("thread".to_owned(), Err("it could not run".to_owned()))],
+    };
+    let fact = |(step, outcome): (String, Result<f64, String>)| {
+        let value = match outcome {
+            Ok(seconds) => format!("{:.3} ms", seconds * 1e3),
+            Err(reason) => format!("failed: {reason}"),
+        };
+        (
+            format!("{LONGEST} bars, {} variables: {step}", 2 * LONGEST),
+            value,
+        )
+    };
+    steps.into_iter().map(fact).collect()
+}
+
+type Step = (String, Result<f64, String>);
+
+/// Time of every step; stops at the first that fails.
+fn analysis<M, const N: usize, const P: usize>(chain: &M) -> Vec<Step>
+where
+    M: Mechanism<N, 1, P, 0>,
+{
+    let mut steps = Vec::new();
+    if let Err(error) = measure(chain, &mut steps) {
+        steps.push(("stopped".to_owned(), Err(error.to_string())));
+    }
+    steps
+}
+
+fn measure<M, const N: usize, const P: usize>(chain: &M, steps: &mut Vec<Step>) -> Result<(), Error>
+where
+    M: Mechanism<N, 1, P, 0>,
+{
+    let description = const { &M::DESCRIPTION };
+    let (u, b) = (
+        [1.0],
+        core::array::from_fn(|k| description.design[k].nominal),
+    );
+    let tolerances = Tolerances::<P>::declared(description)?;
+    let mut timed = |name: &str, runs: usize, run: &mut dyn FnMut()| {
+        steps.push((name.to_owned(), Ok(fastest(runs, run))));
+    };
+    let hanging = [0.1; N];
+    let find = || equilibrium(chain, &u, &b, &hanging, Policy::Stable);
+    let state = find()?;
+    timed("equilibrium", 5, &mut || {
+        let _ = black_box(&find());
+    });
+    let found = modes(&state)?;
+    timed("modes", 5, &mut || {
+        let _ = black_box(&modes(&state));
+    });
+    sensitivities(chain, &state, &found)?;
+    timed("sensitivities of all modes", 5, &mut || {
+        let _ = black_box(&sensitivities(chain, &state, &found));
+    });
+    mode_curvature(chain, &state, &found, 0)?;
+    timed("Hessian of one mode", 3, &mut || {
+        let _ = black_box(&mode_curvature(chain, &state, &found, 0));
+    });
+    let mut solved = 0;
+    timed("second order of all modes", 1, &mut || {
+        let spreads = second_order(chain, &state, &found, &tolerances);
+        solved = spreads.modes.iter().filter(|mode| mode.is_ok()).count();
+        black_box(&spreads);
+    });
+    if solved < N {
+        let reason = format!("{} of {N} modes", N - solved);
+        steps.push(("second order".to_owned(), Err(reason)));
+    }
+    Ok(())
+}

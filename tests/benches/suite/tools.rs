@@ -1,0 +1,162 @@
+//! The other side's tools: a Python with CasADi, a C and a C++ compiler. Whatever is missing is a reason, not a failure.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// What peers are compiled for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// This machine, to be timed.
+    Native,
+    /// AVX2 and FMA without AVX-512, which valgrind does not know.
+    Counted,
+}
+
+/// Where peers are kept between runs, and what they are made with.
+pub(crate) struct Tools {
+    folder: PathBuf,
+    target: Target,
+    python: Result<PathBuf, String>,
+}
+
+impl Tools {
+    /// Finds the tools; `folder` keeps what they make.
+    pub(crate) fn new(folder: &Path, target: Target) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            target,
+            python: Err("not looked for".to_owned()),
+        }
+    }
+
+    /// Runs a script of the folder `peers` in a Python that has CasADi.
+    pub(crate) fn casadi(&mut self, script: &str, arguments: &[&str]) -> Result<String, String> {
+        if self.python.is_err() {
+            self.python = interpreter(&self.folder);
+        }
+        let python = self.python.as_ref().map_err(Clone::clone)?;
+        let output = Command::new(python)
+            .arg(source(script))
+            .args(arguments)
+            .stderr(Stdio::inherit())
+            .output()
+            .map_err(|error| format!("{}: {error}", python.display()))?;
+        match output.status.success() {
+            true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+            false => Err(format!("{script} failed")),
+        }
+    }
+
+    /// The folder for sources that a script writes.
+    pub(crate) fn written(&self) -> Result<PathBuf, String> {
+        let folder = self.folder.join("peers");
+        fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        Ok(folder)
+    }
+
+    /// Compiles one file to a shared library, unless that is there and newer.
+    pub(crate) fn library(&self, source: &Path) -> Result<PathBuf, String> {
+        let cpp = source.extension().is_some_and(|name| name == "cpp");
+        let (variable, default) = if cpp { ("CXX", "c++") } else { ("CC", "cc") };
+        let compiler = env::var(variable).unwrap_or_else(|_| default.to_owned());
+        let architecture = match self.target {
+            Target::Native => "native",
+            Target::Counted => "x86-64-v3",
+        };
+        let name = source.file_stem().unwrap_or_default().to_string_lossy();
+        let library = self.written()?.join(format!("{name}-{architecture}.so"));
+        if newer(&library, source) {
+            return Ok(library);
+        }
+        eprintln!("compiling {} for {architecture}", source.display());
+        let status = Command::new(&compiler)
+            .args(["-O3", &format!("-march={architecture}"), "-shared", "-fPIC"])
+            .arg(source)
+            .arg("-o")
+            .arg(&library)
+            .arg("-lm")
+            .status()
+            .map_err(|error| format!("{compiler}: {error}"))?;
+        match status.success() {
+            true => Ok(library),
+            false => Err(format!("{compiler} refused {}", source.display())),
+        }
+    }
+}
+
+/// What this was measured with: names and versions, as far as they can be asked for.
+pub(crate) fn setting() -> Vec<(String, String)> {
+    let version = |program: String| {
+        let output = Command::new(program).arg("--version").output().ok()?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.lines().next().map(str::to_owned)
+    };
+    let named = |variable: &str, default: &str| {
+        version(env::var(variable).unwrap_or_else(|_| default.to_owned()))
+    };
+    let processor = fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_owned())
+    });
+    let found = [
+        ("processor", processor),
+        ("C", named("CC", "cc")),
+        ("C++", named("CXX", "c++")),
+        ("Rust", named("RUSTC", "rustc")),
+    ];
+    let found = found.into_iter();
+    found
+        .map(|(name, value)| (name.to_owned(), value.unwrap_or_else(|| "-".to_owned())))
+        .collect()
+}
+
+/// A file of the folder `peers`.
+pub(crate) fn source(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("peers")
+        .join(name)
+}
+
+/// Whether `made` exists and is no older than `source`.
+pub(crate) fn newer(made: &Path, source: &Path) -> bool {
+    let time = |path: &Path| fs::metadata(path).and_then(|data| data.modified());
+    matches!((time(made), time(source)), (Ok(made), Ok(source)) if made >= source)
+}
+
+/// The interpreter that `EIGENTOL_BENCH_PYTHON` names, or one of a virtual environment that is made here.
+fn interpreter(folder: &Path) -> Result<PathBuf, String> {
+    let named = env::var_os("EIGENTOL_BENCH_PYTHON").map(PathBuf::from);
+    let environment = folder.join("venv");
+    let python = named.unwrap_or_else(|| environment.join("bin/python"));
+    if has_casadi(&python) {
+        return Ok(python);
+    }
+    eprintln!("installing CasADi in {}", environment.display());
+    let run = |program: &Path, arguments: &[&str]| {
+        let status = Command::new(program)
+            .args(arguments)
+            .stdout(Stdio::null())
+            .status();
+        matches!(status, Ok(status) if status.success())
+    };
+    let place = environment.to_string_lossy();
+    let python = environment.join("bin/python");
+    let packages = ["-m", "pip", "install", "--quiet", "casadi==3.8.*", "numpy"];
+    if !run(Path::new("python3"), &["-m", "venv", &place]) {
+        Err("no Python that makes virtual environments".to_owned())
+    } else if !run(&python, &packages) || !has_casadi(&python) {
+        Err("CasADi could not be installed".to_owned())
+    } else {
+        Ok(python)
+    }
+}
+
+fn has_casadi(python: &Path) -> bool {
+    let status = Command::new(python)
+        .args(["-c", "import casadi"])
+        .stderr(Stdio::null())
+        .status();
+    matches!(status, Ok(status) if status.success())
+}
