@@ -240,6 +240,72 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+
+    /// [`Mechanism::residual_and_stiffness`], and like the others below written where it is called: what vectors of the
+    /// processor need. Generated code overrides it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_and_stiffness_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([T; N], [[T; N]; N]) {
+        self.residual_and_stiffness(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn linear_inlined<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N> {
+        self.linear(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_partials_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([[T; U]; N], [[T; P]; N]) {
+        self.residual_partials(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn linear_partials_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> LinearPartials<T, N, U, P> {
+        self.linear_partials(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn mode_gradient_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        phi: &[T; N],
+        lambda: T,
+    ) -> Gradient<T, N, U, P> {
+        self.mode_gradient(q, u, b, phi, lambda)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_gradient_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        w: &[T; N],
+    ) -> Gradient<T, N, U, P> {
+        self.residual_gradient(q, u, b, w)
+    }
 }
 
 fn zeros<T: Real, const K: usize>() -> [T; K] {
@@ -290,6 +356,17 @@ pub struct Linear<T, const N: usize> {
     pub stiffness: [[T; N]; N],
 }
 
+impl<T: Copy + Default, const N: usize> Default for Linear<T, N> {
+    fn default() -> Self {
+        let zero = [[T::default(); N]; N];
+        Self {
+            mass: zero,
+            damping: zero,
+            stiffness: zero,
+        }
+    }
+}
+
 /// Explicit partial derivatives of the linearised matrices; `by_coordinate[k]` is the derivative by coordinate `k`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
@@ -301,6 +378,18 @@ pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
     pub by_design: [Linear<T, N>; P],
 }
 
+impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
+    for LinearPartials<T, N, U, P>
+{
+    fn default() -> Self {
+        Self {
+            by_coordinate: [Linear::default(); N],
+            by_input: [Linear::default(); U],
+            by_design: [Linear::default(); P],
+        }
+    }
+}
+
 /// Partial derivatives of one scalar by everything it depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
@@ -310,6 +399,18 @@ pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
     pub inputs: [T; U],
     /// By each design variable.
     pub design: [T; P],
+}
+
+impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
+    for Gradient<T, N, U, P>
+{
+    fn default() -> Self {
+        Self {
+            coordinates: [T::default(); N],
+            inputs: [T::default(); U],
+            design: [T::default(); P],
+        }
+    }
 }
 
 /// What a mechanism is made of, and what the compiler proved about it.

@@ -160,6 +160,7 @@ where
             stream: self.stream,
             threads: self.threads,
             keep_samples: self.keep_samples,
+            vectors: self.vectors,
             progress,
         };
         tolerance::monte_carlo(&self.mechanism, &state, &found, &tolerances, &sampling)

@@ -1,6 +1,7 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
 mod band;
+mod batched;
 mod cluster_sampling;
 mod clusters;
 mod declared;
@@ -13,6 +14,7 @@ mod monte_carlo;
 mod pool;
 mod probability;
 mod quadratic;
+mod quantile;
 mod sampling;
 mod second_order;
 mod statistics;

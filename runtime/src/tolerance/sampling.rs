@@ -1,10 +1,10 @@
 //! Random designs: sample `k` is a function of seed, stream and `k` alone, so any sample can be drawn on any machine.
 
+use super::Tolerances;
+use super::quantile::standard_normal;
+use crate::lanes::{Batch, WIDTH};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use statrs::function::erf::erfc_inv;
-
-use super::Tolerances;
 
 /// Draws designs in sequence from a given sample on.
 pub(super) struct Draw<'a, const P: usize> {
@@ -36,11 +36,28 @@ impl<'a, const P: usize> Draw<'a, P> {
         }
     }
 
+    /// The probabilities that the next `number` samples are made of, up to a batch of them; other places mean
+    /// nothing, nor do variables on which nothing depends.
+    pub(super) fn probabilities(&mut self, number: usize) -> [Batch; P] {
+        let mut probabilities = [Batch::all(0.5); P];
+        let mut bytes = [[[0; 8]; P]; WIDTH];
+        let filled = bytes[..number.min(WIDTH)].as_flattened_mut();
+        self.random.fill_bytes(filled.as_flattened_mut());
+        for (j, batch) in probabilities.iter_mut().enumerate() {
+            if self.used[j] {
+                for (value, bytes) in batch.0.iter_mut().zip(&bytes) {
+                    *value = probability(u64::from_le_bytes(bytes[j]));
+                }
+            }
+        }
+        probabilities
+    }
+
     pub(super) fn next(&mut self) -> [f64; P] {
         let standard: [f64; P] = core::array::from_fn(|j| {
             let bits = self.random.next_u64();
             if self.used[j] {
-                standard_normal(bits)
+                standard_normal(probability(bits))
             } else {
                 0.0
             }
@@ -53,15 +70,10 @@ impl<'a, const P: usize> Draw<'a, P> {
     }
 }
 
-/// Standard normal value of 64 random bits, by the inverse distribution function. The bits become a probability
-/// strictly inside (0, 1), which needs one bit less than a double has, so the value is finite.
-fn standard_normal(bits: u64) -> f64 {
-    let probability = ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64;
-    if probability <= 0.5 {
-        -core::f64::consts::SQRT_2 * erfc_inv(2.0 * probability)
-    } else {
-        core::f64::consts::SQRT_2 * erfc_inv(2.0 * (1.0 - probability))
-    }
+/// A probability strictly inside (0, 1) of 64 random bits, which takes one bit less than a double has.
+pub(super) fn probability(bits: u64) -> f64 {
+    // As a signed number, which processors convert at once.
+    ((bits >> 12).cast_signed() as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
 #[cfg(test)]
@@ -70,9 +82,10 @@ mod tests {
 
     #[test]
     fn ends_are_finite_and_symmetric() {
-        let (low, high) = (standard_normal(0), standard_normal(u64::MAX));
+        let value = |bits| standard_normal(probability(bits));
+        let (low, high) = (value(0), value(u64::MAX));
         assert!((low + 8.21).abs() < 0.01 && low == -high);
-        assert!((standard_normal(0x1000_0000_0000_0000) + 1.534_120_544).abs() < 1e-8);
+        assert!((value(0x1000_0000_0000_0000) + 1.534_120_544).abs() < 1e-8);
     }
 
     #[test]

@@ -1,0 +1,237 @@
+//! Designs, equilibria, modes and sums of the samples of one batch.
+
+use super::algebra::{congruent, constants, keep};
+use super::{Prepared, Sums, closed};
+use crate::lanes::{Batch, Task, Vector};
+use crate::tolerance::quantile::standard_normal;
+use crate::{Linear, Mechanism};
+
+/// Steps of Newton's method; two do where second derivatives predict the equilibrium.
+const STEPS: usize = 6;
+/// A step this small, relative to the coordinate and a millimetre or milliradian, leaves a remainder at rounding.
+const LAST_STEP: f64 = 1e-8;
+const SMALL_MOTION: f64 = 1e-3;
+/// Least pivot of a stiffness on the way, relative to its diagonal element.
+const POSITIVE: f64 = 1e-10;
+/// Least pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
+const CLEARLY_POSITIVE: f64 = 1e-3;
+/// Least `lambda` relative to the nominal one.
+const WEAKENED: f64 = 0.1;
+/// Greatest displacement from the nominal position, rad or m.
+const FAR: f64 = 0.5;
+
+/// Samples of one batch.
+pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
+    pub(in crate::tolerance) design: [Batch; P],
+    pub(in crate::tolerance) coordinates: [Batch; N],
+    pub(in crate::tolerance) frequencies: [Batch; N],
+    /// Bit `k`: sample `k` passed every check. Of others only the design means anything.
+    pub(in crate::tolerance) accepted: u32,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    /// Solves the first `number` samples of a batch of probabilities, those that are drawn, and adds them to `sums`.
+    pub(in crate::tolerance) fn solve(
+        &self,
+        probabilities: &[Batch; P],
+        number: usize,
+        sums: &mut Sums<N>,
+    ) -> Solved<N, P> {
+        self.instructions.run(Work {
+            prepared: self,
+            probabilities,
+            number,
+            sums,
+        })
+    }
+}
+
+struct Work<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
+    prepared: &'a Prepared<'a, M, N, U, P, O>,
+    probabilities: &'a [Batch; P],
+    number: usize,
+    sums: &'a mut Sums<N>,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Task
+    for Work<'_, M, N, U, P, O>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    type Output = Solved<N, P>;
+
+    #[inline(always)]
+    fn run<V: Vector>(self) -> Solved<N, P> {
+        let Self {
+            prepared,
+            probabilities,
+            number,
+            sums,
+        } = self;
+        let mut solved = Solved {
+            design: [Batch::default(); P],
+            coordinates: [Batch::default(); N],
+            frequencies: [Batch::default(); N],
+            accepted: 0,
+        };
+        for at in (0..number).step_by(V::WIDTH) {
+            let design = draw::<V, M, N, U, P, O>(prepared, probabilities, at);
+            for (batch, value) in solved.design.iter_mut().zip(design) {
+                value.store(batch, at);
+            }
+            let possible = possible(prepared, &solved.design, at..(at + V::WIDTH).min(number));
+            let (q, found) = equilibrium(prepared, &design);
+            let flag = keep(V::load(&possible, at), V::constant(1.0).at_most(found));
+            let (lambda, flag) = modes(prepared, &design, &q, flag);
+            for (batch, value) in solved.coordinates.iter_mut().zip(q) {
+                value.store(batch, at);
+            }
+            for r in 0..N {
+                let frequency = lambda[r].sqrt();
+                frequency.store(&mut solved.frequencies[r], at);
+                let nominal = V::constant(prepared.frequencies[r]);
+                sums.add(r, at, frequency - nominal, flag);
+            }
+            let accepted = V::bits(V::constant(1.0).at_most(flag));
+            sums.count(accepted.count_ones());
+            solved.accepted |= accepted << at;
+        }
+        solved
+    }
+}
+
+/// `b = b_nominal + L z`, `z` standard normal.
+#[inline(always)]
+fn draw<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    probabilities: &[Batch; P],
+    at: usize,
+) -> [V; P] {
+    let mut standard = [V::constant(0.0); P];
+    for &j in &prepared.drawn {
+        standard[j] = standard_normal(V::load(&probabilities[j], at));
+    }
+    let mut design: [V; P] = constants(&prepared.nominal.design);
+    for &(i, j, factor) in &prepared.draws {
+        design[i] = design[i] + V::constant(factor) * standard[j];
+    }
+    design
+}
+
+/// Ones for the samples whose bodies can exist.
+#[inline(always)]
+fn possible<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    design: &[Batch; P],
+    samples: core::ops::Range<usize>,
+) -> Batch
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut flags = Batch::default();
+    for sample in samples {
+        let design = core::array::from_fn(|i| design[i].0[sample]);
+        let violation = prepared
+            .mechanism
+            .violation(&prepared.nominal.inputs, &design);
+        flags.0[sample] = f64::from(u8::from(violation.is_none()));
+    }
+    flags
+}
+
+/// The equilibrium by Newton's method from the predicted one; the flag says that it came to rest, through positive definite
+/// stiffness, near the nominal position.
+#[inline(always)]
+fn equilibrium<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    design: &[V; P],
+) -> ([V; N], V)
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let inputs = constants(&prepared.nominal.inputs);
+    let start: [V; N] = constants(&prepared.nominal.coordinates);
+    let mut q = start;
+    let mut change = [zero; P];
+    for ((change, &i), slope) in change.iter_mut().zip(&prepared.varied).zip(&prepared.first) {
+        *change = design[i] - V::constant(prepared.nominal.design[i]);
+        for (q, slope) in q.iter_mut().zip(slope) {
+            *q = *q + V::constant(*slope) * *change;
+        }
+    }
+    for (j, k, coefficients) in &prepared.second {
+        let product = change[*j] * change[*k];
+        for (q, coefficient) in q.iter_mut().zip(coefficients) {
+            *q = *q + V::constant(*coefficient) * product;
+        }
+    }
+    let (mut resting, mut flag) = (zero, one);
+    for _ in 0..STEPS {
+        let (residual, stiffness) = prepared
+            .mechanism
+            .residual_and_stiffness_inlined(&q, &inputs, design);
+        let (step, positive) = closed::solve(&stiffness, &residual, POSITIVE);
+        // Lanes at rest stay where they are, so that none depends on the others.
+        let moving = resting.at_most(zero);
+        flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
+        let mut last = one;
+        for (q, step) in q.iter_mut().zip(step) {
+            let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
+            last = keep(last, step.abs().at_most(scale));
+            *q = V::choose(moving, *q - step, *q);
+        }
+        resting = V::choose(moving, last, resting);
+        if V::every(one.at_most(resting)) {
+            break;
+        }
+    }
+    flag = keep(flag, one.at_most(resting));
+    for (q, start) in q.iter().zip(start) {
+        flag = keep(flag, (*q - start).abs().at_most(V::constant(FAR)));
+    }
+    (q, flag)
+}
+
+/// `lambda` of the modes in the nominal order; the flag says that all are recognised, and that the stiffness is positive definite
+/// here and, as far as its derivative tells, from the nominal position to its mirror image: then so it is all the way.
+#[inline(always)]
+fn modes<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    design: &[V; P],
+    q: &[V; N],
+    flag: V,
+) -> ([V; N], V)
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let inputs = constants(&prepared.nominal.inputs);
+    let Linear {
+        mass, stiffness, ..
+    } = prepared.mechanism.linear_inlined(q, &inputs, design);
+    let mass = congruent(&mass, &prepared.shapes);
+    let stiffness = congruent(&stiffness, &prepared.shapes);
+    let mut nearby = stiffness;
+    for k in 0..N {
+        let twice = (q[k] - V::constant(prepared.nominal.coordinates[k])) * V::constant(2.0);
+        for i in 0..N {
+            for j in 0..=i {
+                nearby[i][j] = nearby[i][j] - V::constant(prepared.stiffening[k][i][j]) * twice;
+            }
+        }
+    }
+    let one = V::constant(1.0);
+    let flag = keep(
+        flag,
+        one.at_most(closed::definite(&nearby, CLEARLY_POSITIVE)),
+    );
+    let (lambda, recognised) = closed::eigenvalues(&stiffness, &mass);
+    let mut flag = keep(flag, one.at_most(recognised));
+    for (lambda, nominal) in lambda.iter().zip(prepared.lambda) {
+        flag = keep(flag, V::constant(WEAKENED * nominal).at_most(*lambda));
+    }
+    (lambda, flag)
+}
