@@ -6,5 +6,6 @@ use proc_macro::TokenStream;
 #[doc = include_str!("../REFERENCE.md")]
 #[proc_macro]
 pub fn mechanism(declaration: TokenStream) -> TokenStream {
-    eigentol_compiler::expand(declaration.into()).into()
+    let lexer = |text: &str| text.parse().map(TokenStream::into);
+    eigentol_compiler::expand_with(declaration.into(), lexer).into()
 }

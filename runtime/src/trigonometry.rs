@@ -61,16 +61,46 @@ pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
     let z = r * r;
     let w = z * z;
     let v = z * r;
-    let high = (number(SINE[1]) + z * number(SINE[2]))
-        + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]));
+    let high = sine_terms(z, w);
     let sine = r - ((z * (number(0.5) * tail - v * high) - tail) - v * number(SINE[0]));
-    let low = number(COSINE[0]) + z * (number(COSINE[1]) + z * number(COSINE[2]));
-    let high = (number(COSINE[3]) + z * number(COSINE[4])) + w * number(COSINE[5]);
     let half = number(0.5) * z;
     let near_one = number(1.0) - half;
-    let correction = w * (low + (z * w) * high) - r * tail;
+    let correction = w * cosine_terms(z, w) - r * tail;
     let cosine = near_one + (((number(1.0) - near_one) - half) + correction);
     shifted.turn(sine, cosine)
+}
+
+/// Sine and cosine of an angle in full turns, between zero and one, to a few units of rounding of one.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn sin_cos_of_turns<V: Vector>(turns: V) -> (V, V) {
+    let number = V::constant;
+    let quarters = turns * number(4.0);
+    let shifted = quarters + number(ROUND);
+    let r = (quarters - (shifted - number(ROUND))) * number(core::f64::consts::FRAC_PI_2);
+    let z = r * r;
+    let w = z * z;
+    let (sine, cosine) = (sine_terms(z, w), cosine_terms(z, w));
+    let sine = r + z * r * (number(SINE[0]) + z * sine);
+    let cosine = (number(1.0) - number(0.5) * z) + w * cosine;
+    shifted.turn(sine, cosine)
+}
+
+/// `S1 + S2 z + ..`, `z = r^2`, `w = z^2`.
+#[inline(always)]
+fn sine_terms<V: Vector>(z: V, w: V) -> V {
+    let number = V::constant;
+    (number(SINE[1]) + z * number(SINE[2]))
+        + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]))
+}
+
+/// `C0 + C1 z + ..`.
+#[inline(always)]
+fn cosine_terms<V: Vector>(z: V, w: V) -> V {
+    let number = V::constant;
+    let low = number(COSINE[0]) + z * (number(COSINE[1]) + z * number(COSINE[2]));
+    let high = (number(COSINE[3]) + z * number(COSINE[4])) + w * number(COSINE[5]);
+    low + (z * w) * high
 }
 
 /// Sine and cosine of `x` rad, each within one unit in the last place; the same bits on every machine. NaN for what is not

@@ -126,7 +126,7 @@ fn type_files_import_no_pass() {
 }
 
 #[test]
-fn compiler_and_runtime_never_import_each_other() {
+fn compiler_runtime_and_oracle_never_import_each_other() {
     let dependencies = |manifest: &str| {
         let text = read(&root().join(manifest));
         text.lines()
@@ -151,6 +151,7 @@ fn compiler_and_runtime_never_import_each_other() {
         dependencies("runtime/Cargo.toml"),
         BTreeSet::from(["eigentol-macros".to_owned()])
     );
+    assert_eq!(dependencies("tests/oracle/Cargo.toml"), BTreeSet::new());
     for file in sources(&root().join("runtime/src")) {
         assert!(
             !read(&file).contains("eigentol_compiler"),

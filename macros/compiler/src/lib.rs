@@ -24,14 +24,25 @@ pub mod topology;
 
 pub use pipeline::{Compilation, compile};
 
+use std::fmt::Debug;
+
 use base::diagnostics::Diagnostics;
 use mechanics::Limits;
 use proc_macro2::TokenStream;
 
 /// Expands a declaration to Rust items, or to one `compile_error!` per mistake at the offending tokens.
 pub fn expand(declaration: TokenStream) -> TokenStream {
+    expand_with(declaration, str::parse)
+}
+
+/// [`expand`] with another lexer for the generated text, which is correct and long. Inside of a macro that of rustc
+/// itself is the fastest: `proc_macro2` lexes everything twice there, to refuse what would upset rustc.
+pub fn expand_with<E: Debug>(
+    declaration: TokenStream,
+    lexer: impl Fn(&str) -> Result<TokenStream, E>,
+) -> TokenStream {
     match compile(declaration, Limits::default()) {
-        Ok(compilation) => compilation.emit(),
+        Ok(compilation) => compilation.emit_with(lexer),
         Err(mistakes) => mistakes.into_compile_errors(),
     }
 }

@@ -1,7 +1,10 @@
 //! The recipe: every stage in order.
 
+use std::fmt::Debug;
+
 use proc_macro2::TokenStream;
 
+use crate::algebra::Function;
 use crate::base::diagnostics::Diagnostics;
 use crate::emit::emit;
 use crate::mechanics::{Functions, Limits, derive};
@@ -35,8 +38,13 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
     let ast = parse(declaration)?;
     let mechanism = resolve(&ast)?;
     let topology = build(&mechanism)?;
-    let functions = derive(&mechanism, &topology, limits)?;
-    let program = lower(&functions.graph, &functions.functions);
+    let mut functions = derive(&mechanism, &topology, limits)?;
+    let regrouped: Vec<Function> = functions
+        .functions
+        .iter()
+        .map(|function| function.regrouped(&mut functions.graph))
+        .collect();
+    let program = lower(&functions.graph, &regrouped);
     Ok(Compilation {
         ast,
         mechanism,
@@ -60,6 +68,14 @@ impl Compilation {
 
     /// The generated items.
     pub fn emit(&self) -> TokenStream {
-        emit(&self.mechanism, &self.functions, &self.program)
+        self.emit_with(str::parse)
+    }
+
+    /// The generated items, their text taken apart by another lexer.
+    pub fn emit_with<E: Debug>(
+        &self,
+        lexer: impl Fn(&str) -> Result<TokenStream, E>,
+    ) -> TokenStream {
+        emit(&self.mechanism, &self.functions, &self.program, lexer)
     }
 }

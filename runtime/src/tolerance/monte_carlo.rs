@@ -8,7 +8,7 @@ use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
-use crate::lanes::{Instructions, WIDTH};
+use crate::lanes::{Batch, Instructions, WIDTH};
 use crate::modes::{Family, PerMode, clusters, match_modes, solve_modes};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
@@ -309,9 +309,11 @@ where
         piece: &mut Piece<N, P>,
     ) {
         let mut sums = Sums::new();
+        let mut pairs = [[Batch::all(0.5); 2]; P];
         for first in (0..number).step_by(WIDTH) {
             let members = WIDTH.min(number - first);
-            let solved = prepared.solve(&draw.probabilities(members), members, &mut sums);
+            draw.probabilities(members, &mut pairs);
+            let solved = prepared.solve(&pairs, members, &mut sums);
             let accepted = solved.accepted;
             piece
                 .counts

@@ -1,6 +1,6 @@
 //! Names of the declaration are constants of the type: a wrong one is an error of the compiler.
 
-use eigentol::{Study, mechanism};
+use eigentol::{Input, mechanism};
 
 mechanism! {
     pub mechanism Pendulum {
@@ -15,6 +15,8 @@ mechanism! {
     }
 }
 
+fn set(_: Input, _: f64) {}
+
 fn main() {
-    let _ = Study::new(Pendulum).input(Pendulum::omgea, 5.0);
+    set(Pendulum::omgea, 5.0);
 }

@@ -14,7 +14,7 @@
 //! }
 //! ```
 //!
-//! Method bodies are written as text and parsed once: building them token by token costs more than the algebra.
+//! Method bodies are written as text and lexed once: building them token by token costs more than the algebra.
 
 mod body;
 mod contract;
@@ -24,7 +24,7 @@ mod names;
 mod pose_margin;
 mod violation;
 
-use std::fmt::Write;
+use std::fmt::{Debug, Write};
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -34,7 +34,12 @@ use crate::model::mechanism::Mechanism;
 use crate::program::Program;
 
 /// Generates the type, its handles and its implementation of the runtime's contract.
-pub fn emit(mechanism: &Mechanism, functions: &Functions, program: &Program) -> TokenStream {
+pub fn emit<E: Debug>(
+    mechanism: &Mechanism,
+    functions: &Functions,
+    program: &Program,
+    lexer: impl Fn(&str) -> Result<TokenStream, E>,
+) -> TokenStream {
     let sizes = contract::Sizes {
         coordinates: functions.unknowns.len(),
         inputs: mechanism.inputs.len(),
@@ -52,9 +57,7 @@ pub fn emit(mechanism: &Mechanism, functions: &Functions, program: &Program) -> 
         };
         let _ = writeln!(methods, "{method}");
     }
-    let methods: TokenStream = methods
-        .parse()
-        .expect("the emitter writes well-formed tokens");
+    let methods = lexer(&methods).expect("the emitter writes well-formed tokens");
 
     let Mechanism {
         name,

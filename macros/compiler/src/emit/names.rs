@@ -8,6 +8,15 @@ use crate::program::{Instruction, Operand, Operation};
 /// Longest name that is built from the names of two operands.
 const COMPOUND: usize = 28;
 
+/// Words in lower case that are no names.
+const KEYWORDS: [&str; 52] = [
+    "_", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
+    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
+    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
+    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
 /// Hands out names, each once.
 pub(super) struct Names {
     taken: BTreeMap<String, usize>,
@@ -27,8 +36,7 @@ impl Names {
     /// struct of the user's module would be a pattern that means that item.
     pub(super) fn unique(&mut self, wanted: &str) -> String {
         let wanted = wanted.trim_start_matches("r#").to_lowercase();
-        let keyword = syn::parse_str::<syn::Ident>(&wanted).is_err();
-        let base = if keyword {
+        let base = if KEYWORDS.contains(&wanted.as_str()) {
             format!("{wanted}_value")
         } else {
             wanted

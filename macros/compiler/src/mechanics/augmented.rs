@@ -94,7 +94,9 @@ pub(super) fn augmented_bodies(
         let name = &problem.mechanism.bodies[branch.body.index()].name;
         let carried = bodies[branch.body.index()];
         g.set_name(carried.mass, || format!("{name}_carried_mass"));
-        carried.first.set_name(g, &format!("{name}_augmented_first_moment"));
+        carried
+            .first
+            .set_name(g, &format!("{name}_augmented_first_moment"));
         for (row, i) in carried.second.into_iter().zip(["x", "y", "z"]) {
             for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
                 g.set_name(entry, || format!("{name}_augmented_second_moment_{i}{j}"));

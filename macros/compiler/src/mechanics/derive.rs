@@ -8,8 +8,8 @@ use crate::topology::Topology;
 
 use super::constraints::{self, Row};
 use super::functions::{Functions, Limits, Pose, Requirement, Role, Unknown};
-use super::kernels::{kernels, parameter};
 use super::inertial::{Inertial, inertial};
+use super::kernels::{kernels, parameter};
 use super::kinematics::{CoordinateMotion, Kinematics};
 use super::layout::{Layout, Runs};
 use super::linearise::{Jacobians, Linear, at_rest};
@@ -199,7 +199,15 @@ impl Problem<'_> {
         });
         let layout = Layout::common(self.mechanism.bodies.len());
         let still = Vector3::zero(g);
-        Kinematics::new(g, self.mechanism, self.topology, self.values, motions, &layout, still)
+        Kinematics::new(
+            g,
+            self.mechanism,
+            self.topology,
+            self.values,
+            motions,
+            &layout,
+            still,
+        )
     }
 
     /// Motion of every body as inertia and weight need it: along runs, the ground accelerated against gravity.
@@ -222,7 +230,15 @@ impl Problem<'_> {
             false => Vector3::zero(g),
         };
         let layout = &self.runs.layout;
-        Kinematics::new(g, self.mechanism, self.topology, self.values, motions, layout, ground)
+        Kinematics::new(
+            g,
+            self.mechanism,
+            self.topology,
+            self.values,
+            motions,
+            layout,
+            ground,
+        )
     }
 
     /// By coordinate id: the motion of all coordinates, `free` of the free ones.
@@ -299,7 +315,10 @@ impl Problem<'_> {
         let moving = || self.topology.free.iter().chain(&self.topology.coasting);
         let zeros = loads.constraints.iter().map(|_| g.zero());
         Parts {
-            inertial: moving().map(|id| inertial[id.index()]).chain(zeros).collect(),
+            inertial: moving()
+                .map(|id| inertial[id.index()])
+                .chain(zeros)
+                .collect(),
             applied: moving()
                 .map(|id| loads.along[id.index()])
                 .chain(loads.constraints.iter().copied())

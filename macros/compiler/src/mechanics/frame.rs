@@ -207,7 +207,12 @@ impl FrameMotion {
     pub(super) fn along_own_axes(self, g: &mut Graph) -> Self {
         let to_own = self.orientation.axes.transpose();
         let mut turn = |vector: Vector3| to_own.apply(g, vector);
-        let [velocity, acceleration, angular_velocity, angular_acceleration] = [
+        let [
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+        ] = [
             self.velocity,
             self.acceleration,
             self.angular_velocity,

@@ -279,8 +279,8 @@ impl Kinematics {
         let to_parent = layout.own_axes.then_some(frame.orientation.axes);
         if gliding {
             for step in &mut steps {
-                let to_body = outboard_rotation.map(Matrix3::transpose);
-                step.own_axis = to_body.map_or(step.own_axis, |to| to.apply(g, step.own_axis));
+                step.own_axis = outboard_rotation
+                    .map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
             }
         } else {
             let axes = self.axes_in_body(g, values, joint, reversed, outboard_rotation);
@@ -325,7 +325,7 @@ impl Kinematics {
         reversed: bool,
         outboard: Option<Matrix3>,
     ) -> Vec<Vector3> {
-        let mut to_body = outboard.map_or_else(|| Matrix3::identity(g), Matrix3::transpose);
+        let mut to_body = outboard.unwrap_or_else(|| Matrix3::identity(g));
         let mut axes = Vec::new();
         let inwards: Vec<_> = match reversed {
             false => joint.steps.iter().rev().collect(),

@@ -8,24 +8,39 @@ use crate::lanes::Vector;
 const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
-/// Solves `matrix x = right`; the flag says that the matrix is positive definite, pivots at least the share `least`.
-#[inline(always)]
-pub(super) fn solve<V: Vector, const N: usize>(
-    matrix: &[[V; N]; N],
-    right: &[V; N],
-    least: f64,
-) -> ([V; N], V) {
-    if N == 2 {
-        let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
-        let determinant = a * d - b * b;
-        let inverse = V::constant(1.0) / determinant;
-        let mut x = *right;
-        x[0] = (d * right[0] - b * right[1]) * inverse;
-        x[1] = (a * right[1] - b * right[0]) * inverse;
-        (x, definite(matrix, least))
-    } else {
-        let (factor, flag) = algebra::factor(matrix, least);
-        (algebra::solve(&factor, right), flag)
+/// A matrix ready to solve with.
+pub(super) enum Solver<V: Vector, const N: usize> {
+    /// Of size two: the matrix and the inverse of its determinant.
+    Two(V, V, V, V),
+    Factor([[V; N]; N]),
+}
+
+impl<V: Vector, const N: usize> Solver<V, N> {
+    /// The flag says that the matrix is positive definite, pivots at least the share `least`.
+    #[inline(always)]
+    pub(super) fn new(matrix: &[[V; N]; N], least: f64) -> (Self, V) {
+        if N == 2 {
+            let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
+            let inverse = V::constant(1.0) / (a * d - b * b);
+            (Self::Two(a, b, d, inverse), definite(matrix, least))
+        } else {
+            let (factor, flag) = algebra::factor(matrix, least);
+            (Self::Factor(factor), flag)
+        }
+    }
+
+    /// Solves `matrix x = right`.
+    #[inline(always)]
+    pub(super) fn solve(&self, right: &[V; N]) -> [V; N] {
+        match self {
+            Self::Two(a, b, d, inverse) => {
+                let mut x = *right;
+                x[0] = (*d * right[0] - *b * right[1]) * *inverse;
+                x[1] = (*a * right[1] - *b * right[0]) * *inverse;
+                x
+            }
+            Self::Factor(factor) => algebra::solve(factor, right),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What all samples share: how the nominal state answers to the design, to first and second order.
 
-use crate::array::{Cholesky, all_finite, all_finite_square};
+use crate::array::{Cholesky, Square, all_finite, all_finite_square, form};
 use crate::constraints::Structure;
 use crate::lanes::{Instructions, generated};
 use crate::modes::Family;
@@ -15,6 +15,9 @@ const FEW: usize = 8;
 const ROUNDING: f64 = 1e-10;
 /// Displacement (rad or m) for differences where the equilibrium does not move.
 const SMALL: f64 = 1e-4;
+/// Change of the stiffness of a mode that may come of second derivatives over the displacement of one standard deviation,
+/// relative to it: [`FAR`](super::solve::FAR) of these leave three quarters of it.
+const STRAIGHT: f64 = 0.007;
 
 /// The nominal state in the form that samples need.
 pub(in crate::tolerance) struct Prepared<
@@ -30,7 +33,7 @@ pub(in crate::tolerance) struct Prepared<
     pub(super) nominal: &'a Equilibrium<N, U, P>,
     /// (`i`, `j`, `L_ij`) of the factor of the covariance, row by row, without zeros.
     pub(super) draws: Vec<(usize, usize, f64)>,
-    /// Random numbers that anything depends on.
+    /// Pairs of random numbers on which anything depends.
     pub(super) drawn: Vec<usize>,
     /// Design variables that vary.
     pub(super) varied: Vec<usize>,
@@ -43,6 +46,11 @@ pub(in crate::tolerance) struct Prepared<
     /// Their `lambda`, 1/s^2, and frequencies, rad/s.
     pub(super) lambda: [f64; N],
     pub(in crate::tolerance) frequencies: [f64; N],
+    /// Displacements that one standard deviation of every variable causes.
+    pub(super) reach: [f64; N],
+    /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
+    /// residual.
+    pub(super) curvature: [[[f64; N]; N]; N],
     /// `dKhat/dq_k` between the nominal modes.
     pub(super) stiffening: [[[f64; N]; N]; N],
 }
@@ -85,21 +93,24 @@ where
             .flat_map(|i| (0..=i).map(move |j| (i, j, factor[i][j])))
             .filter(|(_, _, value)| *value != 0.0)
             .collect();
-        let drawn = (0..P)
-            .filter(|j| draws.iter().any(|draw| draw.1 == *j))
-            .collect();
+        let drawn = |pair: &usize| draws.iter().any(|draw| draw.1 / 2 == *pair);
+        let drawn = (0..P.div_ceil(2)).filter(drawn).collect();
         let varied: Vec<_> = (0..P)
             .filter(|i| draws.iter().any(|draw| draw.0 == *i))
             .collect();
         let answer = Answer { mechanism, nominal };
         let first = answer.slopes(&nominal.coordinates, &nominal.design, &varied)?;
         let deviations = tolerances.standard_deviations();
+        let reach = answer.reach(&varied, &first, &deviations);
+        let slopes = answer.stiffening(&reach, &shapes, &lambda)?;
         Some(Self {
             mechanism,
             instructions,
             nominal,
             second: answer.curvatures(&varied, &first, &deviations)?,
-            stiffening: answer.stiffening(&shapes, &varied, &first, &deviations)?,
+            curvature: quadratic_terms(&slopes),
+            reach,
+            stiffening: slopes.map(|slope| between(&slope, &shapes)),
             draws,
             drawn,
             varied,
@@ -191,13 +202,23 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
         finite.then_some(second)
     }
 
-    /// `dKhat/dq_k` between the modes, by differences over the displacement that one standard deviation causes.
+    /// How far one standard deviation of every varied variable moves each coordinate, all in one sense; something where the
+    /// equilibrium does not move.
+    fn reach(&self, varied: &[usize], first: &[[f64; N]], deviations: &[f64; P]) -> [f64; N] {
+        core::array::from_fn(|k| {
+            let motions = first.iter().zip(varied);
+            motions.fold(SMALL, |sum, (slope, &j)| {
+                sum + (slope[k] * deviations[j]).abs()
+            })
+        })
+    }
+
+    /// `dKhat/dq_k` by differences over this displacement; `None` where the stiffness of a mode bends on the way.
     fn stiffening<const O: usize>(
         &self,
+        reach: &[f64; N],
         shapes: &[[f64; N]; N],
-        varied: &[usize],
-        first: &[[f64; N]],
-        deviations: &[f64; P],
+        lambda: &[f64; N],
     ) -> Option<[[[f64; N]; N]; N]>
     where
         M: Mechanism<N, U, P, O>,
@@ -208,33 +229,43 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
             design,
             ..
         } = self.nominal;
-        let mut stiffening = [[[0.0; N]; N]; N];
-        for (k, result) in stiffening.iter_mut().enumerate() {
-            let motions = first
-                .iter()
-                .zip(varied)
-                .map(|(slope, &j)| (slope[k] * deviations[j]).abs());
-            let step = motions.fold(SMALL, f64::max);
+        let here = &self.nominal.linear.stiffness;
+        let mut slopes = [[[0.0; N]; N]; N];
+        for (k, slope) in slopes.iter_mut().enumerate() {
             let at = |step: f64| {
                 let mut q = *coordinates;
                 q[k] += step;
                 self.mechanism.residual_and_stiffness(&q, inputs, design).1
             };
-            let (above, below) = (at(step), at(-step));
-            for r in 0..N {
-                for s in 0..N {
-                    for i in 0..N {
-                        for j in 0..N {
-                            let slope = (above[i][j] - below[i][j]) / (2.0 * step);
-                            result[r][s] += shapes[r][i] * slope * shapes[s][j];
-                        }
-                    }
-                }
-            }
-            if !all_finite_square(result) {
+            let (above, below) = (at(reach[k]), at(-reach[k]));
+            let matrix = |entry: &dyn Fn(usize, usize) -> f64| -> Square<N> {
+                core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
+            };
+            *slope = matrix(&|i, j| (above[i][j] - below[i][j]) / (2.0 * reach[k]));
+            let bend = matrix(&|i, j| 0.5 * (above[i][j] + below[i][j]) - here[i][j]);
+            let bend = between(&bend, shapes);
+            let straight = (0..N).all(|r| {
+                (0..N).all(|s| bend[r][s].abs() <= STRAIGHT * (lambda[r] * lambda[s]).sqrt())
+            });
+            if !straight || !all_finite_square(slope) {
                 return None;
             }
         }
-        Some(stiffening)
+        Some(slopes)
     }
+}
+
+/// `1/2 dKhat/dq_k`, row `j < k` standing for row `k` of `j` too.
+fn quadratic_terms<const N: usize>(slopes: &[[[f64; N]; N]; N]) -> [[[f64; N]; N]; N] {
+    core::array::from_fn(|k| {
+        core::array::from_fn(|j| {
+            let share = if j == k { 0.5 } else { 1.0 };
+            slopes[k][j].map(|slope| share * slope)
+        })
+    })
+}
+
+/// A symmetric matrix between the modes.
+fn between<const N: usize>(matrix: &[[f64; N]; N], shapes: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|r| core::array::from_fn(|s| form(&shapes[r], matrix, &shapes[s])))
 }

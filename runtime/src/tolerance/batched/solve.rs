@@ -1,24 +1,27 @@
 //! Designs, equilibria, modes and sums of the samples of one batch.
 
 use super::algebra::{congruent, constants, keep};
-use super::{Prepared, Sums, closed};
+use super::closed::{self, Solver};
+use super::{Prepared, Sums};
 use crate::lanes::{Batch, Task, Vector};
-use crate::tolerance::quantile::standard_normal;
+use crate::tolerance::normal::standard_normal_pair;
 use crate::{Linear, Mechanism};
 
-/// Steps of Newton's method; two do where second derivatives predict the equilibrium.
+/// Steps of Newton's method; one does where second derivatives predict the equilibrium well.
 const STEPS: usize = 6;
-/// A step this small, relative to the coordinate and a millimetre or milliradian, leaves a remainder at rounding.
-const LAST_STEP: f64 = 1e-8;
+/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change
+/// of the stiffness, so that what remains is a share of it like that of the tolerances.
+const LAST_CORRECTION: f64 = 1e-12;
 const SMALL_MOTION: f64 = 1e-3;
 /// Least pivot of a stiffness on the way, relative to its diagonal element.
 const POSITIVE: f64 = 1e-10;
 /// Least pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
 const CLEARLY_POSITIVE: f64 = 1e-3;
-/// Least `lambda` relative to the nominal one.
-const WEAKENED: f64 = 0.1;
-/// Greatest displacement from the nominal position, rad or m.
-const FAR: f64 = 0.5;
+/// Least and greatest `lambda` relative to the nominal one: what changes more may have changed on its way too.
+const WEAKENED: f64 = 0.5;
+const STIFFENED: f64 = 2.0;
+/// Greatest displacement from the nominal position, in displacements of one standard deviation.
+pub(super) const FAR: f64 = 6.0;
 
 /// Samples of one batch.
 pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
@@ -33,16 +36,16 @@ impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared
 where
     M: Mechanism<N, U, P, O>,
 {
-    /// Solves the first `number` samples of a batch of probabilities, those that are drawn, and adds them to `sums`.
+    /// Solves the first `number` samples of a batch from pairs of probabilities, and adds them to `sums`.
     pub(in crate::tolerance) fn solve(
         &self,
-        probabilities: &[Batch; P],
+        pairs: &[[Batch; 2]; P],
         number: usize,
         sums: &mut Sums<N>,
     ) -> Solved<N, P> {
         self.instructions.run(Work {
             prepared: self,
-            probabilities,
+            pairs,
             number,
             sums,
         })
@@ -51,7 +54,7 @@ where
 
 struct Work<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
     prepared: &'a Prepared<'a, M, N, U, P, O>,
-    probabilities: &'a [Batch; P],
+    pairs: &'a [[Batch; 2]; P],
     number: usize,
     sums: &'a mut Sums<N>,
 }
@@ -67,7 +70,7 @@ where
     fn run<V: Vector>(self) -> Solved<N, P> {
         let Self {
             prepared,
-            probabilities,
+            pairs,
             number,
             sums,
         } = self;
@@ -78,7 +81,7 @@ where
             accepted: 0,
         };
         for at in (0..number).step_by(V::WIDTH) {
-            let design = draw::<V, M, N, U, P, O>(prepared, probabilities, at);
+            let design = draw::<V, M, N, U, P, O>(prepared, pairs, at);
             for (batch, value) in solved.design.iter_mut().zip(design) {
                 value.store(batch, at);
             }
@@ -107,12 +110,17 @@ where
 #[inline(always)]
 fn draw<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     prepared: &Prepared<'_, M, N, U, P, O>,
-    probabilities: &[Batch; P],
+    pairs: &[[Batch; 2]; P],
     at: usize,
 ) -> [V; P] {
     let mut standard = [V::constant(0.0); P];
-    for &j in &prepared.drawn {
-        standard[j] = standard_normal(V::load(&probabilities[j], at));
+    for &pair in &prepared.drawn {
+        let [radius, angle] = &pairs[pair];
+        let (first, second) = standard_normal_pair(V::load(radius, at), V::load(angle, at));
+        standard[2 * pair] = first;
+        if 2 * pair + 1 < P {
+            standard[2 * pair + 1] = second;
+        }
     }
     let mut design: [V; P] = constants(&prepared.nominal.design);
     for &(i, j, factor) in &prepared.draws {
@@ -174,15 +182,17 @@ where
         let (residual, stiffness) = prepared
             .mechanism
             .residual_and_stiffness_inlined(&q, &inputs, design);
-        let (step, positive) = closed::solve(&stiffness, &residual, POSITIVE);
+        let (solver, positive) = Solver::new(&stiffness, POSITIVE);
+        let step = solver.solve(&residual);
+        let correction = solver.solve(&curved(&prepared.curvature, &step));
         // Lanes at rest stay where they are, so that none depends on the others.
         let moving = resting.at_most(zero);
         flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
         let mut last = one;
-        for (q, step) in q.iter_mut().zip(step) {
-            let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
-            last = keep(last, step.abs().at_most(scale));
-            *q = V::choose(moving, *q - step, *q);
+        for ((q, step), correction) in q.iter_mut().zip(step).zip(correction) {
+            let scale = V::constant(LAST_CORRECTION) * (q.abs() + V::constant(SMALL_MOTION));
+            last = keep(last, correction.abs().at_most(scale));
+            *q = V::choose(moving, *q - (step + correction), *q);
         }
         resting = V::choose(moving, last, resting);
         if V::every(one.at_most(resting)) {
@@ -190,10 +200,27 @@ where
         }
     }
     flag = keep(flag, one.at_most(resting));
-    for (q, start) in q.iter().zip(start) {
-        flag = keep(flag, (*q - start).abs().at_most(V::constant(FAR)));
+    for ((q, start), reach) in q.iter().zip(start).zip(&prepared.reach) {
+        let displacement = (*q - start).abs();
+        flag = keep(flag, displacement.at_most(V::constant(FAR * reach)));
     }
     (q, flag)
+}
+
+/// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
+/// in `k` and `j` twice.
+#[inline(always)]
+fn curved<V: Vector, const N: usize>(curvature: &[[[f64; N]; N]; N], step: &[V; N]) -> [V; N] {
+    let mut rest = [V::constant(0.0); N];
+    for (k, slopes) in curvature.iter().enumerate() {
+        for (j, slopes) in slopes[..=k].iter().enumerate() {
+            let product = step[k] * step[j];
+            for (rest, slope) in rest.iter_mut().zip(slopes) {
+                *rest = *rest + V::constant(*slope) * product;
+            }
+        }
+    }
+    rest
 }
 
 /// `lambda` of the modes in the nominal order; the flag says that all are recognised, and that the stiffness is positive definite
@@ -232,6 +259,7 @@ where
     let mut flag = keep(flag, one.at_most(recognised));
     for (lambda, nominal) in lambda.iter().zip(prepared.lambda) {
         flag = keep(flag, V::constant(WEAKENED * nominal).at_most(*lambda));
+        flag = keep(flag, lambda.at_most(V::constant(STIFFENED * nominal)));
     }
     (lambda, flag)
 }

@@ -1,0 +1,140 @@
+//! rustc on generated code: a user's package in a workspace of its own, built again and again with other sources.
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::clock::Children;
+use crate::machines::{Extent, Machine};
+
+/// Profiles of a user's manifest: nothing said, the lines that the README asks for, everything behind macros optimised.
+const SETTINGS: [(&str, &str); 3] = [
+    ("default", ""),
+    (
+        "compiler",
+        "[profile.dev.package.eigentol-compiler]\nopt-level = 3\n\
+         [profile.release.package.eigentol-compiler]\nopt-level = 3\n",
+    ),
+    (
+        "build-override",
+        "[profile.dev.build-override]\nopt-level = 3\n[profile.release.build-override]\nopt-level = 3\n",
+    ),
+];
+
+const PROFILES: [&str; 2] = ["dev", "release"];
+
+/// What the source calls.
+const CALLS: [&str; 3] = ["nothing", "one", "all"];
+
+/// Seconds of the processor that one build took.
+pub(crate) struct Build {
+    /// A declaration, or what is built before any of them.
+    pub(crate) machine: String,
+    pub(crate) settings: &'static str,
+    pub(crate) profile: &'static str,
+    pub(crate) calls: &'static str,
+    pub(crate) seconds: f64,
+}
+
+/// Builds everything in packages under the folder.
+///
+/// # Errors
+/// Where a package cannot be written or does not build.
+pub(crate) fn measure(folder: &Path, machines: &[Machine]) -> Result<Vec<Build>, Box<dyn Error>> {
+    let mut builds = Vec::new();
+    for (settings, lines) in SETTINGS {
+        let package = Package::new(&folder.join(settings), lines)?;
+        for profile in PROFILES {
+            let mut add = |machine: &str, calls, source: &str| -> Result<(), Box<dyn Error>> {
+                let seconds = package.build(profile, source)?;
+                builds.push(Build {
+                    machine: machine.to_owned(),
+                    settings,
+                    profile,
+                    calls,
+                    seconds,
+                });
+                Ok(())
+            };
+            add("dependencies", "nothing", "fn main() {}")?;
+            add("empty program", "nothing", "fn main() { }")?;
+            for machine in machines {
+                for calls in calls(settings, profile, machine.extent) {
+                    add(&machine.name, calls, &source(machine, calls))?;
+                }
+            }
+        }
+    }
+    Ok(builds)
+}
+
+/// Everything with the settings of the README; elsewhere what the macro adds, which is the same in both profiles.
+fn calls(settings: &str, profile: &str, extent: Extent) -> &'static [&'static str] {
+    match extent {
+        Extent::Expanded => &[],
+        Extent::Called if settings == "compiler" => &CALLS,
+        _ if profile == "dev" => &CALLS[..1],
+        _ => &[],
+    }
+}
+
+/// A program that declares a mechanism and calls kernels of it, each for `f64`.
+fn source(machine: &Machine, calls: &str) -> String {
+    let Machine { kind, text, .. } = machine;
+    let call = match calls {
+        "nothing" => String::new(),
+        _ => format!("{calls}({kind});"),
+    };
+    let uses = include_str!("uses.rs");
+    format!("{uses}\nmechanism! {{ {text} }}\n\nfn main() {{ {call} }}\n")
+}
+
+/// A package of a user. It depends on the contract of generated code only: the solvers are compiled once, whatever is
+/// declared.
+struct Package {
+    folder: PathBuf,
+}
+
+impl Package {
+    /// Writes a package with some lines about profiles, from scratch.
+    fn new(folder: &Path, profiles: &str) -> Result<Self, Box<dyn Error>> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        if folder.exists() {
+            fs::remove_dir_all(folder)?;
+        }
+        fs::create_dir_all(folder.join("src"))?;
+        let manifest = format!(
+            "[package]\nname = \"user\"\nedition = \"2024\"\n\n[dependencies.eigentol]\n\
+             path = {:?}\ndefault-features = false\nfeatures = [\"libm\"]\n\n[workspace]\n\n{profiles}",
+            root.join("runtime")
+        );
+        fs::write(folder.join("Cargo.toml"), manifest)?;
+        fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+        })
+    }
+
+    /// Seconds of the processor for a build of the package with this source.
+    fn build(&self, profile: &str, source: &str) -> Result<f64, Box<dyn Error>> {
+        fs::write(self.folder.join("src/main.rs"), source)?;
+        let clock = Children::start();
+        let status = Command::new(env!("CARGO"))
+            .args([
+                "build",
+                "--quiet",
+                "--profile",
+                profile,
+                "--target-dir",
+                "target",
+            ])
+            .current_dir(&self.folder)
+            .env_remove("CARGO_TARGET_DIR")
+            .status()?;
+        match status.success() {
+            true => Ok(clock.seconds()),
+            false => Err(format!("{} does not build", self.folder.display()).into()),
+        }
+    }
+}
