@@ -107,8 +107,8 @@ where
             for (batch, value) in solved.coordinates.iter_mut().zip(q) {
                 value.store(batch, at);
             }
-            for r in 0..N {
-                let frequency = lambda[r].sqrt();
+            for (r, lambda) in lambda.into_iter().enumerate() {
+                let frequency = lambda.sqrt();
                 frequency.store(&mut solved.frequencies[r], at);
                 let nominal = V::constant(prepared.frequencies[r]);
                 sums.add(r, at, frequency - nominal, flag);
@@ -256,11 +256,12 @@ where
     let mass = congruent(&mass, &prepared.shapes);
     let stiffness = congruent(&stiffness, &prepared.shapes);
     let mut nearby = stiffness;
-    for k in 0..N {
-        let twice = (q[k] - V::constant(prepared.nominal.coordinates[k])) * V::constant(2.0);
-        for i in 0..N {
-            for j in 0..=i {
-                nearby[i][j] = nearby[i][j] - V::constant(prepared.stiffening[k][i][j]) * twice;
+    let displacements = q.iter().zip(&prepared.nominal.coordinates);
+    for ((q, nominal), stiffening) in displacements.zip(&prepared.stiffening) {
+        let twice = (*q - V::constant(*nominal)) * V::constant(2.0);
+        for (row, slopes) in nearby.iter_mut().zip(stiffening) {
+            for (entry, slope) in row.iter_mut().zip(slopes) {
+                *entry = *entry - V::constant(*slope) * twice;
             }
         }
     }
