@@ -4,8 +4,9 @@ use crate::algebra::{Array, Direction, Graph, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::composite::mass_matrix;
-use super::derive::{Equations, Problem};
+use super::derive::Equations;
 use super::functions::{Damping, Properties};
+use super::problem::Problem;
 use super::properties::vanish;
 use super::sources::Sources;
 use super::symbols::{SymbolList, Symbols};
