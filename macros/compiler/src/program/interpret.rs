@@ -12,7 +12,8 @@ impl Program {
 }
 
 impl Kernel {
-    /// Values of the results for the given arguments, arrays flattened with the first index outermost.
+    /// Values of the results for the given arguments, arrays flattened with the first index outermost. Elementary functions
+    /// are those of the standard library: of the runtime's sine and cosine the last digit may differ.
     ///
     /// # Panics
     ///
