@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use proc_macro2::TokenStream;
 
-use crate::algebra::Function;
+use crate::algebra::{Function, regrouped};
 use crate::base::diagnostics::Diagnostics;
 use crate::emit::emit;
 use crate::mechanics::{Functions, Limits, derive};
@@ -39,12 +39,8 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
     let mechanism = resolve(&ast)?;
     let topology = build(&mechanism)?;
     let mut functions = derive(&mechanism, &topology, limits)?;
-    let regrouped: Vec<Function> = functions
-        .functions
-        .iter()
-        .map(|function| function.regrouped(&mut functions.graph))
-        .collect();
-    let program = lower(&functions.graph, &regrouped);
+    let kernels = regrouped_kernels(&mut functions);
+    let program = lower(&functions.graph, &kernels);
     Ok(Compilation {
         ast,
         mechanism,
@@ -52,6 +48,25 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
         functions,
         program,
     })
+}
+
+/// Kernels whose residual a solver compares: it has to be the same number in each.
+const OF_ONE_RESIDUAL: [&str; 3] = ["residual", "residual_parts", "residual_and_stiffness"];
+
+/// The kernels with as few operations as grouping them gives.
+fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
+    let (alike, others): (Vec<Function>, Vec<Function>) = functions
+        .functions
+        .iter()
+        .cloned()
+        .partition(|function| OF_ONE_RESIDUAL.contains(&function.name));
+    let mut kernels = regrouped(&mut functions.graph, &alike);
+    for function in others {
+        kernels.extend(regrouped(&mut functions.graph, &[function]));
+    }
+    let place = |name: &str| functions.functions.iter().position(|f| f.name == name);
+    kernels.sort_by_key(|kernel| place(kernel.name));
+    kernels
 }
 
 impl Compilation {

@@ -28,7 +28,7 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     let scale = expected
         .iter()
-        .fold(0.0, |most: f64, value| most.max(value.abs()));
+        .fold(1e-3, |most: f64, value| most.max(value.abs()));
     for (one, other) in found.iter().zip(expected) {
         assert!(
             (one - other).abs() <= tolerance * scale,

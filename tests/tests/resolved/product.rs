@@ -13,7 +13,7 @@ use super::expected::Expected;
 
 /// Relative errors allowed: of values and first derivatives, of second ones, of derivatives of shapes.
 const FIRST: f64 = 1e-9;
-const SECOND: f64 = 1e-8;
+const SECOND: f64 = 2e-8;
 const SHAPES: f64 = 1e-8;
 
 #[derive(Default)]

@@ -19,7 +19,7 @@ pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};
-pub use regroup::regroup;
+pub use regroup::{regroup, regrouped};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};
 pub use substitute::substitute;

@@ -8,8 +8,24 @@ use products::share_products;
 use sums::factor_sums;
 
 use super::count::{cost, reachable};
+use super::function::Function;
 use super::graph::{Graph, Node, Operator};
 use crate::base::ids::ExprId;
+
+/// The same results for fewer operations, where sums and products can be grouped so. What several of the functions return
+/// is computed alike by all of them, to the last bit.
+pub fn regrouped(graph: &mut Graph, functions: &[Function]) -> Vec<Function> {
+    let roots: Vec<ExprId> = functions.iter().flat_map(Function::roots).collect();
+    let mut values = regroup(graph, &roots).into_iter();
+    let mut functions = functions.to_vec();
+    let arrays = functions
+        .iter_mut()
+        .flat_map(|function| &mut function.results);
+    for array in arrays {
+        array.values = values.by_ref().take(array.values.len()).collect();
+    }
+    functions
+}
 
 /// `roots` regrouped, or as they are where that is no cheaper. Values change by rounding only.
 pub fn regroup(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {

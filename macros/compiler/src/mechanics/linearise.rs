@@ -54,7 +54,9 @@ impl Jacobians {
         let running = vec![g.zero(); s.running.ids.len()];
         let kinematics = problem.inertial_kinematics(g, &running, Sources::INERTIA);
         let mass = mass_matrix(g, problem, &kinematics);
-        let mass = runs.matrix(g, &mass, true, &outward);
+        // the acceleration of a coasting coordinate is the rate of an unknown
+        let symmetric = problem.topology.coasting.is_empty();
+        let mass = runs.matrix(g, &mass, symmetric, &outward);
 
         let inertial = &e.parts.inertial;
         let still = |g: &mut Graph, roots: &[ExprId]| {
