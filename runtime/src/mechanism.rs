@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use crate::Real;
+use crate::dual::Dual;
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
 ///
@@ -46,6 +47,39 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; N], [T; N]);
+
+    /// The equations of motion linearised along any motion: `dg/dqddot = M*` (`mass`), `dg/dqdot` (`damping`) and `dg/dq`
+    /// (`stiffness`), what implicit integration and inverse dynamics with derivatives need. Without velocity and
+    /// acceleration they are [`Mechanism::linear`].
+    ///
+    /// Generated for small mechanisms; of a large one each column is differentiated by itself, as here.
+    fn motion_linear<T: Real>(
+        &self,
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> Linear<T, N> {
+        let fixed = |x: &[T; N]| x.map(Dual::fixed);
+        let (u, b) = (u.map(Dual::fixed), b.map(Dual::fixed));
+        let column = |list: usize, k: usize| {
+            let mut arguments = [fixed(acceleration), fixed(velocity), fixed(q)];
+            arguments[list][k].slope = T::constant(1.0);
+            let [acceleration, velocity, q] = &arguments;
+            self.motion_residual(acceleration, velocity, q, &u, &b)
+                .map(|entry| entry.slope)
+        };
+        let matrix = |list: usize| {
+            let columns: [[T; N]; N] = from_fn(|j| column(list, j));
+            from_fn(|i| from_fn(|j| columns[j][i]))
+        };
+        Linear {
+            mass: matrix(0),
+            damping: matrix(1),
+            stiffness: matrix(2),
+        }
+    }
 
     /// Residual at rest and its Jacobian `Khat`: what a Newton step needs.
     fn residual_and_stiffness<T: Real>(

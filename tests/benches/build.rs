@@ -91,8 +91,14 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
         false => 0,
     };
     let declaration = chain::declaration(name, bars).parse()?;
-    let compilation = compile(declaration, Limits { explicit_partials })
-        .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
+    let compilation = compile(
+        declaration,
+        Limits {
+            explicit_partials,
+            motion_linear: 0,
+        },
+    )
+    .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
     Ok(compilation)
 }
 

@@ -3,9 +3,9 @@
 mod along;
 mod questions;
 
-use crate::lanes::Instructions;
 use crate::constraints::Structure;
 use crate::equilibrium::{Following, Policy};
+use crate::lanes::Instructions;
 use crate::modes::Family;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};

@@ -310,10 +310,11 @@ where
     ) {
         let mut sums = Sums::new();
         let mut pairs = [[Batch::all(0.5); 2]; P];
+        let mut solved = Solved::new();
         for first in (0..number).step_by(WIDTH) {
             let members = WIDTH.min(number - first);
             draw.probabilities(members, &mut pairs);
-            let solved = prepared.solve(&pairs, members, &mut sums);
+            prepared.solve(&pairs, members, &mut solved, &mut sums);
             let accepted = solved.accepted;
             piece
                 .counts

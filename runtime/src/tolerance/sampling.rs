@@ -14,6 +14,8 @@ pub(super) struct Draw<'a, const P: usize> {
     tolerances: &'a Tolerances<P>,
     /// Whether anything depends on this pair of random numbers, the first of which are used.
     used: [bool; P],
+    /// Random words of a batch.
+    bytes: [[[[u8; 8]; 2]; P]; WIDTH],
 }
 
 impl<'a, const P: usize> Draw<'a, P> {
@@ -41,14 +43,14 @@ impl<'a, const P: usize> Draw<'a, P> {
             nominal,
             tolerances,
             used: core::array::from_fn(|pair| variable(2 * pair) || variable(2 * pair + 1)),
+            bytes: [[[[0; 8]; 2]; P]; WIDTH],
         }
     }
 
     /// Writes the pairs of probabilities that the next `number` samples are made of, up to a batch of them; pairs on which
     /// nothing depends, and other places, keep what they hold.
     pub(super) fn probabilities(&mut self, number: usize, pairs: &mut [[Batch; 2]; P]) {
-        let mut bytes = [[[[0; 8]; 2]; P]; WIDTH];
-        let bytes = &mut bytes.as_flattened_mut()[..number.min(WIDTH) * Self::PAIRS];
+        let bytes = &mut self.bytes.as_flattened_mut()[..number.min(WIDTH) * Self::PAIRS];
         self.random
             .fill_bytes(bytes.as_flattened_mut().as_flattened_mut());
         for (pair, batches) in pairs.iter_mut().enumerate().take(Self::PAIRS) {

@@ -281,3 +281,47 @@ fn rotations_turn_symmetric_matrices() {
         }
     }
 }
+
+/// Known savings, and random expressions: the values stay, the cost does not grow.
+#[test]
+fn regrouping_keeps_values_and_saves_operations() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 6);
+    let size = |g: &Graph, roots: &[ExprId]| {
+        let cost = cost(g, roots);
+        cost.operations + cost.functions + cost.negations
+    };
+    // a b - a c
+    let (ab, ac) = (g.mul(x[0], x[1]), g.mul(x[0], x[2]));
+    let sum = g.sub(ab, ac);
+    let regrouped = regroup(g, &[sum]);
+    assert_eq!((size(g, &[sum]), size(g, &regrouped)), (3, 2));
+    // (a b) c and (a d) b share a b
+    let ad = g.mul(x[0], x[3]);
+    let products = [g.mul(ab, x[2]), g.mul(ad, x[1])];
+    let regrouped = regroup(g, &products);
+    assert_eq!((size(g, &products), size(g, &regrouped)), (4, 3));
+
+    let mut random = Random(4711);
+    let mut saved = 0;
+    for _ in 0..300 {
+        let g = &mut Graph::new();
+        let (_, leaves) = symbols(g, 5);
+        let roots: Vec<ExprId> = (0..4)
+            .map(|_| expression(g, &mut random, &leaves, 6))
+            .collect();
+        let values: Vec<f64> = leaves.iter().map(|_| random.unit() + 0.5).collect();
+        let regrouped = regroup(g, &roots);
+        let at = |g: &Graph, roots: &[ExprId]| evaluate(g, roots, |s| values[s.index()]);
+        for (one, other) in at(g, &roots).into_iter().zip(at(g, &regrouped)) {
+            assert!(
+                (one - other).abs() <= 1e-9 * one.abs().max(1.0),
+                "{one} {other}"
+            );
+        }
+        let (before, after) = (size(g, &roots), size(g, &regrouped));
+        assert!(after <= before);
+        saved += before - after;
+    }
+    assert!(saved > 20, "{saved}");
+}

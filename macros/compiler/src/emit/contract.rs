@@ -37,7 +37,9 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
             Form::Tuple
         }
         "residual_parts" => Form::Record("RestParts", |s| vec![s.coordinates]),
-        "linear" | "linear_along" => Form::Record("Linear", |s| vec![s.coordinates]),
+        "linear" | "linear_along" | "motion_linear" => {
+            Form::Record("Linear", |s| vec![s.coordinates])
+        }
         "linear_partials" => Form::Partials,
         "mode_gradient"
         | "pencil_gradient"

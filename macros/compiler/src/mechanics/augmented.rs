@@ -6,9 +6,9 @@ use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{BodyId, ExprId};
 use crate::model::mechanism::Frame;
 
-use super::derive::Problem;
 use super::inertia::MassDistribution;
 use super::kinematics::{BodyMotion, Kinematics};
+use super::problem::Problem;
 use super::sources::Sources;
 
 /// A mass distribution about the origin of a body, over its axes: `integral rho dm = first` and

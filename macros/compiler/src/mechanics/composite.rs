@@ -6,12 +6,13 @@ use crate::base::ids::ExprId;
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
-use super::derive::Problem;
 use super::forces::Wrench;
 use super::frame::FrameMotion;
-use super::kinematics::{BodyMotion, Kinematics, StepAxis};
+use super::kinematics::{BodyMotion, Kinematics};
 use super::path::Tree;
+use super::problem::Problem;
 use super::sources::Sources;
+use super::step_axis::StepAxis;
 
 /// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, as the body's motion is written.
 #[derive(Clone, Copy)]

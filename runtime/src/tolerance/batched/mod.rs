@@ -8,6 +8,7 @@
 mod algebra;
 mod closed;
 mod prepared;
+mod range;
 mod solve;
 mod sums;
 

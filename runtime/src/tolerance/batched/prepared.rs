@@ -1,11 +1,13 @@
 //! What all samples share: how the nominal state answers to the design, to first and second order.
 
+use super::range::Range;
 use crate::array::{Cholesky, Square, all_finite, all_finite_square, form};
 use crate::constraints::Structure;
 use crate::lanes::{Instructions, generated};
 use crate::modes::Family;
 use crate::tolerance::Tolerances;
-use crate::{DampingKind, Equilibrium, Mechanism, Modes, Stability};
+use crate::tolerance::normal::GREATEST_NORMAL;
+use crate::{DampingKind, Equilibrium, Mechanism, Modes, Real, Stability};
 
 /// Largest mechanism that is solved in vectors.
 const LARGEST: usize = 8;
@@ -46,6 +48,8 @@ pub(in crate::tolerance) struct Prepared<
     /// Their `lambda`, 1/s^2, and frequencies, rad/s.
     pub(super) lambda: [f64; N],
     pub(in crate::tolerance) frequencies: [f64; N],
+    /// No design that can be drawn breaks a physical requirement: samples need not ask.
+    pub(super) all_possible: bool,
     /// Displacements that one standard deviation of every variable causes.
     pub(super) reach: [f64; N],
     /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
@@ -109,6 +113,7 @@ where
             nominal,
             second: answer.curvatures(&varied, &first, &deviations)?,
             curvature: quadratic_terms(&slopes),
+            all_possible: all_possible(mechanism, nominal, factor),
             reach,
             stiffening: slopes.map(|slope| between(&slope, &shapes)),
             draws,
@@ -138,6 +143,23 @@ fn well_conditioned<const N: usize, const U: usize, const P: usize>(
             });
         terms.sum::<f64>() * f64::EPSILON <= ROUNDING * lambda
     })
+}
+
+/// Whether every design in the box of all that can be drawn describes bodies that can exist.
+fn all_possible<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    nominal: &Equilibrium<N, U, P>,
+    factor: &[[f64; P]; P],
+) -> bool
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let inputs = nominal.inputs.map(Range::constant);
+    let design = core::array::from_fn(|i| {
+        let sum: f64 = factor[i].iter().map(|value| value.abs()).sum();
+        Range::about(nominal.design[i], GREATEST_NORMAL * sum)
+    });
+    mechanism.violation(&inputs, &design).is_none()
 }
 
 /// The nominal state and its neighbours.

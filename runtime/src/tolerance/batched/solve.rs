@@ -32,6 +32,17 @@ pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
     pub(in crate::tolerance) accepted: u32,
 }
 
+impl<const N: usize, const P: usize> Solved<N, P> {
+    pub(in crate::tolerance) fn new() -> Self {
+        Self {
+            design: [Batch::default(); P],
+            coordinates: [Batch::default(); N],
+            frequencies: [Batch::default(); N],
+            accepted: 0,
+        }
+    }
+}
+
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared<'_, M, N, U, P, O>
 where
     M: Mechanism<N, U, P, O>,
@@ -41,14 +52,16 @@ where
         &self,
         pairs: &[[Batch; 2]; P],
         number: usize,
+        solved: &mut Solved<N, P>,
         sums: &mut Sums<N>,
-    ) -> Solved<N, P> {
+    ) {
         self.instructions.run(Work {
             prepared: self,
             pairs,
             number,
+            solved,
             sums,
-        })
+        });
     }
 }
 
@@ -56,6 +69,7 @@ struct Work<'a, M, const N: usize, const U: usize, const P: usize, const O: usiz
     prepared: &'a Prepared<'a, M, N, U, P, O>,
     pairs: &'a [[Batch; 2]; P],
     number: usize,
+    solved: &'a mut Solved<N, P>,
     sums: &'a mut Sums<N>,
 }
 
@@ -64,36 +78,37 @@ impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Task
 where
     M: Mechanism<N, U, P, O>,
 {
-    type Output = Solved<N, P>;
+    type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) -> Solved<N, P> {
+    fn run<V: Vector>(self) {
         let Self {
             prepared,
             pairs,
             number,
+            solved,
             sums,
         } = self;
-        let mut solved = Solved {
-            design: [Batch::default(); P],
-            coordinates: [Batch::default(); N],
-            frequencies: [Batch::default(); N],
-            accepted: 0,
-        };
+        solved.accepted = 0;
         for at in (0..number).step_by(V::WIDTH) {
             let design = draw::<V, M, N, U, P, O>(prepared, pairs, at);
             for (batch, value) in solved.design.iter_mut().zip(design) {
                 value.store(batch, at);
             }
-            let possible = possible(prepared, &solved.design, at..(at + V::WIDTH).min(number));
+            let samples = at..(at + V::WIDTH).min(number);
+            let possible = if prepared.all_possible && samples.len() == V::WIDTH {
+                V::constant(1.0)
+            } else {
+                V::load(&possible(prepared, &solved.design, samples), at)
+            };
             let (q, found) = equilibrium(prepared, &design);
-            let flag = keep(V::load(&possible, at), V::constant(1.0).at_most(found));
+            let flag = keep(possible, V::constant(1.0).at_most(found));
             let (lambda, flag) = modes(prepared, &design, &q, flag);
             for (batch, value) in solved.coordinates.iter_mut().zip(q) {
                 value.store(batch, at);
             }
-            for r in 0..N {
-                let frequency = lambda[r].sqrt();
+            for (r, lambda) in lambda.into_iter().enumerate() {
+                let frequency = lambda.sqrt();
                 frequency.store(&mut solved.frequencies[r], at);
                 let nominal = V::constant(prepared.frequencies[r]);
                 sums.add(r, at, frequency - nominal, flag);
@@ -102,7 +117,6 @@ where
             sums.count(accepted.count_ones());
             solved.accepted |= accepted << at;
         }
-        solved
     }
 }
 
@@ -242,11 +256,12 @@ where
     let mass = congruent(&mass, &prepared.shapes);
     let stiffness = congruent(&stiffness, &prepared.shapes);
     let mut nearby = stiffness;
-    for k in 0..N {
-        let twice = (q[k] - V::constant(prepared.nominal.coordinates[k])) * V::constant(2.0);
-        for i in 0..N {
-            for j in 0..=i {
-                nearby[i][j] = nearby[i][j] - V::constant(prepared.stiffening[k][i][j]) * twice;
+    let displacements = q.iter().zip(&prepared.nominal.coordinates);
+    for ((q, nominal), stiffening) in displacements.zip(&prepared.stiffening) {
+        let twice = (*q - V::constant(*nominal)) * V::constant(2.0);
+        for (row, slopes) in nearby.iter_mut().zip(stiffening) {
+            for (entry, slope) in row.iter_mut().zip(slopes) {
+                *entry = *entry - V::constant(*slope) * twice;
             }
         }
     }
