@@ -109,7 +109,11 @@ fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     functions
         .functions
         .retain(|function| GROWING.contains(&function.name));
-    compilation.program = lower(&functions.graph, &functions.functions);
+    let kernels = functions.functions.iter();
+    let regrouped: Vec<_> = kernels
+        .map(|function| function.regrouped(&mut functions.graph))
+        .collect();
+    compilation.program = lower(&functions.graph, &regrouped);
     let text = compilation.emit().to_string();
     let (contract, rest) = text
         .split_once(":: eigentol :: Mechanism <")

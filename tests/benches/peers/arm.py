@@ -122,6 +122,12 @@ class Arm:
             first = add(turned, [total * x for x in offset])
         return full
 
+    def derivatives(self):
+        """Mass matrix, torques by velocities and by positions: a reverse sweep per torque gives a row of all three."""
+        n = self.n
+        rows = ca.jacobian(self.torques(True), ca.vertcat(self.a, self.v, self.q))
+        return [rows[:, k * n : (k + 1) * n] for k in range(3)]
+
     def function(self, name):
         """(inputs, outputs), matrices by columns."""
         if name == "motion_residual":
@@ -132,6 +138,8 @@ class Arm:
         if name == "residual_and_stiffness":
             torques = self.torques(False)
             return [self.q], [torques, ca.jacobian(torques, self.q).T]
+        if name == "motion_linear":
+            return [self.a, self.v, self.q], [x.T for x in self.derivatives()]
         raise SystemExit(f"no function {name}")
 
 
@@ -142,8 +150,7 @@ def count(arm):
         "inverse dynamics": operations(state, [moving]),
         "mass": operations(state, [upper(mass)]),
         "stiffness at rest": operations(state, [ca.jacobian(still, arm.q)]),
-        # one reverse sweep per torque gives a row of all three, the mass matrix among them
-        "derivatives in motion": operations(state, [ca.jacobian(moving, ca.vertcat(arm.q, arm.v, arm.a))]),
+        "derivatives in motion": operations(state, arm.derivatives()),
     }
     print(json.dumps(counts))
 

@@ -47,7 +47,12 @@ arm! {
 }
 
 /// Functions that are timed, by the names of CasADi's side.
-const FUNCTIONS: [&str; 3] = ["motion_residual", "motion", "residual_and_stiffness"];
+const FUNCTIONS: [&str; 4] = [
+    "motion_residual",
+    "motion",
+    "residual_and_stiffness",
+    "motion_linear",
+];
 
 /// The numbers of the arm.
 pub(crate) fn numbers() -> String {
@@ -101,6 +106,18 @@ fn ours(function: &str) -> Box<dyn Work> {
                 vec![torques.to_vec()]
             },
         }),
+        "motion_linear" => Box::new(Closures {
+            inputs,
+            evaluate: move |s: &State| {
+                black_box(&Arm.motion_linear(&s.acceleration, &s.velocity, &s.q, &none, &none));
+            },
+            results: move |s: &State| {
+                let all = Arm.motion_linear(&s.acceleration, &s.velocity, &s.q, &none, &none);
+                [all.mass, all.damping, all.stiffness]
+                    .map(|x| x.concat())
+                    .into()
+            },
+        }),
         "motion" => Box::new(Closures {
             inputs,
             evaluate: move |s: &State| {
@@ -136,7 +153,7 @@ fn peer(tools: &mut Tools, function: &str) -> Result<Box<dyn Work>, String> {
     let inputs = states().into_iter().map(|s| {
         let (a, v, q) = (s.acceleration.to_vec(), s.velocity.to_vec(), s.q.to_vec());
         match function {
-            "motion_residual" => vec![a, v, q],
+            "motion_residual" | "motion_linear" => vec![a, v, q],
             "motion" => vec![v, q],
             _ => vec![q],
         }

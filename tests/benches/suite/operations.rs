@@ -1,8 +1,7 @@
 //! Operations: every node of the expression graph but inputs, outputs and constants, by the same rule for both sides.
 
-use eigentol_compiler::algebra::{Direction, gradient};
-use eigentol_compiler::algebra::{Node, Unary, derivatives_along, reachable};
-use eigentol_compiler::base::ids::{ExprId, SymbolId};
+use eigentol_compiler::algebra::{cost, regroup};
+use eigentol_compiler::base::ids::ExprId;
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Functions, Limits};
 use serde_json::Value;
@@ -49,7 +48,11 @@ pub(crate) fn count(tools: &mut Tools) -> Result<Vec<Operations>, String> {
 
 fn of_chain(bars: usize, tools: &mut Tools) -> Result<Vec<Operations>, String> {
     let with_all = bars <= MOST_WITH_ALL;
-    let functions = functions(&declaration("Counted", bars), with_all)?;
+    let limits = Limits {
+        explicit_partials: if with_all { usize::MAX } else { 0 },
+        ..Limits::default()
+    };
+    let functions = functions(&declaration("Counted", bars), limits)?;
     let size = bars.to_string();
     let mut arguments = vec!["count", &size];
     let mut sets = vec!["mk", "adj"];
@@ -73,40 +76,23 @@ fn of_chain(bars: usize, tools: &mut Tools) -> Result<Vec<Operations>, String> {
 }
 
 fn of_arm(tools: &mut Tools) -> Result<Vec<Operations>, String> {
-    let mut functions = functions(arm::DECLARATION, false)?;
+    let functions = functions(arm::DECLARATION, Limits::default())?;
     let peer = counts(tools, "arm.py", &["count", &arm::numbers()]);
-    let torques = result(&functions, "motion_residual", "residual");
-    let mass = upper(result(&functions, "motion", "mass"), 7);
-    let stiffness = result(&functions, "residual_and_stiffness", "stiffness");
-    let parameters: Vec<Vec<SymbolId>> = ["acceleration", "velocity", "q"]
-        .into_iter()
-        .map(|name| parameter(&functions, "motion_residual", name))
-        .collect();
-    let [_, velocity, q] = &parameters[..] else {
-        return Err("three parameters".to_owned());
-    };
-    // No kernel has these; they are derived here, forward and in reverse, and the cheaper way counts.
-    let moving: Vec<SymbolId> = velocity.iter().chain(q).copied().collect();
-    let graph = &mut functions.graph;
-    let mut forward = mass.clone();
-    for &symbol in &moving {
-        let direction = Direction::unit(graph, symbol);
-        forward.extend(derivatives_along(graph, &torques, &direction));
-    }
-    let mut reverse = Vec::new();
-    for &torque in &torques {
-        reverse.extend(gradient(graph, torque, &parameters.concat()));
-    }
-    let cheaper = |a: &Vec<ExprId>| operations(&functions, a).0;
-    let moving = match cheaper(&forward) < cheaper(&reverse) {
-        true => forward,
-        false => reverse,
+    let kernel = |kernel, names: &[&str]| -> Vec<ExprId> {
+        let results = names.iter().map(|name| result(&functions, kernel, name));
+        results.flatten().collect()
     };
     let sets = [
-        ("inverse dynamics", torques),
-        ("mass", mass),
-        ("stiffness at rest", stiffness),
-        ("derivatives in motion", moving),
+        ("inverse dynamics", kernel("motion_residual", &["residual"])),
+        ("mass", upper(kernel("motion", &["mass"]), 7)),
+        (
+            "stiffness at rest",
+            kernel("residual_and_stiffness", &["stiffness"]),
+        ),
+        (
+            "derivatives in motion",
+            kernel("motion_linear", &["mass", "damping", "stiffness"]),
+        ),
     ];
     let counted = sets.map(|(set, roots)| {
         let (ours, signs) = operations(&functions, &roots);
@@ -121,19 +107,10 @@ fn of_arm(tools: &mut Tools) -> Result<Vec<Operations>, String> {
     Ok(counted.into())
 }
 
-fn functions(declaration: &str, with_all: bool) -> Result<Functions, String> {
-    let explicit_partials = if with_all { usize::MAX } else { 0 };
+fn functions(declaration: &str, limits: Limits) -> Result<Functions, String> {
     let tokens = declaration.parse().map_err(|error| format!("{error:?}"))?;
-    let compilation = compile(
-        tokens,
-        Limits {
-            explicit_partials,
-            motion_linear: 0,
-        },
-    );
-    Ok(compilation
-        .map_err(|mistakes| format!("{mistakes:?}"))?
-        .functions)
+    let compilation = compile(tokens, limits).map_err(|mistakes| format!("{mistakes:?}"))?;
+    Ok(compilation.functions)
 }
 
 fn counts(tools: &mut Tools, script: &str, arguments: &[&str]) -> Option<Value> {
@@ -176,29 +153,17 @@ fn result(functions: &Functions, kernel: &str, name: &str) -> Vec<ExprId> {
     found
 }
 
-fn parameter(functions: &Functions, kernel: &str, name: &str) -> Vec<SymbolId> {
-    let of_kernel = functions.functions.iter().filter(|f| f.name == kernel);
-    let parameters = of_kernel.flat_map(|f| &f.parameters);
-    let found = parameters.filter(|parameter| parameter.name == name);
-    found.flat_map(|p| p.symbols.iter().copied()).collect()
-}
-
 /// The upper triangles of matrices that lie one after the other.
 fn upper(flat: Vec<ExprId>, size: usize) -> Vec<ExprId> {
     let entry = |index: &usize| (index % (size * size)) / size <= index % size;
     (0..flat.len()).filter(entry).map(|k| flat[k]).collect()
 }
 
-/// Operations and, among them, changes of sign.
+/// Operations of generated code and, among them, changes of sign.
 fn operations(functions: &Functions, roots: &[ExprId]) -> (usize, usize) {
-    let (mut operations, mut signs) = (0, 0);
-    for id in reachable(&functions.graph, roots) {
-        match functions.graph.node(id) {
-            Node::Constant(_) | Node::Symbol(_) => continue,
-            Node::Unary(Unary::Negate, _) => signs += 1,
-            _ => {}
-        }
-        operations += 1;
-    }
-    (operations, signs)
+    let mut graph = functions.graph.clone();
+    let roots = regroup(&mut graph, roots);
+    let cost = cost(&graph, &roots);
+    let signs = cost.negations;
+    (cost.operations + cost.functions + signs, signs)
 }
