@@ -47,8 +47,8 @@ impl Analysis {
             seed: options.seed,
             stream: 0,
             threads: options.threads,
-            keep_samples: false,
             progress: Some(&count),
+            ..Sampling::default()
         };
         let sampled = Sweep::run(study, question, &places, Some(&sampling))?;
         bar.finish_and_clear();

@@ -27,7 +27,8 @@ pub(crate) fn dot_complex<const N: usize>(x: &[Complex; N], y: &[Complex; N]) ->
 }
 
 pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    let mut sum = 0.0;
+    // The neutral element of addition: the first sum costs nothing.
+    let mut sum = -0.0;
     for i in 0..N {
         sum += a[i] * b[i];
     }
@@ -56,21 +57,38 @@ pub(crate) fn transpose<const R: usize, const C: usize>(matrix: &[[f64; C]; R]) 
 }
 
 pub(crate) fn largest<const N: usize>(x: &[f64; N]) -> f64 {
-    x.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+    x.iter().fold(0.0, |most, value| greater(most, value.abs()))
+}
+
+/// The greater of two numbers, the first one where the second is NaN; one instruction, unlike [`f64::max`].
+#[inline]
+pub(crate) fn greater(most: f64, value: f64) -> f64 {
+    if value > most { value } else { most }
 }
 
 pub(crate) fn largest_element<const N: usize>(matrix: &Square<N>) -> f64 {
     matrix
         .iter()
-        .fold(0.0, |most: f64, row| most.max(largest(row)))
+        .fold(0.0, |most, row| greater(most, largest(row)))
 }
 
+/// Whether no value is NaN or infinite; of a few values, without a branch for each.
+#[inline]
 pub(crate) fn all_finite<const N: usize>(x: &[f64; N]) -> bool {
-    x.iter().all(|value| value.is_finite())
+    x.iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
+/// NaN unless a value is finite: then zero.
+#[inline]
+pub(crate) fn unless_finite(value: f64) -> f64 {
+    0.0 * value
+}
+
+/// As [`all_finite`].
+#[inline]
 pub(crate) fn all_finite_square<const N: usize>(matrix: &Square<N>) -> bool {
-    matrix.iter().all(all_finite)
+    let values = matrix.iter().flatten();
+    values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
 }
 
 /// Greatest difference of mirrored elements, relative to the greatest element.
@@ -85,57 +103,68 @@ pub(crate) fn asymmetry<const N: usize>(matrix: &Square<N>) -> f64 {
     if size > 0.0 { most / size } else { 0.0 }
 }
 
-/// Cholesky factor of a symmetric positive definite matrix (lower triangle, `matrix = L L^T`).
+/// Factors of a symmetric positive definite matrix, `matrix = L D L^T`: Cholesky's without roots.
 pub(crate) struct Cholesky<const N: usize> {
+    /// `L` below the diagonal, which is one.
     lower: Square<N>,
+    /// The diagonal of `D`.
+    pivots: [f64; N],
 }
 
 impl<const N: usize> Cholesky<N> {
     /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
+    #[inline]
     pub(crate) fn new(matrix: &Square<N>) -> Result<Self, usize> {
         let threshold = 8.0 * N as f64 * f64::EPSILON;
         let mut lower = [[0.0; N]; N];
+        let mut pivots = [0.0; N];
         for i in 0..N {
-            for j in 0..=i {
+            let mut pivot = matrix[i][i];
+            let mut scaled = [0.0; N];
+            for j in 0..i {
                 let mut sum = matrix[i][j];
                 for k in 0..j {
-                    sum -= lower[i][k] * lower[j][k];
+                    sum -= scaled[k] * lower[j][k];
                 }
-                if i != j {
-                    lower[i][j] = sum / lower[j][j];
-                } else if sum > threshold * matrix[i][i].abs() && sum.is_finite() {
-                    lower[i][i] = sum.sqrt();
-                } else {
-                    return Err(i);
-                }
+                scaled[j] = sum;
+                lower[i][j] = sum / pivots[j];
+                pivot -= sum * lower[i][j];
+            }
+            if pivot > threshold * matrix[i][i].abs() && pivot.is_finite() {
+                pivots[i] = pivot;
+            } else {
+                return Err(i);
             }
         }
-        Ok(Self { lower })
+        Ok(Self { lower, pivots })
     }
 
-    /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T`.
+    /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T D^-1/2`.
     pub(crate) fn orthonormalise(&self, vectors: &mut [[f64; N]]) {
         for i in 0..vectors.len() {
             for k in 0..i {
                 vectors[i] = add_scaled(&vectors[i], -self.lower[i][k], &vectors[k]);
             }
-            vectors[i] = vectors[i].map(|value| value / self.lower[i][i]);
+        }
+        for (vector, pivot) in vectors.iter_mut().zip(self.pivots) {
+            let size = pivot.sqrt();
+            *vector = vector.map(|value| value / size);
         }
     }
 
+    #[inline]
     pub(crate) fn solve(&self, right: &[f64; N]) -> [f64; N] {
         let mut x = *right;
         for i in 0..N {
             for k in 0..i {
                 x[i] -= self.lower[i][k] * x[k];
             }
-            x[i] /= self.lower[i][i];
         }
         for i in (0..N).rev() {
+            x[i] /= self.pivots[i];
             for k in i + 1..N {
                 x[i] -= self.lower[k][i] * x[k];
             }
-            x[i] /= self.lower[i][i];
         }
         x
     }

@@ -129,12 +129,14 @@ where
     let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
     let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
     let mut points = Vec::with_capacity(values.len());
+    let mut smooth = Vec::with_capacity(values.len());
     for &value in values {
         let before = tracker.last;
         let (equilibrium, modes) = match tracker.advance(value) {
             Ok((state, modes)) => (Ok(state), modes),
             Err(error) => (Err(error.clone()), Err(error)),
         };
+        smooth.push(tracker.smooth && modes.is_ok());
         if let (Some(before), Some(after), true) = (before, tracker.last, modes.is_ok()) {
             for &condition in &conditions {
                 let mut found = Vec::new();
@@ -171,7 +173,8 @@ where
         _ => None,
     };
     crossings.sort_by_key(order);
-    let path = points.iter().map(|point| (point.value, &point.equilibrium));
+    let path = points.iter().zip(&smooth);
+    let path = path.map(|(point, smooth)| (point.value, &point.equilibrium, *smooth));
     let critical = critical_states_on(mechanism, (u, b), following, input, path);
     let critical = critical
         .iter()

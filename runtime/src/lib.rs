@@ -56,6 +56,9 @@
 //! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `equilibrium::critical_state`, ... |
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod dual;
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod lanes;
 mod mechanism;
 mod real;
 #[cfg(any(feature = "std", feature = "libm"))]

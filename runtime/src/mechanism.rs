@@ -3,6 +3,7 @@
 use core::array::from_fn;
 
 use crate::Real;
+use crate::dual::Dual;
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
 ///
@@ -46,6 +47,39 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; N], [T; N]);
+
+    /// The equations of motion linearised along any motion: `dg/dqddot = M*` (`mass`), `dg/dqdot` (`damping`) and `dg/dq`
+    /// (`stiffness`), what implicit integration and inverse dynamics with derivatives need. Without velocity and
+    /// acceleration they are [`Mechanism::linear`].
+    ///
+    /// Generated for small mechanisms; of a large one each column is differentiated by itself, as here.
+    fn motion_linear<T: Real>(
+        &self,
+        acceleration: &[T; N],
+        velocity: &[T; N],
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> Linear<T, N> {
+        let fixed = |x: &[T; N]| x.map(Dual::fixed);
+        let (u, b) = (u.map(Dual::fixed), b.map(Dual::fixed));
+        let column = |list: usize, k: usize| {
+            let mut arguments = [fixed(acceleration), fixed(velocity), fixed(q)];
+            arguments[list][k].slope = T::constant(1.0);
+            let [acceleration, velocity, q] = &arguments;
+            self.motion_residual(acceleration, velocity, q, &u, &b)
+                .map(|entry| entry.slope)
+        };
+        let matrix = |list: usize| {
+            let columns: [[T; N]; N] = from_fn(|j| column(list, j));
+            from_fn(|i| from_fn(|j| columns[j][i]))
+        };
+        Linear {
+            mass: matrix(0),
+            damping: matrix(1),
+            stiffness: matrix(2),
+        }
+    }
 
     /// Residual at rest and its Jacobian `Khat`: what a Newton step needs.
     fn residual_and_stiffness<T: Real>(
@@ -240,6 +274,72 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         u: &[T; U],
         b: &[T; P],
     ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+
+    /// [`Mechanism::residual_and_stiffness`], and like the others below written where it is called: what vectors of the
+    /// processor need. Generated code overrides it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_and_stiffness_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([T; N], [[T; N]; N]) {
+        self.residual_and_stiffness(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn linear_inlined<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N> {
+        self.linear(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_partials_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> ([[T; U]; N], [[T; P]; N]) {
+        self.residual_partials(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn linear_partials_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> LinearPartials<T, N, U, P> {
+        self.linear_partials(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn mode_gradient_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        phi: &[T; N],
+        lambda: T,
+    ) -> Gradient<T, N, U, P> {
+        self.mode_gradient(q, u, b, phi, lambda)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
+    fn residual_gradient_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+        w: &[T; N],
+    ) -> Gradient<T, N, U, P> {
+        self.residual_gradient(q, u, b, w)
+    }
 }
 
 fn zeros<T: Real, const K: usize>() -> [T; K] {
@@ -290,6 +390,17 @@ pub struct Linear<T, const N: usize> {
     pub stiffness: [[T; N]; N],
 }
 
+impl<T: Copy + Default, const N: usize> Default for Linear<T, N> {
+    fn default() -> Self {
+        let zero = [[T::default(); N]; N];
+        Self {
+            mass: zero,
+            damping: zero,
+            stiffness: zero,
+        }
+    }
+}
+
 /// Explicit partial derivatives of the linearised matrices; `by_coordinate[k]` is the derivative by coordinate `k`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
@@ -301,6 +412,18 @@ pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
     pub by_design: [Linear<T, N>; P],
 }
 
+impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
+    for LinearPartials<T, N, U, P>
+{
+    fn default() -> Self {
+        Self {
+            by_coordinate: [Linear::default(); N],
+            by_input: [Linear::default(); U],
+            by_design: [Linear::default(); P],
+        }
+    }
+}
+
 /// Partial derivatives of one scalar by everything it depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
@@ -310,6 +433,18 @@ pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
     pub inputs: [T; U],
     /// By each design variable.
     pub design: [T; P],
+}
+
+impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
+    for Gradient<T, N, U, P>
+{
+    fn default() -> Self {
+        Self {
+            coordinates: [T::default(); N],
+            inputs: [T::default(); U],
+            design: [T::default(); P],
+        }
+    }
 }
 
 /// What a mechanism is made of, and what the compiler proved about it.

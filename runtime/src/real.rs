@@ -45,6 +45,26 @@ pub trait Real:
     }
 }
 
+/// Power by repeated squaring; written out, because the standard library leaves open which products are formed.
+#[cfg(any(feature = "std", feature = "libm"))]
+#[inline(always)]
+pub(crate) fn integer_power<T: Real>(base: T, exponent: i32) -> T {
+    let (mut power, mut square) = (T::constant(1.0), base);
+    let mut rest = exponent.unsigned_abs();
+    while rest > 0 {
+        if rest & 1 == 1 {
+            power = power * square;
+        }
+        square = square * square;
+        rest >>= 1;
+    }
+    if exponent < 0 {
+        T::constant(1.0) / power
+    } else {
+        power
+    }
+}
+
 /// One implementation for the two floating-point types, over the standard library's functions or libm's. Sine and cosine
 /// of `f64` are our own.
 #[cfg(any(feature = "std", feature = "libm"))]
@@ -115,10 +135,7 @@ macro_rules! float {
         }
         #[inline]
         fn powi(self, exponent: i32) -> Self {
-            #[cfg(feature = "std")]
-            return self.powi(exponent);
-            #[cfg(not(feature = "std"))]
-            return libm::$pow(self, exponent as $float);
+            integer_power(self, exponent)
         }
         #[inline]
         fn powf(self, exponent: Self) -> Self {

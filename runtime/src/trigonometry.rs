@@ -1,10 +1,12 @@
-//! Sine and cosine of `f64` without a branch, so that a loop over several angles becomes vector code, and without fused
-//! operations, so that every processor gives the same bits.
+//! Sine and cosine without a branch, for `f64` and for vectors of the processor, and without fused operations, so that
+//! all give the same bits everywhere.
 
 use core::f64::consts::FRAC_2_PI;
 
+use crate::lanes::Vector;
+
 /// Greatest `|x|` that [`sin_cos_within`] takes, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves free.
-const LIMIT: f64 = 1e5;
+pub(crate) const LIMIT: f64 = 1e5;
 
 /// pi/2 in three parts, the first two of 36 bits: their products with an integer up to 2^16 are exact. What is missing is
 /// below 2^-130.
@@ -37,46 +39,68 @@ const COSINE: [f64; 6] = [
     -1.1359917371461161e-11,
 ];
 
-/// Sine and cosine of `x` rad for `|x| <= 1e5`, each within one unit in the last place; NaN beyond.
+/// Sine and cosine of `x` rad for `|x| <=` [`LIMIT`], each within one unit in the last place. In other lanes the result means
+/// nothing.
 ///
 /// Reduction by multiples of pi/2 after Cody and Waite (1980), with the rounding error of the difference carried on, so that
 /// digits stay where `x` is next to a multiple.
 #[inline(always)]
-pub(crate) fn sin_cos_within(x: f64) -> (f64, f64) {
-    let x = if x.abs() <= LIMIT { x } else { f64::NAN };
-    let shifted = x * FRAC_2_PI + ROUND;
-    let quarter = shifted.to_bits();
-    let turns = shifted - ROUND;
+pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
+    let number = V::constant;
+    let shifted = x * number(FRAC_2_PI) + number(ROUND);
+    let turns = shifted - number(ROUND);
     // r + tail = x - turns pi/2
-    let first = x - turns * PI_2[0];
-    let second = turns * PI_2[1];
+    let first = x - turns * number(PI_2[0]);
+    let second = turns * number(PI_2[1]);
     let both = first - second;
     let lost = (first - both) - second;
-    let rest = turns * PI_2[2] - lost;
+    let rest = turns * number(PI_2[2]) - lost;
     let r = both - rest;
     let tail = (both - r) - rest;
 
     let z = r * r;
     let w = z * z;
     let v = z * r;
-    let high = (SINE[1] + z * SINE[2]) + w * ((SINE[3] + z * SINE[4]) + w * SINE[5]);
-    let sine = r - ((z * (0.5 * tail - v * high) - tail) - v * SINE[0]);
-    let low = COSINE[0] + z * (COSINE[1] + z * COSINE[2]);
-    let high = (COSINE[3] + z * COSINE[4]) + w * COSINE[5];
-    let half = 0.5 * z;
-    let one = 1.0 - half;
-    let cosine = one + (((1.0 - one) - half) + (w * (low + (z * w) * high) - r * tail));
+    let high = sine_terms(z, w);
+    let sine = r - ((z * (number(0.5) * tail - v * high) - tail) - v * number(SINE[0]));
+    let half = number(0.5) * z;
+    let near_one = number(1.0) - half;
+    let correction = w * cosine_terms(z, w) - r * tail;
+    let cosine = near_one + (((number(1.0) - near_one) - half) + correction);
+    shifted.turn(sine, cosine)
+}
 
-    let (s, c) = if quarter & 1 == 0 {
-        (sine, cosine)
-    } else {
-        (cosine, sine)
-    };
-    let sign = |bits: u64| (bits & 2) << 62;
-    (
-        f64::from_bits(s.to_bits() ^ sign(quarter)),
-        f64::from_bits(c.to_bits() ^ sign(quarter.wrapping_add(1))),
-    )
+/// Sine and cosine of an angle in full turns, between zero and one, to a few units of rounding of one.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn sin_cos_of_turns<V: Vector>(turns: V) -> (V, V) {
+    let number = V::constant;
+    let quarters = turns * number(4.0);
+    let shifted = quarters + number(ROUND);
+    let r = (quarters - (shifted - number(ROUND))) * number(core::f64::consts::FRAC_PI_2);
+    let z = r * r;
+    let w = z * z;
+    let (sine, cosine) = (sine_terms(z, w), cosine_terms(z, w));
+    let sine = r + z * r * (number(SINE[0]) + z * sine);
+    let cosine = (number(1.0) - number(0.5) * z) + w * cosine;
+    shifted.turn(sine, cosine)
+}
+
+/// `S1 + S2 z + ..`, `z = r^2`, `w = z^2`.
+#[inline(always)]
+fn sine_terms<V: Vector>(z: V, w: V) -> V {
+    let number = V::constant;
+    (number(SINE[1]) + z * number(SINE[2]))
+        + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]))
+}
+
+/// `C0 + C1 z + ..`.
+#[inline(always)]
+fn cosine_terms<V: Vector>(z: V, w: V) -> V {
+    let number = V::constant;
+    let low = number(COSINE[0]) + z * (number(COSINE[1]) + z * number(COSINE[2]));
+    let high = (number(COSINE[3]) + z * number(COSINE[4])) + w * number(COSINE[5]);
+    low + (z * w) * high
 }
 
 /// Sine and cosine of `x` rad, each within one unit in the last place; the same bits on every machine. NaN for what is not

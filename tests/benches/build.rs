@@ -23,6 +23,9 @@ const GROWN: [&[usize]; 2] = [&[1, 2, 4, 8, 16, 32, 64], &[1]];
 /// The largest chain whose explicit partials are written out.
 const MOST_WITH_PARTIALS: usize = 16;
 
+/// The largest chain whose kernels are compiled for vectors: every one is, for every set of instructions.
+const MOST_IN_LANES: usize = 16;
+
 /// The kernels whose growth is measured: `growth::Kernels` is the contract cut down to them.
 const GROWING: [&str; 3] = ["residual", "mode_gradient", "mode_gradient_along"];
 
@@ -33,16 +36,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = env::var("OUT_DIR")?;
     let folder = Path::new(&folder);
 
-    let (mut items, mut visits) = (String::new(), String::new());
+    let (mut items, mut visits, mut short) = (String::new(), String::new(), String::new());
     for &bars in COMPARED[checked] {
         let name = format!("Chain{bars}");
         write!(items, "{}", compiled(&name, bars)?.emit())?;
-        write!(visits, "visitor.visit({name});")?;
+        let visit = format!("visitor.visit({name});");
+        if bars <= MOST_IN_LANES {
+            short += &visit;
+        }
+        visits += &visit;
     }
     let visitor = "/// Shows every chain to the visitor, shortest first.\npub(crate) fn visit_all";
     write!(
         items,
         "{visitor}(visitor: &mut impl Visitor) {{ {visits} }}"
+    )?;
+    write!(
+        items,
+        "/// Shows every chain that is timed in vectors.\n\
+         pub(crate) fn visit_short(visitor: &mut impl Visitor) {{ {short} }}"
     )?;
     let longest = COMPARED[checked].iter().max().ok_or("no chain")?;
     write!(
@@ -79,8 +91,14 @@ fn compiled(name: &str, bars: usize) -> Result<Compilation, Box<dyn Error>> {
         false => 0,
     };
     let declaration = chain::declaration(name, bars).parse()?;
-    let compilation = compile(declaration, Limits { explicit_partials })
-        .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
+    let compilation = compile(
+        declaration,
+        Limits {
+            explicit_partials,
+            motion_linear: 0,
+        },
+    )
+    .map_err(|mistakes| format!("{name}: {mistakes:?}"))?;
     Ok(compilation)
 }
 

@@ -12,9 +12,7 @@ use eigentol_oracle::model::Model;
 use eigentol_oracle::{Linear, LinearPartials};
 
 /// Explicit partial derivatives whatever their number.
-const EVERYTHING: Limits = Limits {
-    explicit_partials: usize::MAX,
-};
+const EVERYTHING: Limits = Limits::NONE;
 
 /// A compiled model.
 pub struct Compiled {

@@ -87,6 +87,7 @@ where
             b(6),
             q(7),
         )),
+        "motion_linear" => matrices(&[machine.motion_linear(q(0), q(1), q(2), u(3), b(4))]),
         "whirl" => vec![machine.whirl(q(0), u(1), b(2), q(3), q(4)).to_vec()],
         other => return evaluate_at(machine, other, arguments),
     })

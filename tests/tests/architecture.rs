@@ -165,7 +165,7 @@ fn compiler_runtime_and_oracle_never_import_each_other() {
 fn solver_types_never_enter_the_compiler() {
     for file in sources(&root().join("macros")) {
         let text = read(&file);
-        for solver in ["nalgebra", "rayon", "statrs"] {
+        for solver in ["nalgebra", "rayon"] {
             assert!(
                 !text.contains(solver),
                 "{} mentions {solver}",
@@ -173,6 +173,19 @@ fn solver_types_never_enter_the_compiler() {
             );
         }
     }
+}
+
+#[test]
+fn unsafe_code_stays_in_one_file() {
+    let runtime = root().join("runtime/src");
+    let crates = ["runtime/src", "macros", "examples"];
+    let files = crates
+        .iter()
+        .flat_map(|folder| sources(&root().join(folder)));
+    let allowed: Vec<PathBuf> = files
+        .filter(|file| read(file).contains("allow(unsafe_code)"))
+        .collect();
+    assert_eq!(allowed, [runtime.join("lanes/x86.rs")]);
 }
 
 #[test]

@@ -14,9 +14,7 @@ use eigentol_tests::fixed::fixed;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-const EVERYTHING: Limits = Limits {
-    explicit_partials: usize::MAX,
-};
+const EVERYTHING: Limits = Limits::NONE;
 
 struct Machine {
     mechanism: Mechanism,

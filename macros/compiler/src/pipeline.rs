@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use proc_macro2::TokenStream;
 
+use crate::algebra::Function;
 use crate::base::diagnostics::Diagnostics;
 use crate::emit::emit;
 use crate::mechanics::{Functions, Limits, derive};
@@ -37,8 +38,13 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
     let ast = parse(declaration)?;
     let mechanism = resolve(&ast)?;
     let topology = build(&mechanism)?;
-    let functions = derive(&mechanism, &topology, limits)?;
-    let program = lower(&functions.graph, &functions.functions);
+    let mut functions = derive(&mechanism, &topology, limits)?;
+    let regrouped: Vec<Function> = functions
+        .functions
+        .iter()
+        .map(|function| function.regrouped(&mut functions.graph))
+        .collect();
+    let program = lower(&functions.graph, &regrouped);
     Ok(Compilation {
         ast,
         mechanism,

@@ -4,8 +4,8 @@
 //! constraint is measured by motions too, and a reaction by the largest.
 
 use super::problem::Problem;
-use crate::Mechanism;
-use crate::array::{Square, largest};
+use crate::array::{Square, greater, largest};
+use crate::{Mechanism, RestParts};
 
 /// Relative residual that counts as solved once it no longer falls.
 pub(super) const TOLERANCE: f64 = 1e-10;
@@ -13,6 +13,8 @@ pub(super) const TOLERANCE: f64 = 1e-10;
 pub(super) const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small changes nothing.
 const FLOOR: f64 = 2.0 * f64::EPSILON;
+/// A displacement this small may be the rounding of the residual.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
 const LAST_STEP: f64 = 1e-8;
 /// A residual that keeps this share in a step has stopped falling: even where `Khat` is singular at the solution, Newton
@@ -54,6 +56,7 @@ impl<const N: usize> Watch<N> {
 
     /// Judges a state by its residual and by the full step that would come next; without a step only the residual
     /// counts.
+    #[inline]
     pub(super) fn judge<M, const U: usize, const P: usize, const O: usize>(
         &mut self,
         problem: &Problem<'_, M, N, U, P, O>,
@@ -71,23 +74,16 @@ impl<const N: usize> Watch<N> {
             self.fell_at = *q;
         }
         let motions = Problem::<M, N, U, P, O>::MOTIONS;
-        let reaction = largest_of(&q[motions..]);
-        let motion = step.map_or(f64::INFINITY, |step| {
-            (0..N).fold(0.0, |most: f64, j| {
-                let unit = if j < motions { 1.0 } else { reaction };
-                most.max(ratio(step[j], q[j].abs() + SMALL_MOTION * unit))
-            })
-        });
+        let last = step.map_or(Last::More, |step| last(step, q, motions));
         let solved = |tolerance| settled(problem, q, residual, stiffness, tolerance);
-        if motion <= FLOOR && solved(ACCEPTED) {
-            return Progress::Finished;
-        }
-        if stalled && !self.drifts(&q[..motions]) && solved(TOLERANCE) {
+        if (last == Last::Reached && solved(ACCEPTED))
+            || (stalled && !self.drifts(&q[..motions]) && solved(TOLERANCE))
+        {
             Progress::Finished
-        } else if motion <= LAST_STEP {
-            Progress::LastStep
-        } else {
+        } else if last == Last::More {
             Progress::Underway
+        } else {
+            Progress::LastStep
         }
     }
 
@@ -98,6 +94,50 @@ impl<const N: usize> Watch<N> {
             .zip(&self.fell_at)
             .any(|(now, then)| (now - then).abs() > DRIFT * (1.0 + then.abs()))
     }
+}
+
+/// What a full Newton step says about the way that is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Last {
+    /// More than one step.
+    More,
+    /// This step reaches rounding.
+    OneMore,
+    /// None: the step changes nothing.
+    Reached,
+}
+
+/// How many steps are left, by the next one from `q`.
+#[inline]
+pub(super) fn last<const N: usize>(step: &[f64; N], q: &[f64; N], motions: usize) -> Last {
+    if !within(LAST_STEP, step, q, motions) {
+        Last::More
+    } else if within(FLOOR, step, q, motions) {
+        Last::Reached
+    } else {
+        Last::OneMore
+    }
+}
+
+/// Whether a displacement of the unknowns is of the size of rounding.
+#[inline]
+pub(super) fn is_rounding<const N: usize>(
+    displacement: &[f64; N],
+    q: &[f64; N],
+    motions: usize,
+) -> bool {
+    within(ROUNDING, displacement, q, motions)
+}
+
+/// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change of a
+/// reaction within that of the reaction or of the greatest one.
+#[inline]
+fn within<const N: usize>(tolerance: f64, step: &[f64; N], q: &[f64; N], motions: usize) -> bool {
+    let reaction = largest_of(&q[motions..]);
+    (0..N).all(|j| {
+        let unit = if j < motions { 1.0 } else { reaction };
+        step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit)
+    })
 }
 
 /// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
@@ -128,22 +168,50 @@ pub(super) fn relative_residual<M, const N: usize, const U: usize, const P: usiz
 where
     M: Mechanism<N, U, P, O>,
 {
-    let parts = problem
-        .mechanism
-        .residual_parts(q, problem.inputs, problem.design);
+    relative_to(problem, &problem.parts(q), q, residual, stiffness)
+}
+
+/// As [`relative_residual`] with the parts of the residual at `q`.
+#[inline]
+pub(super) fn relative_to<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    _: &Problem<'_, M, N, U, P, O>,
+    parts: &RestParts<f64, N>,
+    q: &[f64; N],
+    residual: &[f64; N],
+    stiffness: &Square<N>,
+) -> f64
+where
+    M: Mechanism<N, U, P, O>,
+{
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
     let reaction = largest_of(&q[motions..]);
-    let force = |i: usize| {
-        let own = parts.inertia[i].abs().max(parts.applied[i].abs());
-        let reactions =
-            (motions..N).map(|j| stiffness[i][j].abs() * q[j].abs().max(SMALL_MOTION * reaction));
-        let force = reactions.fold(own, f64::max);
-        if force.is_finite() { force } else { 0.0 }
-    };
-    (0..N).fold(0.0, |most: f64, i| {
-        let force = if i < motions { force(i) } else { 0.0 };
-        most.max(relative(residual[i], force, &q[..motions], &stiffness[i]))
-    })
+    let small: [f64; N] = core::array::from_fn(|j| small_motion(q[j]));
+    let mut most = 0.0;
+    for i in 0..N {
+        let mut force = 0.0;
+        if i < motions {
+            force = greater(parts.inertia[i].abs(), parts.applied[i].abs());
+            for j in motions..N {
+                let size = greater(SMALL_MOTION * reaction, q[j].abs());
+                force = greater(force, stiffness[i][j].abs() * size);
+            }
+        }
+        let scale = (0..motions).fold(force, |sum, j| sum + stiffness[i][j].abs() * small[j]);
+        let own = if scale > 0.0 && scale < f64::INFINITY {
+            residual[i].abs() / scale
+        } else {
+            let force = if force.is_finite() { force } else { 0.0 };
+            relative(residual[i], force, &q[..motions], &stiffness[i])
+        };
+        most = greater(most, own);
+    }
+    most
+}
+
+/// A small motion of a coordinate: [`SMALL_MOTION`] and a few roundings.
+#[inline]
+fn small_motion(q: f64) -> f64 {
+    SMALL_MOTION + ROUNDED * q.abs()
 }
 
 /// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
@@ -153,10 +221,11 @@ pub(super) fn relative_gap<const N: usize>(gap: f64, motions: &[f64], row: &[f64
 
 /// One equation's residual relative to `force` and the row of stiffnesses against motions `q`; a scale that overflows is
 /// formed anew from smaller numbers.
+#[inline]
 fn relative<const N: usize>(residual: f64, force: f64, q: &[f64], row: &[f64; N]) -> f64 {
     let scale = |unit: f64| {
         q.iter().zip(row).fold(unit * force, |sum, (q, slope)| {
-            sum + unit * slope.abs() * (SMALL_MOTION + ROUNDED * q.abs())
+            sum + unit * slope.abs() * small_motion(*q)
         })
     };
     let plain = scale(1.0);
@@ -168,6 +237,7 @@ fn relative<const N: usize>(residual: f64, force: f64, q: &[f64], row: &[f64; N]
     }
 }
 
+#[inline]
 fn ratio(residual: f64, scale: f64) -> f64 {
     if residual == 0.0 {
         0.0
@@ -179,11 +249,14 @@ fn ratio(residual: f64, scale: f64) -> f64 {
 }
 
 /// Coordinates and speeds beyond this are taken as an escape to infinity.
-pub(super) fn escaped(motions: &[f64], start: &[f64]) -> bool {
-    largest_of(motions) > 1e12 * (1.0 + largest_of(start))
+pub(super) fn horizon(start: &[f64]) -> f64 {
+    1e12 * (1.0 + largest_of(start))
 }
 
 /// Greatest absolute value.
+#[inline]
 pub(super) fn largest_of(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+    values
+        .iter()
+        .fold(0.0, |most, value| greater(most, value.abs()))
 }

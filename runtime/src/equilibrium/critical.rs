@@ -95,7 +95,8 @@ where
 const MOST_STATES: usize = 32;
 
 /// The critical states on a path of stable equilibria, each on the branch that the path follows up to it. None where
-/// stable equilibria are not what is followed, or the values neither ascend nor descend.
+/// stable equilibria are not what is followed, or the values neither ascend nor descend. With each state, whether the path
+/// leads to it from the one before so smoothly that there is none between the two: it is not looked for there.
 pub(crate) fn critical_states_on<
     'a,
     M,
@@ -108,36 +109,47 @@ pub(crate) fn critical_states_on<
     (u, b): (&[f64; U], &[f64; P]),
     following: Following,
     input: Input,
-    path: impl Iterator<Item = (f64, &'a Result<Equilibrium<N, U, P>, Error>)>,
+    path: impl Iterator<Item = (f64, &'a Result<Equilibrium<N, U, P>, Error>, bool)>,
 ) -> Vec<CriticalState<N, U, P>>
 where
     M: Mechanism<N, U, P, O>,
 {
     let mut found = Vec::new();
-    let solved = path.filter_map(|(value, state)| Some((value, state.as_ref().ok()?.coordinates)));
-    let path: Vec<_> = solved.collect();
-    let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
-    let (Some(&(end, _)), true) = (path.last(), monotonic) else {
-        return found;
-    };
     if following.policy != Policy::Stable {
         return found;
     }
+    let solved = path.filter_map(|(value, state, smooth)| {
+        let state = state.as_ref().ok()?;
+        Some((value, state.coordinates, smooth))
+    });
+    let path: Vec<_> = solved.collect();
+    let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
+    let (Some(&(end, ..)), true) = (path.last(), monotonic) else {
+        return found;
+    };
     let direction = end - path[0].0;
     let mut rest = &path[..];
-    while let [(low, start), _, ..] = rest
+    while let [(low, start, _), after @ ..] = rest
         && found.len() < MOST_STATES
     {
+        // How far nothing excludes one.
+        let steps = after.iter().take_while(|(.., smooth)| !smooth).count();
+        if steps == 0 {
+            rest = after;
+            continue;
+        }
         let range = Range {
             input,
             low: *low,
-            high: end,
-            steps: rest.len(),
+            high: after[steps - 1].0,
+            steps,
         };
         let Ok(critical) = critical_state(mechanism, u, b, start, range) else {
-            break;
+            rest = &rest[steps..];
+            continue;
         };
-        let beyond = |(value, _): &(f64, [f64; N])| (value - critical.value) * direction > 0.0;
+        let beyond =
+            |(value, ..): &(f64, [f64; N], bool)| (value - critical.value) * direction > 0.0;
         let next = rest.iter().position(beyond).unwrap_or(rest.len());
         rest = &rest[next.max(1)..];
         found.push(critical);

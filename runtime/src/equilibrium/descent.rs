@@ -3,9 +3,9 @@
 //! its curvature made positive where it is not, and a step along the unstable mode away from a saddle. With constraints on
 //! positions the same along the directions they leave free.
 
-use super::convergence::{Progress, TOLERANCE, Watch, escaped, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
-use super::settle::{Found, last_step};
+use super::settle::{End, Found, last_step};
 use super::space::{Base, Space, Trial};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
@@ -19,59 +19,61 @@ const FIRST_RADIUS: f64 = 1.0;
 /// Displacement (rad or m) by which an unstable equilibrium is left.
 const DEPARTURE: f64 = 1e-3;
 
-/// Descends from `start`, which meets the constraints, to a minimum of the amended potential.
+/// Descends to a minimum of the amended potential from `from`, a state on the way from `start`; both meet the constraints.
 pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
+    from: &[f64; N],
 ) -> Result<Found<N>, Failure<N>>
 where
     S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, start)?;
+    let mut base: Base<N, S> = S::base(problem, from)?;
     let mut radius = FIRST_RADIUS;
     let mut departures = 0;
     let mut left_unstable_region = false;
     let mut watch = Watch::new(&base.q);
+    let escaped = horizon(&start[..motions]);
     for iterations in 0..MAX_ITERATIONS {
         let at = (&base.residual, &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
         let convex = Cholesky::new(&stiffness).ok();
-        let curved = match &convex {
-            Some(_) => None,
+        let (mut step, curved) = match &convex {
+            Some(factors) => (factors.solve(&slopes).map(|value| -value), None),
             None => {
-                let mass = problem.linear(&base.q)?.mass;
-                let pairs = symmetric::solve(&stiffness, &base.space.mass(&mass))?;
-                let unstable = pairs.lambda[0] < -neutral_threshold(&pairs.lambda);
-                left_unstable_region |= unstable;
-                Some((pairs, mass, unstable))
+                let curved = Curved::new(problem, &base, &stiffness)?;
+                left_unstable_region |= curved.unstable;
+                (curved_step(&curved.pairs, &slopes), Some(curved))
             }
         };
-        let found = |q, residual, iterations| Found {
-            coordinates: q,
-            residual,
+        let found = |end: End<N>, iterations| Found {
+            coordinates: end.coordinates,
+            residual: end.residual,
+            parts: end.parts,
             iterations,
             left_unstable_region,
         };
-        let mut step = base.space.lift(&match (&convex, &curved) {
-            (Some(cholesky), _) => cholesky.solve(&slopes).map(|value| -value),
-            (None, Some((pairs, ..))) => curved_step(pairs, &slopes),
-            (None, None) => slopes.map(|value| -value),
-        });
+        let here = |base: &Base<N, S>| End {
+            coordinates: base.q,
+            residual: base.residual,
+            parts: None,
+        };
+        step = base.space.lift(&step);
         let progress = watch.judge(problem, &base.q, at, Some(&step));
         if progress == Progress::Finished {
-            let Some((pairs, mass, true)) = curved else {
-                return Ok(found(base.q, base.residual, iterations));
+            let Some(curved) = curved.filter(|curved| curved.unstable) else {
+                return Ok(found(here(&base), iterations));
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
                 let reason = "only unstable equilibria";
                 return Err(failure(problem, reason, &base.q, iterations));
             }
-            let shape = base.space.lift(&pairs.shapes[0]);
-            let side = departure(&shape, &mass, &base.q, start);
+            let shape = base.space.lift(&curved.pairs.shapes[0]);
+            let side = departure(&shape, &curved.mass, &base.q, start);
             let Some(trial) = base.space.trial(problem, &base.q, &side, 1.0) else {
                 return Err(outside(&base.q));
             };
@@ -80,10 +82,12 @@ where
             continue;
         }
         if progress == Progress::LastStep
-            && convex.is_some()
-            && let Some((end, rest)) = last_step(problem, &base.q, at, &step)
+            && let Some(factors) = &convex
+            && let Some(end) = last_step(problem, &base.q, at, &step, |rest| {
+                base.space.lift(&factors.solve(&base.space.slopes(rest)))
+            })
         {
-            return Ok(found(end, rest, iterations + 1));
+            return Ok(found(end, iterations + 1));
         }
         let size = largest(&step);
         let limited = size > radius;
@@ -93,7 +97,7 @@ where
         let Some(next) = search(problem, &base, &step) else {
             let relative = relative_residual(problem, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex.is_some() {
-                return Ok(found(base.q, base.residual, iterations));
+                return Ok(found(here(&base), iterations));
             }
             let reason = "no descent from the last state";
             return Err(failure(problem, reason, &base.q, iterations));
@@ -104,13 +108,43 @@ where
             radius *= 4.0;
         }
         base = S::arrive(problem, next.trial)?;
-        if escaped(&base.q[..motions], &start[..motions]) {
+        if largest_of(&base.q[..motions]) > escaped {
             let reason = "the coordinates escape to infinity";
             return Err(failure(problem, reason, &base.q, iterations));
         }
     }
     let reason = "too many iterations";
     Err(failure(problem, reason, &base.q, MAX_ITERATIONS))
+}
+
+/// The modes at a state where the potential is not convex.
+struct Curved<const N: usize> {
+    pairs: symmetric::Pairs<N>,
+    mass: Square<N>,
+    /// The potential falls along the first mode.
+    unstable: bool,
+}
+
+impl<const N: usize> Curved<N> {
+    #[cold]
+    fn new<S, M, const U: usize, const P: usize, const O: usize>(
+        problem: &Problem<'_, M, N, U, P, O>,
+        base: &Base<N, S>,
+        stiffness: &Square<N>,
+    ) -> Result<Self, Failure<N>>
+    where
+        S: Space<N>,
+        M: Mechanism<N, U, P, O>,
+    {
+        let mass = problem.linear(&base.q)?.mass;
+        let pairs = symmetric::solve(stiffness, &base.space.mass(&mass))?;
+        let unstable = pairs.lambda[0] < -neutral_threshold(&pairs.lambda);
+        Ok(Self {
+            pairs,
+            mass,
+            unstable,
+        })
+    }
 }
 
 fn outside<const N: usize>(q: &[f64; N]) -> Failure<N> {
@@ -208,6 +242,7 @@ where
     None
 }
 
+#[cold]
 fn failure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     reason: &'static str,

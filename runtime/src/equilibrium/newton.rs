@@ -1,6 +1,6 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
-use super::convergence::{Progress, TOLERANCE, Watch, escaped, largest_of, relative_residual};
+use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
 use super::problem::{Failure, Problem};
 use super::settle::{Found, last_step};
 use super::space::{Base, Space, Trial};
@@ -25,18 +25,23 @@ where
     let weight = S::weights(problem, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&base.q);
+    let escaped = horizon(&start[..motions]);
     for iterations in 0..MAX_ITERATIONS {
         let found = Found {
             coordinates: base.q,
             residual: base.residual,
+            parts: None,
             iterations,
             left_unstable_region: false,
         };
         let at = (&base.residual, &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
-        let newton =
-            Lu::new(&stiffness).map(|lu| base.space.lift(&lu.solve(&slopes).map(|value| -value)));
+        let factors = Lu::new(&stiffness);
+        let displacement = |lu: &Lu<f64, N>, slopes: &[f64; N]| {
+            base.space.lift(&lu.solve(slopes).map(|value| -value))
+        };
+        let newton = factors.as_ref().map(|lu| displacement(lu, &slopes));
         let progress = watch.judge(problem, &base.q, at, newton.as_ref());
         if progress == Progress::Finished {
             return Ok(found);
@@ -44,11 +49,15 @@ where
         let mut step =
             newton.unwrap_or_else(|| base.space.lift(&damped_step(&slopes, &stiffness, &weight)));
         if progress == Progress::LastStep
-            && let Some((coordinates, residual)) = last_step(problem, &base.q, at, &step)
+            && let Some(lu) = &factors
+            && let Some(end) = last_step(problem, &base.q, at, &step, |rest| {
+                displacement(lu, &base.space.slopes(rest))
+            })
         {
             return Ok(Found {
-                coordinates,
-                residual,
+                coordinates: end.coordinates,
+                residual: end.residual,
+                parts: end.parts,
                 iterations: iterations + 1,
                 ..found
             });
@@ -72,12 +81,12 @@ where
             radius *= 2.0;
         }
         base = S::arrive(problem, next)?;
-        if escaped(&base.q[..motions], &start[..motions]) {
+        if largest_of(&base.q[..motions]) > escaped {
             break;
         }
     }
     let relative = relative_residual(problem, &base.q, &base.residual, &base.stiffness);
-    let reason = if escaped(&base.q[..motions], &start[..motions]) {
+    let reason = if largest_of(&base.q[..motions]) > escaped {
         "the coordinates escape to infinity"
     } else {
         "too many iterations"

@@ -3,7 +3,7 @@
 use crate::array::{Square, all_finite, all_finite_square};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::modes::symmetric::Trouble;
-use crate::{Description, Error, Linear, Mechanism, Role};
+use crate::{DampingKind, Description, Error, Linear, Mechanism, RestParts, Role};
 
 /// A mechanism at given inputs and design variables.
 pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
@@ -44,15 +44,11 @@ where
         inputs: &'a [f64; U],
         design: &'a [f64; P],
     ) -> Result<Self, Error> {
-        let names = M::DESCRIPTION;
-        for (index, &value) in inputs.iter().enumerate() {
-            let name = names.inputs.get(index).map_or("?", |info| info.name);
-            finite("input", name, value)?;
-        }
-        for (index, &value) in design.iter().enumerate() {
-            let name = names.design.get(index).map_or("?", |info| info.name);
-            finite("design variable", name, value)?;
-        }
+        let names = Self::DESCRIPTION;
+        let input = |index: usize| names.inputs.get(index).map(|info| info.name);
+        let variable = |index: usize| names.design.get(index).map(|info| info.name);
+        finite("input", input, inputs)?;
+        finite("design variable", variable, design)?;
         if let Some(violation) = mechanism.violation(inputs, design) {
             return Err(Error::Unphysical {
                 quantity: violation.quantity,
@@ -103,14 +99,9 @@ where
     }
 
     pub(crate) fn check_start(&self, start: &[f64; N]) -> Result<(), Error> {
-        for (index, &value) in start.iter().enumerate() {
-            let name = M::DESCRIPTION
-                .coordinates
-                .get(index)
-                .map_or("?", |info| info.name);
-            finite("start value of coordinate", name, value)?;
-        }
-        Ok(())
+        let unknowns = Self::DESCRIPTION.coordinates;
+        let name = |index: usize| unknowns.get(index).map(|info| info.name);
+        finite("start value of coordinate", name, start)
     }
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
@@ -133,6 +124,11 @@ where
             self.drop_rows(&mut residual, None);
         }
         residual
+    }
+
+    /// Inertia and applied forces at rest; they may not be finite.
+    pub(crate) fn parts(&self, q: &[f64; N]) -> RestParts<f64, N> {
+        self.mechanism.residual_parts(q, self.inputs, self.design)
     }
 
     fn drop_rows(&self, residual: &mut [f64; N], mut stiffness: Option<&mut Square<N>>) {
@@ -166,17 +162,21 @@ where
     /// The linearised mechanism, its gauge fixed.
     pub(crate) fn linear(&self, q: &[f64; N]) -> Result<Linear<f64, N>, Failure<N>> {
         let mut linear = self.mechanism.linear(q, self.inputs, self.design);
-        for (what, matrix) in [
-            ("the mass matrix", &linear.mass),
-            ("the damping matrix", &linear.damping),
-            ("the stiffness matrix", &linear.stiffness),
-        ] {
-            if !all_finite_square(matrix) {
-                return Err(Failure::OutsideDomain {
-                    what,
-                    coordinates: *q,
-                });
-            }
+        let undamped = const { matches!(M::DESCRIPTION.damping, DampingKind::Zero) };
+        let what = if !all_finite_square(&linear.mass) {
+            "the mass matrix"
+        } else if !undamped && !all_finite_square(&linear.damping) {
+            "the damping matrix"
+        } else if !all_finite_square(&linear.stiffness) {
+            "the stiffness matrix"
+        } else {
+            ""
+        };
+        if !what.is_empty() {
+            return Err(Failure::OutsideDomain {
+                what,
+                coordinates: *q,
+            });
         }
         if const { !Self::STRUCTURE.open() } {
             fix_gauge(&mut linear.stiffness, Self::STRUCTURE);
@@ -185,11 +185,20 @@ where
     }
 }
 
-fn finite(kind: &'static str, name: &'static str, value: f64) -> Result<(), Error> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::NotFinite { kind, name, value })
+/// Refuses the first value that is not finite, under its name.
+#[inline]
+fn finite<const K: usize>(
+    kind: &'static str,
+    name: impl Fn(usize) -> Option<&'static str>,
+    values: &[f64; K],
+) -> Result<(), Error> {
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(Error::NotFinite {
+            kind,
+            name: name(index).unwrap_or("?"),
+            value: values[index],
+        }),
     }
 }
 
@@ -232,6 +241,7 @@ impl<const N: usize> From<Trouble> for Failure<N> {
 }
 
 impl<const N: usize> Failure<N> {
+    #[cold]
     pub(crate) fn explain(self, description: &'static Description) -> Error {
         match self {
             Self::OutsideDomain { what, coordinates } => Error::OutsideDomain {

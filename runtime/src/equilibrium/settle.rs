@@ -1,11 +1,14 @@
 //! From a start value to an equilibrium that is finished: solved to rounding, judged, its reactions determined.
 
-use super::convergence::{ACCEPTED, TOLERANCE, relative_residual, settled};
+use super::convergence::{
+    ACCEPTED, TOLERANCE, is_rounding, relative_residual, relative_to, settled,
+};
+use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
-use super::{Equilibrium, Policy, assembly, descent, newton, space, stability};
-use crate::array::{Cholesky, add_scaled, all_finite, dot, largest};
+use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
+use crate::array::{Cholesky, Square, add_scaled, all_finite, dot, largest};
 use crate::constraints::{ConstraintState, Structure, Tangent, all_rows, placed};
-use crate::{DampingKind, Description, Linear, Mechanism, Stability};
+use crate::{DampingKind, Description, Linear, Mechanism, RestParts, Stability};
 
 /// As [`equilibrium`], for values already checked; a failure owns nothing.
 pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -28,13 +31,59 @@ where
     if policy == Policy::Nearest || !potential {
         return nearest(problem, start).and_then(|found| finish(problem, found));
     }
+    if const { Structure::of(&M::DESCRIPTION).open() } {
+        return match quick::quick(problem, start) {
+            Ok(found) => finish(problem, found),
+            Err(base) => from_afar(problem, start, &base),
+        };
+    }
+    from_afar(problem, start, start)
+}
+
+/// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
+/// it is what was predicted. For mechanisms with a potential and without constraints.
+pub(super) fn settle_from_prediction<
+    M,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    last: &[f64; N],
+    predicted: &[f64; N],
+) -> Option<Equilibrium<N, U, P>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    if const { !(M::DESCRIPTION.symmetric_stiffness && Structure::of(&M::DESCRIPTION).open()) } {
+        return None;
+    }
+    let found = quick::quick(problem, predicted).ok()?;
+    if !confirmed(&found.coordinates, predicted, last) {
+        return None;
+    }
+    finish(problem, found).ok()
+}
+
+/// As [`settle`], for a stable equilibrium to which no straight way leads; the search begins at `base`.
+#[cold]
+fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    base: &[f64; N],
+) -> Result<Equilibrium<N, U, P>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let structure = const { Structure::of(&M::DESCRIPTION) };
     if let Some(state) = held(problem, start) {
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, base)
     } else {
-        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, base)
             .and_then(|found| polished(problem, found))
     };
     found
@@ -114,26 +163,78 @@ where
 pub(crate) struct Found<const N: usize> {
     pub(crate) coordinates: [f64; N],
     pub(crate) residual: [f64; N],
+    /// Of the residual, where they are known.
+    pub(crate) parts: Option<RestParts<f64, N>>,
     pub(crate) iterations: usize,
     pub(crate) left_unstable_region: bool,
 }
 
-/// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding.
+/// A state that may be the result.
+pub(super) struct End<const N: usize> {
+    pub(super) coordinates: [f64; N],
+    pub(super) residual: [f64; N],
+    pub(super) parts: Option<RestParts<f64, N>>,
+}
+
+impl<const N: usize> End<N> {
+    /// The state at `q`. Without constraints the parts, which the judgement of a result asks for, are the residual as well.
+    #[inline]
+    pub(super) fn at<M, const U: usize, const P: usize, const O: usize>(
+        problem: &Problem<'_, M, N, U, P, O>,
+        q: &[f64; N],
+    ) -> Self
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let parts = const { Structure::of(&M::DESCRIPTION).open() }.then(|| problem.parts(q));
+        Self {
+            coordinates: *q,
+            residual: match &parts {
+                Some(parts) => add_scaled(&parts.inertia, -1.0, &parts.applied),
+                None => problem.residual(q),
+            },
+            parts,
+        }
+    }
+
+    /// Whether the relative residual is finite and within `tolerance`.
+    #[inline]
+    pub(super) fn is_solved<M, const U: usize, const P: usize, const O: usize>(
+        &self,
+        problem: &Problem<'_, M, N, U, P, O>,
+        stiffness: &Square<N>,
+        tolerance: f64,
+    ) -> bool
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let (q, residual) = (&self.coordinates, &self.residual);
+        all_finite(residual)
+            && match &self.parts {
+                Some(parts) => relative_to(problem, parts, q, residual, stiffness) <= tolerance,
+                None => settled(problem, q, residual, stiffness, tolerance),
+            }
+    }
+}
+
+/// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding: to a small share, or to
+/// what `displacement`, from a residual to the Newton step it asks for, says is nothing.
+#[inline]
 pub(super) fn last_step<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     q: &[f64; N],
-    (residual, stiffness): (&[f64; N], &[[f64; N]; N]),
+    (residual, stiffness): (&[f64; N], &Square<N>),
     step: &[f64; N],
-) -> Option<([f64; N], [f64; N])>
+    displacement: impl FnOnce(&[f64; N]) -> [f64; N],
+) -> Option<End<N>>
 where
     M: Mechanism<N, U, P, O>,
 {
-    let end = add_scaled(q, 1.0, step);
-    let rest = problem.residual(&end);
-    let reached = all_finite(&rest)
-        && largest(&rest) <= 1e-3 * largest(residual)
-        && settled(problem, &end, &rest, stiffness, TOLERANCE);
-    reached.then_some((end, rest))
+    let motions = Problem::<M, N, U, P, O>::MOTIONS;
+    let end = End::at(problem, &add_scaled(q, 1.0, step));
+    let fell = largest(&end.residual) <= 1e-3 * largest(residual)
+        || is_rounding(&displacement(&end.residual), &end.coordinates, motions);
+    (fell && end.is_solved(problem, stiffness, TOLERANCE)).then_some(end)
 }
 
 fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -152,14 +253,13 @@ where
         // With the gaps of constraints that were left out.
         found.residual = problem.residual(&found.coordinates);
     }
-    let at = (&found.coordinates, problem.inputs, problem.design);
-    let constraints = ConstraintState::new(problem.mechanism, at, &linear);
-    let relative = relative_residual(
-        problem,
-        &found.coordinates,
-        &found.residual,
-        &linear.stiffness,
-    );
+    let place = (&found.coordinates, problem.inputs, problem.design);
+    let constraints = ConstraintState::new(problem.mechanism, place, &linear);
+    let at = (&found.coordinates, &found.residual, &linear.stiffness);
+    let relative = match &found.parts {
+        Some(parts) => relative_to(problem, parts, at.0, at.1, at.2),
+        None => relative_residual(problem, at.0, at.1, at.2),
+    };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: "the residual stays larger than rounding explains",
@@ -170,6 +270,11 @@ where
     }
     let stability = if constraints.singular {
         Stability::Undecided
+    } else if const { at_rest_by_stiffness(&M::DESCRIPTION) }
+        && Cholesky::new(&linear.mass).is_ok()
+        && Cholesky::new(&linear.stiffness).is_ok()
+    {
+        Stability::Stable
     } else {
         stability::judge(problem.description(), &linear)?
     };
@@ -189,6 +294,12 @@ where
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),
     })
+}
+
+/// Whether positive masses and stiffnesses alone make a state stable.
+const fn at_rest_by_stiffness(description: &Description) -> bool {
+    let undamped = matches!(description.damping, DampingKind::Zero);
+    undamped && description.symmetric_stiffness && Structure::of(description).open()
 }
 
 /// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.

@@ -83,11 +83,13 @@ where
     check_input::<U>(input, M::DESCRIPTION.name)?;
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
+    let mut smooth = Vec::with_capacity(values.len());
     let points = values.iter().map(|&value| {
         let (equilibrium, modes) = match tracker.advance(value) {
             Ok((state, modes)) => (Ok(state), modes),
             Err(error) => (Err(error.clone()), Err(error)),
         };
+        smooth.push(tracker.smooth && modes.is_ok());
         SweepPoint {
             value,
             equilibrium,
@@ -95,7 +97,8 @@ where
         }
     });
     let points: Vec<_> = points.collect();
-    let path = points.iter().map(|point| (point.value, &point.equilibrium));
+    let path = points.iter().zip(&smooth);
+    let path = path.map(|(point, smooth)| (point.value, &point.equilibrium, *smooth));
     let critical = critical_states_on(mechanism, (u, b), following, input, path);
     Ok(Sweep {
         input,

@@ -1,8 +1,10 @@
 //! Following one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
 //! keep their identity.
 
-use super::{Policy, equilibrium};
-use crate::modes::{Family, clusters, match_with_assurance, modes_of};
+use super::prediction::Path;
+use super::settle::settle_from_prediction;
+use super::{Policy, Problem, settle};
+use crate::modes::{Family, match_with_assurance, merged, modes_of, near_another};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Equilibrium, Error, Input, Mechanism, Modes};
 
@@ -47,8 +49,12 @@ pub(crate) struct Tracker<'a, M, const N: usize, const U: usize, const P: usize>
     family: Family,
     /// Where the next solve starts.
     from: [f64; N],
+    /// The way so far, which tells where it goes on.
+    path: Path<N>,
     /// The first label that no mode has had: one that has ended does not lend its label to another.
     unused: usize,
+    /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
+    pub(crate) smooth: bool,
     /// The last point that has modes.
     pub(crate) last: Option<Tracked<N, U, P>>,
 }
@@ -72,7 +78,9 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             policy: following.policy,
             family: following.family.unwrap_or(Family::of(&M::DESCRIPTION)),
             from: *start,
+            path: Path::default(),
             unused: 0,
+            smooth: false,
             last: None,
         }
     }
@@ -82,20 +90,36 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         self.family
     }
 
-    /// The equilibrium at a value of the input, from `from`.
-    fn equilibrium<const O: usize>(
-        &self,
-        value: f64,
-        from: &[f64; N],
-    ) -> Result<Equilibrium<N, U, P>, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    /// The inputs at a value of the one that varies.
+    fn inputs_at(&self, value: f64) -> [f64; U] {
         let mut inputs = self.inputs;
         if let Some(place) = inputs.get_mut(self.input.0) {
             *place = value;
         }
-        equilibrium(self.mechanism, &inputs, &self.design, from, self.policy)
+        inputs
+    }
+
+    /// The equilibrium at a value of the input, from `from`, or from where the way leads if it is found there at once: then
+    /// true.
+    fn equilibrium<const O: usize>(
+        &self,
+        value: f64,
+        from: &[f64; N],
+        predicted: Option<&[f64; N]>,
+    ) -> Result<(Equilibrium<N, U, P>, bool), Error>
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let inputs = self.inputs_at(value);
+        let problem = Problem::new(self.mechanism, &inputs, &self.design)?;
+        problem.check_start(from)?;
+        let predicted = predicted.filter(|_| self.policy == Policy::Stable);
+        if let Some(state) = predicted.and_then(|to| settle_from_prediction(&problem, from, to)) {
+            return Ok((state, true));
+        }
+        settle(&problem, from, self.policy)
+            .map(|state| (state, false))
+            .map_err(|failure| failure.explain(problem.description()))
     }
 
     /// Equilibrium and modes near a point, in the order and with the labels of its modes.
@@ -107,7 +131,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     where
         M: Mechanism<N, U, P, O>,
     {
-        let equilibrium = self.equilibrium(value, &point.equilibrium.coordinates)?;
+        let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
         let found = modes_of(&equilibrium.linear, self.family, equilibrium.description)?;
         Ok(Tracked {
             value,
@@ -128,17 +152,27 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
+        let mut smooth = true;
         loop {
-            match self.step(next, halvings) {
-                Ok(Step::Arrived(there)) => match after.pop() {
-                    None => return Ok(*there),
-                    Some(place) => (next, halvings) = place,
+            let step = self.step(next, halvings);
+            smooth &= self.smooth;
+            match step {
+                Ok(step) => match (step, after.pop()) {
+                    (Step::TooFar(middle), place) => {
+                        after.extend(place);
+                        halvings -= 1;
+                        after.push((next, halvings));
+                        next = middle;
+                    }
+                    (_, Some(place)) => (next, halvings) = place,
+                    (Step::WithoutModes(state, error), None) => return Ok((*state, Err(error))),
+                    (Step::Arrived, None) => {
+                        self.smooth = smooth;
+                        if let Some(last) = &self.last {
+                            return Ok((last.equilibrium, Ok(last.modes)));
+                        }
+                    }
                 },
-                Ok(Step::TooFar(middle)) => {
-                    halvings -= 1;
-                    after.push((next, halvings));
-                    next = middle;
-                }
                 Err(error) => match after.pop() {
                     None => return Err(error),
                     // Taken as it is, doubtful or not.
@@ -152,59 +186,67 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     where
         M: Mechanism<N, U, P, O>,
     {
-        let state = self.equilibrium(value, &self.from)?;
-        let found = match modes_of(&state.linear, self.family, state.description) {
+        let predicted = self.path.at(value);
+        let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_ref())?;
+        let mut found = match modes_of(&state.linear, self.family, state.description) {
             Ok(found) => found,
             Err(error) => {
                 self.from = state.coordinates;
-                return Ok(Step::Arrived(Box::new((state, Err(error)))));
+                self.path.go(value, &state.coordinates);
+                return Ok(Step::WithoutModes(Box::new(state), error));
             }
         };
-        let Some(last) = &self.last else {
-            return Ok(Step::Arrived(Box::new(self.arrive(value, state, found))));
-        };
-        let order = match_with_assurance(&last.modes, &found, &state.linear);
-        // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
-        let repeated = clusters(&found, CLUSTER_GAP);
-        let doubtful = order
-            .iter()
-            .flatten()
-            .any(|&(position, assurance)| assurance < RECOGNISED && !repeated[position]);
-        let middle = 0.5 * (last.value + value);
-        let between = (middle - last.value) * (value - middle) > 0.0;
-        if doubtful && halvings > 0 && between {
-            return Ok(Step::TooFar(middle));
+        self.smooth = false;
+        if let Some(last) = &self.last {
+            self.smooth = confirmed && even(&last.modes, &found);
+            let order = match_with_assurance(&last.modes, &found, &state.linear);
+            // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
+            let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
+            let doubtful = order
+                .iter()
+                .flatten()
+                .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+            let middle = 0.5 * (last.value + value);
+            let between = (middle - last.value) * (value - middle) > 0.0;
+            if doubtful && halvings > 0 && between {
+                return Ok(Step::TooFar(middle));
+            }
+            let order = order.map(|pair| pair.map(|(position, _)| position));
+            found.arrange(&last.modes, &order, self.unused);
         }
-        let order = order.map(|pair| pair.map(|(position, _)| position));
-        let found = found.arranged(&last.modes, &order, self.unused);
-        Ok(Step::Arrived(Box::new(self.arrive(value, state, found))))
-    }
-
-    fn arrive(
-        &mut self,
-        value: f64,
-        equilibrium: Equilibrium<N, U, P>,
-        modes: Modes<N>,
-    ) -> (Equilibrium<N, U, P>, Result<Modes<N>, Error>) {
-        self.from = equilibrium.coordinates;
-        let labels = modes.modes.iter().map(|mode| mode.label + 1);
+        self.from = state.coordinates;
+        self.path.go(value, &state.coordinates);
+        let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
         self.last = Some(Tracked {
             value,
-            equilibrium,
-            modes,
+            equilibrium: state,
+            modes: found,
         });
-        (equilibrium, Ok(modes))
+        Ok(Step::Arrived)
     }
 }
 
-/// What a state is, and its modes or why it has none.
-type There<const N: usize, const U: usize, const P: usize> =
-    (Equilibrium<N, U, P>, Result<Modes<N>, Error>);
+/// Whether the least eigenvalue of undamped modes is positive in both sets and nearly the same.
+fn even<const N: usize>(before: &Modes<N>, after: &Modes<N>) -> bool {
+    /// Share of the greater of the two that the lesser one keeps.
+    const KEPT: f64 = 0.75;
+    let least = |modes: &Modes<N>| modes.modes.iter().map(|mode| mode.lambda).reduce(f64::min);
+    let (Some(a), Some(b)) = (least(before), least(after)) else {
+        return false;
+    };
+    before.family == Family::Undamped
+        && after.family == Family::Undamped
+        && a.min(b) > 0.0
+        && a.min(b) >= KEPT * a.max(b)
+}
 
-/// How a step ended. On the heap: the states of large mechanisms would fill the stack.
+/// How a step ended.
 enum Step<const N: usize, const U: usize, const P: usize> {
-    Arrived(Box<There<N, U, P>>),
+    /// At a state with modes: the last one.
+    Arrived,
+    /// At a state without. On the heap: the state of a large mechanism would fill the stack.
+    WithoutModes(Box<Equilibrium<N, U, P>>, Error),
     /// Modes are not recognised; a value on the way.
     TooFar(f64),
 }

@@ -2,7 +2,7 @@
 
 use super::kinetic::{kinetic, product};
 use super::{Family, Mode, PerMode};
-use crate::array::{dot, form, times, times_complex};
+use crate::array::{dot, form, greater, times, times_complex};
 use crate::{Complex, Linear, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
@@ -124,15 +124,25 @@ impl<const N: usize> Modes<N> {
     /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
     /// come last, under labels from `next` on.
     pub(crate) fn continuing(&self, before: &Self, linear: &Linear<f64, N>, next: usize) -> Self {
-        self.arranged(before, &match_modes(before, self, linear), next)
+        let mut arranged = *self;
+        arranged.arrange(before, &match_modes(before, self, linear), next);
+        arranged
     }
 
-    pub(crate) fn arranged(
-        &self,
+    /// Brings the modes into the order of those of `before`, `order` by position, as [`Self::continuing`].
+    pub(crate) fn arrange(
+        &mut self,
         before: &Self,
         order: &PerMode<Option<usize>, N>,
         mut next: usize,
-    ) -> Self {
+    ) {
+        let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
+        if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
+            for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
+                mode.label = before.label;
+            }
+            return;
+        }
         let continued = order
             .iter()
             .zip(&before.modes)
@@ -152,12 +162,13 @@ impl<const N: usize> Modes<N> {
                 ..self.modes[place]
             }
         });
-        Self { modes, ..*self }
+        self.modes = modes;
     }
 }
 
 /// Whether mode `r` has merged with another, or with its own conjugate, into a defective eigenvalue, as far as its
 /// accuracy can tell: it has no derivative, and its shapes are those of the other.
+#[inline]
 pub(crate) fn merged<const N: usize>(modes: &Modes<N>, r: usize) -> bool {
     /// Semisimple eigenvalues that meet are far better conditioned; defective ones that are told apart far worse.
     const ILL_CONDITIONED: f64 = 1e5;
@@ -174,14 +185,21 @@ pub(crate) fn merged<const N: usize>(modes: &Modes<N>, r: usize) -> bool {
 /// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
 /// relative to the larger of the two: they share a cluster and have no derivative of their own.
 pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> {
+    PerMode::from_fn(modes.modes.len(), |i| {
+        merged(modes, i) || near_another(modes, i, gap)
+    })
+}
+
+/// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
+#[inline]
+pub(crate) fn near_another<const N: usize>(modes: &Modes<N>, i: usize, gap: f64) -> bool {
     let near = |a: &Mode<N>, b: &Mode<N>| match modes.family {
-        Family::Undamped => (a.lambda - b.lambda).abs() <= gap * a.lambda.abs().max(b.lambda.abs()),
+        Family::Undamped => {
+            (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs())
+        }
         Family::General => (a.s - b.s).norm() <= gap * a.s.norm().max(b.s.norm()),
     };
-    PerMode::from_fn(modes.modes.len(), |i| {
-        let own = &modes.modes[i];
-        let others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
-        let mut others = others.map(|(_, other)| other);
-        merged(modes, i) || others.any(|other| near(own, other))
-    })
+    let own = &modes.modes[i];
+    let mut others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
+    others.any(|(_, other)| near(own, other))
 }

@@ -18,7 +18,7 @@ pub(crate) mod symmetric;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged};
+pub(crate) use assurance::{match_with_assurance, merged, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub use per_mode::PerMode;
@@ -116,7 +116,14 @@ pub fn modes_of<const N: usize>(
     family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, Error> {
-    solve_modes(linear, family, description).map_err(|trouble| trouble.explain(description))
+    // Made where it is returned: a long list, which would cost as much to copy as to find.
+    let mut result = Ok(Modes::empty(linear, family, description));
+    if let Ok(modes) = &mut result
+        && let Err(trouble) = modes.solve(linear)
+    {
+        result = Err(trouble.explain(description));
+    }
+    result
 }
 
 /// A failure that owns nothing.
@@ -128,6 +135,7 @@ pub(crate) enum ModesFailure {
 }
 
 impl ModesFailure {
+    #[cold]
     pub(crate) fn explain(self, description: &'static Description) -> Error {
         match self {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
@@ -153,25 +161,43 @@ pub(crate) fn solve_modes<const N: usize>(
     family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, ModesFailure> {
-    let modes = match family {
-        Family::Undamped => undamped(linear, description)?,
-        Family::General => damped(linear, description).map_err(ModesFailure::Pencil)?,
-    };
-    let damping_ignored = family == Family::Undamped
-        && description.damping != DampingKind::Zero
-        && linear.damping.iter().flatten().any(|&value| value != 0.0);
-    Ok(Modes {
-        modes,
-        family,
-        damping_ignored,
-        description,
-    })
+    let mut modes = Modes::empty(linear, family, description);
+    modes.solve(linear)?;
+    Ok(modes)
 }
 
+impl<const N: usize> Modes<N> {
+    /// None yet.
+    #[inline]
+    fn empty(linear: &Linear<f64, N>, family: Family, description: &'static Description) -> Self {
+        Self {
+            modes: PerMode::blank(Mode::BLANK),
+            family,
+            damping_ignored: family == Family::Undamped
+                && description.damping != DampingKind::Zero
+                && linear.damping.iter().flatten().any(|&value| value != 0.0),
+            description,
+        }
+    }
+
+    /// Fills an empty list.
+    #[inline]
+    fn solve(&mut self, linear: &Linear<f64, N>) -> Result<(), ModesFailure> {
+        match self.family {
+            Family::Undamped => undamped(linear, self.description, &mut self.modes),
+            Family::General => {
+                damped(linear, self.description, &mut self.modes).map_err(ModesFailure::Pencil)
+            }
+        }
+    }
+}
+
+#[inline]
 fn undamped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
-) -> Result<PerMode<Mode<N>, N>, ModesFailure> {
+    modes: &mut PerMode<Mode<N>, N>,
+) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     if !structure.holonomic() {
         return Err(ModesFailure::NotHolonomic);
@@ -186,21 +212,30 @@ fn undamped<const N: usize>(
         let pairs =
             symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
         let threshold = neutral_threshold(&pairs.lambda);
-        return Ok(PerMode::from_fn(N, |r| {
-            undamped_mode(
+        for r in 0..N {
+            let (lambda, residual) = (pairs.lambda[r], pairs.residuals[r]);
+            modes.push(undamped_mode(
                 r,
-                pairs.lambda[r],
+                lambda,
                 &pairs.shapes[r],
-                pairs.residuals[r],
+                residual,
                 threshold,
-            )
-        }));
+            ));
+        }
+        return Ok(());
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
     let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
-    Ok(PerMode::from_fn(lambda.len(), |r| {
-        undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold)
-    }))
+    for r in 0..lambda.len() {
+        modes.push(undamped_mode(
+            r,
+            lambda[r],
+            &shapes[r],
+            residuals[r],
+            pairs.threshold,
+        ));
+    }
+    Ok(())
 }
 
 /// Mode `r`; eigenvalues within `threshold` cannot be told from zero.
@@ -228,8 +263,9 @@ fn undamped_mode<const N: usize>(
         left: shape,
         behaviour,
         residual,
-        error: if rate > 0.0 {
-            (threshold / rate).min(threshold.sqrt())
+        // `sqrt(threshold)`, or `threshold / rate` where that is less.
+        error: if rate * rate > threshold {
+            threshold / rate
         } else {
             threshold.sqrt()
         },
@@ -241,7 +277,8 @@ fn undamped_mode<const N: usize>(
 fn damped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
-) -> Result<PerMode<Mode<N>, N>, Trouble> {
+    modes: &mut PerMode<Mode<N>, N>,
+) -> Result<(), Trouble> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
         general::solve(linear)?
@@ -252,8 +289,7 @@ fn damped<const N: usize>(
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
-    Ok(PerMode::from_fn(roots.len(), |r| {
-        let root = &roots[r];
+    for (r, root) in roots.iter().enumerate() {
         let mut s = root.s;
         let zero = s.norm() <= root.error;
         let keeps_amplitude = s.re.abs() <= root.error;
@@ -270,7 +306,7 @@ fn damped<const N: usize>(
             (_, false, false) => Behaviour::Decaying(-s.re),
             (_, false, true) => Behaviour::Divergent(s.re),
         };
-        Mode {
+        modes.push(Mode {
             s,
             lambda: -(s * s).re,
             shape: root.right,
@@ -280,8 +316,9 @@ fn damped<const N: usize>(
             error: root.error,
             condition: root.condition,
             label: r,
-        }
-    }))
+        });
+    }
+    Ok(())
 }
 
 /// Position of the component that tells the phase of a vector: the greatest; a margin keeps the choice when two are equal
@@ -297,6 +334,7 @@ pub(crate) fn lead(x: &[Complex]) -> usize {
 }
 
 /// Below this size an eigenvalue cannot be told from zero: the rounding of the greatest one.
+#[inline]
 pub(crate) fn neutral_threshold(lambda: &[f64]) -> f64 {
     if lambda.len() < 2 {
         return 0.0;

@@ -64,6 +64,19 @@ pub struct Mode<const N: usize> {
 }
 
 impl<const N: usize> Mode<N> {
+    /// What stands in places without a mode.
+    pub(super) const BLANK: Self = Self {
+        s: Complex::ZERO,
+        lambda: 0.0,
+        shape: [Complex::ZERO; N],
+        left: [Complex::ZERO; N],
+        behaviour: Behaviour::Oscillating(0.0),
+        residual: 0.0,
+        error: 0.0,
+        condition: 0.0,
+        label: 0,
+    };
+
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
     pub fn frequency(&self) -> Option<f64> {
         self.behaviour.frequency()

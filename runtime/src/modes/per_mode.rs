@@ -13,7 +13,28 @@ pub struct PerMode<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> PerMode<T, N> {
+    /// Without entries; `blank` stands in their places.
+    #[inline]
+    pub(crate) fn blank(blank: T) -> Self {
+        Self {
+            entries: Some([[blank; 2]; N]),
+            count: 0,
+        }
+    }
+
+    /// Adds one of at most `2 N` entries.
+    #[inline]
+    pub(crate) fn push(&mut self, entry: T) {
+        if let Some(entries) = &mut self.entries
+            && let Some(place) = entries.as_flattened_mut().get_mut(self.count)
+        {
+            *place = entry;
+            self.count += 1;
+        }
+    }
+
     /// The first `count` of the values of `entry`, at most `2 N`.
+    #[inline]
     pub(crate) fn from_fn(count: usize, mut entry: impl FnMut(usize) -> T) -> Self {
         let count = count.min(2 * N);
         if count == 0 {
@@ -45,6 +66,7 @@ impl<T: Copy, const N: usize> PerMode<T, N> {
 impl<T, const N: usize> Deref for PerMode<T, N> {
     type Target = [T];
 
+    #[inline]
     fn deref(&self) -> &[T] {
         match &self.entries {
             Some(entries) => &entries.as_flattened()[..self.count],

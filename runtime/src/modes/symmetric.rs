@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
+use crate::array::greater;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +73,7 @@ pub(crate) fn solve_on(
     finish(&Matrices { n, k, m }, lambda, shapes, residuals)
 }
 
+#[inline]
 fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
     if !(m[0] > 0.0 && m[0].is_finite()) {
         return Err(Trouble::SingularMass(0));
@@ -82,37 +84,40 @@ fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
 }
 
 /// Size two directly: Cholesky reduction by hand and one Jacobi rotation.
+#[inline]
 fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
     let threshold = 16.0 * f64::EPSILON;
     if !(m[0] > 0.0 && m[0].is_finite()) {
         return Err(Trouble::SingularMass(0));
     }
-    let l00 = m[0].sqrt();
-    let l10 = m[2] / l00;
+    // Reciprocals of the diagonal of L.
+    let r0 = 1.0 / m[0].sqrt();
+    let l10 = m[2] * r0;
     let pivot = m[3] - l10 * l10;
     if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
         return Err(Trouble::SingularMass(1));
     }
-    let l11 = pivot.sqrt();
+    let r1 = 1.0 / pivot.sqrt();
     // A = L^-1 K L^-T
-    let a00 = k[0] / m[0];
-    let a10 = (k[2] - l10 * k[0] / l00) / (l00 * l11);
-    let a11 = (k[3] - 2.0 * l10 * k[2] / l00 + l10 * l10 * a00) / pivot;
-    let (c, s) = if a10 == 0.0 {
+    let a00 = k[0] * r0 * r0;
+    let k10 = k[2] * r0;
+    let a10 = (k10 - l10 * a00) * r1;
+    let a11 = (k[3] - l10 * (2.0 * k10 - l10 * a00)) * r1 * r1;
+    let (cosine, tangent) = if a10 == 0.0 {
         (1.0, 0.0)
     } else {
         let ratio = (a11 - a00) / (2.0 * a10);
-        let t = ratio.signum() / (ratio.abs() + (1.0 + ratio * ratio).sqrt());
-        let c = 1.0 / (1.0 + t * t).sqrt();
-        (c, t * c)
+        let size = ratio.abs() + (1.0 + ratio * ratio).sqrt();
+        let tangent = (1.0 / size).copysign(ratio);
+        (1.0 / (1.0 + tangent * tangent).sqrt(), tangent)
     };
-    let tangent = if c == 0.0 { 0.0 } else { s / c };
     lambda[0] = a00 - tangent * a10;
     lambda[1] = a11 + tangent * a10;
     // phi = L^-T y with y = (c, -s) and (s, c)
-    for (r, (y0, y1)) in [(c, -s), (s, c)].into_iter().enumerate() {
-        let x1 = y1 / l11;
-        vectors[2 * r] = (y0 - l10 * x1) / l00;
+    let sine = tangent * cosine;
+    for (r, (y0, y1)) in [(cosine, -sine), (sine, cosine)].into_iter().enumerate() {
+        let x1 = y1 * r1;
+        vectors[2 * r] = (y0 - l10 * x1) * r0;
         vectors[2 * r + 1] = x1;
     }
     Ok(())
@@ -281,7 +286,7 @@ pub(super) fn fix_sign(shape: &mut [f64]) {
 /// Greatest absolute value.
 #[inline(always)]
 pub(super) fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+    x.iter().fold(0.0, |most, value| greater(most, value.abs()))
 }
 
 impl Matrices<'_> {
@@ -316,8 +321,8 @@ impl Matrices<'_> {
             if sum.is_nan() {
                 return (f64::NAN, size);
             }
-            most = most.max(sum.abs());
-            size = size.max(terms);
+            most = greater(most, sum.abs());
+            size = greater(size, terms);
         }
         (most, size)
     }

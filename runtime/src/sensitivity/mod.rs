@@ -6,6 +6,7 @@ mod clusters;
 mod events;
 mod explicit;
 mod finite_difference;
+mod gradients;
 mod outputs;
 mod pencil;
 mod quantity;
@@ -25,8 +26,8 @@ pub use second::{ModeCurvature, SecondDerivatives, mode_curvature};
 pub use shapes::{ShapeSensitivity, shape_sensitivity};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 
-use crate::array::all_finite;
-use crate::modes::{Family, PerMode, clusters as clustered_modes, merged};
+use crate::array::{all_finite, unless_finite};
+use crate::modes::{Family, PerMode, merged, near_another};
 use crate::{Complex, Description, Equilibrium, Error, Mode, Modes};
 
 /// How derivatives were found.
@@ -52,6 +53,7 @@ pub struct Slopes<T, const U: usize, const P: usize> {
 }
 
 impl<T: Copy, const U: usize, const P: usize> Slopes<T, U, P> {
+    #[inline]
     fn map<R>(&self, f: impl Fn(T) -> R) -> Slopes<R, U, P> {
         Slopes {
             by_input: self.by_input.map(&f),
@@ -98,15 +100,33 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         Some(self.s?.map(|ds| quantity.slope(self.value, ds)))
     }
 
+    /// What stands in places without a mode.
+    const BLANK: Self = Self {
+        lambda_by_input: [0.0; U],
+        lambda_by_design: [0.0; P],
+        s: None,
+        omega_by_input: None,
+        omega_by_design: None,
+        clustered: false,
+        value: Complex::ZERO,
+    };
+
+    #[inline]
     fn from_lambda<const N: usize>(
         mode: &Mode<N>,
         lambda: Slopes<f64, U, P>,
         clustered: bool,
     ) -> Self {
-        let moves = mode.s != Complex::new(0.0, 0.0);
-        // ds = -dlambda / (2 s)
-        let rate = -0.5 / mode.s;
-        let s = moves.then(|| lambda.map(|dlambda| rate * dlambda));
+        // ds = -dlambda / (2 s), `s` real or imaginary
+        let s = if mode.s.im > 0.0 {
+            let rate = 0.5 / mode.s.im;
+            Some(lambda.map(|dlambda| Complex::new(0.0, rate * dlambda)))
+        } else if mode.s.re > 0.0 {
+            let rate = -0.5 / mode.s.re;
+            Some(lambda.map(|dlambda| Complex::new(rate * dlambda, 0.0)))
+        } else {
+            None
+        };
         Self::new(mode, lambda, s, clustered)
     }
 
@@ -133,6 +153,7 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         Self::new(mode, none, None, true)
     }
 
+    #[inline]
     fn new<const N: usize>(
         mode: &Mode<N>,
         lambda: Slopes<f64, U, P>,
@@ -151,11 +172,17 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         }
     }
 
+    #[inline]
     fn finite(&self) -> bool {
-        let parts = |s: Slopes<Complex, U, P>| s.map(|ds| ds.l1_norm()).finite();
-        all_finite(&self.lambda_by_input)
-            && all_finite(&self.lambda_by_design)
-            && self.s.is_none_or(parts)
+        match &self.s {
+            // As finite as those of `lambda`, from which they come or which come from them.
+            Some(s) => {
+                let all = s.by_input.iter().chain(&s.by_design);
+                let rest = |z: &Complex| unless_finite(z.re) + unless_finite(z.im);
+                all.fold(0.0, |sum, ds| sum + rest(ds)) == 0.0
+            }
+            None => all_finite(&self.lambda_by_input) && all_finite(&self.lambda_by_design),
+        }
     }
 }
 
@@ -178,34 +205,41 @@ pub(crate) const CLUSTER_GAP: f64 = 1e-6;
 
 /// The derivatives of every mode from those of its eigenvalue: of `lambda` (real part) for undamped modes, of `s` for
 /// general ones. Refuses what is not finite.
+#[inline]
 fn assemble<const N: usize, const U: usize, const P: usize>(
     at: &Equilibrium<N, U, P>,
     modes: &Modes<N>,
     method: Method,
     mut eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
 ) -> Result<Sensitivities<N, U, P>, Error> {
-    let clustered = clustered_modes(modes, CLUSTER_GAP);
-    let mut clustered = clustered.iter().copied().enumerate();
-    let sensitivities = modes.modes.map(|mode| {
-        let (position, clustered) = clustered.next().unwrap_or((0, true));
-        if merged(modes, position) {
-            return ModeSensitivity::merged(mode);
-        }
-        let slopes = eigenvalue(mode);
-        match modes.family {
-            Family::Undamped => {
-                ModeSensitivity::from_lambda(mode, slopes.map(|value| value.re), clustered)
-            }
-            Family::General => ModeSensitivity::from_eigenvalue(mode, slopes, clustered),
-        }
-    });
-    if !sensitivities.iter().all(ModeSensitivity::finite) {
-        return Err(shift::outside_domain(at));
-    }
-    Ok(Sensitivities {
-        modes: sensitivities,
+    let mut finite = true;
+    // Made where it is returned: these are long lists, and copying them costs as much as filling them.
+    let mut result = Ok(Sensitivities {
+        modes: PerMode::blank(ModeSensitivity::BLANK),
         method,
         family: modes.family,
         description: modes.description,
-    })
+    });
+    if let Ok(sensitivities) = &mut result {
+        for (position, mode) in modes.modes.iter().enumerate() {
+            let own = if merged(modes, position) {
+                ModeSensitivity::merged(mode)
+            } else {
+                let slopes = eigenvalue(mode);
+                let clustered = near_another(modes, position, CLUSTER_GAP);
+                match modes.family {
+                    Family::Undamped => {
+                        ModeSensitivity::from_lambda(mode, slopes.map(|value| value.re), clustered)
+                    }
+                    Family::General => ModeSensitivity::from_eigenvalue(mode, slopes, clustered),
+                }
+            };
+            finite &= own.finite();
+            sensitivities.modes.push(own);
+        }
+    }
+    if !finite {
+        result = Err(shift::outside_domain(at));
+    }
+    result
 }

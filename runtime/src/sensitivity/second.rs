@@ -93,33 +93,12 @@ pub fn mode_curvature<M, const N: usize, const U: usize, const P: usize, const O
 where
     M: Mechanism<N, U, P, O>,
 {
-    let shapes = Shapes::new(at, modes, mode)?;
-    let factors = Lu::new(&transpose(&at.linear.stiffness)).ok_or(Error::CriticalState)?;
     let position = mode;
-    let mode = &modes.modes[position];
-    let (first, rows): (Slopes<Complex, U, P>, Vec<Slopes<Complex, U, P>>) = match modes.family {
-        Family::Undamped => {
-            let gradient = Undamped::new(mechanism, at, &factors, mode);
-            let along = |direction: Direction<N, U, P>| {
-                let change = direction.linear(mechanism, at);
-                let rate = (shapes.rate)(&change);
-                let (dphi, _) = shapes.along(&change, rate);
-                gradient.along(&direction, rate.re, &dphi.map(|value| value.re))
-            };
-            let rows = directions(mechanism, at)?.map(along).collect();
-            (gradient.total(), rows)
-        }
-        Family::General => {
-            let gradient = General::new(mechanism, at, &factors, mode);
-            let along = |direction: Direction<N, U, P>| {
-                let change = direction.linear(mechanism, at);
-                let rate = (shapes.rate)(&change);
-                gradient.along(&direction, &change, rate, shapes.along(&change, rate))
-            };
-            let rows = directions(mechanism, at)?.map(along).collect();
-            (gradient.total(), rows)
-        }
+    let (first, rows) = match modes.family {
+        Family::Undamped => undamped_rows(mechanism, at, modes, position)?,
+        Family::General => general_rows(mechanism, at, modes, position)?,
     };
+    let mode = &modes.modes[position];
     let (second, asymmetry) = symmetric(&rows);
     let (first, lambda, eigenvalue) = match modes.family {
         Family::Undamped => {
@@ -157,6 +136,55 @@ where
     } else {
         Err(outside_domain(at))
     }
+}
+
+/// The first derivatives of an eigenvalue, and how they move with each variable. In functions of their own, so that what one
+/// family needs does not lie on the stack of the other.
+type Rows<const U: usize, const P: usize> = (Slopes<Complex, U, P>, Vec<Slopes<Complex, U, P>>);
+
+#[inline(never)]
+fn undamped_rows<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    position: usize,
+) -> Result<Rows<U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let shapes = Shapes::new(at, modes, position)?;
+    let factors = Lu::new(&transpose(&at.linear.stiffness)).ok_or(Error::CriticalState)?;
+    let gradient = Undamped::new(mechanism, at, &factors, &modes.modes[position]);
+    let along = |direction: Direction<N, U, P>| {
+        let change = direction.linear(mechanism, at);
+        let rate = (shapes.rate)(&change);
+        let (dphi, _) = shapes.along(&change, rate);
+        gradient.along(&direction, rate.re, &dphi.map(|value| value.re))
+    };
+    let rows = directions(mechanism, at)?.map(along).collect();
+    Ok((gradient.total(), rows))
+}
+
+#[inline(never)]
+fn general_rows<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    position: usize,
+) -> Result<Rows<U, P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let shapes = Shapes::new(at, modes, position)?;
+    let factors = Lu::new(&transpose(&at.linear.stiffness)).ok_or(Error::CriticalState)?;
+    let gradient = General::new(mechanism, at, &factors, &modes.modes[position]);
+    let along = |direction: Direction<N, U, P>| {
+        let change = direction.linear(mechanism, at);
+        let rate = (shapes.rate)(&change);
+        gradient.along(&direction, &change, rate, shapes.along(&change, rate))
+    };
+    let rows = directions(mechanism, at)?.map(along).collect();
+    Ok((gradient.total(), rows))
 }
 
 /// The adjoint gradient of an undamped mode, ready to be differentiated.

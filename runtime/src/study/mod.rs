@@ -5,6 +5,7 @@ mod questions;
 
 use crate::constraints::Structure;
 use crate::equilibrium::{Following, Policy};
+use crate::lanes::Instructions;
 use crate::modes::Family;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};
@@ -39,6 +40,7 @@ pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usi
     seed: u64,
     stream: u64,
     threads: usize,
+    vectors: Option<Instructions>,
     keep_samples: bool,
     steps: usize,
     fault: Option<Error>,
@@ -68,6 +70,7 @@ where
             seed: 0,
             stream: 0,
             threads: 0,
+            vectors: Some(Instructions::best()),
             keep_samples: false,
             steps: 200,
             fault: None,
@@ -188,6 +191,14 @@ where
     #[must_use]
     pub fn stream(mut self, stream: u64) -> Self {
         self.stream = stream;
+        self
+    }
+
+    /// Chooses the vector instructions with which a Monte Carlo run solves several samples side by side where the mechanism
+    /// allows it (the best of the processor unless set); `None` solves each sample alone.
+    #[must_use]
+    pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
+        self.vectors = vectors;
         self
     }
 

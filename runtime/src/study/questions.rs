@@ -160,6 +160,7 @@ where
             stream: self.stream,
             threads: self.threads,
             keep_samples: self.keep_samples,
+            vectors: self.vectors,
             progress,
         };
         tolerance::monte_carlo(&self.mechanism, &state, &found, &tolerances, &sampling)
@@ -214,9 +215,9 @@ where
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
     pub fn summary(&self) -> Result<Summary<N, U, P>, Error> {
-        let tolerances = self.tolerances()?;
-        let (state, found) = self.solved()?;
-        tolerance::summary(&self.mechanism, &state, &found, &tolerances)
+        let tolerances = Box::new(self.tolerances()?);
+        let solved = self.solved().map(Box::new)?;
+        tolerance::summary(&self.mechanism, &solved.0, &solved.1, &tolerances)
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band

@@ -8,6 +8,7 @@ use crate::{Description, Error};
 pub struct Tolerances<const P: usize> {
     half_widths: [f64; P],
     sigma_level: f64,
+    deviations: [f64; P],
     correlation: Option<[[f64; P]; P]>,
     /// Lower factor of the covariance matrix.
     factor: [[f64; P]; P],
@@ -72,6 +73,7 @@ impl<const P: usize> Tolerances<P> {
         Ok(Self {
             half_widths,
             sigma_level,
+            deviations: half_widths.map(|value| value / sigma_level),
             correlation,
             factor,
         })
@@ -94,7 +96,7 @@ impl<const P: usize> Tolerances<P> {
 
     /// Standard deviations, SI.
     pub fn standard_deviations(&self) -> [f64; P] {
-        self.half_widths.map(|value| value / self.sigma_level)
+        self.deviations
     }
 
     /// Lower triangular `L` with covariance `Sigma = L L^T`.
@@ -106,8 +108,15 @@ impl<const P: usize> Tolerances<P> {
     /// `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity when the slopes are by SI units.
     ///
     /// Infinite where it exceeds the range of a double, NaN where a slope is not finite.
+    #[inline]
     pub fn sigma(&self, slopes: &[f64; P]) -> f64 {
-        self.spread(slopes).0
+        let (parts, weighted) = self.parts(slopes, 1.0);
+        let variance = dot(&parts, &weighted);
+        if ORDINARY.contains(&variance) {
+            variance.sqrt()
+        } else {
+            self.spread_of_any_size(slopes).0
+        }
     }
 
     /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`.
@@ -122,18 +131,38 @@ impl<const P: usize> Tolerances<P> {
         }
     }
 
-    /// The standard deviation, and the share of each variable in the variance. Both are formed from numbers about 1, so
-    /// that a variance beyond the range of a double does no harm.
+    /// The standard deviation, and the share of each variable in the variance.
+    #[inline]
     pub(crate) fn spread(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {
+        let (parts, weighted) = self.parts(slopes, 1.0);
+        let variance = dot(&parts, &weighted);
+        if !ORDINARY.contains(&variance) {
+            return self.spread_of_any_size(slopes);
+        }
+        let shares = core::array::from_fn(|j| parts[j] * weighted[j] / variance);
+        (variance.sqrt(), shares)
+    }
+
+    /// What each variable adds, `unit^2` times the slope times the standard deviation, and the same weighted with the
+    /// correlation.
+    #[inline]
+    fn parts(&self, slopes: &[f64; P], unit: f64) -> ([f64; P], [f64; P]) {
+        let parts = core::array::from_fn(|j| (unit * slopes[j]) * (unit * self.deviations[j]));
+        let weighted = match &self.correlation {
+            None => parts,
+            Some(matrix) => times(matrix, &parts),
+        };
+        (parts, weighted)
+    }
+
+    /// As [`Self::spread`]. Formed from numbers about 1, so that a variance beyond the range of a double does no harm.
+    #[cold]
+    fn spread_of_any_size(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {
         // 2^-513: a product of two numbers scaled by it does not overflow.
         const SMALL: f64 = f64::from_bits(0x1fe0_0000_0000_0000);
-        let deviations = self.standard_deviations();
-        let products = |unit: f64| -> [f64; P] {
-            core::array::from_fn(|j| (unit * slopes[j]) * (unit * deviations[j]))
-        };
-        let (mut parts, mut unit) = (products(1.0), 1.0);
+        let (mut parts, mut unit) = (self.parts(slopes, 1.0).0, 1.0);
         if largest(&parts).is_infinite() {
-            (parts, unit) = (products(SMALL), SMALL);
+            (parts, unit) = (self.parts(slopes, SMALL).0, SMALL);
         }
         let size = largest(&parts);
         if size == 0.0 && !parts.iter().any(|part| part.is_nan()) {
@@ -157,6 +186,9 @@ impl<const P: usize> Tolerances<P> {
         (size * variance.sqrt() / unit / unit, shares)
     }
 }
+
+/// Variances whose parts neither overflow nor lose digits: what is far below the greatest part does not matter.
+const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 
 fn refuse(setting: &'static str, reason: String) -> Error {
     Error::Setting { setting, reason }

@@ -1,6 +1,7 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
 
 use super::Tolerances;
+use crate::array::greater;
 use crate::modes::{Family, PerMode};
 use crate::sensitivity::{ModeSensitivity, OutputSensitivities, Quantity};
 use crate::{Behaviour, Description, Mode, Modes, Sensitivities};
@@ -80,6 +81,23 @@ pub struct ModeTolerance<const P: usize> {
 }
 
 impl<const P: usize> ModeTolerance<P> {
+    /// What stands in places without a mode.
+    const BLANK: Self = Self {
+        lambda: 0.0,
+        lambda_sigma: 0.0,
+        mean: None,
+        sigma: None,
+        band: None,
+        variance_shares: [0.0; P],
+        natural_frequency: None,
+        damping_ratio: None,
+        growth: None,
+        distance_to_critical: 0.0,
+        distance_to_instability: 0.0,
+        distance_to_neighbour: 0.0,
+        clustered: false,
+    };
+
     /// Whether no other mode is so near that tolerances bring the two together.
     pub fn alone(&self) -> bool {
         !self.clustered && self.distance_to_neighbour >= TRUSTED_DISTANCE
@@ -140,24 +158,27 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
     sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> FirstOrder<N, P> {
-    let mut position = 0..;
-    let spread = sensitivities.modes.map(|own| {
-        let r = position.next().unwrap_or(0);
-        mode_tolerance(r, own, modes, sensitivities, tolerances)
-    });
-    let distance_to_critical = spread.iter().fold(f64::INFINITY, |least, mode| {
-        least.min(mode.distance_to_critical)
-    });
-    FirstOrder {
-        modes: spread,
+    let mut found = FirstOrder {
+        modes: PerMode::blank(ModeTolerance::BLANK),
         sigma_level: tolerances.sigma_level(),
-        distance_to_critical,
+        distance_to_critical: f64::INFINITY,
         family: modes.family,
         description: modes.description,
+    };
+    for (r, own) in sensitivities.modes.iter().enumerate() {
+        let spread = match modes.family {
+            Family::Undamped => undamped(r, own, modes, sensitivities, tolerances),
+            Family::General => general(r, own, modes, sensitivities, tolerances),
+        };
+        found.distance_to_critical = found.distance_to_critical.min(spread.distance_to_critical);
+        found.modes.push(spread);
     }
+    found
 }
 
-fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
+/// The spread of an undamped mode: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
+#[inline]
+fn undamped<const N: usize, const U: usize, const P: usize>(
     r: usize,
     own: &ModeSensitivity<U, P>,
     modes: &Modes<N>,
@@ -165,38 +186,60 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
     tolerances: &Tolerances<P>,
 ) -> ModeTolerance<P> {
     let mode = &modes.modes[r];
-    let (lambda_sigma, lambda_shares) = match (modes.family, own.s) {
-        (Family::General, None) => (f64::INFINITY, [0.0; P]),
-        _ => tolerances.spread(&own.lambda_by_design),
-    };
-    // Undamped, `s` is a root of `lambda`: every spread is that of `lambda`, or nothing.
-    let of_lambda = |quantity: Quantity| {
-        own.s?;
-        let mean = quantity.of(mode)?;
-        let moves = match quantity {
-            Quantity::Frequency | Quantity::NaturalFrequency => true,
-            Quantity::DampingRatio => {
-                mode.frequency()?;
-                false
-            }
-            Quantity::Growth => mode.frequency().is_none(),
-        };
-        let sigma = if moves {
-            lambda_sigma / (2.0 * mode.s.norm())
-        } else {
-            0.0
-        };
-        Some(Spread {
+    let (lambda_sigma, lambda_shares) = tolerances.spread(&own.lambda_by_design);
+    let level = tolerances.sigma_level();
+    let moving = |mean: f64| {
+        let sigma = lambda_sigma / (2.0 * greater(mode.s.re, mode.s.im));
+        Spread {
             mean,
             sigma,
-            band: tolerances.sigma_level() * sigma,
-            variance_shares: if moves { lambda_shares } else { [0.0; P] },
-        })
+            band: level * sigma,
+            variance_shares: lambda_shares,
+        }
+    };
+    let still = |mean: f64| Spread {
+        mean,
+        sigma: 0.0,
+        band: level * 0.0,
+        variance_shares: [0.0; P],
+    };
+    let mean = mode.frequency();
+    let frequency = own.s.and(mean).map(moving);
+    let growth = own.s.map(|_| match mean {
+        Some(_) => still(mode.s.re),
+        None => moving(mode.s.re),
+    });
+    ModeTolerance {
+        lambda: mode.lambda,
+        lambda_sigma,
+        mean,
+        sigma: frequency.map(|spread| spread.sigma),
+        band: frequency.map(|spread| spread.band),
+        variance_shares: lambda_shares,
+        natural_frequency: frequency,
+        damping_ratio: frequency.map(|_| still(0.0)),
+        growth,
+        distance_to_critical: in_sigmas(mode.lambda, lambda_sigma),
+        distance_to_instability: f64::INFINITY,
+        distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
+        clustered: own.clustered,
+    }
+}
+
+/// The spread of a general mode: that of each quantity by its own derivatives.
+fn general<const N: usize, const U: usize, const P: usize>(
+    r: usize,
+    own: &ModeSensitivity<U, P>,
+    modes: &Modes<N>,
+    sensitivities: &Sensitivities<N, U, P>,
+    tolerances: &Tolerances<P>,
+) -> ModeTolerance<P> {
+    let mode = &modes.modes[r];
+    let (lambda_sigma, lambda_shares) = match own.s {
+        None => (f64::INFINITY, [0.0; P]),
+        Some(_) => tolerances.spread(&own.lambda_by_design),
     };
     let of = |quantity: Quantity| {
-        if modes.family == Family::Undamped {
-            return of_lambda(quantity);
-        }
         let slopes = own.of(quantity)?;
         Some(Spread::new(
             quantity.of(mode)?,
@@ -216,12 +259,9 @@ fn mode_tolerance<const N: usize, const U: usize, const P: usize>(
         natural_frequency,
         damping_ratio: of(Quantity::DampingRatio),
         growth,
-        distance_to_critical: match modes.family {
-            Family::Undamped => in_sigmas(mode.lambda, lambda_sigma),
-            Family::General => distance_to_zero(mode, natural_frequency, growth),
-        },
+        distance_to_critical: distance_to_zero(mode, natural_frequency, growth),
         distance_to_instability: growth
-            .filter(|spread| modes.family == Family::General && !keeps_amplitude(mode, spread))
+            .filter(|spread| !keeps_amplitude(mode, spread))
             .map_or(f64::INFINITY, |spread| {
                 in_sigmas(-spread.mean, spread.sigma)
             }),

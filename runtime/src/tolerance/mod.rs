@@ -1,6 +1,7 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
 mod band;
+mod batched;
 mod cluster_sampling;
 mod clusters;
 mod declared;
@@ -10,6 +11,7 @@ mod events;
 mod first_order;
 mod margin;
 mod monte_carlo;
+mod normal;
 mod pool;
 mod probability;
 mod quadratic;

@@ -2,11 +2,13 @@
 
 use rayon::prelude::*;
 
+use super::batched::{Prepared, Solved, Sums};
 use super::pool;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
+use crate::lanes::{Batch, Instructions, WIDTH};
 use crate::modes::{Family, PerMode, clusters, match_modes, solve_modes};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
@@ -27,6 +29,10 @@ pub struct Sampling<'a> {
     pub threads: usize,
     /// Return every sample, not only the statistics.
     pub keep_samples: bool,
+    /// Solve several samples side by side with these vector instructions where the mechanism allows it: generated code, no
+    /// constraints, undamped modes, at most eight coordinates. Statistics are those of the samples one by one up to
+    /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one.
+    pub vectors: Option<Instructions>,
     /// Called with a number of samples whenever that many more are done, from any thread.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
 }
@@ -39,6 +45,7 @@ impl Default for Sampling<'_> {
             stream: 0,
             threads: 0,
             keep_samples: false,
+            vectors: Some(Instructions::best()),
             progress: None,
         }
     }
@@ -183,7 +190,21 @@ pub fn monte_carlo<M, const N: usize, const U: usize, const P: usize, const O: u
 where
     M: Mechanism<N, U, P, O>,
 {
-    let chunk = |index: usize| run_chunk(mechanism, nominal, modes, tolerances, sampling, index);
+    let prepared = match sampling.vectors {
+        Some(vectors) if const { Prepared::<M, N, U, P, O>::POSSIBLE } => {
+            Prepared::new(mechanism, nominal, modes, tolerances, vectors)
+        }
+        _ => None,
+    };
+    let run = Run {
+        mechanism,
+        nominal,
+        modes,
+        tolerances,
+        sampling,
+        prepared,
+    };
+    let chunk = |index: usize| run.chunk(index);
     let chunks = 0..sampling.samples.div_ceil(CHUNK);
     let pieces: Vec<Piece<N, P>> = match sampling.threads {
         1 => chunks.map(chunk).collect(),
@@ -231,35 +252,92 @@ struct Piece<const N: usize, const P: usize> {
     samples: Vec<Sample<N, P>>,
 }
 
-fn run_chunk<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    nominal: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-    sampling: &Sampling<'_>,
-    index: usize,
-) -> Piece<N, P>
+/// Everything that a chunk of samples needs.
+struct Run<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
+    mechanism: &'a M,
+    nominal: &'a Equilibrium<N, U, P>,
+    modes: &'a Modes<N>,
+    tolerances: &'a Tolerances<P>,
+    sampling: &'a Sampling<'a>,
+    prepared: Option<Prepared<'a, M, N, U, P, O>>,
+}
+
+impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Run<'_, M, N, U, P, O>
 where
     M: Mechanism<N, U, P, O>,
 {
-    let first = index * CHUNK;
-    let number = CHUNK.min(sampling.samples - first);
-    let mut draw = Draw::from(
-        (sampling.seed, sampling.stream),
-        first as u64,
-        &nominal.design,
-        tolerances,
-    );
-    let empty = modes.modes.map(|_| Moments::EMPTY);
-    let mut piece = Piece {
-        counts: Counts::default(),
-        left_nominal_branch: 0,
-        frequencies: empty,
-        damping_ratios: empty,
-        samples: Vec::with_capacity(if sampling.keep_samples { number } else { 0 }),
-    };
-    for _ in 0..number {
-        let (sample, left) = run_sample(mechanism, nominal, modes, draw.next());
+    fn chunk(&self, index: usize) -> Piece<N, P> {
+        let first = index * CHUNK;
+        let number = CHUNK.min(self.sampling.samples - first);
+        let mut draw = Draw::from(
+            (self.sampling.seed, self.sampling.stream),
+            first as u64,
+            &self.nominal.design,
+            self.tolerances,
+        );
+        let empty = self.modes.modes.map(|_| Moments::EMPTY);
+        let keep = self.sampling.keep_samples;
+        let mut piece = Piece {
+            counts: Counts::default(),
+            left_nominal_branch: 0,
+            frequencies: empty,
+            damping_ratios: empty,
+            samples: Vec::with_capacity(if keep { number } else { 0 }),
+        };
+        match &self.prepared {
+            Some(prepared) if const { Prepared::<M, N, U, P, O>::POSSIBLE } => {
+                self.side_by_side(prepared, &mut draw, number, &mut piece);
+            }
+            _ => {
+                for _ in 0..number {
+                    self.alone(draw.next(), &mut piece);
+                }
+            }
+        }
+        if let Some(progress) = self.sampling.progress {
+            progress(number);
+        }
+        piece
+    }
+
+    /// Solves samples in batches, and alone those that no batch can vouch for.
+    fn side_by_side(
+        &self,
+        prepared: &Prepared<'_, M, N, U, P, O>,
+        draw: &mut Draw<'_, P>,
+        number: usize,
+        piece: &mut Piece<N, P>,
+    ) {
+        let mut sums = Sums::new();
+        let mut pairs = [[Batch::all(0.5); 2]; P];
+        let mut solved = Solved::new();
+        for first in (0..number).step_by(WIDTH) {
+            let members = WIDTH.min(number - first);
+            draw.probabilities(members, &mut pairs);
+            prepared.solve(&pairs, members, &mut solved, &mut sums);
+            let accepted = solved.accepted;
+            piece
+                .counts
+                .add(Outcome::Stable, accepted.count_ones() as usize);
+            if accepted.count_ones() as usize == members && !self.sampling.keep_samples {
+                continue;
+            }
+            for member in 0..members {
+                if accepted >> member & 1 == 0 {
+                    self.alone(solved.design.map(|batch| batch.0[member]), piece);
+                } else if self.sampling.keep_samples {
+                    piece.samples.push(self.accepted(&solved, member));
+                }
+            }
+        }
+        for (r, nominal) in prepared.frequencies.iter().enumerate() {
+            piece.frequencies[r].merge(&sums.frequency(r, *nominal));
+            piece.damping_ratios[r].merge(&sums.damping_ratio());
+        }
+    }
+
+    fn alone(&self, design: [f64; P], piece: &mut Piece<N, P>) {
+        let (sample, left) = run_sample(self.mechanism, self.nominal, self.modes, design);
         piece.counts.add(sample.outcome, 1);
         if sample.outcome == Outcome::Stable {
             piece.left_nominal_branch += usize::from(left);
@@ -270,14 +348,23 @@ where
                 }
             }
         }
-        if sampling.keep_samples {
+        if self.sampling.keep_samples {
             piece.samples.push(sample);
         }
     }
-    if let Some(progress) = sampling.progress {
-        progress(number);
+
+    fn accepted(&self, solved: &Solved<N, P>, member: usize) -> Sample<N, P> {
+        let count = self.modes.modes.len();
+        let frequency = |r: usize| solved.frequencies[r].0[member];
+        Sample {
+            design: solved.design.map(|batch| batch.0[member]),
+            outcome: Outcome::Stable,
+            coordinates: Some(solved.coordinates.map(|batch| batch.0[member])),
+            eigenvalues: PerMode::from_fn(count, |r| Some(Complex::new(0.0, frequency(r)))),
+            frequencies: PerMode::from_fn(count, |r| Some(frequency(r))),
+            damping_ratios: PerMode::from_fn(count, |_| Some(0.0)),
+        }
     }
-    piece
 }
 
 /// Solves one sample; also tells whether it met an unstable region on the way from the nominal position.

@@ -59,28 +59,65 @@ pub fn second_order<M, const N: usize, const U: usize, const P: usize, const O: 
 where
     M: Mechanism<N, U, P, O>,
 {
-    let one = |mode: usize| {
-        let curvature = mode_curvature(mechanism, at, modes, mode)?;
-        let spread = |quantity| {
-            let lambda = modes.modes[mode].lambda;
-            let model = curvature
-                .quadratic(quantity)
-                .ok_or(Error::NotOscillating { mode, lambda })?;
-            Ok::<_, Error>(SecondOrderSpread {
-                model,
-                moments: model.moments(tolerances)?,
-                nonlinearity: model.nonlinearity(tolerances)?,
-            })
-        };
-        Ok(ModeSecondOrder {
-            frequency: spread(Quantity::Frequency)?,
-            natural_frequency: spread(Quantity::NaturalFrequency)?,
-            damping_ratio: spread(Quantity::DampingRatio)?,
-        })
-    };
+    let one = |mode: usize| mode_second_order(mechanism, at, modes, mode, tolerances);
     SecondOrder {
         modes: (0..modes.modes.len()).map(one).collect(),
         sigma_level: tolerances.sigma_level(),
         description: modes.description,
     }
+}
+
+#[inline(never)]
+fn mode_second_order<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    mode: usize,
+    tolerances: &Tolerances<P>,
+) -> Result<ModeSecondOrder<P>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let curvature = boxed_curvature(mechanism, at, modes, mode)?;
+    let lambda = modes.modes[mode].lambda;
+    let spread = |quantity| {
+        let found = second_order_spread(&curvature, quantity, tolerances).transpose();
+        found.unwrap_or(Err(Error::NotOscillating { mode, lambda }))
+    };
+    Ok(ModeSecondOrder {
+        frequency: spread(Quantity::Frequency)?,
+        natural_frequency: spread(Quantity::NaturalFrequency)?,
+        damping_ratio: spread(Quantity::DampingRatio)?,
+    })
+}
+
+/// On the heap: Hessians of many variables would fill the stack.
+#[inline(never)]
+fn boxed_curvature<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    mode: usize,
+) -> Result<Box<ModeCurvature<U, P>>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    mode_curvature(mechanism, at, modes, mode).map(Box::new)
+}
+
+/// The spread of one quantity; `None` where the mode has no such quantity.
+#[inline(never)]
+fn second_order_spread<const U: usize, const P: usize>(
+    curvature: &ModeCurvature<U, P>,
+    quantity: Quantity,
+    tolerances: &Tolerances<P>,
+) -> Result<Option<SecondOrderSpread<P>>, Error> {
+    let Some(model) = curvature.quadratic(quantity) else {
+        return Ok(None);
+    };
+    Ok(Some(SecondOrderSpread {
+        moments: model.moments(tolerances)?,
+        nonlinearity: model.nonlinearity(tolerances)?,
+        model,
+    }))
 }

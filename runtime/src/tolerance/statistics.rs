@@ -36,6 +36,27 @@ impl Moments {
         max: f64::NEG_INFINITY,
     };
 
+    /// Of `count` values from sums of their deviations from `about` and of the squares of these, and their least and
+    /// greatest deviation.
+    pub(super) fn of_deviations(
+        count: usize,
+        about: f64,
+        (sum, squares): (f64, f64),
+        (least, most): (f64, f64),
+    ) -> Self {
+        if count == 0 {
+            return Self::EMPTY;
+        }
+        let shift = sum / count as f64;
+        Self {
+            count,
+            mean: about + shift,
+            squares: (squares - sum * shift).max(0.0),
+            min: about + least,
+            max: about + most,
+        }
+    }
+
     pub(super) fn add(&mut self, value: f64) {
         self.count += 1;
         let deviation = value - self.mean;

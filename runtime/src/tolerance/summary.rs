@@ -115,11 +115,13 @@ pub fn summary<M, const N: usize, const U: usize, const P: usize, const O: usize
 where
     M: Mechanism<N, U, P, O>,
 {
-    let slopes = sensitivities(mechanism, at, modes)?;
+    let first = boxed_first_order(mechanism, at, modes, tolerances)?;
+    let second = second_order(mechanism, at, modes, tolerances);
+    let clusters = clusters(mechanism, at, modes, tolerances)?;
     let mut summary = Summary {
-        first: first_order(modes, &slopes, tolerances),
-        second: second_order(mechanism, at, modes, tolerances),
-        clusters: clusters(mechanism, at, modes, tolerances)?,
+        first: *first,
+        second,
+        clusters,
         trust: Vec::new(),
         description: modes.description,
     };
@@ -129,6 +131,21 @@ where
     };
     summary.trust = modes.modes.iter().enumerate().map(verdict).collect();
     Ok(summary)
+}
+
+/// On the heap: what first order needs and gives would fill the stack while the rest is found.
+#[inline(never)]
+fn boxed_first_order<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    tolerances: &Tolerances<P>,
+) -> Result<Box<FirstOrder<N, P>>, Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let slopes = sensitivities(mechanism, at, modes)?;
+    Ok(Box::new(first_order(modes, &slopes, tolerances)))
 }
 
 impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {

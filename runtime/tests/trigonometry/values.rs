@@ -1,4 +1,8 @@
 //! Sines and cosines of 80-digit arithmetic: `x`, then each as a double and what it lacks.
+#![allow(
+    clippy::approx_constant,
+    reason = "numbers next to a multiple of pi/2 are what is asked for"
+)]
 
 pub(crate) const EXACT: [[f64; 5]; 137] = [
     [

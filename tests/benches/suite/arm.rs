@@ -62,7 +62,7 @@ pub(crate) fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Vec<Tas
     let named = named.into_iter().filter(|(name, _)| wanted(name));
     let task = |(name, function)| Task {
         name,
-        units: 1,
+        units: [1, 1],
         agreement: AGREEMENT,
         ours: ours(function),
         peer: peer(tools, function),

@@ -22,7 +22,7 @@ mod generated {
     include!(concat!(env!("OUT_DIR"), "/chains.rs"));
 }
 
-pub(crate) use generated::{LONGEST, Longest};
+pub(crate) use generated::{LONGEST, Longest, visit_short};
 
 /// Functions that are timed, by the names of CasADi's side.
 const FUNCTIONS: [&str; 4] = ["residual_and_stiffness", "linear", "mode_gradient", "all"];
@@ -59,7 +59,7 @@ impl Visitor for Collector<'_> {
             }
             self.tasks.push(Task {
                 name,
-                units: 1,
+                units: [1, 1],
                 agreement: AGREEMENT,
                 ours: ours(chain.clone(), function),
                 peer: peer::<N, P>(self.tools, function),
@@ -69,15 +69,15 @@ impl Visitor for Collector<'_> {
 }
 
 /// Arguments of an evaluation.
-struct State<const N: usize, const P: usize> {
-    q: [f64; N],
-    u: [f64; 1],
-    b: [f64; P],
-    phi: [f64; N],
-    lambda: f64,
+pub(crate) struct State<const N: usize, const P: usize> {
+    pub(crate) q: [f64; N],
+    pub(crate) u: [f64; 1],
+    pub(crate) b: [f64; P],
+    pub(crate) phi: [f64; N],
+    pub(crate) lambda: f64,
 }
 
-fn states<const N: usize, const P: usize>() -> Vec<State<N, P>> {
+pub(crate) fn states<const N: usize, const P: usize>() -> Vec<State<N, P>> {
     let mut random = Random(N as u64);
     let state = |_| State {
         q: random.array(-1.5, 1.5),
@@ -161,7 +161,7 @@ where
     results
 }
 
-fn peer<const N: usize, const P: usize>(
+pub(crate) fn peer<const N: usize, const P: usize>(
     tools: &mut Tools,
     function: &str,
 ) -> Result<Box<dyn Work>, String> {

@@ -34,14 +34,13 @@ fn eigentol_bench_counted(work: &mut dyn Work) {
 /// In the run under valgrind: every task once over all inputs, and its name.
 pub(crate) fn run(tasks: Vec<Task>) {
     for mut task in tasks {
-        let runs = task.ours.inputs() * task.units;
         task.ours.run(1);
         eigentol_bench_counted(&mut *task.ours);
-        println!("{} 0 {runs}", task.name);
+        println!("{} 0 {}", task.name, task.ours.inputs() * task.units[0]);
         if let Ok(peer) = &mut task.peer {
             peer.run(1);
             eigentol_bench_counted(&mut **peer);
-            println!("{} 1 {runs}", task.name);
+            println!("{} 1 {}", task.name, peer.inputs() * task.units[1]);
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Single measurements without a peer: the ratio that the paper reports, many speeds on two cores, a long chain as a whole.
 
+use std::env;
 use std::hint::black_box;
 use std::thread;
 use std::time::Instant;
 
 use eigentol::equilibrium::equilibrium;
+use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
 use eigentol::sensitivity::{mode_curvature, sensitivities};
 use eigentol::tolerance::second_order;
@@ -49,7 +51,7 @@ fn fastest(runs: usize, mut run: impl FnMut()) -> f64 {
 
 /// Exact first order against Monte Carlo, all four dimensions, one thread; then Monte Carlo on two.
 pub(crate) fn pendulum() -> Vec<Fact> {
-    let mut studies = studies();
+    let studies = studies();
     let analytic = fastest(50, || {
         for study in &studies {
             let _ = black_box(&study.first_order());
@@ -62,16 +64,14 @@ pub(crate) fn pendulum() -> Vec<Fact> {
             }
         })
     };
-    let threads = |number: usize, studies: &mut Vec<PendulumStudy>| {
-        *studies = studies
-            .iter()
-            .map(|study| study.clone().threads(number))
-            .collect();
+    let with = |threads: usize, vectors: Option<Instructions>| -> Vec<PendulumStudy> {
+        let set = |study: &PendulumStudy| study.clone().threads(threads).vectors(vectors);
+        studies.iter().map(set).collect()
     };
-    threads(1, &mut studies);
-    let one = sampled(&studies);
-    threads(2, &mut studies);
-    let two = sampled(&studies);
+    let best = Some(Instructions::best());
+    let scalar = sampled(&with(1, None));
+    let one = sampled(&with(1, best));
+    let two = sampled(&with(2, best));
     let fact = |name: &str, value: String| (format!("double pendulum: {name}"), value);
     vec![
         fact(
@@ -79,12 +79,16 @@ pub(crate) fn pendulum() -> Vec<Fact> {
             format!("{:.0} ns", analytic * 1e9 / SPEEDS as f64),
         ),
         fact(
-            "Monte Carlo of 3000 samples, one thread, per speed",
+            "Monte Carlo of 3000 samples one by one, one thread, per speed",
+            format!("{:.3} ms", scalar * 1e3 / SPEEDS as f64),
+        ),
+        fact(
+            "Monte Carlo of 3000 samples in vectors, one thread, per speed",
             format!("{:.3} ms", one * 1e3 / SPEEDS as f64),
         ),
         fact(
-            "Monte Carlo against first order, both one thread",
-            format!("{:.0}x", one / analytic),
+            "Monte Carlo one by one against first order, both one thread",
+            format!("{:.0}x", scalar / analytic),
         ),
         fact(
             "Monte Carlo, 3000 samples x 100 speeds, two threads",
@@ -93,14 +97,16 @@ pub(crate) fn pendulum() -> Vec<Fact> {
     ]
 }
 
-/// Stack for the long chain: its results are arrays.
+/// Stack for the long chain: its results are arrays. `RUST_MIN_STACK` overrides it.
 const STACK: usize = 1 << 29;
 
 /// Every step of the analysis of the longest chain, all its design variables, second order included.
 pub(crate) fn long_chain() -> Vec<Fact> {
-    let steps = thread::Builder::new()
-        .stack_size(STACK)
-        .spawn(|| analysis(&Longest::default()));
+    let builder = match env::var_os("RUST_MIN_STACK") {
+        Some(_) => thread::Builder::new(),
+        None => thread::Builder::new().stack_size(STACK),
+    };
+    let steps = builder.spawn(|| analysis(&Longest::default()));
     let steps = match steps.map(|thread| thread.join()) {
         Ok(Ok(steps)) => steps,
         _ => vec![("thread".to_owned(), Err("it could not run".to_owned()))],

@@ -21,6 +21,15 @@ pub(crate) trait Kernels<const N: usize, const P: usize> {
         lambda: T,
     ) -> Gradient<T, N, 1, P>;
 
+    fn mode_gradient_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; 1],
+        b: &[T; P],
+        phi: &[T; N],
+        lambda: T,
+    ) -> Gradient<T, N, 1, P>;
+
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along<T: Real>(
         &self,

@@ -8,6 +8,7 @@ mod counting;
 mod declaration;
 mod facts;
 mod growth;
+mod lanes;
 mod operations;
 mod pendulum;
 mod report;
@@ -87,6 +88,7 @@ fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, 
     let mut tasks = pendulum::tasks(wanted, tools)?;
     tasks.extend(arm::tasks(wanted, tools));
     tasks.extend(chains::tasks(wanted, tools));
+    tasks.extend(lanes::tasks(wanted, tools));
     Ok(tasks)
 }
 
@@ -105,11 +107,11 @@ fn measure(criterion: &mut Criterion, mut task: Task) -> Result<Row, String> {
         }
     }
     let id = |side: &str| format!("{name} {side}");
-    let units = task.units;
-    let ours = timing::time(criterion, &id("eigentol"), units, &mut *task.ours);
+    let [our_units, peer_units] = task.units;
+    let ours = timing::time(criterion, &id("eigentol"), our_units, &mut *task.ours);
     let (peer, absent) = match &mut task.peer {
         Ok(peer) => (
-            timing::time(criterion, &id("peer"), units, &mut **peer),
+            timing::time(criterion, &id("peer"), peer_units, &mut **peer),
             None,
         ),
         Err(reason) => (None, Some(reason.clone())),

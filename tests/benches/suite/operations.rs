@@ -124,7 +124,13 @@ fn of_arm(tools: &mut Tools) -> Result<Vec<Operations>, String> {
 fn functions(declaration: &str, with_all: bool) -> Result<Functions, String> {
     let explicit_partials = if with_all { usize::MAX } else { 0 };
     let tokens = declaration.parse().map_err(|error| format!("{error:?}"))?;
-    let compilation = compile(tokens, Limits { explicit_partials });
+    let compilation = compile(
+        tokens,
+        Limits {
+            explicit_partials,
+            motion_linear: 0,
+        },
+    );
     Ok(compilation
         .map_err(|mistakes| format!("{mistakes:?}"))?
         .functions)

@@ -7,6 +7,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use eigentol::equilibrium::equilibrium;
+use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
 use eigentol::sensitivity::sensitivities;
 use eigentol::tolerance::{Sampling, monte_carlo};
@@ -52,7 +53,7 @@ type State = Equilibrium<2, 1, 4>;
 const DIFFERENCE_ERROR: f64 = 1e-6;
 
 /// The functions of the C++ side, and the tasks that they do.
-const TASKS: [(&str, &str, usize, f64); 3] = [
+const TASKS: [(&str, &str, usize, f64); 4] = [
     ("pendulum/sweep", "sweep", SPEEDS, AGREEMENT),
     (
         "pendulum/sweep-against-differences",
@@ -61,7 +62,11 @@ const TASKS: [(&str, &str, usize, f64); 3] = [
         DIFFERENCE_ERROR,
     ),
     ("pendulum/monte-carlo", "monte_carlo", SAMPLES, AGREEMENT),
+    (SCALAR, "monte_carlo", SAMPLES, AGREEMENT),
 ];
+
+/// The task whose samples are solved one by one on our side.
+const SCALAR: &str = "pendulum/monte-carlo-one-by-one";
 
 /// The tasks whose name is wanted.
 ///
@@ -79,7 +84,7 @@ pub(crate) fn tasks(
         let library = tools.library(&source("double_pendulum.cpp"));
         let (ours, peer) = match function {
             "monte_carlo" => (
-                sampling(samples()?),
+                sampling(samples()?, (name != SCALAR).then(Instructions::best)),
                 library.and_then(|library| MonteCarloByHand::load(&library)),
             ),
             _ => (
@@ -89,7 +94,7 @@ pub(crate) fn tasks(
         };
         tasks.push(Task {
             name: name.to_owned(),
-            units,
+            units: [units, units],
             agreement,
             ours,
             peer,
@@ -253,12 +258,17 @@ fn samples() -> Result<Vec<Samples>, Error> {
     sweeps.enumerate().map(set).collect()
 }
 
-fn draw(samples: &Samples, keep_samples: bool) -> Result<MonteCarlo<2, 4>, Error> {
+fn draw(
+    samples: &Samples,
+    vectors: Option<Instructions>,
+    keep_samples: bool,
+) -> Result<MonteCarlo<2, 4>, Error> {
     let sampling = Sampling {
         samples: SAMPLES,
         seed: samples.seed,
         threads: 1,
         keep_samples,
+        vectors,
         ..Sampling::default()
     };
     let Samples {
@@ -270,14 +280,14 @@ fn draw(samples: &Samples, keep_samples: bool) -> Result<MonteCarlo<2, 4>, Error
     monte_carlo(&DoublePendulum, state, modes, tolerances, &sampling)
 }
 
-fn sampling(inputs: Vec<Samples>) -> Box<dyn Work> {
+fn sampling(inputs: Vec<Samples>, vectors: Option<Instructions>) -> Box<dyn Work> {
     Box::new(Closures {
         inputs,
-        evaluate: |samples: &Samples| {
-            let _ = black_box(&draw(samples, false));
+        evaluate: move |samples: &Samples| {
+            let _ = black_box(&draw(samples, vectors, false));
         },
-        results: |samples: &Samples| {
-            let statistics = draw(samples, false).map(|run| run.modes);
+        results: move |samples: &Samples| {
+            let statistics = draw(samples, vectors, false).map(|run| run.modes);
             let statistics = statistics.iter().flat_map(|modes| modes.iter().flatten());
             let flat = statistics.flat_map(|mode| [Some(mode.mean), mode.standard_deviation]);
             vec![flat.flatten().collect()]
@@ -308,7 +318,7 @@ impl MonteCarloByHand {
             (library, function)
         };
         let designs = |samples: Samples| {
-            let all = draw(&samples, true)?.all.unwrap_or_default();
+            let all = draw(&samples, None, true)?.all.unwrap_or_default();
             let flat = all.iter().flat_map(|sample| sample.design).collect();
             Ok((samples.state, flat))
         };

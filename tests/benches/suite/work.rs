@@ -35,8 +35,8 @@ pub(crate) trait Work {
 pub(crate) struct Task {
     /// Section and task: `chain8/linear`.
     pub(crate) name: String,
-    /// Evaluations, speeds or samples in one repetition: times and counts are given for one of them.
-    pub(crate) units: usize,
+    /// Evaluations, speeds or samples in one repetition, ours and the peer's: times and counts are given for one of them.
+    pub(crate) units: [usize; 2],
     /// The results agree to this.
     pub(crate) agreement: f64,
     pub(crate) ours: Box<dyn Work>,

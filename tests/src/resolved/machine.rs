@@ -53,6 +53,7 @@ impl Machine {
         // The runtime's way to do without partials of large mechanisms is no concern here: none are used.
         let limits = Limits {
             explicit_partials: 0,
+            motion_linear: 0,
         };
         let compilation = compile(tokens, limits).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         let design = compilation.mechanism.design.iter();

@@ -26,6 +26,7 @@ impl Compiled {
         let tokens = text.parse().expect("tokens");
         let none = Limits {
             explicit_partials: 0,
+            motion_linear: 0,
         };
         let found = compile(tokens, none).map_err(|mistakes| {
             let messages = mistakes.iter().map(|mistake| mistake.message.clone());

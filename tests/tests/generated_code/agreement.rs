@@ -179,9 +179,7 @@ impl Visitor for Columns {
             return;
         }
         self.machines += 1;
-        let everything = Limits {
-            explicit_partials: usize::MAX,
-        };
+        let everything = Limits::NONE;
         let program = compile(tokens(declaration), everything)
             .expect("it compiles")
             .program;

@@ -336,3 +336,81 @@ fn duals_agree_with_every_derivative_kernel() {
     duals.visit("disk", disk::DECLARATION, RollingDisk);
     assert!(duals.machines >= corpus().len() + 10);
 }
+
+#[derive(Default)]
+struct AlongMotion(usize);
+
+impl Visitor for AlongMotion {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let program = program(declaration.parse().expect("tokens")).expect("it compiles");
+        let kernel = program.kernel("motion_residual").expect("in the contract");
+        let sizes = [
+            ("acceleration", N),
+            ("velocity", N),
+            ("q", N),
+            ("u", U),
+            ("b", P),
+        ];
+        let arguments = Numbers::new(8).arguments(&machine, &sizes);
+        let [acceleration, velocity, q] =
+            [0, 1, 2].map(|k| arguments[k][..].try_into().expect("N"));
+        let u = arguments[3][..].try_into().expect("U");
+        let b = arguments[4][..].try_into().expect("P");
+        let found = machine.motion_linear::<f64>(acceleration, velocity, q, u, b);
+        for (list, matrix) in [found.mass, found.damping, found.stiffness]
+            .iter()
+            .enumerate()
+        {
+            for j in 0..N {
+                let duals: Vec<Vec<Dual>> = arguments
+                    .iter()
+                    .enumerate()
+                    .map(|(l, values)| {
+                        let slope = |k: usize| if (l, k) == (list, j) { 1.0 } else { 0.0 };
+                        values
+                            .iter()
+                            .enumerate()
+                            .map(|(k, &value)| Dual::new(value, slope(k)))
+                            .collect()
+                    })
+                    .collect();
+                let slices: Vec<&[Dual]> = duals.iter().map(Vec::as_slice).collect();
+                let expected: Vec<f64> = interpret(kernel, &slices)[0]
+                    .iter()
+                    .map(|entry| entry.slope())
+                    .collect();
+                let column: Vec<f64> = matrix.iter().map(|row| row[j]).collect();
+                let scale = flat_largest(matrix);
+                for (one, other) in column.iter().zip(&expected) {
+                    assert!(
+                        (one - other).abs() <= 1e-11 * scale,
+                        "{name}, matrix {list}, column {j}: {one:e}, not {other:e}"
+                    );
+                }
+            }
+        }
+        self.0 += 1;
+    }
+}
+
+fn flat_largest<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+    matrix
+        .iter()
+        .flatten()
+        .fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
+}
+
+/// Generated for most machines, differentiated column by column in the runtime's own duals for the largest.
+#[test]
+fn linearised_along_any_motion_as_dual_numbers_say() {
+    let mut motion = AlongMotion::default();
+    visit(&mut motion);
+    assert_eq!(motion.0, corpus().len());
+}

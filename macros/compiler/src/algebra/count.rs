@@ -3,13 +3,15 @@
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::ExprId;
 
-/// Operations of a straight line of code. Changes of sign are free: they fold into additions and subtractions.
+/// Operations of a straight line of code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Additions, subtractions and multiplications.
     pub operations: usize,
     /// Divisions, roots, powers and elementary functions.
     pub functions: usize,
+    /// Changes of sign that no addition or subtraction takes up.
+    pub negations: usize,
 }
 
 /// The nodes that `roots` need, operands first.
@@ -44,7 +46,8 @@ pub fn cost(graph: &Graph, roots: &[ExprId]) -> Cost {
     let mut cost = Cost::default();
     for id in reachable(graph, roots) {
         match graph.node(id) {
-            Node::Constant(_) | Node::Symbol(_) | Node::Unary(Unary::Negate, _) => {}
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Unary(Unary::Negate, _) => cost.negations += 1,
             Node::Binary(Operator::Add | Operator::Subtract | Operator::Multiply, ..) => {
                 cost.operations += 1;
             }

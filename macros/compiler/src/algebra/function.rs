@@ -2,6 +2,7 @@
 
 use super::count::{Cost, cost};
 use super::graph::Graph;
+use super::regroup::regroup;
 use crate::base::ids::{ExprId, SymbolId};
 
 /// A function over one graph.
@@ -44,6 +45,16 @@ impl Function {
             .iter()
             .flat_map(|array| array.values.iter().copied())
             .collect()
+    }
+
+    /// The same results for fewer operations, where sums and products can be grouped so.
+    pub fn regrouped(&self, graph: &mut Graph) -> Self {
+        let mut values = regroup(graph, &self.roots()).into_iter();
+        let mut function = self.clone();
+        for array in &mut function.results {
+            array.values = values.by_ref().take(array.values.len()).collect();
+        }
+        function
     }
 
     /// Cost of one evaluation.

@@ -228,3 +228,100 @@ fn rotation_about_an_axis_has_unit_columns() {
         }
     }
 }
+
+/// `R S R^T` against the sum that defines it, for turns about axes between right angles, and for any rotation.
+#[test]
+fn rotations_turn_symmetric_matrices() {
+    let mut random = Random(77);
+    for case in 0..40 {
+        let g = &mut Graph::new();
+        let (_, leaves) = symbols(g, 8);
+        let identity = Matrix3::identity(g).0;
+        let quarter = g.constant(std::f64::consts::FRAC_PI_2);
+        let mut rotation = Matrix3::rotation(g, identity[random.below(3)], leaves[0]);
+        if case < 30 {
+            for _ in 0..random.below(3) {
+                let fixed = Matrix3::rotation(g, identity[random.below(3)], quarter);
+                rotation = match random.below(2) {
+                    0 => fixed.multiply(g, rotation),
+                    _ => rotation.multiply(g, fixed),
+                };
+            }
+        } else {
+            let other = Matrix3::rotation(g, identity[random.below(3)], leaves[1]);
+            rotation = rotation.multiply(g, other);
+        }
+        let s: [[ExprId; 3]; 3] =
+            std::array::from_fn(|i| std::array::from_fn(|j| leaves[1 + (i + j) + i * j / 2]));
+        let turned = rotation.turn_symmetric(g, s);
+        let roots: Vec<ExprId> = rotation
+            .0
+            .iter()
+            .flat_map(|c| c.0)
+            .chain(s.concat())
+            .chain(turned.concat())
+            .collect();
+        let values: Vec<f64> = leaves.iter().map(|_| random.unit() + 0.3).collect();
+        let all = evaluate(g, &roots, |symbol| values[symbol.index()]);
+        let r = |i: usize, j: usize| all[3 * j + i];
+        for i in 0..3 {
+            for j in 0..3 {
+                let mut sum = 0.0;
+                for k in 0..3 {
+                    for l in 0..3 {
+                        sum += r(i, k) * all[9 + 3 * k + l] * r(j, l);
+                    }
+                }
+                let got = all[18 + 3 * i + j];
+                assert!(
+                    (got - sum).abs() < 1e-13,
+                    "case {case}, {i} {j}: {got} {sum}"
+                );
+            }
+        }
+    }
+}
+
+/// Known savings, and random expressions: the values stay, the cost does not grow.
+#[test]
+fn regrouping_keeps_values_and_saves_operations() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 6);
+    let size = |g: &Graph, roots: &[ExprId]| {
+        let cost = cost(g, roots);
+        cost.operations + cost.functions + cost.negations
+    };
+    // a b - a c
+    let (ab, ac) = (g.mul(x[0], x[1]), g.mul(x[0], x[2]));
+    let sum = g.sub(ab, ac);
+    let regrouped = regroup(g, &[sum]);
+    assert_eq!((size(g, &[sum]), size(g, &regrouped)), (3, 2));
+    // (a b) c and (a d) b share a b
+    let ad = g.mul(x[0], x[3]);
+    let products = [g.mul(ab, x[2]), g.mul(ad, x[1])];
+    let regrouped = regroup(g, &products);
+    assert_eq!((size(g, &products), size(g, &regrouped)), (4, 3));
+
+    let mut random = Random(4711);
+    let mut saved = 0;
+    for _ in 0..300 {
+        let g = &mut Graph::new();
+        let (_, leaves) = symbols(g, 5);
+        let roots: Vec<ExprId> = (0..4)
+            .map(|_| expression(g, &mut random, &leaves, 6))
+            .collect();
+        let values: Vec<f64> = leaves.iter().map(|_| random.unit() + 0.5).collect();
+        let regrouped = regroup(g, &roots);
+        let at = |g: &Graph, roots: &[ExprId]| evaluate(g, roots, |s| values[s.index()]);
+        for (one, other) in at(g, &roots).into_iter().zip(at(g, &regrouped)) {
+            assert!(
+                (one - other).abs() <= 1e-9 * one.abs().max(1.0),
+                "{one} {other}"
+            );
+        }
+        let (before, after) = (size(g, &roots), size(g, &regrouped));
+        assert!(after <= before);
+        saved += before - after;
+    }
+    assert!(saved > 20, "{saved}");
+}

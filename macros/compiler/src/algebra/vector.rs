@@ -99,6 +99,88 @@ impl Matrix3 {
         Self(other.0.map(|column| self.apply(g, column)))
     }
 
+    /// `self s self^T` of a rotation and a symmetric matrix, which comes out symmetric.
+    ///
+    /// A rotation about an axis, whatever right angles come before and after, turns the plane across by rows `(p, q)` and
+    /// `sign (-q, p)`: with `v = p (s11 - s22) + 2 q s12` the plane becomes `[s22 + p v, sign (s12 - q v)]`,
+    /// `[sign (s12 - q v), s11 - p v]`.
+    pub fn turn_symmetric(self, g: &mut Graph, s: [[ExprId; 3]; 3]) -> [[ExprId; 3]; 3] {
+        let entry = |i: usize, j: usize| self.0[j].0[i];
+        let mut turned = s;
+        let mut set = |i: usize, j: usize, value: ExprId| {
+            (turned[i][j], turned[j][i]) = (value, value);
+        };
+        let Some(plane) = self.plane(g) else {
+            for i in 0..3 {
+                // row i of `self s`
+                let row = Vector3(std::array::from_fn(|j| entry(i, j)));
+                let row = Vector3(s.map(|column| row.dot(g, Vector3(column))));
+                for j in i..3 {
+                    let other = Vector3(std::array::from_fn(|k| entry(j, k)));
+                    let value = row.dot(g, other);
+                    set(i, j, value);
+                }
+            }
+            return turned;
+        };
+        let Plane {
+            rows: [r, first, second],
+            columns: [c, a, b],
+            mirrored,
+        } = plane;
+        let axis = entry(r, c);
+        let (p, q) = (entry(first, a), entry(first, b));
+        let difference = g.sub(s[a][a], s[b][b]);
+        let along = g.mul(p, difference);
+        let twice = g.scale(2.0, s[a][b]);
+        let across = g.mul(q, twice);
+        let v = g.add(along, across);
+        let (pv, qv) = (g.mul(p, v), g.mul(q, v));
+        let (long, short) = (g.add(s[b][b], pv), g.sub(s[a][a], pv));
+        let off = g.sub(s[a][b], qv);
+        let off = if mirrored { g.neg(off) } else { off };
+        set(first, first, long);
+        set(second, second, short);
+        set(first, second, off);
+        set(r, r, s[c][c]);
+        for row in [first, second] {
+            let (x, y) = (g.mul(entry(row, a), s[a][c]), g.mul(entry(row, b), s[b][c]));
+            let sum = g.add(x, y);
+            let value = g.mul(axis, sum);
+            set(r, row, value);
+        }
+        turned
+    }
+
+    /// The plane that a rotation about an axis turns, if it is one.
+    fn plane(self, g: &mut Graph) -> Option<Plane> {
+        let entry = |i: usize, j: usize| self.0[j].0[i];
+        for c in 0..3 {
+            let unit = |r: usize| g.is(entry(r, c), 1.0) || g.is(entry(r, c), -1.0);
+            let Some(r) = (0..3).find(|&r| unit(r)) else {
+                continue;
+            };
+            let [a, b] = [(c + 1) % 3, (c + 2) % 3];
+            let [first, second] = [(r + 1) % 3, (r + 2) % 3];
+            let (p, q) = (entry(first, a), entry(first, b));
+            let (minus_p, minus_q) = (g.neg(p), g.neg(q));
+            let turned = (entry(second, a), entry(second, b));
+            let mirrored = if turned == (minus_q, p) {
+                false
+            } else if turned == (q, minus_p) {
+                true
+            } else {
+                return None;
+            };
+            return Some(Plane {
+                rows: [r, first, second],
+                columns: [c, a, b],
+                mirrored,
+            });
+        }
+        None
+    }
+
     /// The transpose: of a rotation, its inverse.
     pub fn transpose(self) -> Self {
         Self(std::array::from_fn(|j| {
@@ -125,4 +207,12 @@ impl Matrix3 {
             sum.add(g, along)
         }))
     }
+}
+
+/// Rows and columns of a rotation about an axis: the axis, then the plane across.
+struct Plane {
+    rows: [usize; 3],
+    columns: [usize; 3],
+    /// The plane's second row is `(q, -p)`, not `(-q, p)`.
+    mirrored: bool,
 }

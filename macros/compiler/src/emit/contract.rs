@@ -37,7 +37,9 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
             Form::Tuple
         }
         "residual_parts" => Form::Record("RestParts", |s| vec![s.coordinates]),
-        "linear" | "linear_along" => Form::Record("Linear", |s| vec![s.coordinates]),
+        "linear" | "linear_along" | "motion_linear" => {
+            Form::Record("Linear", |s| vec![s.coordinates])
+        }
         "linear_partials" => Form::Partials,
         "mode_gradient"
         | "pencil_gradient"
@@ -50,6 +52,17 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
         _ => return None,
     })
 }
+
+/// Kernels that loops over vector lanes call: their bodies are written where they are called, because the instructions of
+/// such a loop reach only what is inlined into it.
+const INLINED: [&str; 6] = [
+    "residual_and_stiffness",
+    "linear",
+    "residual_partials",
+    "linear_partials",
+    "mode_gradient",
+    "residual_gradient",
+];
 
 /// A method as text.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
@@ -94,12 +107,24 @@ pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
         ),
     };
     let mut text = signature(kernel, &returned, "");
+    if INLINED.contains(&kernel.name) {
+        let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
+        let inlined = format!("{}_inlined", kernel.name);
+        let _ = writeln!(text, "{{ self.{inlined}({}) }}", arguments.join(", "));
+        let head = head(kernel, &inlined, &returned, "");
+        let _ = write!(text, "#[doc(hidden)]\n#[inline(always)]\n{head}");
+    }
     let _ = writeln!(text, "{{\n{}{result}\n}}", body.statements());
     text
 }
 
 /// Documentation and signature of a method; `bound` is added to the scalar's.
 pub(super) fn signature(kernel: &Kernel, returned: &str, bound: &str) -> String {
+    let head = head(kernel, kernel.name, returned, bound);
+    format!("#[doc = {:?}]\n{head}", documentation(kernel))
+}
+
+fn head(kernel: &Kernel, name: &str, returned: &str, bound: &str) -> String {
     let mut parameters = String::new();
     for parameter in &kernel.parameters {
         let kind = match parameter.scalar {
@@ -108,11 +133,7 @@ pub(super) fn signature(kernel: &Kernel, returned: &str, bound: &str) -> String 
         };
         let _ = write!(parameters, ", {}: {kind}", parameter.name);
     }
-    format!(
-        "#[doc = {:?}]\nfn {}<T: ::eigentol::Real{bound}>(&self{parameters}) -> {returned} ",
-        documentation(kernel),
-        kernel.name,
-    )
+    format!("fn {name}<T: ::eigentol::Real{bound}>(&self{parameters}) -> {returned} ")
 }
 
 fn documentation(kernel: &Kernel) -> String {

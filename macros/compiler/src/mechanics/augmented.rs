@@ -6,9 +6,9 @@ use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{BodyId, ExprId};
 use crate::model::mechanism::Frame;
 
-use super::derive::Problem;
 use super::inertia::MassDistribution;
 use super::kinematics::{BodyMotion, Kinematics};
+use super::problem::Problem;
 use super::sources::Sources;
 
 /// A mass distribution about the origin of a body, over its axes: `integral rho dm = first` and
@@ -94,7 +94,9 @@ pub(super) fn augmented_bodies(
         let name = &problem.mechanism.bodies[branch.body.index()].name;
         let carried = bodies[branch.body.index()];
         g.set_name(carried.mass, || format!("{name}_carried_mass"));
-        carried.first.set_name(g, &format!("{name}_augmented_first_moment"));
+        carried
+            .first
+            .set_name(g, &format!("{name}_augmented_first_moment"));
         for (row, i) in carried.second.into_iter().zip(["x", "y", "z"]) {
             for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
                 g.set_name(entry, || format!("{name}_augmented_second_moment_{i}{j}"));

@@ -6,12 +6,13 @@ use crate::base::ids::ExprId;
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
-use super::derive::Problem;
 use super::forces::Wrench;
 use super::frame::FrameMotion;
-use super::kinematics::{BodyMotion, Kinematics, StepAxis};
+use super::kinematics::{BodyMotion, Kinematics};
 use super::path::Tree;
+use super::problem::Problem;
 use super::sources::Sources;
+use super::step_axis::StepAxis;
 
 /// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, as the body's motion is written.
 #[derive(Clone, Copy)]
@@ -38,64 +39,63 @@ impl Composite {
         for k in 0..3 {
             let share = axes[k].scale(g, body.first.0[k]);
             this.first = this.first.add(g, share);
-            for j in 0..3 {
+            let diagonal = axes[k].scale(g, body.second[k][k]);
+            this.add_second(g, |g, i, j| g.mul(diagonal.0[i], axes[k].0[j]));
+            for j in k + 1..3 {
                 let weighted = axes[j].scale(g, body.second[k][j]);
-                this.add_product(g, axes[k], weighted);
+                this.add_products(g, axes[k], weighted);
             }
-            this.second[k][k] = g.add(this.second[k][k], body.isotropic);
         }
+        let zero = g.zero();
+        this.add_second(g, |_, i, j| if i == j { body.isotropic } else { zero });
         this
     }
 
     fn add(&mut self, g: &mut Graph, other: &Self) {
         self.mass = g.add(self.mass, other.mass);
         self.first = self.first.add(g, other.first);
-        for (row, more) in self.second.iter_mut().zip(other.second) {
-            for (entry, more) in row.iter_mut().zip(more) {
-                *entry = g.add(*entry, more);
-            }
-        }
+        self.add_second(g, |_, i, j| other.second[i][j]);
     }
 
-    /// Adds `a b^T` to the second moment.
-    fn add_product(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
+    /// Adds a symmetric matrix, given by its entries on and above the diagonal, to the second moment.
+    fn add_second(
+        &mut self,
+        g: &mut Graph,
+        mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
+    ) {
         for i in 0..3 {
-            for j in 0..3 {
-                let product = g.mul(a.0[i], b.0[j]);
-                self.second[i][j] = g.add(self.second[i][j], product);
+            for j in i..3 {
+                let more = entry(g, i, j);
+                let sum = g.add(self.second[i][j], more);
+                (self.second[i][j], self.second[j][i]) = (sum, sum);
             }
         }
     }
 
-    /// As the parent's motion is written, about the parent's origin. A mass that rides on its seat is left out: the
-    /// augmented parent has it.
-    fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion) -> Self {
-        let mut moved = *self;
+    /// Adds `a b^T + b a^T` to the second moment.
+    fn add_products(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
+        self.add_second(g, |g, i, j| {
+            let product = g.mul(a.0[i], b.0[j]);
+            let mirrored = g.mul(b.0[i], a.0[j]);
+            g.add(product, mirrored)
+        });
+    }
+
+    /// As the parent's motion is written, about the parent's origin. Only `mass` is not part of the augmented parent.
+    fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
+        let mut moved = Self { mass, ..*self };
         if let Some(rotation) = motion.to_parent {
             moved.first = rotation.apply(g, self.first);
-            // R S R^T: R applied to the columns, then to the rows
-            let columns = transpose(self.second).map(|column| rotation.apply(g, Vector3(column)).0);
-            let rows = transpose(columns);
-            let turned = rows.map(|row| rotation.apply(g, Vector3(row)).0);
-            moved.second = turned;
+            moved.second = rotation.turn_symmetric(g, self.second);
         }
         let offset = motion.frame.offset;
         let first = moved.first;
-        moved.add_product(g, offset, first);
-        moved.add_product(g, first, offset);
-        if rides_on_seat(g, motion) {
-            moved.mass = g.zero();
-        } else {
-            let share = offset.scale(g, moved.mass);
-            moved.add_product(g, offset, share);
-            moved.first = moved.first.add(g, share);
-        }
+        moved.add_products(g, offset, first);
+        let share = offset.scale(g, mass);
+        moved.add_second(g, |g, i, j| g.mul(offset.0[i], share.0[j]));
+        moved.first = moved.first.add(g, share);
         moved
     }
-}
-
-fn transpose(m: [[ExprId; 3]; 3]) -> [[ExprId; 3]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
 /// Force and moment that a unit acceleration along `step` takes: of a body and of what it carries.
@@ -169,10 +169,17 @@ pub(super) fn mass_matrix(
         };
         let index = branch.body.index();
         let motion = kinematics.of(branch.body);
-        let mut all = Composite::of_body(g, &bodies[index], &motion.frame);
-        all.add(g, &carried[index]);
+        let mut all = carried[index];
         all.add(g, &going_on[index]);
-        let moved = all.moved_to_parent(g, motion);
+        let apart = all.mass;
+        let own = Composite::of_body(g, &bodies[index], &motion.frame);
+        all.add(g, &own);
+        let mass = if rides_on_seat(g, motion) {
+            apart
+        } else {
+            all.mass
+        };
+        let moved = all.moved_to_parent(g, motion, mass);
         let slot = match problem.runs.layout.of(branch.body).continues_run {
             true => &mut going_on[parent.index()],
             false => &mut carried[parent.index()],
@@ -225,7 +232,9 @@ pub(super) fn mass_matrix(
                     ..load
                 };
                 set(g, kinematics.of(parent), seen);
-                let Some(next) = tree.branch(parent) else { break };
+                let Some(next) = tree.branch(parent) else {
+                    break;
+                };
                 at = next;
             }
         }

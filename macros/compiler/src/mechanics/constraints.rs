@@ -11,9 +11,9 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Unit};
 
 use super::closure::{Demand, Pair, aligned, coincident, distance, joint_demands};
-use super::derive::Problem;
 use super::forces::{AppliedForces, Wrench};
 use super::kinematics::Kinematics;
+use super::problem::Problem;
 use super::properties::vanish;
 use super::rolling::rolling;
 use super::setting::Setting;

@@ -4,9 +4,9 @@ use crate::algebra::Graph;
 use crate::base::ids::ExprId;
 use crate::model::mechanism::ForceLaw;
 
-use super::derive::Problem;
 use super::inertia::MassDistribution;
 use super::kinematics::Kinematics;
+use super::problem::Problem;
 
 /// `integral |v_O + omega x rho|^2 dm / 2` over all bodies.
 pub(super) fn kinetic(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> ExprId {

@@ -9,8 +9,8 @@ use crate::model::mechanism::{Force, ForceLaw, Frame};
 
 use super::closure::Pair;
 use super::constraints::constraints;
-use super::derive::Problem;
 use super::kinematics::Kinematics;
+use super::problem::Problem;
 use super::setting::Setting;
 use super::sources::Sources;
 use super::values::State;

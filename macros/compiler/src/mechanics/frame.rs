@@ -5,7 +5,7 @@ use crate::algebra::{Graph, Matrix3, Vector3};
 use super::kinematics::CoordinateMotion;
 use super::orientation::Orientation;
 
-/// Motion of a frame, everything in the common frame.
+/// Motion of a frame. All vectors are written along the same axes: those of the common frame, or of the layout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameMotion {
     pub(super) orientation: Orientation,
@@ -44,7 +44,7 @@ impl FrameMotion {
         }
     }
 
-    /// A body-fixed vector in the common frame, and its second time derivative. One along a body axis shares the work
+    /// A body-fixed vector as the motion is written, and its second time derivative. One along a body axis shares the work
     /// with every other vector along that axis.
     pub(super) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
         let nonzero: Vec<usize> = (0..3).filter(|&k| !g.is(vector.0[k], 0.0)).collect();
@@ -97,7 +97,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame after a translation by `direction` (in the common frame) per unit of the coordinate:
+    /// The frame after a translation by `direction` (as the motion is written) per unit of the coordinate:
     /// `a += W d q + 2 omega x d qdot + d qddot`.
     pub(super) fn slid(self, g: &mut Graph, direction: Vector3, motion: CoordinateMotion) -> Self {
         let CoordinateMotion {
@@ -147,7 +147,7 @@ impl FrameMotion {
         }
     }
 
-    /// The frame after a rotation about its own unit vector `axis`, which is `direction` in the common frame:
+    /// The frame after a rotation about its own unit vector `axis`, which is `direction` as the motion is written:
     /// `omega += d qdot`, `alpha += d qddot + omega x d qdot`.
     pub(super) fn turned(
         self,
@@ -207,7 +207,12 @@ impl FrameMotion {
     pub(super) fn along_own_axes(self, g: &mut Graph) -> Self {
         let to_own = self.orientation.axes.transpose();
         let mut turn = |vector: Vector3| to_own.apply(g, vector);
-        let [velocity, acceleration, angular_velocity, angular_acceleration] = [
+        let [
+            velocity,
+            acceleration,
+            angular_velocity,
+            angular_acceleration,
+        ] = [
             self.velocity,
             self.acceleration,
             self.angular_velocity,

@@ -51,12 +51,24 @@ pub struct Limits {
     /// written out. A larger mechanism computes them column by column from directional derivatives: its code would
     /// grow with the cube of its size.
     pub explicit_partials: usize,
+    /// Most entries of the three matrices linearised along any motion, `3 n^2`, that are written out. Beyond, they are
+    /// differentiated one column at a time.
+    pub motion_linear: usize,
+}
+
+impl Limits {
+    /// Whatever there is to write out.
+    pub const NONE: Self = Self {
+        explicit_partials: usize::MAX,
+        motion_linear: usize::MAX,
+    };
 }
 
 impl Default for Limits {
     fn default() -> Self {
         Self {
             explicit_partials: 8192,
+            motion_linear: 512,
         }
     }
 }

@@ -5,10 +5,10 @@ use crate::base::ids::ExprId;
 use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
-use super::derive::Problem;
 use super::forces::Wrench;
 use super::frame::FrameMotion;
 use super::kinematics::Kinematics;
+use super::problem::Problem;
 use super::sources::Sources;
 
 /// Inertia less weight.

@@ -228,6 +228,19 @@ pub(super) fn kernels(
                 .collect(),
         ),
     ];
+    if 3 * n * n <= limits.motion_linear {
+        let motion = linear.along_motion(g, s, e);
+        let before = vec![
+            parameter("acceleration", &s.acceleration),
+            parameter("velocity", &s.velocity),
+        ];
+        functions.push(function(
+            "motion_linear",
+            before,
+            vec![],
+            linear_arrays(&motion, n),
+        ));
+    }
     functions.extend(partials.map(|arrays| function("linear_partials", vec![], vec![], arrays)));
     functions
 }

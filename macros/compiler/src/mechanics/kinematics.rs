@@ -1,16 +1,17 @@
 //! Positions, velocities and accelerations of all bodies, from the ground outwards.
 //!
-//! Every vector is expressed in one common frame: the ground frame at the instant at which all driven coordinates are
-//! zero. (A recursion in body frames would turn every vector at every joint and cost about twice as much.)
+//! Every vector is expressed as the layout says: for forces, points and outputs in one common frame, the ground frame at the
+//! instant at which all driven coordinates are zero; for inertia along the axes that make its equations short.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
-use crate::base::ids::{BodyId, CoordinateId, ExprId};
+use crate::base::ids::{BodyId, ExprId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
 use crate::topology::Topology;
 
 use super::frame::FrameMotion;
 use super::layout::{BodyLayout, Layout};
+use super::step_axis::StepAxis;
 use super::values::{State, Values};
 
 /// A joint coordinate and its two time derivatives.
@@ -47,51 +48,7 @@ pub(super) struct Seat {
     pub(super) offset: Vector3,
 }
 
-/// Where an elementary motion acts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct StepAxis {
-    pub(super) coordinate: CoordinateId,
-    /// Axis of rotation; `None` for a slide.
-    pub(super) turn: Option<Vector3>,
-    /// Direction and amount of translation per unit of the coordinate; `None` for a turn.
-    pub(super) slide: Option<Vector3>,
-    /// The axis of either in the body frame.
-    pub(super) own_axis: Vector3,
-    /// A point of the axis, from the body's origin.
-    pub(super) point: Vector3,
-}
-
-impl StepAxis {
-    /// Power of a force and its moment about the body's origin per unit rate of the coordinate.
-    pub(super) fn project(&self, g: &mut Graph, force: Vector3, moment: Vector3) -> ExprId {
-        let mut power = g.zero();
-        if let Some(axis) = self.turn {
-            let shift = self.point.cross(g, force);
-            let about_axis = moment.sub(g, shift);
-            power = axis.dot(g, about_axis);
-        }
-        if let Some(slide) = self.slide {
-            let along = slide.dot(g, force);
-            power = g.add(power, along);
-        }
-        power
-    }
-
-    /// Velocity, per unit rate of the coordinate, of a point given from the body's origin.
-    pub(super) fn velocity(&self, g: &mut Graph, arm: Vector3) -> Vector3 {
-        let mut velocity = Vector3::zero(g);
-        if let Some(axis) = self.turn {
-            let lever = arm.sub(g, self.point);
-            velocity = axis.cross(g, lever);
-        }
-        if let Some(slide) = self.slide {
-            velocity = velocity.add(g, slide);
-        }
-        velocity
-    }
-}
-
-/// A named point in the common frame.
+/// A named point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointMotion {
     /// From the origin of its frame.
@@ -279,8 +236,8 @@ impl Kinematics {
         let to_parent = layout.own_axes.then_some(frame.orientation.axes);
         if gliding {
             for step in &mut steps {
-                let to_body = outboard_rotation.map(Matrix3::transpose);
-                step.own_axis = to_body.map_or(step.own_axis, |to| to.apply(g, step.own_axis));
+                step.own_axis = outboard_rotation
+                    .map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
             }
         } else {
             let axes = self.axes_in_body(g, values, joint, reversed, outboard_rotation);
@@ -325,7 +282,7 @@ impl Kinematics {
         reversed: bool,
         outboard: Option<Matrix3>,
     ) -> Vec<Vector3> {
-        let mut to_body = outboard.map_or_else(|| Matrix3::identity(g), Matrix3::transpose);
+        let mut to_body = outboard.unwrap_or_else(|| Matrix3::identity(g));
         let mut axes = Vec::new();
         let inwards: Vec<_> = match reversed {
             false => joint.steps.iter().rev().collect(),

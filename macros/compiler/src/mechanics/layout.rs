@@ -107,7 +107,11 @@ impl Runs {
         };
         for k in 0..this.before.len() {
             if this.before[k].is_some() {
-                let lists = [&mut this.position, &mut this.velocity, &mut this.acceleration];
+                let lists = [
+                    &mut this.position,
+                    &mut this.velocity,
+                    &mut this.acceleration,
+                ];
                 for list in lists {
                     let own = g.symbol_info(list.ids[k]).clone();
                     (list.ids[k], list.values[k]) =
@@ -268,7 +272,12 @@ struct Turn<'a> {
 }
 
 impl<'a> Turn<'a> {
-    fn of(g: &mut Graph, mechanism: &'a Mechanism, values: &Values, branch: &Branch) -> Option<Self> {
+    fn of(
+        g: &mut Graph,
+        mechanism: &'a Mechanism,
+        values: &Values,
+        branch: &Branch,
+    ) -> Option<Self> {
         let joint = &mechanism.joints[branch.joint.index()];
         let [step] = &joint.steps[..] else {
             return None;

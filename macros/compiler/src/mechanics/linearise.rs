@@ -4,8 +4,9 @@ use crate::algebra::{Array, Direction, Graph, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::composite::mass_matrix;
-use super::derive::{Equations, Problem};
+use super::derive::Equations;
 use super::functions::{Damping, Properties};
+use super::problem::Problem;
 use super::properties::vanish;
 use super::sources::Sources;
 use super::symbols::{SymbolList, Symbols};
@@ -193,6 +194,18 @@ impl Linear {
     /// All entries, matrix after matrix.
     pub(super) fn roots(&self) -> Vec<ExprId> {
         [&self.mass[..], &self.damping, &self.stiffness].concat()
+    }
+
+    /// All entries of the matrices linearised along any motion: the mass matrix does not know of it, and the other two have
+    /// no symmetry.
+    pub(super) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
+        let n = e.motion.len();
+        let mut roots = self.mass.clone();
+        for list in [&s.velocity, &s.q] {
+            let columns = columns(g, &e.motion, list);
+            roots.extend(entries(n).map(|(i, j)| columns[j][i]));
+        }
+        roots
     }
 
     /// The three matrices.

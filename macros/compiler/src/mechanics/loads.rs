@@ -5,9 +5,9 @@ use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
 use crate::model::mechanism::Frame;
 
-use super::derive::Problem;
 use super::forces::{AppliedForces, Loads, Wrench, add_load};
 use super::kinematics::Kinematics;
+use super::problem::Problem;
 use super::sources::Sources;
 
 /// Loads along the coordinates, and what the joints transmit of them, with the sign of inertia.

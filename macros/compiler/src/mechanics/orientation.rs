@@ -1,4 +1,4 @@
-//! How a body is turned against the common frame.
+//! How a body is turned against the axes in which its motion is written: those of the common frame, or of the layout.
 
 use crate::algebra::{Graph, Matrix3, Unary, Vector3};
 use crate::base::ids::ExprId;
@@ -11,12 +11,12 @@ pub(super) struct Orientation {
     turn: Option<(Vector3, ExprId)>,
     /// The angle about the same axis before the last turn, or before all turns of a run.
     before: Option<ExprId>,
-    /// The axes of the body in the common frame.
+    /// The axes of the body, as its motion is written.
     pub(super) axes: Matrix3,
 }
 
 impl Orientation {
-    /// Aligned with the common frame.
+    /// Not turned.
     pub(super) fn aligned(g: &mut Graph) -> Self {
         Self::fixed(Matrix3::identity(g))
     }
@@ -85,7 +85,7 @@ impl Orientation {
         }
     }
 
-    /// A body-fixed vector in the common frame. About the axis of a pure turn this does not need the angle.
+    /// A body-fixed vector as the motion is written. About the axis of a pure turn this does not need the angle.
     pub(super) fn express(self, g: &mut Graph, vector: Vector3) -> Vector3 {
         match self.turn {
             Some((axis, _)) if axis == vector => self.base.apply(g, vector),

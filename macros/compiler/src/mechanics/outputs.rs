@@ -6,11 +6,11 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, Frame};
 
 use super::constraints::{Source, held};
-use super::derive::Problem;
 use super::energy::{kinetic, potential};
 use super::forces::Wrench;
 use super::kinematics::Kinematics;
 use super::loads::transmitted;
+use super::problem::Problem;
 use super::setting::Setting;
 use super::sources::Sources;
 use super::values::State;

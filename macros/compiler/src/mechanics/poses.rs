@@ -2,8 +2,8 @@
 
 use crate::algebra::{Graph, Vector3};
 
-use super::derive::Problem;
 use super::functions::Pose;
+use super::problem::Problem;
 
 /// Every joint with three turns.
 pub(super) fn poses(g: &mut Graph, problem: &Problem) -> Vec<Pose> {

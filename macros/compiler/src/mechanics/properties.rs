@@ -6,9 +6,9 @@ use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
 
-use super::derive::Problem;
 use super::functions::{Damping, Properties};
 use super::linearise::Jacobians;
+use super::problem::Problem;
 
 /// Finite random states wanted for a numerical proof, and attempts allowed to find them.
 const STATES: usize = 4;

@@ -5,9 +5,9 @@ use crate::base::ids::PointId;
 use crate::model::mechanism::{Frame, Placement};
 
 use super::closure::Side;
-use super::derive::Problem;
 use super::kinematics::{Kinematics, PointMotion};
 use super::path::Tree;
+use super::problem::Problem;
 
 /// What every force law and constraint reads.
 pub(super) struct Setting<'a> {

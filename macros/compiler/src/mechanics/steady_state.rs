@@ -6,10 +6,10 @@ use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
 
 use crate::model::mechanism::Motion;
 
-use super::derive::Problem;
 use super::kinematics::Kinematics;
 use super::linearise::{at_rest, by_symbol};
 use super::outputs::outputs;
+use super::problem::Problem;
 use super::properties::vanish;
 use super::sources::{Selection, Sources};
 

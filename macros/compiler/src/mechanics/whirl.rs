@@ -14,9 +14,9 @@ use crate::algebra::{Direction, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;
 use crate::model::mechanism::Body;
 
-use super::derive::Problem;
 use super::inertia::MassDistribution;
 use super::linearise::at_rest;
+use super::problem::Problem;
 use super::symbols::SymbolList;
 use super::values::Values;
 

@@ -1,4 +1,4 @@
-//! The standard normal distribution, with tails of full relative accuracy (libm: statrs has ten digits of `erf`).
+//! The standard normal distribution, with tails of full relative accuracy.
 
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 

@@ -1,0 +1,151 @@
+//! Products that share a pair of factors share its product.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap;
+
+use super::super::graph::{Graph, Node, Operator};
+use super::{Uses, product, rebuild};
+use crate::base::ids::ExprId;
+
+/// A factor: a node, or a pair of factors.
+type Factor = u32;
+
+/// The products below some roots, and pairs of factors that stand for their product.
+#[derive(Default)]
+struct Products {
+    /// Heads of products, and their factors in order.
+    lists: Vec<(ExprId, Vec<Factor>)>,
+    /// What stands behind the factors that are no nodes.
+    pairs: Vec<(Factor, Factor)>,
+    /// Products in which two factors may stand.
+    users: FxHashMap<(Factor, Factor), Vec<usize>>,
+    nodes: usize,
+}
+
+impl Products {
+    fn new(graph: &Graph, uses: &Uses) -> Self {
+        let mut this = Self {
+            nodes: uses.count.len(),
+            ..Self::default()
+        };
+        for &id in &uses.order {
+            let is_product = matches!(graph.node(id), Node::Binary(Operator::Multiply, ..));
+            if is_product && !uses.in_product[id.index()] {
+                let mut factors = Vec::new();
+                uses.factors(graph, id, &mut factors);
+                let mut factors: Vec<Factor> = factors.iter().map(|f| f.index() as u32).collect();
+                factors.sort_unstable();
+                this.lists.push((id, factors));
+            }
+        }
+        this
+    }
+
+    /// Whether a product holds both factors, the same one twice if they are equal.
+    fn holds(&self, list: usize, (a, b): (Factor, Factor)) -> bool {
+        let factors = &self.lists[list].1;
+        let count = |wanted: Factor| factors.iter().filter(|&&f| f == wanted).count();
+        match a == b {
+            true => count(a) > 1,
+            false => count(a) > 0 && count(b) > 0,
+        }
+    }
+
+    /// As long as two products share a pair, the pair that most share becomes one factor.
+    fn share(&mut self) {
+        for list in 0..self.lists.len() {
+            let factors = self.lists[list].1.clone();
+            for (k, &a) in factors.iter().enumerate() {
+                for (l, &b) in factors.iter().enumerate().skip(k + 1) {
+                    let repeated = factors[..k].contains(&a) || factors[k + 1..l].contains(&b);
+                    if !repeated {
+                        self.users.entry((a, b)).or_default().push(list);
+                    }
+                }
+            }
+        }
+        let mut heap: BinaryHeap<(usize, Reverse<(Factor, Factor)>)> = self
+            .users
+            .iter()
+            .filter(|(_, lists)| lists.len() > 1)
+            .map(|(&pair, lists)| (lists.len(), Reverse(pair)))
+            .collect();
+        while let Some((count, Reverse(pair))) = heap.pop() {
+            let Some(lists) = self.users.remove(&pair) else {
+                continue;
+            };
+            let lists: Vec<usize> = lists.into_iter().filter(|&l| self.holds(l, pair)).collect();
+            if lists.len() < 2 {
+                continue;
+            }
+            if lists.len() < count {
+                heap.push((lists.len(), Reverse(pair)));
+                self.users.insert(pair, lists);
+                continue;
+            }
+            let factor = (self.nodes + self.pairs.len()) as Factor;
+            self.pairs.push(pair);
+            let mut fresh: Vec<(Factor, Factor)> = Vec::new();
+            for &list in &lists {
+                let factors = &mut self.lists[list].1;
+                for part in [pair.0, pair.1] {
+                    if let Some(k) = factors.iter().position(|&f| f == part) {
+                        factors.remove(k);
+                    }
+                }
+                let mut others = factors.clone();
+                others.dedup();
+                factors.push(factor);
+                for other in others {
+                    let pair = (other, factor);
+                    let users = self.users.entry(pair).or_default();
+                    if users.last() != Some(&list) {
+                        users.push(list);
+                    }
+                    fresh.push(pair);
+                }
+            }
+            fresh.sort_unstable();
+            fresh.dedup();
+            for pair in fresh {
+                let count = self.users.get(&pair).map_or(0, Vec::len);
+                if count > 1 {
+                    heap.push((count, Reverse(pair)));
+                }
+            }
+        }
+    }
+
+    fn build(&self, graph: &mut Graph, factor: Factor, image: &[ExprId]) -> ExprId {
+        match (factor as usize).checked_sub(self.nodes) {
+            None => image[factor as usize],
+            Some(k) => {
+                let (a, b) = self.pairs[k];
+                let (a, b) = (self.build(graph, a, image), self.build(graph, b, image));
+                graph.mul(a, b)
+            }
+        }
+    }
+}
+
+/// Shares the products of pairs below `roots`.
+pub(super) fn share_products(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
+    let uses = Uses::new(graph, roots);
+    let mut products = Products::new(graph, &uses);
+    products.share();
+    let mut next = 0;
+    rebuild(graph, roots, &uses, |graph, id, image| {
+        let (head, factors) = products.lists.get(next)?;
+        if *head != id {
+            return None;
+        }
+        next += 1;
+        let factors: Vec<ExprId> = factors
+            .iter()
+            .map(|&factor| products.build(graph, factor, image))
+            .collect();
+        Some(product(graph, &factors))
+    })
+}

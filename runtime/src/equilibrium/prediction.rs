@@ -1,0 +1,100 @@
+//! Where an equilibrium goes along an input, by the last states on its way.
+
+use crate::array::{greater, largest};
+
+/// The last states on the way: at most three, the latest first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path<const N: usize> {
+    states: [(f64, [f64; N]); 3],
+    count: usize,
+}
+
+impl<const N: usize> Default for Path<N> {
+    fn default() -> Self {
+        Self {
+            states: [(0.0, [0.0; N]); 3],
+            count: 0,
+        }
+    }
+}
+
+impl<const N: usize> Path<N> {
+    /// Goes on to a state at another value of the input.
+    pub(super) fn go(&mut self, value: f64, q: &[f64; N]) {
+        self.states = [(value, *q), self.states[0], self.states[1]];
+        self.count = (self.count + 1).min(3);
+    }
+
+    /// The state at a value of the input: by the parabola or the straight line through the last states. `None` with fewer
+    /// than two states, or where values of the input repeat.
+    pub(super) fn at(&self, value: f64) -> Option<[f64; N]> {
+        let [(u0, q0), (u1, q1), (u2, q2)] = &self.states;
+        if self.count < 2 {
+            return None;
+        }
+        let (first, second) = ((value - u0) / (u0 - u1), (value - u1) / (u0 - u2));
+        let curved = self.count == 3 && second.is_finite();
+        let bend = if curved { first * second } else { 0.0 };
+        let ratio = if curved { (u0 - u1) / (u1 - u2) } else { 0.0 };
+        let predicted = core::array::from_fn(|i| {
+            let slope = q0[i] - q1[i];
+            q0[i] + first * slope + bend * (slope - ratio * (q1[i] - q2[i]))
+        });
+        crate::array::all_finite(&predicted).then_some(predicted)
+    }
+}
+
+/// Whether a state found from a predicted one is what the prediction meant: much nearer to it than to the last state.
+pub(super) fn confirmed<const N: usize>(
+    found: &[f64; N],
+    predicted: &[f64; N],
+    last: &[f64; N],
+) -> bool {
+    /// Share of the way that a prediction may miss.
+    const MISSED: f64 = 0.25;
+    /// Coordinates that differ by no more than this do not move.
+    const STILL: f64 = 1e-9;
+    let distance =
+        |from: &[f64; N]| largest(&core::array::from_fn::<_, N, _>(|i| found[i] - from[i]));
+    let still = STILL * greater(1.0, largest(found));
+    distance(predicted) <= MISSED * distance(last) + still
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parabolas_are_continued_exactly_whatever_the_steps() {
+        let state = |u: f64| [1.0 + 2.0 * u - 0.5 * u * u, 3.0 - u];
+        let mut path = Path::default();
+        assert!(path.at(1.0).is_none());
+        for u in [0.0, 0.25, 1.0] {
+            path.go(u, &state(u));
+        }
+        for u in [1.5, -1.0, 7.0] {
+            let Some(predicted) = path.at(u) else {
+                panic!("three states")
+            };
+            for (predicted, exact) in predicted.iter().zip(state(u)) {
+                assert!((predicted - exact).abs() < 1e-13 * (1.0 + u * u), "{u}");
+            }
+        }
+    }
+
+    #[test]
+    fn repeated_values_predict_nothing() {
+        let mut path = Path::default();
+        path.go(1.0, &[0.5]);
+        path.go(1.0, &[0.5]);
+        assert_eq!(path.at(2.0), None);
+    }
+
+    #[test]
+    fn a_state_on_another_branch_is_not_what_was_meant() {
+        assert!(confirmed(&[1.01], &[1.0], &[0.9]));
+        assert!(!confirmed(&[-1.0], &[1.0], &[0.9]));
+        assert!(!confirmed(&[0.9], &[1.0], &[0.9]));
+        assert!(confirmed(&[0.0], &[0.0], &[0.0]));
+    }
+}

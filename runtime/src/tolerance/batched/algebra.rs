@@ -1,0 +1,221 @@
+//! Symmetric matrices of any small size, one in each lane. A flag is a vector of ones, zero in the lanes that failed.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "rows and columns of several matrices"
+)]
+
+use crate::lanes::Vector;
+
+/// Off-diagonal elements count as zero below this share of the diagonal, squared.
+const NEGLIGIBLE: f64 = 1e-33;
+/// Sweeps of rotations, at most; three do for matrices that are nearly diagonal.
+const SWEEPS: usize = 8;
+/// Least squared cosine between a mode and the nominal one; single modes are recognised from 0.6 on.
+const RECOGNISED: f64 = 0.7;
+
+/// The same numbers in every lane.
+#[inline(always)]
+pub(super) fn constants<V: Vector, const K: usize>(values: &[f64; K]) -> [V; K] {
+    // Loops, here and elsewhere: an adaptor of an iterator that is not inlined leaves the instructions behind.
+    let mut constants = [V::constant(0.0); K];
+    for (constant, value) in constants.iter_mut().zip(values) {
+        *constant = V::constant(*value);
+    }
+    constants
+}
+
+/// `flag` where `mask` holds, else zero.
+#[inline(always)]
+pub(super) fn keep<V: Vector>(flag: V, mask: V::Mask) -> V {
+    V::choose(mask, flag, V::constant(0.0))
+}
+
+/// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, at least the share
+/// `least` of its diagonal element.
+#[inline(always)]
+pub(super) fn factor<V: Vector, const N: usize>(
+    matrix: &[[V; N]; N],
+    least: f64,
+) -> ([[V; N]; N], V) {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let mut factor = [[zero; N]; N];
+    let mut pivots = [zero; N];
+    let mut flag = one;
+    for i in 0..N {
+        let mut pivot = matrix[i][i];
+        for j in 0..i {
+            // `scaled` is L_ij D_j until its own turn is over.
+            let mut scaled = matrix[i][j];
+            for k in 0..j {
+                scaled = scaled - factor[i][k] * factor[j][k] * pivots[k];
+            }
+            factor[i][j] = scaled * factor[j][j];
+            pivot = pivot - factor[i][j] * scaled;
+        }
+        flag = keep(
+            flag,
+            (matrix[i][i].abs() * V::constant(least)).at_most(pivot),
+        );
+        pivots[i] = pivot;
+        factor[i][i] = one / pivot;
+    }
+    (factor, flag)
+}
+
+/// Solves `L D L^T x = right`.
+#[inline(always)]
+pub(super) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V; N]) -> [V; N] {
+    let mut x = *right;
+    for i in 0..N {
+        for j in 0..i {
+            x[i] = x[i] - factor[i][j] * x[j];
+        }
+    }
+    for i in (0..N).rev() {
+        x[i] = x[i] * factor[i][i];
+        for j in i + 1..N {
+            x[i] = x[i] - factor[j][i] * x[j];
+        }
+    }
+    x
+}
+
+/// `basis^T matrix basis` of a symmetric matrix; the vectors of the basis are the rows of `basis`. Below and on the
+/// diagonal.
+#[inline(always)]
+pub(super) fn congruent<V: Vector, const N: usize>(
+    matrix: &[[V; N]; N],
+    basis: &[[f64; N]; N],
+) -> [[V; N]; N] {
+    let zero = V::constant(0.0);
+    let mut result = [[zero; N]; N];
+    for r in 0..N {
+        let mut image = [zero; N];
+        for i in 0..N {
+            for j in 0..N {
+                image[i] = image[i] + matrix[i][j] * V::constant(basis[r][j]);
+            }
+        }
+        for s in r..N {
+            for i in 0..N {
+                result[s][r] = result[s][r] + image[i] * V::constant(basis[s][i]);
+            }
+        }
+    }
+    result
+}
+
+/// Eigenvalues of `stiffness phi = lambda mass phi` in the order of the unit vectors that the eigenvectors are near to; `mass` near
+/// the identity, both nearly diagonal, given below and on the diagonal. The flag says that the rotations came to rest and
+/// that each eigenvector is near enough.
+#[inline(always)]
+pub(super) fn eigenvalues<V: Vector, const N: usize>(
+    stiffness: &[[V; N]; N],
+    mass: &[[V; N]; N],
+) -> ([V; N], V) {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    // mass = L L^T; the rows of `vectors` are those of L, rotated later.
+    let mut vectors = [[zero; N]; N];
+    let mut flag = one;
+    for i in 0..N {
+        for j in 0..=i {
+            let mut sum = mass[i][j];
+            for k in 0..j {
+                sum = sum - vectors[i][k] * vectors[j][k];
+            }
+            if j < i {
+                vectors[i][j] = sum / vectors[j][j];
+            } else {
+                flag = keep(flag, V::constant(0.5).at_most(sum));
+                vectors[i][i] = sum.sqrt();
+            }
+        }
+    }
+    // a = L^-1 stiffness L^-T
+    let mut a = *stiffness;
+    for i in 0..N {
+        for j in 0..i {
+            a[j][i] = a[i][j];
+        }
+    }
+    for column in 0..N {
+        for i in 0..N {
+            for k in 0..i {
+                a[i][column] = a[i][column] - vectors[i][k] * a[k][column];
+            }
+            a[i][column] = a[i][column] / vectors[i][i];
+        }
+    }
+    for row in &mut a {
+        for i in 0..N {
+            for k in 0..i {
+                row[i] = row[i] - vectors[i][k] * row[k];
+            }
+            row[i] = row[i] / vectors[i][i];
+        }
+    }
+    for i in 0..N {
+        for j in 0..i {
+            let mean = (a[i][j] + a[j][i]) * V::constant(0.5);
+            (a[i][j], a[j][i]) = (mean, mean);
+        }
+    }
+    let mut at_rest = zero;
+    for _ in 0..SWEEPS {
+        at_rest = one;
+        for p in 0..N {
+            for q in p + 1..N {
+                let small = rotate(&mut a, &mut vectors, p, q);
+                at_rest = keep(at_rest, small);
+            }
+        }
+        if V::every(one.at_most(at_rest)) {
+            break;
+        }
+    }
+    flag = keep(flag, one.at_most(at_rest));
+    for r in 0..N {
+        let share = vectors[r][r] * vectors[r][r];
+        flag = keep(flag, (mass[r][r] * V::constant(RECOGNISED)).at_most(share));
+    }
+    let mut lambda = [zero; N];
+    for (r, lambda) in lambda.iter_mut().enumerate() {
+        *lambda = a[r][r];
+    }
+    (lambda, flag)
+}
+
+/// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero; nothing moves where it counts as zero already,
+/// which the mask returned says, so that lanes do not wait for each other with effect.
+#[inline(always)]
+fn rotate<V: Vector, const N: usize>(
+    a: &mut [[V; N]; N],
+    vectors: &mut [[V; N]; N],
+    p: usize,
+    q: usize,
+) -> V::Mask {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let off = a[p][q];
+    let small = (off * off).at_most((a[p][p] * a[q][q]).abs() * V::constant(NEGLIGIBLE));
+    let half = (a[q][q] - a[p][p]) * V::constant(0.5);
+    let root = (half * half + off * off).sqrt();
+    let tangent = off / (half + V::choose(zero.at_most(half), root, -root));
+    let tangent = V::choose(small, zero, tangent);
+    let cosine = one / (one + tangent * tangent).sqrt();
+    let sine = tangent * cosine;
+    a[p][p] = a[p][p] - tangent * off;
+    a[q][q] = a[q][q] + tangent * off;
+    (a[p][q], a[q][p]) = (zero, zero);
+    for k in 0..N {
+        if k != p && k != q {
+            let (x, y) = (a[k][p], a[k][q]);
+            (a[k][p], a[k][q]) = (cosine * x - sine * y, sine * x + cosine * y);
+            (a[p][k], a[q][k]) = (a[k][p], a[k][q]);
+        }
+    }
+    for row in vectors {
+        let (x, y) = (row[p], row[q]);
+        (row[p], row[q]) = (cosine * x - sine * y, sine * x + cosine * y);
+    }
+    small
+}

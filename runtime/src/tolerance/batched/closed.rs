@@ -1,0 +1,99 @@
+//! The same as [`algebra`](super::algebra) for matrices of size one and two, by formulas with few divisions and roots.
+
+use super::algebra::{self, keep};
+use crate::lanes::Vector;
+
+/// Greatest squared tangent of the rotation and greatest squared coupling of the masses, relative to these: the squared cosine
+/// between a mode and the nominal one is then at least `(0.995 - 0.1 / 2)^2 / 1.25 = 0.71`, enough to recognise it.
+const TURNED: f64 = 0.25;
+const COUPLED: f64 = 0.01;
+
+/// A matrix ready to solve with.
+pub(super) enum Solver<V: Vector, const N: usize> {
+    /// Of size two: the matrix and the inverse of its determinant.
+    Two(V, V, V, V),
+    Factor([[V; N]; N]),
+}
+
+impl<V: Vector, const N: usize> Solver<V, N> {
+    /// The flag says that the matrix is positive definite, pivots at least the share `least`.
+    #[inline(always)]
+    pub(super) fn new(matrix: &[[V; N]; N], least: f64) -> (Self, V) {
+        if N == 2 {
+            let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
+            let inverse = V::constant(1.0) / (a * d - b * b);
+            (Self::Two(a, b, d, inverse), definite(matrix, least))
+        } else {
+            let (factor, flag) = algebra::factor(matrix, least);
+            (Self::Factor(factor), flag)
+        }
+    }
+
+    /// Solves `matrix x = right`.
+    #[inline(always)]
+    pub(super) fn solve(&self, right: &[V; N]) -> [V; N] {
+        match self {
+            Self::Two(a, b, d, inverse) => {
+                let mut x = *right;
+                x[0] = (*d * right[0] - *b * right[1]) * *inverse;
+                x[1] = (*a * right[1] - *b * right[0]) * *inverse;
+                x
+            }
+            Self::Factor(factor) => algebra::solve(factor, right),
+        }
+    }
+}
+
+/// Flag of positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
+#[inline(always)]
+pub(super) fn definite<V: Vector, const N: usize>(matrix: &[[V; N]; N], least: f64) -> V {
+    if N == 2 {
+        let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
+        let flag = keep(V::constant(1.0), V::constant(0.0).at_most(a));
+        let rest = a * d - b * b;
+        keep(flag, ((a * d).abs() * V::constant(least)).at_most(rest))
+    } else {
+        algebra::factor(matrix, least).1
+    }
+}
+
+/// As [`algebra::eigenvalues`].
+#[inline(always)]
+pub(super) fn eigenvalues<V: Vector, const N: usize>(
+    stiffness: &[[V; N]; N],
+    mass: &[[V; N]; N],
+) -> ([V; N], V) {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let mut lambda = [zero; N];
+    if N == 1 {
+        lambda[0] = stiffness[0][0] / mass[0][0];
+        (lambda, keep(one, V::constant(0.5).at_most(mass[0][0])))
+    } else if N == 2 {
+        let (k00, k10, k11) = (stiffness[0][0], stiffness[1][0], stiffness[1][1]);
+        let (m00, m10, m11) = (mass[0][0], mass[1][0], mass[1][1]);
+        // a = L^-1 stiffness L^-T; its element a_10 only as a square, which takes no root.
+        let inverse = one / m00;
+        let ratio = m10 * inverse;
+        let pivot = m11 - ratio * m10;
+        let a00 = k00 * inverse;
+        let rest = k10 - m10 * a00;
+        let under = one / pivot;
+        let a11 = (k11 - ratio * (k10 + rest)) * under;
+        let square = rest * rest * inverse * under;
+        let half = (a11 - a00) * V::constant(0.5);
+        let root = (half * half + square).sqrt();
+        let sum = half + V::choose(zero.at_most(half), root, -root);
+        let shift = square / sum;
+        let shift = V::choose(square.at_most(zero), zero, shift);
+        lambda[0] = a00 - shift;
+        lambda[1] = a11 + shift;
+        let coupled = m10 * m10;
+        let flag = keep(one, coupled.at_most(m00 * m11 * V::constant(COUPLED)));
+        let flag = keep(flag, V::constant(0.5).at_most(m00));
+        let flag = keep(flag, V::constant(0.5).at_most(m11));
+        let flag = keep(flag, square.at_most(sum * sum * V::constant(TURNED)));
+        (lambda, flag)
+    } else {
+        algebra::eigenvalues(stiffness, mass)
+    }
+}

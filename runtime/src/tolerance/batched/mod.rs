@@ -1,0 +1,17 @@
+//! Monte Carlo of undamped modes in the vectors of the processor: several samples side by side through the same arithmetic.
+//!
+//! Every sample is checked: that Newton's method came to rest, that the equilibrium is a minimum with a margin, on the
+//! way from the nominal position too, and that each mode is clearly the nominal one. A sample that fails a check goes to
+//! the solvers for one state, so that what becomes of it is decided there. Accepted samples have the equilibrium and
+//! frequencies of those solvers up to rounding, and do not depend on the processor or on the samples beside them.
+
+mod algebra;
+mod closed;
+mod prepared;
+mod range;
+mod solve;
+mod sums;
+
+pub(super) use prepared::Prepared;
+pub(super) use solve::Solved;
+pub(super) use sums::Sums;

@@ -1,0 +1,182 @@
+//! Interval arithmetic: what a physical requirement can come out as while the design varies in a box.
+
+use core::cmp::Ordering;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::Real;
+
+/// All numbers that an expression takes while its variables run through their ranges; rounding included, since it keeps
+/// the order of numbers. Where nothing better is known, all numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    low: f64,
+    high: f64,
+}
+
+const ALL: Range = Range {
+    low: f64::NEG_INFINITY,
+    high: f64::INFINITY,
+};
+
+impl Range {
+    /// `value` and what is within `distance` of it.
+    pub(super) fn about(value: f64, distance: f64) -> Self {
+        Self::between([value - distance, value + distance])
+    }
+
+    /// The range that these ends span.
+    fn between<const K: usize>(ends: [f64; K]) -> Self {
+        if ends.iter().any(|end| end.is_nan()) {
+            return ALL;
+        }
+        Self {
+            low: ends.iter().copied().fold(f64::INFINITY, f64::min),
+            high: ends.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+/// Ordered where no number of one equals or crosses a number of the other.
+impl PartialOrd for Range {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        if self.low > other.high {
+            Some(Ordering::Greater)
+        } else if self.high < other.low {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+}
+
+impl Add for Range {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::between([self.low + other.low, self.high + other.high])
+    }
+}
+
+impl Sub for Range {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::between([self.low - other.high, self.high - other.low])
+    }
+}
+
+impl Mul for Range {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let (a, b) = (self, other);
+        Self::between([
+            a.low * b.low,
+            a.low * b.high,
+            a.high * b.low,
+            a.high * b.high,
+        ])
+    }
+}
+
+impl Div for Range {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let (a, b) = (self, other);
+        if b.low <= 0.0 && b.high >= 0.0 {
+            return ALL;
+        }
+        Self::between([
+            a.low / b.low,
+            a.low / b.high,
+            a.high / b.low,
+            a.high / b.high,
+        ])
+    }
+}
+
+impl Neg for Range {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self {
+            low: -self.high,
+            high: -self.low,
+        }
+    }
+}
+
+impl Real for Range {
+    fn constant(value: f64) -> Self {
+        Self::between([value])
+    }
+    fn sqrt(self) -> Self {
+        Self::between([self.low.sqrt(), self.high.sqrt()])
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        (ALL, ALL)
+    }
+    fn tan(self) -> Self {
+        ALL
+    }
+    fn asin(self) -> Self {
+        ALL
+    }
+    fn acos(self) -> Self {
+        ALL
+    }
+    fn atan2(self, _: Self) -> Self {
+        ALL
+    }
+    fn exp(self) -> Self {
+        ALL
+    }
+    fn ln(self) -> Self {
+        ALL
+    }
+    fn powi(self, exponent: i32) -> Self {
+        crate::real::integer_power(self, exponent)
+    }
+    fn powf(self, _: Self) -> Self {
+        ALL
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_hold_what_their_members_give() {
+        let zero = Range::constant(0.0);
+        let (a, b) = (Range::about(2.0, 1.0), Range::about(-1.0, 0.5));
+        let members = |range: Range| [range.low, 0.3 * range.low + 0.7 * range.high, range.high];
+        for x in members(a) {
+            for y in members(b) {
+                for (range, value) in [
+                    (a + b, x + y),
+                    (a - b, x - y),
+                    (a * b, x * y),
+                    (b * b, y * y),
+                    (a / b, x / y),
+                    (-a, -x),
+                    (a.sqrt(), x.sqrt()),
+                    (b.powi(3), y * y * y),
+                    (b.powi(-2), 1.0 / (y * y)),
+                ] {
+                    assert!(
+                        range.low <= value && value <= range.high,
+                        "{range:?} {value}"
+                    );
+                }
+            }
+        }
+        assert!(a > zero && b < zero && (a + b).partial_cmp(&zero).is_none());
+        // Nothing is known of these, and nothing is claimed.
+        for unknown in [
+            a / (a + b),
+            b.sqrt(),
+            a.ln(),
+            Range::constant(f64::NAN),
+            ALL * zero,
+        ] {
+            assert!(unknown.partial_cmp(&zero).is_none(), "{unknown:?}");
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Monte Carlo in vectors against the solvers for one state: the same outcome of every sample, the same numbers up to
+//! rounding, the same bits with every set of instructions and any number of threads.
+
+use eigentol::equilibrium::equilibrium;
+use eigentol::lanes::Instructions;
+use eigentol::modes::modes;
+use eigentol::tolerance::{Counts, Sampling, monte_carlo};
+use eigentol::{Mechanism, MonteCarlo, Policy, Tolerances, mechanism};
+
+mechanism! {
+    mechanism Pendulum {
+        input omega: rad/s;
+        design m = 3.0 kg;
+        design l = 1.0 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+mechanism! {
+    mechanism Double {
+        input omega: rad/s;
+        design m1 = 3.0 kg +/- 2%;
+        design m2 = 3.0 kg;
+        design l1 = 1.0 m +/- 3%;
+        design l2 = 1.0 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: m1, length: l1, along: -z);
+        body bar2: rod(mass: m2, length: l2, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta1: revolute(y) from shaft to bar1;
+        joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+    }
+}
+
+mechanism! {
+    /// Three coordinates of different kinds, five variables.
+    mechanism Triple {
+        input omega: rad/s;
+        design m1 = 3.0 kg +/- 2%;
+        design m2 = 2.0 kg +/- 2%;
+        design l1 = 1.0 m +/- 2%;
+        design l2 = 0.7 m +/- 2%;
+        design k = 400.0 N/m +/- 5%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: m1, length: l1, along: -z);
+        body bar2: rod(mass: m2, length: l2, along: -z);
+        body slider: point(mass: 0.5 kg);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta1: revolute(y) from shaft to bar1;
+        joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+        joint x: prismatic(z) from bar2 to slider at [0, 0, -l2 / 2];
+        force spring: spring(on: x, stiffness: k);
+    }
+}
+
+fn nominal<M, const N: usize, const U: usize, const P: usize, const O: usize>() -> [f64; P]
+where
+    M: Mechanism<N, U, P, O>,
+{
+    core::array::from_fn(|j| M::DESCRIPTION.design[j].nominal)
+}
+
+/// Runs every set of instructions, compares with single samples, and returns what became of them and whether any was
+/// solved in vectors, which rounding shows.
+fn compare<M, const N: usize, const P: usize>(
+    m: &M,
+    omega: f64,
+    start: [f64; N],
+    tolerances: &Tolerances<P>,
+) -> (Counts, bool)
+where
+    M: Mechanism<N, 1, P, 0>,
+{
+    let b = nominal::<M, N, 1, P, 0>();
+    let state = equilibrium(m, &[omega], &b, &start, Policy::Stable).expect("an equilibrium");
+    let found = modes(&state).expect("modes");
+    let run = |vectors, threads| -> MonteCarlo<N, P> {
+        let sampling = Sampling {
+            samples: 1003,
+            seed: 42,
+            threads,
+            vectors,
+            keep_samples: true,
+            ..Sampling::default()
+        };
+        monte_carlo(m, &state, &found, tolerances, &sampling).expect("a run")
+    };
+    let alone = run(None, 1);
+    let first = run(Some(Instructions::SCALAR), 1);
+    for set in Instructions::available() {
+        for threads in [1, 2] {
+            assert!(
+                run(Some(set), threads) == first,
+                "{set:?}, {threads} threads"
+            );
+        }
+    }
+    assert_eq!(first.counts, alone.counts);
+    assert_eq!(first.counts.total(), 1003);
+    assert_eq!(first.left_nominal_branch, alone.left_nominal_branch);
+    let near = |a: f64, b: f64, scale: f64| assert!((a - b).abs() <= 1e-11 * scale, "{a} {b}");
+    let (Some(own), Some(other)) = (&first.all, &alone.all) else {
+        panic!("samples were asked for")
+    };
+    assert_eq!(own.len(), other.len());
+    for (own, other) in own.iter().zip(other) {
+        assert_eq!(own.design, other.design);
+        assert_eq!(own.outcome, other.outcome);
+        assert_eq!(own.coordinates.is_some(), other.coordinates.is_some());
+        for (a, b) in own.coordinates.iter().zip(&other.coordinates) {
+            (0..N).for_each(|i| near(a[i], b[i], 1.0));
+        }
+        assert_eq!(own.damping_ratios, other.damping_ratios);
+        assert_eq!(own.frequencies.len(), other.frequencies.len());
+        for (a, b) in own.frequencies.iter().zip(&other.frequencies) {
+            assert_eq!(a.is_some(), b.is_some());
+            let (a, b) = (a.unwrap_or(1.0), b.unwrap_or(1.0));
+            // A frequency near zero is the root of a difference.
+            near(a * a, b * b, b * b + 1.0);
+        }
+        for (a, b) in own.eigenvalues.iter().zip(&other.eigenvalues) {
+            assert_eq!(a.is_some(), b.is_some());
+        }
+    }
+    for (own, other) in [
+        (&first.modes, &alone.modes),
+        (&first.damping_ratios, &alone.damping_ratios),
+    ] {
+        assert_eq!(own.len(), other.len());
+        for (own, other) in own.iter().zip(other.iter()) {
+            let (Some(own), Some(other)) = (own, other) else {
+                assert_eq!(own, other);
+                continue;
+            };
+            assert_eq!(own.count, other.count);
+            for (a, b) in [
+                (own.mean, other.mean),
+                (own.min, other.min),
+                (own.max, other.max),
+            ] {
+                near(a, b, b.abs() + 0.1);
+            }
+            near(
+                own.standard_deviation.expect("several"),
+                other.standard_deviation.expect("several"),
+                other.mean.abs() + 0.1,
+            );
+        }
+    }
+    (first.counts, first.modes != alone.modes)
+}
+
+fn declared<M, const N: usize, const P: usize>() -> Tolerances<P>
+where
+    M: Mechanism<N, 1, P, 0>,
+{
+    Tolerances::declared(&M::DESCRIPTION).expect("declared")
+}
+
+#[test]
+fn chains_of_one_two_and_three() {
+    let one = compare(&Pendulum, 5.0, [1.0], &declared::<Pendulum, 1, 2>());
+    let two = compare(&Double, 6.0, [1.0, 0.1], &declared::<Double, 2, 4>());
+    let three = compare(&Triple, 6.0, [1.0, 0.1, 0.0], &declared::<Triple, 3, 5>());
+    for (counts, in_vectors) in [one, two, three] {
+        assert!(counts.stable == 1003 && in_vectors);
+    }
+    // At rest the equilibrium does not move.
+    let hanging = compare(&Double, 0.0, [0.0; 2], &declared::<Double, 2, 4>());
+    assert!(hanging.0.stable == 1003 && hanging.1);
+}
+
+/// Wide tolerances: bodies that cannot exist, springs that push, equilibria on another branch.
+#[test]
+fn samples_that_fail_are_what_they_are_alone() {
+    let wide = Tolerances::new([3.0, 0.0, 0.6, 0.9], 2.0, None).expect("valid");
+    let (counts, _) = compare(&Double, 6.0, [1.0, 0.1], &wide);
+    assert!(counts.unphysical > 30 && counts.stable > 500, "{counts:?}");
+    let correlation = [
+        [1.0, 0.5, 0.2, 0.0, -0.3],
+        [0.5, 1.0, 0.0, 0.1, 0.0],
+        [0.2, 0.0, 1.0, 0.9, 0.0],
+        [0.0, 0.1, 0.9, 1.0, 0.0],
+        [-0.3, 0.0, 0.0, 0.0, 1.0],
+    ];
+    let wide = Tolerances::new([0.6, 0.4, 0.2, 0.2, 390.0], 3.0, Some(correlation)).expect("valid");
+    let (counts, _) = compare(&Triple, 6.0, [1.0, 0.1, 0.0], &wide);
+    assert!(counts.stable > 900, "{counts:?}");
+}
+
+/// About the speed at which the pendulum leaves the vertical: some samples hang, some have left it.
+#[test]
+fn near_a_critical_state() {
+    let critical = (1.5_f64 * 9.81).sqrt();
+    for factor in [0.97, 0.999, 0.9999, 1.0001, 1.001, 1.03] {
+        for width in [0.001, 0.01, 0.05] {
+            let tolerances = Tolerances::new([0.0, width], 3.0, None).expect("valid");
+            let (counts, _) = compare(&Pendulum, factor * critical, [0.3], &tolerances);
+            assert_eq!(counts.stable, 1003, "{factor} {width}");
+        }
+    }
+}
