@@ -131,6 +131,7 @@ impl Package {
             ])
             .current_dir(&self.folder)
             .env_remove("CARGO_TARGET_DIR")
+            .env("CARGO_INCREMENTAL", "0")
             .status()?;
         match status.success() {
             true => Ok(clock.seconds()),

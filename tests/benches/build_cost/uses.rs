@@ -21,6 +21,7 @@ where
     black_box(m.residual_parts(q, u, b));
     black_box(m.motion_residual(q, q, q, u, b));
     black_box(m.motion(q, q, u, b));
+    black_box(m.motion_linear(q, q, q, u, b));
     black_box(m.residual_and_stiffness(q, u, b));
     black_box(m.linear(q, u, b));
     black_box(m.residual_partials(q, u, b));

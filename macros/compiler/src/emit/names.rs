@@ -113,3 +113,35 @@ fn function_name(operator: Unary) -> &'static str {
         Unary::PowerInteger(_) => "power",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{KEYWORDS, Names};
+
+    /// Of the words of Rust only `gen`, of edition 2024, is an identifier to syn.
+    #[test]
+    fn keywords_are_what_syn_refuses() {
+        let refused = |word: &str| syn::parse_str::<syn::Ident>(word).is_err();
+        for word in KEYWORDS {
+            assert!(refused(word) || word == "gen", "{word}");
+        }
+        for word in ["theta", "union", "default", "raw", "auto", "sum"] {
+            assert!(!refused(word) && !KEYWORDS.contains(&word), "{word}");
+        }
+    }
+
+    #[test]
+    fn names_are_given_once() {
+        let mut names = Names::new(["q"]);
+        let given = ["q", "sum", "Sum", "r#type", "type", "sum_2"].map(|name| names.unique(name));
+        let expected = [
+            "q_2",
+            "sum",
+            "sum_2",
+            "type_value",
+            "type_value_2",
+            "sum_2_2",
+        ];
+        assert_eq!(given, expected);
+    }
+}
