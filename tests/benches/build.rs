@@ -9,6 +9,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use eigentol_compiler::algebra::regrouped;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::lower;
 use eigentol_compiler::{Compilation, compile};
@@ -109,11 +110,14 @@ fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     functions
         .functions
         .retain(|function| GROWING.contains(&function.name));
-    let kernels = functions.functions.iter();
-    let regrouped: Vec<_> = kernels
-        .map(|function| function.regrouped(&mut functions.graph))
-        .collect();
-    compilation.program = lower(&functions.graph, &regrouped);
+    let mut kernels = Vec::new();
+    for function in &functions.functions {
+        kernels.extend(regrouped(
+            &mut functions.graph,
+            std::slice::from_ref(function),
+        ));
+    }
+    compilation.program = lower(&functions.graph, &kernels);
     let text = compilation.emit().to_string();
     let (contract, rest) = text
         .split_once(":: eigentol :: Mechanism <")

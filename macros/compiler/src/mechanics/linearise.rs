@@ -99,11 +99,10 @@ fn summed(
     columns: &[Vec<ExprId>],
     outward: &[usize],
 ) -> Vec<Vec<ExprId>> {
-    let n = columns.len();
     let mut asymmetry = Vec::new();
-    for j in 0..n {
-        for i in 0..j {
-            asymmetry.push(g.sub(columns[j][i], columns[i][j]));
+    for (j, column) in columns.iter().enumerate() {
+        for (i, mirrored) in columns[..j].iter().enumerate() {
+            asymmetry.push(g.sub(column[i], mirrored[j]));
         }
     }
     let symmetric = vanish(g, problem, &asymmetry).into_iter().all(|zero| zero);
