@@ -20,7 +20,7 @@ impl Report {
                 "machine": expansion.name,
                 "instructions": expansion.instructions,
                 "bytes": expansion.bytes,
-                "milliseconds": expansion.stages.iter().sum::<f64>(),
+                "milliseconds": expansion.milliseconds(),
                 "stages": STAGES.iter().zip(expansion.stages).collect::<Vec<_>>(),
             })
         });
@@ -56,7 +56,7 @@ impl Report {
             for stage in stages {
                 let _ = write!(text, " {stage:.2} |");
             }
-            let _ = writeln!(text, " {:.1} |", stages.iter().sum::<f64>());
+            let _ = writeln!(text, " {:.1} |", expansion.milliseconds());
         }
         text +=
             "\n| build | settings | profile | calls | seconds |\n| --- | --- | --- | --- | --- |\n";
