@@ -67,6 +67,8 @@ mod trigonometry;
 #[cfg(feature = "std")]
 mod array;
 #[cfg(feature = "std")]
+mod batched;
+#[cfg(feature = "std")]
 pub mod campbell;
 #[cfg(feature = "std")]
 mod constraints;

@@ -5,8 +5,6 @@
 //! the solvers for one state, so that what becomes of it is decided there. Accepted samples have the equilibrium and
 //! frequencies of those solvers up to rounding, and do not depend on the processor or on the samples beside them.
 
-mod algebra;
-mod closed;
 mod prepared;
 mod range;
 mod solve;

@@ -1,8 +1,8 @@
 //! Designs, equilibria, modes and sums of the samples of one batch.
 
-use super::algebra::{congruent, constants, keep};
-use super::closed::{self, Solver};
 use super::{Prepared, Sums};
+use crate::batched::algebra::{congruent, constants, keep};
+use crate::batched::closed::{self, Solver};
 use crate::lanes::{Batch, Task, Vector};
 use crate::tolerance::normal::standard_normal_pair;
 use crate::{Linear, Mechanism};

@@ -15,7 +15,7 @@ const RECOGNISED: f64 = 0.7;
 
 /// The same numbers in every lane.
 #[inline(always)]
-pub(super) fn constants<V: Vector, const K: usize>(values: &[f64; K]) -> [V; K] {
+pub(crate) fn constants<V: Vector, const K: usize>(values: &[f64; K]) -> [V; K] {
     // Loops, here and elsewhere: an adaptor of an iterator that is not inlined leaves the instructions behind.
     let mut constants = [V::constant(0.0); K];
     for (constant, value) in constants.iter_mut().zip(values) {
@@ -26,14 +26,14 @@ pub(super) fn constants<V: Vector, const K: usize>(values: &[f64; K]) -> [V; K] 
 
 /// `flag` where `mask` holds, else zero.
 #[inline(always)]
-pub(super) fn keep<V: Vector>(flag: V, mask: V::Mask) -> V {
+pub(crate) fn keep<V: Vector>(flag: V, mask: V::Mask) -> V {
     V::choose(mask, flag, V::constant(0.0))
 }
 
 /// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, at least the share
 /// `least` of its diagonal element.
 #[inline(always)]
-pub(super) fn factor<V: Vector, const N: usize>(
+pub(crate) fn factor<V: Vector, const N: usize>(
     matrix: &[[V; N]; N],
     least: f64,
 ) -> ([[V; N]; N], V) {
@@ -64,7 +64,7 @@ pub(super) fn factor<V: Vector, const N: usize>(
 
 /// Solves `L D L^T x = right`.
 #[inline(always)]
-pub(super) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V; N]) -> [V; N] {
+pub(crate) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V; N]) -> [V; N] {
     let mut x = *right;
     for i in 0..N {
         for j in 0..i {
@@ -83,7 +83,7 @@ pub(super) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V;
 /// `basis^T matrix basis` of a symmetric matrix; the vectors of the basis are the rows of `basis`. Below and on the
 /// diagonal.
 #[inline(always)]
-pub(super) fn congruent<V: Vector, const N: usize>(
+pub(crate) fn congruent<V: Vector, const N: usize>(
     matrix: &[[V; N]; N],
     basis: &[[f64; N]; N],
 ) -> [[V; N]; N] {
@@ -109,7 +109,7 @@ pub(super) fn congruent<V: Vector, const N: usize>(
 /// the identity, both nearly diagonal, given below and on the diagonal. The flag says that the rotations came to rest and
 /// that each eigenvector is near enough.
 #[inline(always)]
-pub(super) fn eigenvalues<V: Vector, const N: usize>(
+pub(crate) fn eigenvalues<V: Vector, const N: usize>(
     stiffness: &[[V; N]; N],
     mass: &[[V; N]; N],
 ) -> ([V; N], V) {

@@ -9,7 +9,7 @@ const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
 /// A matrix ready to solve with.
-pub(super) enum Solver<V: Vector, const N: usize> {
+pub(crate) enum Solver<V: Vector, const N: usize> {
     /// Of size two: the matrix and the inverse of its determinant.
     Two(V, V, V, V),
     Factor([[V; N]; N]),
@@ -18,7 +18,7 @@ pub(super) enum Solver<V: Vector, const N: usize> {
 impl<V: Vector, const N: usize> Solver<V, N> {
     /// The flag says that the matrix is positive definite, pivots at least the share `least`.
     #[inline(always)]
-    pub(super) fn new(matrix: &[[V; N]; N], least: f64) -> (Self, V) {
+    pub(crate) fn new(matrix: &[[V; N]; N], least: f64) -> (Self, V) {
         if N == 2 {
             let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
             let inverse = V::constant(1.0) / (a * d - b * b);
@@ -31,7 +31,7 @@ impl<V: Vector, const N: usize> Solver<V, N> {
 
     /// Solves `matrix x = right`.
     #[inline(always)]
-    pub(super) fn solve(&self, right: &[V; N]) -> [V; N] {
+    pub(crate) fn solve(&self, right: &[V; N]) -> [V; N] {
         match self {
             Self::Two(a, b, d, inverse) => {
                 let mut x = *right;
@@ -46,7 +46,7 @@ impl<V: Vector, const N: usize> Solver<V, N> {
 
 /// Flag of positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
 #[inline(always)]
-pub(super) fn definite<V: Vector, const N: usize>(matrix: &[[V; N]; N], least: f64) -> V {
+pub(crate) fn definite<V: Vector, const N: usize>(matrix: &[[V; N]; N], least: f64) -> V {
     if N == 2 {
         let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
         let flag = keep(V::constant(1.0), V::constant(0.0).at_most(a));
@@ -59,7 +59,7 @@ pub(super) fn definite<V: Vector, const N: usize>(matrix: &[[V; N]; N], least: f
 
 /// As [`algebra::eigenvalues`].
 #[inline(always)]
-pub(super) fn eigenvalues<V: Vector, const N: usize>(
+pub(crate) fn eigenvalues<V: Vector, const N: usize>(
     stiffness: &[[V; N]; N],
     mass: &[[V; N]; N],
 ) -> ([V; N], V) {
