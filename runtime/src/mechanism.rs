@@ -290,6 +290,17 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
 
     #[doc(hidden)]
     #[inline(always)]
+    fn residual_parts_inlined<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> RestParts<T, N> {
+        self.residual_parts(q, u, b)
+    }
+
+    #[doc(hidden)]
+    #[inline(always)]
     fn linear_inlined<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N> {
         self.linear(q, u, b)
     }

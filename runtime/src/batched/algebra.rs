@@ -12,6 +12,9 @@ const NEGLIGIBLE: f64 = 1e-33;
 const SWEEPS: usize = 8;
 /// Least squared cosine between a mode and the nominal one; single modes are recognised from 0.6 on.
 const RECOGNISED: f64 = 0.7;
+/// The same where two states that are compared with a third have to be recognised in each other: vectors within 13 degrees of
+/// it are within 26 of each other, squared cosine above 0.8.
+pub(crate) const CLEAR: f64 = 0.95;
 
 /// The same numbers in every lane.
 #[inline(always)]
@@ -113,6 +116,37 @@ pub(crate) fn eigenvalues<V: Vector, const N: usize>(
     stiffness: &[[V; N]; N],
     mass: &[[V; N]; N],
 ) -> ([V; N], V) {
+    let (lambda, _, flag) = rotated(stiffness, mass, RECOGNISED);
+    (lambda, flag)
+}
+
+/// As [`eigenvalues`], with the vectors, one in each row, `phi^T mass phi = 1`; the flag wants them nearer, [`CLEAR`].
+#[inline(always)]
+pub(crate) fn eigenpairs<V: Vector, const N: usize>(
+    stiffness: &[[V; N]; N],
+    mass: &[[V; N]; N],
+) -> ([V; N], [[V; N]; N], V) {
+    let (lambda, images, flag) = rotated(stiffness, mass, CLEAR);
+    let (factor, _) = factor(mass, 0.0);
+    let mut vectors = [[V::constant(0.0); N]; N];
+    for r in 0..N {
+        let mut image = [V::constant(0.0); N];
+        for i in 0..N {
+            image[i] = images[i][r];
+        }
+        vectors[r] = solve(&factor, &image);
+    }
+    (lambda, vectors, flag)
+}
+
+/// Eigenvalues, and in each column `mass phi` of the vector that belongs to it; the flag as above, for a squared cosine of
+/// `least`.
+#[inline(always)]
+fn rotated<V: Vector, const N: usize>(
+    stiffness: &[[V; N]; N],
+    mass: &[[V; N]; N],
+    least: f64,
+) -> ([V; N], [[V; N]; N], V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
     // mass = L L^T; the rows of `vectors` are those of L, rotated later.
     let mut vectors = [[zero; N]; N];
@@ -176,13 +210,13 @@ pub(crate) fn eigenvalues<V: Vector, const N: usize>(
     flag = keep(flag, one.at_most(at_rest));
     for r in 0..N {
         let share = vectors[r][r] * vectors[r][r];
-        flag = keep(flag, (mass[r][r] * V::constant(RECOGNISED)).at_most(share));
+        flag = keep(flag, (mass[r][r] * V::constant(least)).at_most(share));
     }
     let mut lambda = [zero; N];
     for (r, lambda) in lambda.iter_mut().enumerate() {
         *lambda = a[r][r];
     }
-    (lambda, flag)
+    (lambda, vectors, flag)
 }
 
 /// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero; nothing moves where it counts as zero already,

@@ -97,3 +97,59 @@ pub(crate) fn eigenvalues<V: Vector, const N: usize>(
         algebra::eigenvalues(stiffness, mass)
     }
 }
+
+/// Eigenpairs of `stiffness phi = lambda mass phi`, matrices as for [`eigenvalues`]: row `r` of the second array is vector `r`,
+/// `phi^T mass phi = 1`. The flag says that each is clearly the unit vector of its place: squared cosine at least
+/// [`algebra::CLEAR`].
+#[inline(always)]
+pub(crate) fn eigenpairs<V: Vector, const N: usize>(
+    stiffness: &[[V; N]; N],
+    mass: &[[V; N]; N],
+) -> ([V; N], [[V; N]; N], V) {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let mut lambda = [zero; N];
+    let mut vectors = [[zero; N]; N];
+    if N == 1 {
+        let inverse = one / mass[0][0];
+        lambda[0] = stiffness[0][0] * inverse;
+        vectors[0][0] = inverse.sqrt();
+        (lambda, vectors, keep(one, zero.at_most(mass[0][0])))
+    } else if N == 2 {
+        let (k00, k10, k11) = (stiffness[0][0], stiffness[1][0], stiffness[1][1]);
+        let (m00, m10, m11) = (mass[0][0], mass[1][0], mass[1][1]);
+        // Reciprocals of the diagonal of L, mass = L L^T.
+        let r0 = one / m00.sqrt();
+        let l10 = m10 * r0;
+        let r1 = one / (m11 - l10 * l10).sqrt();
+        // a = L^-1 stiffness L^-T
+        let a00 = k00 * r0 * r0;
+        let across = k10 * r0;
+        let rest = across - l10 * a00;
+        let a10 = rest * r1;
+        let a11 = (k11 - l10 * (across + rest)) * r1 * r1;
+        let half = (a11 - a00) * V::constant(0.5);
+        let root = (half * half + a10 * a10).sqrt();
+        let tangent = a10 / (half + V::choose(zero.at_most(half), root, -root));
+        let tangent = V::choose(a10.abs().at_most(zero), zero, tangent);
+        let secant = one + tangent * tangent;
+        let cosine = one / secant.sqrt();
+        let sine = tangent * cosine;
+        lambda[0] = a00 - tangent * a10;
+        lambda[1] = a11 + tangent * a10;
+        // phi = L^-T y with y = (cosine, -sine) and (sine, cosine)
+        let (first, second) = (-sine * r1, cosine * r1);
+        vectors[0][0] = (cosine - l10 * first) * r0;
+        vectors[0][1] = first;
+        vectors[1][0] = (sine - l10 * second) * r0;
+        vectors[1][1] = second;
+        // cos^2 = (L J)_rr^2 / m_rr
+        let clear = V::constant(algebra::CLEAR);
+        let own = cosine * cosine;
+        let turned = l10 * sine + cosine * (m11 - l10 * l10) * r1;
+        let flag = keep(one, clear.at_most(own));
+        let flag = keep(flag, (m11 * clear).at_most(turned * turned));
+        (lambda, vectors, flag)
+    } else {
+        algebra::eigenpairs(stiffness, mass)
+    }
+}

@@ -1,4 +1,12 @@
-//! Small symmetric matrices, one in each lane of the processor's vectors.
+//! Several states side by side in the vectors of the processor: what follows an input does with neighbouring values, and
+//! what samples a design with its samples. Every lane is checked; what fails a check goes to the solvers for one state.
 
 pub(crate) mod algebra;
+mod block;
 pub(crate) mod closed;
+mod continuity;
+mod newton;
+mod slopes;
+mod state;
+
+pub(crate) use block::Block;

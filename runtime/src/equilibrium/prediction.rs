@@ -25,6 +25,11 @@ impl<const N: usize> Path<N> {
         self.count = (self.count + 1).min(3);
     }
 
+    /// The last three states; `None` with fewer.
+    pub(super) fn last_three(&self) -> Option<&[(f64, [f64; N]); 3]> {
+        (self.count == 3).then_some(&self.states)
+    }
+
     /// The state at a value of the input: by the parabola or the straight line through the last states. `None` with fewer
     /// than two states, or where values of the input repeat.
     pub(super) fn at(&self, value: f64) -> Option<[f64; N]> {

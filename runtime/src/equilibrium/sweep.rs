@@ -4,6 +4,7 @@ use core::ops::Deref;
 
 use super::CriticalState;
 use super::critical::critical_states_on;
+use super::follow::follow;
 use super::range::check_input;
 use super::track::{Following, Tracker};
 use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
@@ -84,19 +85,11 @@ where
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut smooth = Vec::with_capacity(values.len());
-    let points = values.iter().map(|&value| {
-        let (equilibrium, modes) = match tracker.advance(value) {
-            Ok((state, modes)) => (Ok(state), modes),
-            Err(error) => (Err(error.clone()), Err(error)),
-        };
-        smooth.push(tracker.smooth && modes.is_ok());
-        SweepPoint {
-            value,
-            equilibrium,
-            modes,
-        }
+    let mut points = Vec::with_capacity(values.len());
+    follow(&mut tracker, values, false, |station| {
+        smooth.push(station.smooth);
+        points.push(station.point.clone());
     });
-    let points: Vec<_> = points.collect();
     let path = points.iter().zip(&smooth);
     let path = path.map(|(point, smooth)| (point.value, &point.equilibrium, *smooth));
     let critical = critical_states_on(mechanism, (u, b), following, input, path);

@@ -1,25 +1,37 @@
 //! Following one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
 //! keep their identity.
 
+use super::follow::{Station, at, least};
 use super::prediction::Path;
 use super::settle::settle_from_prediction;
-use super::{Policy, Problem, settle};
+use super::{Policy, Problem, SweepPoint, settle};
+use crate::batched::Block;
+use crate::lanes::{Instructions, WIDTH};
 use crate::modes::{Family, match_with_assurance, merged, modes_of, near_another};
-use crate::sensitivity::CLUSTER_GAP;
-use crate::{Equilibrium, Error, Input, Mechanism, Modes};
+use crate::sensitivity::{CLUSTER_GAP, Sensitivities};
+use crate::{Equilibrium, Error, Input, Mechanism, Modes, Stability};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
 const RECOGNISED: f64 = 0.8;
 /// How often a step may be halved.
 const HALVINGS: usize = 6;
 
-/// What is followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What is followed, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Following {
     /// Which equilibrium.
     pub policy: Policy,
     /// Which modes; `None` for the family that leaves nothing out ([`Family::of`]).
     pub family: Option<Family>,
+    /// The vector instructions with which neighbouring values of a sweep are solved side by side where the mechanism allows
+    /// it; `None` solves each alone. Results are the same up to rounding.
+    pub vectors: Option<Instructions>,
+}
+
+impl Default for Following {
+    fn default() -> Self {
+        Policy::default().into()
+    }
 }
 
 impl From<Policy> for Following {
@@ -27,6 +39,7 @@ impl From<Policy> for Following {
         Self {
             policy,
             family: None,
+            vectors: Some(Instructions::best()),
         }
     }
 }
@@ -47,6 +60,7 @@ pub(crate) struct Tracker<'a, M, const N: usize, const U: usize, const P: usize>
     design: [f64; P],
     policy: Policy,
     family: Family,
+    vectors: Option<Instructions>,
     /// Where the next solve starts.
     from: [f64; N],
     /// The way so far, which tells where it goes on.
@@ -77,6 +91,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             design: *b,
             policy: following.policy,
             family: following.family.unwrap_or(Family::of(&M::DESCRIPTION)),
+            vectors: following.vectors,
             from: *start,
             path: Path::default(),
             unused: 0,
@@ -91,7 +106,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     }
 
     /// The inputs at a value of the one that varies.
-    fn inputs_at(&self, value: f64) -> [f64; U] {
+    pub(super) fn inputs_at(&self, value: f64) -> [f64; U] {
         let mut inputs = self.inputs;
         if let Some(place) = inputs.get_mut(self.input.0) {
             *place = value;
@@ -138,6 +153,79 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             equilibrium,
             modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
         })
+    }
+
+    /// Room for values that are solved side by side.
+    pub(super) fn block(&self) -> Box<Block<N, U, P>> {
+        Block::new(&self.inputs, &self.design)
+    }
+
+    /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
+    /// them one by one would find. With `slopes`, modes have derivatives.
+    pub(super) fn ahead<const O: usize>(
+        &self,
+        block: &mut Block<N, U, P>,
+        values: &[f64],
+        slopes: bool,
+    ) -> usize
+    where
+        M: Mechanism<N, U, P, O>,
+    {
+        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
+        let (Some(vectors), Some(last), Some(past), true) =
+            (self.vectors, &self.last, self.path.last_three(), wanted)
+        else {
+            return 0;
+        };
+        let sound = last.equilibrium.stability == Stability::Stable
+            && last.modes.modes.len() == N
+            && last.value == past[0].0;
+        if !sound {
+            return 0;
+        }
+        let possible = |value: &&f64| {
+            let inputs = self.inputs_at(**value);
+            self.mechanism.violation(&inputs, &self.design).is_none()
+        };
+        let number = values.iter().take(WIDTH).take_while(possible).count();
+        let values = (self.input, &values[..number]);
+        let shapes = core::array::from_fn(|r| last.modes.modes[r].real_shape());
+        block.solve(self.mechanism, vectors, values, past, &shapes, slopes)
+    }
+
+    /// What is known at the last point, as far as states side by side share it.
+    pub(super) fn here(&self, slopes: bool) -> Option<Station<N, U, P>> {
+        let last = self.last.as_ref()?;
+        Some(Station {
+            point: SweepPoint {
+                value: last.value,
+                equilibrium: Ok(last.equilibrium),
+                modes: Ok(last.modes),
+            },
+            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes))),
+            smooth: true,
+        })
+    }
+
+    /// Goes on to the last of the first `number` states of a block, which `point` holds.
+    pub(super) fn arrive(
+        &mut self,
+        point: &SweepPoint<N, U, P>,
+        block: &Block<N, U, P>,
+        number: usize,
+    ) {
+        for lane in number.saturating_sub(3)..number {
+            let state = at(&block.coordinates, lane);
+            self.path.go(block.values.0[lane], &state);
+        }
+        if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
+            self.from = state.coordinates;
+            self.last = Some(Tracked {
+                value: point.value,
+                equilibrium: *state,
+                modes: *modes,
+            });
+        }
     }
 
     /// Goes on to a value of the input; the equilibrium comes back even where its modes fail. Modes that are not
@@ -198,7 +286,9 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         };
         self.smooth = false;
         if let Some(last) = &self.last {
-            self.smooth = confirmed && even(&last.modes, &found);
+            self.smooth = confirmed
+                && self.family == Family::Undamped
+                && even(least(&last.modes), least(&found));
             let order = match_with_assurance(&last.modes, &found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
             let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
@@ -227,18 +317,11 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     }
 }
 
-/// Whether the least eigenvalue of undamped modes is positive in both sets and nearly the same.
-fn even<const N: usize>(before: &Modes<N>, after: &Modes<N>) -> bool {
+/// Whether the least eigenvalues of two sets of undamped modes are positive and nearly the same.
+pub(super) fn even(a: f64, b: f64) -> bool {
     /// Share of the greater of the two that the lesser one keeps.
     const KEPT: f64 = 0.75;
-    let least = |modes: &Modes<N>| modes.modes.iter().map(|mode| mode.lambda).reduce(f64::min);
-    let (Some(a), Some(b)) = (least(before), least(after)) else {
-        return false;
-    };
-    before.family == Family::Undamped
-        && after.family == Family::Undamped
-        && a.min(b) > 0.0
-        && a.min(b) >= KEPT * a.max(b)
+    a.min(b) > 0.0 && a.min(b) >= KEPT * a.max(b)
 }
 
 /// How a step ended.

@@ -31,7 +31,7 @@ impl Default for Batch {
 
 /// The vectors of the states from `at` on.
 #[inline(always)]
-pub(super) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [V; K] {
+pub(crate) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [V; K] {
     let mut vectors = [V::constant(0.0); K];
     for (vector, from) in vectors.iter_mut().zip(from) {
         *vector = V::load(from, at);
@@ -40,7 +40,7 @@ pub(super) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [
 }
 
 /// Writes results for the states from `at` on: the same shape, of vectors here and of batches there.
-pub(super) trait Store<From> {
+pub(crate) trait Store<From> {
     fn store(&mut self, from: &From, at: usize);
 }
 

@@ -43,6 +43,8 @@ pub use kernels::{
 };
 
 #[cfg(feature = "std")]
+pub(crate) use batch::{Store, load};
+#[cfg(feature = "std")]
 pub(crate) use instructions::Task;
 #[cfg(feature = "std")]
 pub(crate) use kernels::generated;

@@ -240,7 +240,7 @@ fn undamped<const N: usize>(
 
 /// Mode `r`; eigenvalues within `threshold` cannot be told from zero.
 #[inline]
-fn undamped_mode<const N: usize>(
+pub(crate) fn undamped_mode<const N: usize>(
     r: usize,
     lambda: f64,
     shape: &[f64; N],

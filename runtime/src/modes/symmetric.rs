@@ -27,7 +27,7 @@ const ACCEPTED: f64 = 1e-9;
 /// Residual relative to the matrices that rounding of the shape explains.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual beyond which a pair is improved by inverse iteration.
-const INACCURATE: f64 = 1e-13;
+pub(crate) const INACCURATE: f64 = 1e-13;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
 pub(crate) fn solve<const N: usize>(

@@ -117,7 +117,9 @@ where
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
     let partials = state.mechanism.linear_partials(q, u, b);
     let symmetric = const { M::DESCRIPTION.symmetric_stiffness };
-    undamped_from(state, modes, |mode| of_undamped(&partials, mode, symmetric))
+    undamped_from(state, modes, |mode| {
+        of_undamped(&partials, &mode.real_shape(), mode.lambda, symmetric)
+    })
 }
 
 #[inline]

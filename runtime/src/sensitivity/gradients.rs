@@ -4,7 +4,7 @@
 
 use core::marker::PhantomData;
 
-use crate::{Complex, Description, Gradient, Linear, LinearPartials, Mechanism, Mode};
+use crate::{Complex, Description, Gradient, Linear, LinearPartials, Mechanism, Mode, Real};
 
 /// What an elementary function costs, in additions and multiplications.
 const FUNCTION: usize = 40;
@@ -44,7 +44,7 @@ const fn pays(
 }
 
 /// Which way is cheaper for a mechanism.
-pub(super) struct Cheaper<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+pub(crate) struct Cheaper<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     PhantomData<M>,
 );
 
@@ -60,7 +60,7 @@ where
         ("residual_gradient", 1),
     );
     /// Explicit partials of the matrices for undamped modes.
-    pub(super) const MATRICES: bool = pays(
+    pub(crate) const MATRICES: bool = pays(
         &M::DESCRIPTION,
         N,
         ("linear_partials", 2 * N * (N + 1) * (N + U + P)),
@@ -83,36 +83,52 @@ where
 }
 
 /// Gradient of `phi^T (Khat - lambda Mhat) phi`, vector and eigenvalue held fixed, from explicit partials.
-#[inline]
-pub(super) fn of_undamped<const N: usize, const U: usize, const P: usize>(
-    partials: &LinearPartials<f64, N, U, P>,
-    mode: &Mode<N>,
+#[inline(always)]
+pub(crate) fn of_undamped<T: Real, const N: usize, const U: usize, const P: usize>(
+    partials: &LinearPartials<T, N, U, P>,
+    phi: &[T; N],
+    lambda: T,
     symmetric: bool,
-) -> Gradient<f64, N, U, P> {
-    let phi = mode.real_shape();
-    let rate = |change: &Linear<f64, N>| {
-        let mut sum = -0.0;
+) -> Gradient<T, N, U, P> {
+    let mut products = [[T::constant(0.0); N]; N];
+    for i in 0..N {
+        for j in 0..N {
+            products[i][j] = phi[i] * phi[j];
+        }
+    }
+    Gradient {
+        coordinates: rates(&partials.by_coordinate, &products, lambda, symmetric),
+        inputs: rates(&partials.by_input, &products, lambda, symmetric),
+        design: rates(&partials.by_design, &products, lambda, symmetric),
+    }
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi` of each change.
+#[inline(always)]
+fn rates<T: Real, const N: usize, const K: usize>(
+    changes: &[Linear<T, N>; K],
+    products: &[[T; N]; N],
+    lambda: T,
+    symmetric: bool,
+) -> [T; K] {
+    let mut rates = [T::constant(0.0); K];
+    for (rate, change) in rates.iter_mut().zip(changes) {
+        let (mut own, mut mixed) = (T::constant(-0.0), T::constant(-0.0));
         for i in 0..N {
-            for j in 0..=i {
-                let stiffness = if i == j {
-                    change.stiffness[i][i]
-                } else if symmetric {
-                    2.0 * change.stiffness[i][j]
+            own = own + products[i][i] * (change.stiffness[i][i] - lambda * change.mass[i][i]);
+            for j in 0..i {
+                let (a, b) = (change.stiffness[i][j], change.stiffness[j][i]);
+                let stiffness = if symmetric {
+                    a
                 } else {
-                    change.stiffness[i][j] + change.stiffness[j][i]
+                    T::constant(0.5) * (a + b)
                 };
-                let twice = if i == j { 1.0 } else { 2.0 };
-                let mass = twice * mode.lambda * change.mass[i][j];
-                sum += phi[i] * phi[j] * (stiffness - mass);
+                mixed = mixed + products[i][j] * (stiffness - lambda * change.mass[i][j]);
             }
         }
-        sum
-    };
-    Gradient {
-        coordinates: core::array::from_fn(|k| rate(&partials.by_coordinate[k])),
-        inputs: core::array::from_fn(|k| rate(&partials.by_input[k])),
-        design: core::array::from_fn(|k| rate(&partials.by_design[k])),
+        *rate = own + (mixed + mixed);
     }
+    rates
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.

@@ -14,17 +14,20 @@ mod redundancy;
 mod second;
 mod shapes;
 mod shift;
+mod sweep;
 
 pub use adjoint::sensitivities;
 pub use clusters::{ModalCouplings, modal_couplings};
 pub use events::{critical_sensitivity, crossing_sensitivity};
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
+pub(crate) use gradients::{Cheaper, of_undamped};
 pub use outputs::{OutputSensitivities, output_sensitivities};
 pub use quantity::Quantity;
 pub use second::{ModeCurvature, SecondDerivatives, mode_curvature};
 pub use shapes::{ShapeSensitivity, shape_sensitivity};
 pub use shift::{EquilibriumShift, equilibrium_shift};
+pub use sweep::sensitivity_sweep;
 
 use crate::array::{all_finite, unless_finite};
 use crate::modes::{Family, PerMode, merged, near_another};
@@ -110,6 +113,21 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         clustered: false,
         value: Complex::ZERO,
     };
+
+    /// Goes to an undamped mode, apart from all others, with these derivatives of `lambda`.
+    #[inline]
+    pub(crate) fn set_undamped<const N: usize>(
+        &mut self,
+        mode: &Mode<N>,
+        by_input: [f64; U],
+        by_design: [f64; P],
+    ) {
+        let slopes = Slopes {
+            by_input,
+            by_design,
+        };
+        *self = Self::from_lambda(mode, slopes, false);
+    }
 
     #[inline]
     fn from_lambda<const N: usize>(
@@ -197,6 +215,22 @@ pub struct Sensitivities<const N: usize, const U: usize, const P: usize> {
     pub family: Family,
     /// The mechanism they belong to.
     pub description: &'static Description,
+}
+
+impl<const N: usize, const U: usize, const P: usize> Sensitivities<N, U, P> {
+    /// Room for the derivatives of these modes.
+    pub(crate) fn blank(modes: &Modes<N>) -> Self {
+        let mut blank = PerMode::blank(ModeSensitivity::BLANK);
+        for _ in modes.modes.iter() {
+            blank.push(ModeSensitivity::BLANK);
+        }
+        Self {
+            modes: blank,
+            method: Method::Adjoint,
+            family: modes.family,
+            description: modes.description,
+        }
+    }
 }
 
 /// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their

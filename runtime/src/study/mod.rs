@@ -194,8 +194,8 @@ where
         self
     }
 
-    /// Chooses the vector instructions with which a Monte Carlo run solves several samples side by side where the mechanism
-    /// allows it (the best of the processor unless set); `None` solves each sample alone.
+    /// Chooses the vector instructions with which a Monte Carlo run solves several samples, and a sweep several values, side
+    /// by side where the mechanism allows it (the best of the processor unless set); `None` solves each alone.
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.vectors = vectors;
@@ -227,6 +227,7 @@ where
         Following {
             policy: self.policy,
             family: self.family,
+            vectors: self.vectors,
         }
     }
 

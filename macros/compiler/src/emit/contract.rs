@@ -55,7 +55,8 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
 
 /// Kernels that loops over vector lanes call: their bodies are written where they are called, because the instructions of
 /// such a loop reach only what is inlined into it.
-const INLINED: [&str; 6] = [
+const INLINED: [&str; 7] = [
+    "residual_parts",
     "residual_and_stiffness",
     "linear",
     "residual_partials",

@@ -1,0 +1,83 @@
+//! Whether the states of a block continue the way that led there, each seen from the three before it.
+
+use super::algebra::keep;
+use super::block::{Block, Past};
+use crate::lanes::{Batch, Task, Vector, WIDTH};
+
+/// Share of the way that a prediction may miss.
+const MISSED: f64 = 0.25;
+/// Coordinates that differ by no more than this do not move.
+const STILL: f64 = 1e-9;
+
+/// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
+/// them: what [`confirmed`](crate::equilibrium) asks of one state.
+pub(super) struct Continuity<'a, const N: usize, const U: usize, const P: usize> {
+    pub(super) past: &'a Past<N>,
+    pub(super) block: &'a mut Block<N, U, P>,
+}
+
+impl<const N: usize, const U: usize, const P: usize> Task for Continuity<'_, N, U, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { past, block } = self;
+        let values = before(&block.values, past.map(|(value, _)| value));
+        let mut states = [[Batch::default(); 3]; N];
+        for (i, states) in states.iter_mut().enumerate() {
+            *states = before(&block.coordinates[i], past.map(|(_, state)| state[i]));
+        }
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            let u = V::load(&block.values, at);
+            let [u0, u1, u2] = three::<V>(&values, at);
+            let (first, second) = (u - u0, u - u1);
+            let (one, zero) = (V::constant(1.0), V::constant(0.0));
+            let (step, before, both) = (one / (u0 - u1), one / (u1 - u2), one / (u0 - u2));
+            let (mut missed, mut moved, mut size) = (zero, zero, one);
+            for i in 0..N {
+                let q = V::load(&block.coordinates[i], at);
+                let [q0, q1, q2] = three::<V>(&states[i], at);
+                let slope = (q0 - q1) * step;
+                let bend = (slope - (q1 - q2) * before) * both;
+                let predicted = q0 + first * (slope + second * bend);
+                missed = greater(missed, (q - predicted).abs());
+                moved = greater(moved, (q - q0).abs());
+                size = greater(size, q.abs());
+            }
+            let allowed = V::constant(MISSED) * moved + V::constant(STILL) * size;
+            let flag = keep(V::load(&block.flags, at), missed.at_most(allowed));
+            flag.store(&mut block.flags, at);
+        }
+    }
+}
+
+/// What stood one, two and three places before each of a batch; before the first the past, latest first.
+#[inline(always)]
+fn before(batch: &Batch, past: [f64; 3]) -> [Batch; 3] {
+    let mut places = [Batch::default(); 3];
+    for (by, places) in (1..).zip(&mut places) {
+        for k in 0..WIDTH {
+            places.0[k] = if k < by {
+                past[by - 1 - k]
+            } else {
+                batch.0[k - by]
+            };
+        }
+    }
+    places
+}
+
+#[inline(always)]
+fn three<V: Vector>(batches: &[Batch; 3], at: usize) -> [V; 3] {
+    let mut vectors = [V::constant(0.0); 3];
+    for (vector, batch) in vectors.iter_mut().zip(batches) {
+        *vector = V::load(batch, at);
+    }
+    vectors
+}
+
+/// The greater of two; what is not a number stays.
+#[inline(always)]
+fn greater<V: Vector>(a: V, b: V) -> V {
+    V::choose(b.at_most(a), a, b)
+}

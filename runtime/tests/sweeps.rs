@@ -1,0 +1,339 @@
+//! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
+//! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
+
+use eigentol::equilibrium::{Following, Sweep, sweep};
+use eigentol::lanes::Instructions;
+use eigentol::sensitivity::{sensitivities, sensitivity_sweep};
+use eigentol::{Error, Family, Input, Mechanism, Policy, Sensitivities, mechanism};
+
+mechanism! {
+    mechanism Single {
+        input omega: rad/s;
+        design m = 3.0 kg;
+        design l = 1.0 m;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+mechanism! {
+    mechanism Double {
+        input omega: rad/s;
+        input load: N;
+        design m1 = 3.0 kg;
+        design m2 = 3.0 kg;
+        design l1 = 1.0 m;
+        design l2 = 1.0 m;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: m1, length: l1, along: -z);
+        body bar2: rod(mass: m2, length: l2, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta1: revolute(y) from shaft to bar1;
+        joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+        force pull: potential(energy: load * l1 * cos(theta1));
+    }
+}
+
+mechanism! {
+    /// Coordinates of different kinds; a mass that an input sets.
+    mechanism Triple {
+        input omega: rad/s;
+        input m: kg;
+        design l1 = 1.0 m;
+        design l2 = 0.7 m;
+        design k = 400.0 N/m;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: 3.0 kg, length: l1, along: -z);
+        body bar2: rod(mass: 2.0 kg, length: l2, along: -z);
+        body slider: point(mass: m);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta1: revolute(y) from shaft to bar1;
+        joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+        joint x: prismatic(z) from bar2 to slider at [0, 0, -l2 / 2];
+        force spring: spring(on: x, stiffness: k);
+    }
+}
+
+mechanism! {
+    /// Two oscillators whose frequencies cross, a third one beside them, and one that hangs on a joint of three turns.
+    mechanism Crossing {
+        input k: N/m;
+        design c = 100.0 N/m;
+        gravity 9.81 m/s^2 along -z;
+        body left: point(mass: 1.0 kg);
+        body right: point(mass: 2.0 kg);
+        body bob: box(mass: 1.0 kg, size: [0.1 m, 0.2 m, 0.3 m]);
+        joint x: prismatic(x) from ground to left;
+        joint y: prismatic(x) from ground to right;
+        joint hang: spherical(yaw: x, pitch: y, roll: z) from ground to bob at [0, 0, 1 m], at [0, 0, 0.5 m] on bob;
+        force first: spring(on: x, stiffness: k);
+        force second: spring(on: y, stiffness: c);
+        force twist: spring(on: roll, stiffness: 2.0 N*m/rad);
+    }
+}
+
+fn nominal<M, const N: usize, const U: usize, const P: usize, const O: usize>() -> [f64; P]
+where
+    M: Mechanism<N, U, P, O>,
+{
+    core::array::from_fn(|j| M::DESCRIPTION.design[j].nominal)
+}
+
+fn near(a: f64, b: f64, scale: f64) {
+    assert!((a - b).abs() <= 1e-10 * (scale + a.abs()), "{a:e} {b:e}");
+}
+
+/// Sweeps with every set of instructions, compares with values one by one, and returns that sweep and how many states
+/// rounding tells were solved side by side.
+fn compare<M, const N: usize, const U: usize, const P: usize>(
+    m: &M,
+    u: [f64; U],
+    start: [f64; N],
+    input: Input,
+    values: &[f64],
+) -> (Sweep<N, U, P>, usize)
+where
+    M: Mechanism<N, U, P, 0>,
+{
+    let b = nominal::<M, N, U, P, 0>();
+    let following = |vectors| Following {
+        vectors,
+        ..Policy::Stable.into()
+    };
+    let run = |vectors| sweep(m, &u, &b, &start, following(vectors), input, values);
+    let run = |vectors| run(vectors).expect("an input of the mechanism");
+    let alone = run(None);
+    let first = run(Some(Instructions::SCALAR));
+    for set in Instructions::available() {
+        let other = format!("{:?}", run(Some(set)));
+        assert!(other == format!("{first:?}"), "{set:?}");
+    }
+    assert_eq!(first.len(), values.len());
+    assert_eq!(first.critical.len(), alone.critical.len());
+    for (own, other) in first.critical.iter().zip(&alone.critical) {
+        near(own.value, other.value, 1.0);
+    }
+    let mut side_by_side = 0;
+    for ((own, other), &value) in first.iter().zip(alone.iter()).zip(values) {
+        assert!(own.value == value || value.is_nan());
+        let (state, expected) = match (&own.equilibrium, &other.equilibrium) {
+            (Ok(state), Ok(expected)) => (state, expected),
+            (own, other) => {
+                assert_eq!(format!("{own:?}"), format!("{other:?}"));
+                continue;
+            }
+        };
+        side_by_side += usize::from(format!("{state:?}") != format!("{expected:?}"));
+        for i in 0..N {
+            near(state.coordinates[i], expected.coordinates[i], 1.0);
+            for j in 0..N {
+                near(state.linear.mass[i][j], expected.linear.mass[i][j], 1.0);
+                let size = expected.linear.stiffness[i][i].abs();
+                near(
+                    state.linear.stiffness[i][j],
+                    expected.linear.stiffness[i][j],
+                    size,
+                );
+            }
+        }
+        assert_eq!(state.inputs, expected.inputs);
+        assert_eq!(state.design, expected.design);
+        assert_eq!(state.stability, expected.stability);
+        assert_eq!(state.left_unstable_region, expected.left_unstable_region);
+        assert!(state.relative_residual <= 1e-10);
+        assert_eq!(state.pose.is_some(), expected.pose.is_some());
+        if let (Some(own), Some(other)) = (&state.pose, &expected.pose) {
+            near(own.margin, other.margin, 1.0);
+        }
+        let (Ok(modes), Ok(expected)) = (&own.modes, &other.modes) else {
+            panic!("{:?} {:?}", own.modes, other.modes);
+        };
+        assert_eq!(modes.modes.len(), expected.modes.len());
+        for (mode, expected) in modes.modes.iter().zip(expected.modes.iter()) {
+            assert_eq!(mode.label, expected.label, "at {value}");
+            near(mode.lambda, expected.lambda, 1.0);
+            near(mode.s.im, expected.s.im, 1.0);
+            assert!(mode.residual <= 1e-12);
+            for (own, other) in mode.shape.iter().zip(&expected.shape) {
+                near(own.re, other.re, 1.0);
+            }
+            assert_eq!(mode.shape, mode.left);
+        }
+    }
+    derivatives(m, (u, b), start, (input, values), &first);
+    (first, side_by_side)
+}
+
+/// Derivatives along the sweep against those of each of its states.
+fn derivatives<M, const N: usize, const U: usize, const P: usize>(
+    m: &M,
+    (u, b): ([f64; U], [f64; P]),
+    start: [f64; N],
+    (input, values): (Input, &[f64]),
+    along: &Sweep<N, U, P>,
+) where
+    M: Mechanism<N, U, P, 0>,
+{
+    let run = |set| {
+        let following = Following {
+            vectors: Some(set),
+            ..Policy::Stable.into()
+        };
+        let mut all: Vec<Result<Sensitivities<N, U, P>, Error>> = Vec::new();
+        let mut points = along.iter();
+        let each = |point: &_, slopes: &Result<Sensitivities<N, U, P>, Error>| {
+            let kept = points.next().map(|point| format!("{point:?}"));
+            assert_eq!(Some(format!("{point:?}")), kept);
+            all.push(slopes.clone());
+        };
+        sensitivity_sweep(m, (&u, &b), &start, following, (input, values), each)
+            .expect("an input of the mechanism");
+        all
+    };
+    let first = run(Instructions::SCALAR);
+    for set in Instructions::available() {
+        assert!(format!("{:?}", run(set)) == format!("{first:?}"), "{set:?}");
+    }
+    assert_eq!(first.len(), values.len());
+    for (slopes, point) in first.iter().zip(along.iter()) {
+        let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) else {
+            assert!(slopes.is_err());
+            continue;
+        };
+        match (slopes, sensitivities(m, state, modes)) {
+            (Ok(slopes), Ok(expected)) => {
+                assert_eq!(slopes.method, expected.method);
+                assert_eq!(slopes.modes.len(), expected.modes.len());
+                for (own, other) in slopes.modes.iter().zip(expected.modes.iter()) {
+                    assert_eq!(own.clustered, other.clustered);
+                    let lists = [
+                        (&own.lambda_by_input[..], &other.lambda_by_input[..]),
+                        (&own.lambda_by_design, &other.lambda_by_design),
+                    ];
+                    for (own, other) in lists {
+                        let size = other.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+                        own.iter().zip(other).for_each(|(a, b)| near(*a, *b, size));
+                    }
+                    assert_eq!(
+                        own.omega_by_design.is_some(),
+                        other.omega_by_design.is_some()
+                    );
+                    for (own, other) in own.omega_by_design.iter().zip(&other.omega_by_design) {
+                        own.iter().zip(other).for_each(|(a, b)| near(*a, *b, 1.0));
+                    }
+                }
+            }
+            (own, other) => assert_eq!(format!("{own:?}"), format!("{other:?}")),
+        }
+    }
+}
+
+fn steps(low: f64, high: f64, count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|k| low + (high - low) * k as f64 / (count - 1) as f64)
+        .collect()
+}
+
+#[test]
+fn neighbouring_values_are_solved_side_by_side() {
+    for count in [9, 12, 17, 60] {
+        let values = steps(4.5, 8.0, count);
+        let (_, together) = compare(&Single, [0.0], [1.0], Single::omega, &values);
+        let (_, also) = compare(&Double, [0.0, 0.0], [1.0, 0.1], Double::omega, &values);
+        let (_, three) = compare(&Triple, [0.0, 0.5], [1.0, 0.1, 0.0], Triple::omega, &values);
+        if count == 60 {
+            let least = together.min(also).min(three);
+            assert!(least >= 40, "{together} {also} {three}");
+        }
+    }
+}
+
+#[test]
+fn critical_speeds_are_passed_as_one_by_one() {
+    for (low, high) in [(0.5, 8.0), (8.0, 0.5), (2.6, 2.8), (3.9, 2.5)] {
+        for count in [25, 70, 201] {
+            let values = steps(low, high, count);
+            let (single, _) = compare(&Single, [0.0], [0.9], Single::omega, &values);
+            let crossed = |critical: f64| (low - critical) * (high - critical) < 0.0;
+            let natural = (3.0_f64 * 9.81 / 2.0).sqrt();
+            assert_eq!(single.critical.len(), usize::from(crossed(natural)));
+            compare(&Double, [0.0, 0.0], [0.9, 0.1], Double::omega, &values);
+        }
+    }
+}
+
+#[test]
+fn another_input_than_a_speed() {
+    let values = steps(-20.0, 20.0, 50);
+    compare(&Double, [6.0, 0.0], [1.0, 0.1], Double::load, &values);
+    let masses = steps(0.2, 1.5, 40);
+    compare(&Triple, [5.0, 0.5], [1.0, 0.1, 0.0], Triple::m, &masses);
+}
+
+#[test]
+fn impossible_values_repeated_ones_and_leaps_keep_their_own_answer() {
+    // A mass that becomes negative on the way and positive again.
+    let mut masses = steps(1.0, -0.5, 30);
+    masses.extend(steps(0.3, 0.9, 30));
+    let (found, _) = compare(&Triple, [5.0, 0.5], [1.0, 0.1, 0.0], Triple::m, &masses);
+    assert!(found.iter().any(|point| point.equilibrium.is_err()));
+    let mut values = steps(5.0, 6.0, 20);
+    values.extend([6.0, 6.0, 6.0, f64::NAN, f64::INFINITY, 9.0, 2.0, 2.1, 2.2]);
+    values.extend(steps(2.3, 9.0, 31));
+    values.extend([7.0; 12]);
+    compare(&Double, [0.0, 0.0], [1.0, 0.1], Double::omega, &values);
+    compare(&Single, [0.0], [1.0], Single::omega, &values);
+}
+
+#[test]
+fn modes_keep_their_labels_where_frequencies_cross() {
+    // x has the frequency of y where k = c m_x / m_y = 50 N/m, in no value and in one.
+    for values in [steps(20.0, 90.0, 64), steps(20.0, 80.0, 31)] {
+        let start = [0.01, 0.01, 0.2, 0.1, 0.0];
+        let (found, _) = compare(&Crossing, [20.0], start, Crossing::k, &values);
+        let labels = |point: usize| -> Vec<usize> {
+            let modes = found[point].modes.as_ref().expect("modes");
+            modes.modes.iter().map(|mode| mode.label).collect()
+        };
+        assert_eq!(labels(0), labels(found.len() - 1));
+    }
+}
+
+#[test]
+fn other_policies_and_families_go_one_by_one() {
+    let values = steps(4.5, 8.0, 40);
+    let design = nominal::<Double, 2, 2, 4, 0>();
+    let run = |policy, family, vectors| {
+        let following = Following {
+            policy,
+            family,
+            vectors,
+        };
+        let found = sweep(
+            &Double,
+            &[0.0, 0.0],
+            &design,
+            &[1.0, 0.1],
+            following,
+            Double::omega,
+            &values,
+        );
+        format!("{found:?}")
+    };
+    let best = Some(Instructions::best());
+    for (policy, family) in [
+        (Policy::Nearest, None),
+        (Policy::Stable, Some(Family::General)),
+    ] {
+        assert_eq!(run(policy, family, best), run(policy, family, None));
+    }
+    assert_ne!(
+        run(Policy::Stable, None, best),
+        run(Policy::Stable, None, None)
+    );
+}
