@@ -52,7 +52,7 @@
 //! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `tolerance::summary`, `tolerance::clusters` |
 //! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
 //! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `tolerance::mode_margin` |
-//! | what happens along an input? | `sweep`, `campbell` | `equilibrium::sweep`, `campbell::campbell` |
+//! | what happens along an input? | `sweep`, `sensitivity_sweep`, `first_order_sweep`, `campbell` | `equilibrium::sweep`, `sensitivity::sensitivity_sweep`, `campbell::campbell` |
 //! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `equilibrium::critical_state`, ... |
 #![cfg_attr(not(feature = "std"), no_std)]
 

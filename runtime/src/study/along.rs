@@ -3,9 +3,10 @@
 use super::Study;
 use crate::campbell::{self, Axes, Campbell};
 use crate::equilibrium::{
-    self, Branches, Continuation, CriticalState, Crossing, Line, Range, Search, Sweep,
+    self, Branches, Continuation, CriticalState, Crossing, Line, Range, Search, Sweep, SweepPoint,
 };
-use crate::tolerance::{self, EventTolerance};
+use crate::sensitivity::{self, Sensitivities};
+use crate::tolerance::{self, EventTolerance, FirstOrder};
 use crate::{Error, Input, Mechanism};
 
 impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
@@ -26,6 +27,48 @@ where
             input,
             values,
         )
+    }
+
+    /// Shows equilibrium, modes and their total derivatives at each value of one input to `each`, in order
+    /// ([`sensitivity::sensitivity_sweep`]).
+    ///
+    /// # Errors
+    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn sensitivity_sweep(
+        &self,
+        input: Input,
+        values: &[f64],
+        each: impl FnMut(&SweepPoint<N, U, P>, &Result<Sensitivities<N, U, P>, Error>),
+    ) -> Result<(), Error> {
+        sensitivity::sensitivity_sweep(
+            &self.mechanism,
+            (&self.inputs, &self.design),
+            &self.assembled_start()?,
+            self.following(),
+            (input, values),
+            each,
+        )
+    }
+
+    /// First-order spread of the frequencies at each value of one input, in order; modes keep their place and their label
+    /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
+    ///
+    /// # Errors
+    /// Those of the tolerances, [`Error::UnknownHandle`]; a value that fails has its own error.
+    pub fn first_order_sweep(
+        &self,
+        input: Input,
+        values: &[f64],
+    ) -> Result<Vec<Result<FirstOrder<N, P>, Error>>, Error> {
+        let tolerances = self.tolerances()?;
+        let mut found = Vec::with_capacity(values.len());
+        self.sensitivity_sweep(input, values, |point, slopes| {
+            found.push(match (&point.modes, slopes) {
+                (Ok(modes), Ok(slopes)) => Ok(tolerance::first_order(modes, slopes, &tolerances)),
+                (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+            });
+        })?;
+        Ok(found)
     }
 
     /// Campbell diagram along one input, with the crossings of lines: engine orders as numbers, or

@@ -26,6 +26,10 @@ const SPEEDS: usize = 100;
 /// A name and a value.
 pub(crate) type Fact = (String, String);
 
+fn speed(k: usize) -> f64 {
+    8.0 * (k + 1) as f64 / SPEEDS as f64
+}
+
 type PendulumStudy = Study<DoublePendulum, 2, 1, 4, 0>;
 
 /// One study per speed, below and above the critical speed, looked for from the same start as the paper does.
@@ -34,7 +38,6 @@ fn studies() -> Vec<PendulumStudy> {
     let study = Study::new(DoublePendulum)
         .start(DoublePendulum::theta1, start)
         .samples(SAMPLES);
-    let speed = |k: usize| 8.0 * (k + 1) as f64 / SPEEDS as f64;
     let at = |k| study.clone().input(DoublePendulum::omega, speed(k));
     (0..SPEEDS).map(at).collect()
 }
@@ -56,6 +59,10 @@ pub(crate) fn pendulum() -> Vec<Fact> {
         for study in &studies {
             let _ = black_box(&study.first_order());
         }
+    });
+    let speeds: Vec<f64> = (0..SPEEDS).map(speed).collect();
+    let along = fastest(50, || {
+        let _ = black_box(studies[0].first_order_sweep(DoublePendulum::omega, &speeds));
     });
     let sampled = |studies: &[PendulumStudy]| {
         fastest(3, || {
@@ -79,6 +86,10 @@ pub(crate) fn pendulum() -> Vec<Fact> {
             format!("{:.0} ns", analytic * 1e9 / SPEEDS as f64),
         ),
         fact(
+            "first-order analysis along the speeds, per speed",
+            format!("{:.0} ns", along * 1e9 / SPEEDS as f64),
+        ),
+        fact(
             "Monte Carlo of 3000 samples one by one, one thread, per speed",
             format!("{:.3} ms", scalar * 1e3 / SPEEDS as f64),
         ),
@@ -89,6 +100,10 @@ pub(crate) fn pendulum() -> Vec<Fact> {
         fact(
             "Monte Carlo one by one against first order, both one thread",
             format!("{:.0}x", scalar / analytic),
+        ),
+        fact(
+            "Monte Carlo one by one against first order along the speeds, both one thread",
+            format!("{:.0}x", scalar / along),
         ),
         fact(
             "Monte Carlo, 3000 samples x 100 speeds, two threads",

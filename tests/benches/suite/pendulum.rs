@@ -6,10 +6,10 @@ use std::ffi::c_int;
 use std::hint::black_box;
 use std::path::Path;
 
-use eigentol::equilibrium::equilibrium;
+use eigentol::equilibrium::{Following, SweepPoint, equilibrium};
 use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
-use eigentol::sensitivity::sensitivities;
+use eigentol::sensitivity::sensitivity_sweep;
 use eigentol::tolerance::{Sampling, monte_carlo};
 use eigentol::{
     Equilibrium, Error, Mechanism, Modes, MonteCarlo, Policy, Sensitivities, Tolerances, mechanism,
@@ -53,20 +53,32 @@ type State = Equilibrium<2, 1, 4>;
 const DIFFERENCE_ERROR: f64 = 1e-6;
 
 /// The functions of the C++ side, and the tasks that they do.
-const TASKS: [(&str, &str, usize, f64); 4] = [
+const TASKS: [(&str, &str, usize, f64); 6] = [
     ("pendulum/sweep", "sweep", SPEEDS, AGREEMENT),
+    ("pendulum/sweep-one-by-one", "sweep", SPEEDS, AGREEMENT),
     (
         "pendulum/sweep-against-differences",
         "sweep_by_differences",
         SPEEDS,
         DIFFERENCE_ERROR,
     ),
+    (
+        "pendulum/sweep-against-differences-one-by-one",
+        "sweep_by_differences",
+        SPEEDS,
+        DIFFERENCE_ERROR,
+    ),
     ("pendulum/monte-carlo", "monte_carlo", SAMPLES, AGREEMENT),
-    (SCALAR, "monte_carlo", SAMPLES, AGREEMENT),
+    (
+        "pendulum/monte-carlo-one-by-one",
+        "monte_carlo",
+        SAMPLES,
+        AGREEMENT,
+    ),
 ];
 
-/// The task whose samples are solved one by one on our side.
-const SCALAR: &str = "pendulum/monte-carlo-one-by-one";
+/// How the names of tasks end that solve one state after the other on our side.
+const SCALAR: &str = "-one-by-one";
 
 /// The tasks whose name is wanted.
 ///
@@ -82,13 +94,14 @@ pub(crate) fn tasks(
             continue;
         }
         let library = tools.library(&source("double_pendulum.cpp"));
+        let vectors = (!name.ends_with(SCALAR)).then(Instructions::best);
         let (ours, peer) = match function {
             "monte_carlo" => (
-                sampling(samples()?, (name != SCALAR).then(Instructions::best)),
+                sampling(samples()?, vectors),
                 library.and_then(|library| MonteCarloByHand::load(&library)),
             ),
             _ => (
-                sweep(),
+                sweep(vectors),
                 library.and_then(|library| SweepByHand::load(&library, function)),
             ),
         };
@@ -123,38 +136,37 @@ fn sweeps() -> Vec<Sweep> {
     (0..INPUTS).map(sweep).collect()
 }
 
-type Solved = (State, Modes<2>, Sensitivities<2, 1, 4>);
-
-/// One speed, from a start near it.
-fn solve(design: &[f64; 4], speed: f64, start: &[f64; 2]) -> Result<Solved, Error> {
-    let state = equilibrium(&DoublePendulum, &[speed], design, start, Policy::Stable)?;
-    let found = modes(&state)?;
-    let slopes = sensitivities(&DoublePendulum, &state, &found)?;
-    Ok((state, found, slopes))
+/// Every speed from the equilibria before it; `each` sees the results, which are ours to use until the next.
+fn follow(
+    sweep: &Sweep,
+    vectors: Option<Instructions>,
+    each: impl FnMut(&SweepPoint<2, 1, 4>, &Result<Sensitivities<2, 1, 4>, Error>),
+) {
+    let following = Following {
+        vectors,
+        ..Policy::Stable.into()
+    };
+    let along = (DoublePendulum::omega, &sweep.speeds[..]);
+    let values = (&[0.0], &sweep.design);
+    let done = sensitivity_sweep(&DoublePendulum, values, &START, following, along, each);
+    debug_assert!(done.is_ok());
 }
 
-/// Every speed from the equilibrium before it; `each` sees the results.
-fn follow(sweep: &Sweep, mut each: impl FnMut(&Solved)) {
-    let mut start = START;
-    for &speed in &sweep.speeds {
-        if let Ok(solved) = solve(&sweep.design, speed, &start) {
-            each(&solved);
-            start = solved.0.coordinates;
-        }
-    }
-}
-
-fn sweep() -> Box<dyn Work> {
+fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
     Box::new(Closures {
         inputs: sweeps(),
-        evaluate: |sweep: &Sweep| {
-            follow(sweep, |solved| {
-                black_box(solved);
+        evaluate: move |sweep: &Sweep| {
+            follow(sweep, vectors, |point, slopes| {
+                black_box((point, slopes));
             });
         },
-        results: |sweep: &Sweep| {
+        results: move |sweep: &Sweep| {
             let mut arrays = Vec::new();
-            follow(sweep, |(state, found, slopes)| {
+            follow(sweep, vectors, |point, slopes| {
+                let (Ok(state), Ok(found), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes)
+                else {
+                    return;
+                };
                 arrays.push(state.coordinates.to_vec());
                 arrays.push(found.frequencies().iter().flatten().copied().collect());
                 for mode in slopes.modes.iter() {
@@ -246,7 +258,9 @@ fn samples() -> Result<Vec<Samples>, Error> {
     let description = const { &<DoublePendulum as Mechanism<2, 1, 4, 0>>::DESCRIPTION };
     let tolerances = Tolerances::declared(description)?;
     let set = |(seed, sweep): (usize, Sweep)| {
-        let (state, modes, _) = solve(&sweep.design, sweep.speeds[10 * seed], &START)?;
+        let (inputs, design) = ([sweep.speeds[10 * seed]], &sweep.design);
+        let state = equilibrium(&DoublePendulum, &inputs, design, &START, Policy::Stable)?;
+        let modes = modes(&state)?;
         Ok(Samples {
             state,
             modes,
