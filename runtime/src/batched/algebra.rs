@@ -1,8 +1,4 @@
 //! Symmetric matrices of any small size, one in each lane. A flag is a vector of ones, zero in the lanes that failed.
-#![allow(
-    clippy::needless_range_loop,
-    reason = "rows and columns of several matrices"
-)]
 
 use crate::lanes::Vector;
 

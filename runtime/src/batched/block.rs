@@ -21,18 +21,18 @@ pub(crate) struct Block<const N: usize, const U: usize, const P: usize> {
     pub(crate) values: Batch,
     pub(super) inputs: [Batch; U],
     pub(super) design: [Batch; P],
-    pub(crate) coordinates: [Batch; N],
-    pub(crate) iterations: Batch,
-    pub(crate) residual: [Batch; N],
-    pub(crate) relative_residual: Batch,
-    pub(crate) linear: Linear<Batch, N>,
-    pub(crate) lambda: [Batch; N],
+    pub(super) coordinates: [Batch; N],
+    pub(super) iterations: Batch,
+    pub(super) residual: [Batch; N],
+    pub(super) relative_residual: Batch,
+    pub(super) linear: Linear<Batch, N>,
+    pub(super) lambda: [Batch; N],
     /// By mode.
-    pub(crate) shapes: [[Batch; N]; N],
-    pub(crate) mode_residuals: [Batch; N],
+    pub(super) shapes: [[Batch; N]; N],
+    pub(super) mode_residuals: [Batch; N],
     /// `dlambda` by mode.
-    pub(crate) by_input: [[Batch; U]; N],
-    pub(crate) by_design: [[Batch; P]; N],
+    pub(super) by_input: [[Batch; U]; N],
+    pub(super) by_design: [[Batch; P]; N],
     /// One where a lane has passed every check.
     pub(super) flags: Batch,
 }

@@ -1,11 +1,16 @@
 //! Several states side by side in the vectors of the processor: what follows an input does with neighbouring values, and
 //! what samples a design with its samples. Every lane is checked; what fails a check goes to the solvers for one state.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "rows and columns of several matrices"
+)]
 
 pub(crate) mod algebra;
 mod block;
 pub(crate) mod closed;
 mod continuity;
 mod newton;
+mod reading;
 mod slopes;
 mod state;
 

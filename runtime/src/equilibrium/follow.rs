@@ -2,12 +2,11 @@
 //! smooth, one by one elsewhere.
 
 use super::SweepPoint;
-use super::track::{Tracker, even};
+use super::track::{Tracked, Tracker, even};
 use crate::batched::Block;
-use crate::lanes::{Batch, WIDTH};
-use crate::modes::{neutral_threshold, undamped_mode};
+use crate::lanes::WIDTH;
 use crate::sensitivity::sensitivities;
-use crate::{Equilibrium, Error, Linear, Mechanism, Modes, Sensitivities, Stability};
+use crate::{Error, Mechanism, Sensitivities};
 
 /// What is known at one value.
 pub(crate) struct Station<const N: usize, const U: usize, const P: usize> {
@@ -35,9 +34,10 @@ pub(crate) fn follow<M, const N: usize, const U: usize, const P: usize, const O:
     while let Some((&value, behind)) = rest.split_first() {
         if let (Some(block), 0) = (&mut block, alone) {
             let number = tracker.ahead(block, rest, slopes);
-            if let Some(mut station) = tracker.here(slopes).filter(|_| number > 0) {
+            if let (Some(last), true) = (&tracker.last, number > 0) {
+                let mut station = Station::shared(last, slopes);
                 for lane in 0..number {
-                    station.read(tracker, block, lane);
+                    station.go(tracker, block, lane);
                     each(&station);
                 }
                 tracker.arrive(&station.point, block, number);
@@ -82,8 +82,21 @@ where
 }
 
 impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
-    /// Goes to a lane of a block from where the way led before, a state that was followed itself.
-    fn read<M, const O: usize>(
+    /// What states side by side share with the one before them.
+    fn shared(last: &Tracked<N, U, P>, slopes: bool) -> Self {
+        Self {
+            point: SweepPoint {
+                value: last.value,
+                equilibrium: Ok(last.equilibrium),
+                modes: Ok(last.modes),
+            },
+            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes))),
+            smooth: true,
+        }
+    }
+
+    /// Goes on to a lane of a block.
+    fn go<M, const O: usize>(
         &mut self,
         tracker: &Tracker<'_, M, N, U, P>,
         block: &Block<N, U, P>,
@@ -97,71 +110,15 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
             modes,
         } = &mut self.point;
         *value = block.values.0[lane];
-        if let Ok(state) = equilibrium {
-            read_state(state, block, lane);
+        if let (Ok(state), Ok(modes)) = (equilibrium, modes) {
             state.inputs = tracker.inputs_at(*value);
-            let (q, u, b) = (&state.coordinates, &state.inputs, &state.design);
-            state.pose = tracker.mechanism.pose_margin(q, u, b);
-        }
-        let Ok(modes) = modes else { return };
-        let before = least(modes);
-        read_modes(modes, block, lane);
-        self.smooth = even(before, least(modes));
-        if let Some(Ok(slopes)) = &mut self.slopes {
-            for (r, (own, mode)) in slopes.modes.iter_mut().zip(modes.modes.iter()).enumerate() {
-                let by_input = at(&block.by_input[r], lane);
-                own.set_undamped(mode, by_input, at(&block.by_design[r], lane));
+            block.read_state(lane, tracker.mechanism, state);
+            let before = modes.least_lambda();
+            block.read_modes(lane, modes);
+            self.smooth = even(before, modes.least_lambda());
+            if let Some(Ok(slopes)) = &mut self.slopes {
+                block.read_slopes(lane, modes, slopes);
             }
         }
     }
-}
-
-fn read_state<const N: usize, const U: usize, const P: usize>(
-    state: &mut Equilibrium<N, U, P>,
-    block: &Block<N, U, P>,
-    lane: usize,
-) {
-    state.coordinates = at(&block.coordinates, lane);
-    state.stability = Stability::Stable;
-    let Linear {
-        mass,
-        damping,
-        stiffness,
-    } = &block.linear;
-    state.linear = Linear {
-        mass: core::array::from_fn(|i| at(&mass[i], lane)),
-        damping: core::array::from_fn(|i| at(&damping[i], lane)),
-        stiffness: core::array::from_fn(|i| at(&stiffness[i], lane)),
-    };
-    state.residual = at(&block.residual, lane);
-    state.relative_residual = block.relative_residual.0[lane];
-    state.iterations = block.iterations.0[lane] as usize;
-    state.left_unstable_region = false;
-}
-
-/// In the order and with the labels that they have.
-fn read_modes<const N: usize, const U: usize, const P: usize>(
-    modes: &mut Modes<N>,
-    block: &Block<N, U, P>,
-    lane: usize,
-) {
-    let lambda = at(&block.lambda, lane);
-    let threshold = neutral_threshold(&lambda);
-    for (r, mode) in modes.modes.iter_mut().enumerate() {
-        let label = mode.label;
-        let shape = at(&block.shapes[r], lane);
-        let residual = block.mode_residuals[r].0[lane];
-        *mode = undamped_mode(label, lambda[r], &shape, residual, threshold);
-    }
-}
-
-/// Least `lambda`.
-pub(super) fn least<const N: usize>(modes: &Modes<N>) -> f64 {
-    let lambda = modes.modes.iter().map(|mode| mode.lambda);
-    lambda.fold(f64::INFINITY, f64::min)
-}
-
-/// The numbers of one lane.
-pub(super) fn at<const K: usize>(batches: &[Batch; K], lane: usize) -> [f64; K] {
-    core::array::from_fn(|k| batches[k].0[lane])
 }

@@ -1,14 +1,13 @@
 //! Following one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
 //! keep their identity.
 
-use super::follow::{Station, at, least};
 use super::prediction::Path;
 use super::settle::settle_from_prediction;
 use super::{Policy, Problem, SweepPoint, settle};
 use crate::batched::Block;
 use crate::lanes::{Instructions, WIDTH};
 use crate::modes::{Family, match_with_assurance, merged, modes_of, near_another};
-use crate::sensitivity::{CLUSTER_GAP, Sensitivities};
+use crate::sensitivity::CLUSTER_GAP;
 use crate::{Equilibrium, Error, Input, Mechanism, Modes, Stability};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
@@ -193,20 +192,6 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         block.solve(self.mechanism, vectors, values, past, &shapes, slopes)
     }
 
-    /// What is known at the last point, as far as states side by side share it.
-    pub(super) fn here(&self, slopes: bool) -> Option<Station<N, U, P>> {
-        let last = self.last.as_ref()?;
-        Some(Station {
-            point: SweepPoint {
-                value: last.value,
-                equilibrium: Ok(last.equilibrium),
-                modes: Ok(last.modes),
-            },
-            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes))),
-            smooth: true,
-        })
-    }
-
     /// Goes on to the last of the first `number` states of a block, which `point` holds.
     pub(super) fn arrive(
         &mut self,
@@ -215,8 +200,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         number: usize,
     ) {
         for lane in number.saturating_sub(3)..number {
-            let state = at(&block.coordinates, lane);
-            self.path.go(block.values.0[lane], &state);
+            self.path.go(block.values.0[lane], &block.state_of(lane));
         }
         if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
             self.from = state.coordinates;
@@ -288,7 +272,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         if let Some(last) = &self.last {
             self.smooth = confirmed
                 && self.family == Family::Undamped
-                && even(least(&last.modes), least(&found));
+                && even(last.modes.least_lambda(), found.least_lambda());
             let order = match_with_assurance(&last.modes, &found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
             let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);

@@ -69,6 +69,12 @@ impl<const N: usize> Modes<N> {
         self.modes.map(Mode::frequency)
     }
 
+    /// The least `lambda`; infinite without modes.
+    pub(crate) fn least_lambda(&self) -> f64 {
+        let lambda = self.modes.iter().map(|mode| mode.lambda);
+        lambda.fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether every small disturbance stays small.
     pub fn stable(&self) -> bool {
         !self.modes.iter().any(|mode| mode.behaviour.grows())

@@ -105,6 +105,10 @@ pub(crate) fn of_undamped<T: Real, const N: usize, const U: usize, const P: usiz
 
 /// `phi^T (dKhat - lambda dMhat) phi` of each change.
 #[inline(always)]
+#[allow(
+    clippy::needless_range_loop,
+    reason = "rows and columns of several matrices"
+)]
 fn rates<T: Real, const N: usize, const K: usize>(
     changes: &[Linear<T, N>; K],
     products: &[[T; N]; N],
