@@ -77,15 +77,14 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
     }
 
     /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last state,
-    /// one in each row. Returns how many of the states in a row passed every check; with `slopes`, their modes have derivatives.
-    pub(crate) fn solve<M, const O: usize>(
+    /// one in each row. Returns how many of the states in a row passed every check; with `SLOPES`, their modes have derivatives.
+    pub(crate) fn solve<const SLOPES: bool, M, const O: usize>(
         &mut self,
         mechanism: &M,
         instructions: Instructions,
         (input, values): (Input, &[f64]),
         past: &Past<N>,
         shapes: &[[f64; N]; N],
-        slopes: bool,
     ) -> usize
     where
         M: Mechanism<N, U, P, O>,
@@ -111,7 +110,7 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
             shapes,
             block: self,
         });
-        if slopes {
+        if const { SLOPES } {
             instructions.run(Slopes::<M, N, U, P, O> {
                 mechanism,
                 block: self,

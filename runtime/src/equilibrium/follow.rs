@@ -17,25 +17,31 @@ pub(crate) struct Station<const N: usize, const U: usize, const P: usize> {
     pub(crate) smooth: bool,
 }
 
-/// Goes on to each of `values`; `each` sees what is there, in order. With `slopes`, modes have derivatives.
-pub(crate) fn follow<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+/// Goes on to each of `values`; `each` sees what is there, in order. With `SLOPES`, modes have derivatives: known when a user's
+/// code is compiled, so that who does not ask for them does not compile them.
+pub(crate) fn follow<
+    const SLOPES: bool,
+    M,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>(
     tracker: &mut Tracker<'_, M, N, U, P>,
     values: &[f64],
-    slopes: bool,
     mut each: impl FnMut(&Station<N, U, P>),
 ) where
     M: Mechanism<N, U, P, O>,
 {
-    let possible = const { Block::<N, U, P>::possible::<M, O>() };
-    let mut block = (possible && values.len() > WIDTH).then(|| tracker.block());
-    let mut rest = values;
-    // Values to be solved one by one before a block is tried again.
+    let (mut block, mut rest) = (None, values);
+    // Values to be solved one by one before a block is tried again; three tell a way.
     let mut alone = 3;
     while let Some((&value, behind)) = rest.split_first() {
-        if let (Some(block), 0) = (&mut block, alone) {
-            let number = tracker.ahead(block, rest, slopes);
+        if const { Block::<N, U, P>::possible::<M, O>() } && alone == 0 && !behind.is_empty() {
+            let block = block.get_or_insert_with(|| tracker.block());
+            let number = tracker.ahead::<SLOPES, O>(block, rest);
             if let (Some(last), true) = (&tracker.last, number > 0) {
-                let mut station = Station::shared(last, slopes);
+                let mut station = Station::shared(last, SLOPES);
                 for lane in 0..number {
                     station.go(tracker, block, lane);
                     each(&station);
@@ -48,16 +54,15 @@ pub(crate) fn follow<M, const N: usize, const U: usize, const P: usize, const O:
             continue;
         }
         alone = alone.saturating_sub(1);
-        each(&solve(tracker, value, slopes));
+        each(&solve::<SLOPES, M, N, U, P, O>(tracker, value));
         rest = behind;
     }
 }
 
 /// One value alone.
-fn solve<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+fn solve<const SLOPES: bool, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     tracker: &mut Tracker<'_, M, N, U, P>,
     value: f64,
-    slopes: bool,
 ) -> Station<N, U, P>
 where
     M: Mechanism<N, U, P, O>,
@@ -66,10 +71,14 @@ where
         Ok((state, modes)) => (Ok(state), modes),
         Err(error) => (Err(error.clone()), Err(error)),
     };
-    let slopes = slopes.then(|| match (&equilibrium, &modes) {
-        (Ok(state), Ok(modes)) => sensitivities(tracker.mechanism, state, modes),
-        (_, Err(error)) | (Err(error), _) => Err(error.clone()),
-    });
+    let slopes = if const { SLOPES } {
+        Some(match (&equilibrium, &modes) {
+            (Ok(state), Ok(modes)) => sensitivities(tracker.mechanism, state, modes),
+            (_, Err(error)) | (Err(error), _) => Err(error.clone()),
+        })
+    } else {
+        None
+    };
     Station {
         smooth: tracker.smooth && modes.is_ok(),
         point: SweepPoint {

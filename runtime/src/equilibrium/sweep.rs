@@ -86,7 +86,7 @@ where
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut smooth = Vec::with_capacity(values.len());
     let mut points = Vec::with_capacity(values.len());
-    follow(&mut tracker, values, false, |station| {
+    follow::<false, M, N, U, P, O>(&mut tracker, values, |station| {
         smooth.push(station.smooth);
         points.push(station.point.clone());
     });

@@ -160,12 +160,11 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     }
 
     /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
-    /// them one by one would find. With `slopes`, modes have derivatives.
-    pub(super) fn ahead<const O: usize>(
+    /// them one by one would find. With `SLOPES`, modes have derivatives.
+    pub(super) fn ahead<const SLOPES: bool, const O: usize>(
         &self,
         block: &mut Block<N, U, P>,
         values: &[f64],
-        slopes: bool,
     ) -> usize
     where
         M: Mechanism<N, U, P, O>,
@@ -189,7 +188,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
         let shapes = core::array::from_fn(|r| last.modes.modes[r].real_shape());
-        block.solve(self.mechanism, vectors, values, past, &shapes, slopes)
+        block.solve::<SLOPES, M, O>(self.mechanism, vectors, values, past, &shapes)
     }
 
     /// Goes on to the last of the first `number` states of a block, which `point` holds.

@@ -25,7 +25,7 @@ where
 {
     check_input::<U>(input, M::DESCRIPTION.name)?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
-    follow(&mut tracker, values, true, |station| {
+    follow::<true, M, N, U, P, O>(&mut tracker, values, |station| {
         if let Some(slopes) = &station.slopes {
             each(&station.point, slopes);
         }
