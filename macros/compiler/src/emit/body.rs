@@ -16,29 +16,39 @@ const BLOCK: usize = 256;
 const INLINE: usize = 6;
 
 /// Names that the emitter writes itself around the statements.
-const RESERVED: [&str; 8] = [
-    "T", "self", "value", "volume", "margin", "smaller", "least", "known",
+const RESERVED: [&str; 10] = [
+    "T", "self", "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
 ];
 
 /// A method body: statements, and the text of every operand that results refer to.
 pub(super) struct Body<'a> {
     kernel: &'a Kernel,
+    /// Where each value is stored as soon as it is known.
+    places: Vec<Vec<String>>,
     texts: Vec<Option<Text>>,
     entries: Vec<Vec<String>>,
     statements: Vec<Statement>,
 }
 
-struct Statement {
-    names: Vec<String>,
-    value: String,
+enum Statement {
+    /// Local variables get their value.
+    Let(Vec<String>, String),
+    /// A place in a result gets its value.
+    Store(String, String),
 }
 
 impl<'a> Body<'a> {
     /// Writes the statements of a kernel.
     pub(super) fn new(kernel: &'a Kernel) -> Self {
+        Self::storing(kernel, vec![Vec::new(); kernel.instructions.len()])
+    }
+
+    /// Writes the statements of a kernel, and behind each instruction that its value goes to the places given for it.
+    pub(super) fn storing(kernel: &'a Kernel, places: Vec<Vec<String>>) -> Self {
         let mut names = Names::new(kernel.parameters.iter().map(|p| p.name).chain(RESERVED));
         let mut this = Self {
             kernel,
+            places,
             texts: vec![None; kernel.instructions.len()],
             entries: Vec::new(),
             statements: Vec::new(),
@@ -68,26 +78,27 @@ impl<'a> Body<'a> {
             [name] => name.clone(),
             names => format!("({})", names.join(", ")),
         };
-        if self.statements.len() <= BLOCK {
-            for statement in &self.statements {
-                let _ = writeln!(
-                    text,
-                    "let {} = {};",
-                    pattern(&statement.names),
-                    statement.value
-                );
-            }
-            return text;
-        }
+        let plain = self.statements.len() <= BLOCK;
+        let keyword = if plain { "let " } else { "" };
         for block in self.statements.chunks(BLOCK) {
             let names: Vec<&str> = block
                 .iter()
-                .flat_map(|s| &s.names)
+                .flat_map(|statement| match statement {
+                    Statement::Let(names, _) => names.as_slice(),
+                    Statement::Store(..) => &[],
+                })
                 .map(String::as_str)
                 .collect();
-            let _ = writeln!(text, "let ({},);", names.join(", "));
+            if !plain && !names.is_empty() {
+                let _ = writeln!(text, "let ({},);", names.join(", "));
+            }
             for statement in block {
-                let _ = writeln!(text, "{} = {};", pattern(&statement.names), statement.value);
+                let _ = match statement {
+                    Statement::Let(names, value) => {
+                        writeln!(text, "{keyword}{} = {value};", pattern(names))
+                    }
+                    Statement::Store(place, value) => writeln!(text, "{place} = {value};"),
+                };
             }
         }
         text
@@ -108,10 +119,8 @@ impl<'a> Body<'a> {
                 }
                 let name = names.unique(wanted);
                 let value = format!("{}[{entry}]", parameter.name);
-                self.statements.push(Statement {
-                    names: vec![name.clone()],
-                    value,
-                });
+                self.statements
+                    .push(Statement::Let(vec![name.clone()], value));
                 entries.push(name);
             }
             self.entries.push(entries);
@@ -164,12 +173,11 @@ impl<'a> Body<'a> {
                 let sine_first = matches!(instruction.operation, Operation::Unary(Unary::Sin, _));
                 let order = if sine_first { [0, 1] } else { [1, 0] };
                 let value = Text::sin_cos(&self.text(angle)).text;
-                self.statements.push(Statement {
-                    names: order.map(|k| pair[k].clone()).to_vec(),
-                    value,
-                });
+                let pattern = order.map(|k| pair[k].clone()).to_vec();
+                self.statements.push(Statement::Let(pattern, value));
                 for (k, name) in [first, second].into_iter().zip(pair) {
                     self.texts[k] = Some(Text::atom(name));
+                    self.store(k);
                 }
                 continue;
             }
@@ -183,21 +191,33 @@ impl<'a> Body<'a> {
                 ),
             };
             let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
-            let inline =
-                sign || (uses[index] == 1 && instruction.name.is_none() && operations < INLINE);
+            let least = match self.places[index].is_empty() {
+                true => operations < INLINE,
+                false => true,
+            };
+            let inline = sign || (uses[index] == 1 && instruction.name.is_none() && least);
             if inline {
                 size[index] = operations + usize::from(!sign);
                 self.texts[index] = Some(text);
+                self.store(index);
                 continue;
             }
             size[index] = 0;
             let wanted = wanted(instruction, |operand| self.name(operand));
             let name = names.unique(&wanted);
-            self.statements.push(Statement {
-                names: vec![name.clone()],
-                value: text.text,
-            });
+            self.statements
+                .push(Statement::Let(vec![name.clone()], text.text));
             self.texts[index] = Some(Text::atom(name));
+            self.store(index);
+        }
+    }
+
+    /// Stores a value where results want it.
+    fn store(&mut self, index: usize) {
+        let places = std::mem::take(&mut self.places[index]);
+        for place in places {
+            let value = self.text(Operand::Instruction(index)).text;
+            self.statements.push(Statement::Store(place, value));
         }
     }
 

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use crate::algebra::Stage;
-use crate::program::{Array, Kernel};
+use crate::program::Kernel;
 
 use super::body::Body;
+use super::results::Results;
 
 /// Numbers of free coordinates, inputs, design variables and outputs.
 #[derive(Clone, Copy)]
@@ -66,55 +67,23 @@ const INLINED: [&str; 6] = [
 
 /// A method as text.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
-    let body = Body::new(kernel);
-    let arrays: Vec<String> = kernel
-        .results
-        .iter()
-        .map(|array| literal(&body, array))
-        .collect();
-    let types: Vec<String> = kernel
-        .results
-        .iter()
-        .map(|array| array_type(&array.shape))
-        .collect();
-    let (returned, result) = match form {
-        Form::Single => (types[0].clone(), arrays[0].clone()),
-        Form::Tuple => (
-            format!("({})", types.join(", ")),
-            format!("({})", arrays.join(", ")),
-        ),
-        Form::Record(name, generics) => {
-            let generics: String = generics(sizes)
-                .iter()
-                .fold("T".to_owned(), |list, n| format!("{list}, {n}"));
-            let fields: Vec<String> = kernel
-                .results
-                .iter()
-                .zip(&arrays)
-                .map(|(array, value)| format!("{}: {value}", array.name))
-                .collect();
-            (
-                format!("::eigentol::{name}<{generics}>"),
-                format!("::eigentol::{name} {{ {} }}", fields.join(", ")),
-            )
-        }
-        Form::Partials => (
-            format!(
-                "::eigentol::LinearPartials<T, {}, {}, {}>",
-                sizes.coordinates, sizes.inputs, sizes.design
-            ),
-            partials(&body, kernel),
-        ),
-    };
-    let mut text = signature(kernel, &returned, "");
+    let results = Results::new(kernel, form, sizes);
+    let body = Body::storing(kernel, results.places());
+    let mut text = signature(kernel, &results.kind, "");
     if INLINED.contains(&kernel.name) {
         let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
         let inlined = format!("{}_inlined", kernel.name);
         let _ = writeln!(text, "{{ self.{inlined}({}) }}", arguments.join(", "));
-        let head = head(kernel, &inlined, &returned, "");
+        let head = head(kernel, &inlined, &results.kind, "");
         let _ = write!(text, "#[doc(hidden)]\n#[inline(always)]\n{head}");
     }
-    let _ = writeln!(text, "{{\n{}{result}\n}}", body.statements());
+    let _ = writeln!(
+        text,
+        "{{\nlet zero = T::constant(0.0);\nlet mut result = {};\n{}{}result\n}}",
+        results.zero,
+        body.statements(),
+        results.rest(&body)
+    );
     text
 }
 
@@ -169,56 +138,4 @@ fn documentation(kernel: &Kernel) -> String {
         );
     }
     text
-}
-
-/// `[[T; 3]; 2]` of shape 2, 3.
-fn array_type(shape: &[usize]) -> String {
-    shape
-        .iter()
-        .rev()
-        .fold("T".to_owned(), |inner, n| format!("[{inner}; {n}]"))
-}
-
-fn literal(body: &Body, array: &Array) -> String {
-    nested(body, &array.shape, &array.values)
-}
-
-fn nested(body: &Body, shape: &[usize], values: &[crate::program::Operand]) -> String {
-    let Some((&length, inner)) = shape.split_first() else {
-        return body.text(values[0]).text;
-    };
-    let size = values.len().checked_div(length).unwrap_or(0);
-    let entries: Vec<String> = (0..length)
-        .map(|k| nested(body, inner, &values[k * size..(k + 1) * size]))
-        .collect();
-    format!("[{}]", entries.join(", "))
-}
-
-fn partials(body: &Body, kernel: &Kernel) -> String {
-    let mut fields = Vec::new();
-    for (name, arrays) in ["by_coordinate", "by_input", "by_design"]
-        .iter()
-        .zip(kernel.results.chunks(3))
-    {
-        let count = arrays[0].shape[0];
-        let entries: Vec<String> = (0..count)
-            .map(|k| {
-                let matrices: Vec<String> = arrays
-                    .iter()
-                    .map(|array| {
-                        let size = array.values.len() / count;
-                        let values = &array.values[k * size..(k + 1) * size];
-                        format!(
-                            "{}: {}",
-                            array.name,
-                            nested(body, &array.shape[1..], values)
-                        )
-                    })
-                    .collect();
-                format!("::eigentol::Linear {{ {} }}", matrices.join(", "))
-            })
-            .collect();
-        fields.push(format!("{name}: [{}]", entries.join(", ")));
-    }
-    format!("::eigentol::LinearPartials {{ {} }}", fields.join(", "))
 }

@@ -22,6 +22,7 @@ mod description;
 mod expression;
 mod names;
 mod pose_margin;
+mod results;
 mod violation;
 
 use std::fmt::{Debug, Write};
