@@ -43,6 +43,13 @@ pub trait Real:
     fn cos(self) -> Self {
         self.sin_cos().1
     }
+    /// Runs a kernel with the instructions of the processor that suit it. Its result does not depend on them. Generated
+    /// code calls it; the kernel is to be marked `#[inline(always)]`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn run<R>(kernel: impl FnOnce() -> R) -> R {
+        kernel()
+    }
 }
 
 /// Power by repeated squaring; written out, because the standard library leaves open which products are formed.
@@ -75,9 +82,14 @@ macro_rules! float {
             fn constant(value: f64) -> Self {
                 value as $float
             }
-            #[inline]
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[inline(always)]
+            fn run<R>(kernel: impl FnOnce() -> R) -> R {
+                crate::lanes::compact(kernel)
             }
             float!(@functions $float, $($libm),*);
         }

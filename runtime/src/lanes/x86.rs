@@ -54,6 +54,28 @@ set! {
     Avx512 "avx512f" Eight avx512
 }
 
+/// Runs a task on numbers with the instructions of AVX where the processor has them: these name the register of their
+/// result, which saves a copy where both operands are needed again. Code shrinks by a quarter, and thousands of operations
+/// fit into the cache of instructions.
+#[inline]
+pub(crate) fn compact<R>(task: impl FnOnce() -> R) -> R {
+    #[cfg(feature = "std")]
+    let found = std::is_x86_feature_detected!("avx");
+    #[cfg(not(feature = "std"))]
+    let found = cfg!(target_feature = "avx");
+    if found {
+        // SAFETY: the processor has the feature.
+        unsafe { avx(task) }
+    } else {
+        task()
+    }
+}
+
+#[target_feature(enable = "avx")]
+fn avx<R>(task: impl FnOnce() -> R) -> R {
+    task()
+}
+
 /// Four lanes of AVX2.
 #[derive(Clone, Copy)]
 pub(super) struct Four(__m256d);

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use crate::algebra::Stage;
 use crate::program::Kernel;
 
-use super::body::Body;
 use super::results::Results;
 
 /// Numbers of free coordinates, inputs, design variables and outputs.
@@ -65,24 +64,34 @@ const INLINED: [&str; 6] = [
     "residual_gradient",
 ];
 
+/// Instructions that a kernel may have for `Real::run` to choose those of the processor: it is compiled once for each choice.
+const CHOSEN: usize = 2048;
+
+/// Kernels that are generated for small mechanisms only: for these it is worth it at any length.
+const OF_SMALL: [&str; 2] = ["motion_linear", "linear_partials"];
+
 /// A method as text.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
     let results = Results::new(kernel, form, sizes);
-    let body = Body::storing(kernel, results.places());
-    let mut text = signature(kernel, &results.kind, "");
-    if INLINED.contains(&kernel.name) {
-        let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
-        let inlined = format!("{}_inlined", kernel.name);
-        let _ = writeln!(text, "{{ self.{inlined}({}) }}", arguments.join(", "));
-        let head = head(kernel, &inlined, &results.kind, "");
-        let _ = write!(text, "#[doc(hidden)]\n#[inline(always)]\n{head}");
+    let kind = results.kind();
+    let mut text = signature(kernel, &kind, "");
+    let chosen = kernel.instructions.len() <= CHOSEN || OF_SMALL.contains(&kernel.name);
+    let run = |body: &str| match chosen && !kernel.instructions.is_empty() {
+        true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
+        false => format!("{{\n{body}\n}}\n"),
+    };
+    if !INLINED.contains(&kernel.name) {
+        text += &run(&results.body());
+        return text;
     }
-    let _ = writeln!(
+    let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
+    let inlined = format!("{}_inlined", kernel.name);
+    text += &run(&format!("self.{inlined}({})", arguments.join(", ")));
+    let head = head(kernel, &inlined, &kind, "");
+    let _ = write!(
         text,
-        "{{\nlet zero = T::constant(0.0);\nlet mut result = {};\n{}{}result\n}}",
-        results.zero,
-        body.statements(),
-        results.rest(&body)
+        "#[doc(hidden)]\n#[inline(always)]\n{head}{{\n{}\n}}\n",
+        results.body()
     );
     text
 }

@@ -13,33 +13,14 @@ pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
         .into_iter()
         .filter(|&id| !is_leaf(graph, id))
         .collect();
-    let mode = std::env::var("KB_ORDER").unwrap_or_default();
-    if mode.contains("stage") {
-        let stages = graph.stages();
-        let mut order = needed;
-        order.sort_by_key(|id| stages[id.index()]);
-        return order;
-    }
     let mut schedule = Schedule::new(graph, &needed);
-    if !mode.contains("late") {
-        for &id in &needed {
-            if matches!(graph.node(id), Node::Unary(Unary::Sin | Unary::Cos, _)) {
-                schedule.place(id);
-            }
-        }
+    let is_angle =
+        |id: &&ExprId| matches!(graph.node(**id), Node::Unary(Unary::Sin | Unary::Cos, _));
+    for &id in needed.iter().filter(is_angle) {
+        schedule.place(id);
     }
-    if mode.contains("created") {
-        for &id in &needed {
-            schedule.place(id);
-        }
-    } else if mode.contains("back") {
-        for &id in results.iter().rev() {
-            schedule.place(id);
-        }
-    } else {
-        for &id in results {
-            schedule.place(id);
-        }
+    for &id in results {
+        schedule.place(id);
     }
     schedule.order
 }
