@@ -111,6 +111,15 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
+/// [`sin_cos`] of several angles, in vectors where the target has them.
+#[inline(always)]
+pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
+    #[cfg(target_arch = "x86_64")]
+    return crate::lanes::sines_and_cosines(angles);
+    #[cfg(not(target_arch = "x86_64"))]
+    angles.map(sin_cos)
+}
+
 #[cold]
 #[inline(never)]
 fn beyond(x: f64) -> (f64, f64) {

@@ -48,4 +48,4 @@ pub(crate) use instructions::Task;
 pub(crate) use kernels::generated;
 pub(crate) use vector::Vector;
 #[cfg(all(target_arch = "x86_64", any(feature = "std", feature = "libm")))]
-pub(crate) use x86::compact;
+pub(crate) use x86::{compact, sines_and_cosines};

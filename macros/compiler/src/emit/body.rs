@@ -7,6 +7,7 @@ use crate::program::{Kernel, Operand, Operation};
 
 use super::expression::Text;
 use super::names::{Names, wanted};
+use super::sines::{Group, groups};
 
 /// Statements in one block. A long chain of plain `let`s nests one scope per statement, which rustc cannot take beyond a
 /// few thousand; longer bodies declare the names of each block at once and assign them in turn.
@@ -31,8 +32,8 @@ pub(super) struct Body<'a> {
 }
 
 enum Statement {
-    /// Local variables get their value.
-    Let(Vec<String>, String),
+    /// Local variables, a pattern of them, and its value.
+    Let(Vec<String>, String, String),
     /// A place in a result gets its value.
     Store(String, String),
 }
@@ -74,17 +75,13 @@ impl<'a> Body<'a> {
     /// The statements as text.
     pub(super) fn statements(&self) -> String {
         let mut text = String::new();
-        let pattern = |names: &[String]| match names {
-            [name] => name.clone(),
-            names => format!("({})", names.join(", ")),
-        };
         let plain = self.statements.len() <= BLOCK;
         let keyword = if plain { "let " } else { "" };
         for block in self.statements.chunks(BLOCK) {
             let names: Vec<&str> = block
                 .iter()
                 .flat_map(|statement| match statement {
-                    Statement::Let(names, _) => names.as_slice(),
+                    Statement::Let(names, ..) => names.as_slice(),
                     Statement::Store(..) => &[],
                 })
                 .map(String::as_str)
@@ -94,8 +91,8 @@ impl<'a> Body<'a> {
             }
             for statement in block {
                 let _ = match statement {
-                    Statement::Let(names, value) => {
-                        writeln!(text, "{keyword}{} = {value};", pattern(names))
+                    Statement::Let(_, pattern, value) => {
+                        writeln!(text, "{keyword}{pattern} = {value};")
                     }
                     Statement::Store(place, value) => writeln!(text, "{place} = {value};"),
                 };
@@ -119,8 +116,7 @@ impl<'a> Body<'a> {
                 }
                 let name = names.unique(wanted);
                 let value = format!("{}[{entry}]", parameter.name);
-                self.statements
-                    .push(Statement::Let(vec![name.clone()], value));
+                self.let_one(&name, value);
                 entries.push(name);
             }
             self.entries.push(entries);
@@ -155,29 +151,12 @@ impl<'a> Body<'a> {
     fn compute(&mut self, names: &mut Names) {
         let instructions = &self.kernel.instructions;
         let uses = self.uses();
-        let partners = self.sine_partners();
+        let (groups, membership) = groups(self.kernel);
         let mut size = vec![1; instructions.len()];
         for (index, instruction) in instructions.iter().enumerate() {
-            if self.texts[index].is_some() {
-                continue;
-            }
-            if let Some(cosine) = partners[index] {
-                let Operation::Unary(_, angle) = instruction.operation else {
-                    continue;
-                };
-                let (first, second) = (index, cosine);
-                let pair = [first, second].map(|k| {
-                    let name = wanted(&instructions[k], |operand| self.name(operand));
-                    names.unique(&name)
-                });
-                let sine_first = matches!(instruction.operation, Operation::Unary(Unary::Sin, _));
-                let order = if sine_first { [0, 1] } else { [1, 0] };
-                let value = Text::sin_cos(&self.text(angle)).text;
-                let pattern = order.map(|k| pair[k].clone()).to_vec();
-                self.statements.push(Statement::Let(pattern, value));
-                for (k, name) in [first, second].into_iter().zip(pair) {
-                    self.texts[k] = Some(Text::atom(name));
-                    self.store(k);
+            if let Some(group) = membership[index] {
+                if groups[group].last == index {
+                    self.sines(&groups[group], names);
                 }
                 continue;
             }
@@ -205,8 +184,7 @@ impl<'a> Body<'a> {
             size[index] = 0;
             let wanted = wanted(instruction, |operand| self.name(operand));
             let name = names.unique(&wanted);
-            self.statements
-                .push(Statement::Let(vec![name.clone()], text.text));
+            self.let_one(&name, text.text);
             self.texts[index] = Some(Text::atom(name));
             self.store(index);
         }
@@ -243,22 +221,43 @@ impl<'a> Body<'a> {
         uses
     }
 
-    /// For the first of a sine and a cosine of one angle, the other.
-    fn sine_partners(&self) -> Vec<Option<usize>> {
-        let instructions = &self.kernel.instructions;
-        let mut partners = vec![None; instructions.len()];
-        let mut first: Vec<(Operand, Unary, usize)> = Vec::new();
-        for (index, instruction) in instructions.iter().enumerate() {
-            if let Operation::Unary(operator @ (Unary::Sin | Unary::Cos), angle) =
-                instruction.operation
-            {
-                match first.iter().find(|(a, o, _)| *a == angle && *o != operator) {
-                    Some(&(_, _, earlier)) => partners[earlier] = Some(index),
-                    None => first.push((angle, operator, index)),
-                }
-            }
+    /// The sines and cosines of a group in one statement.
+    fn sines(&mut self, group: &Group, names: &mut Names) {
+        let mut named = Vec::new();
+        let (mut patterns, mut angles) = (Vec::new(), Vec::new());
+        for &(angle, functions) in &group.angles {
+            let pattern = functions.map(|index| {
+                let Some(index) = index else {
+                    return "_".to_owned();
+                };
+                let instruction = &self.kernel.instructions[index];
+                let name = names.unique(&wanted(instruction, |operand| self.name(operand)));
+                named.push((index, name.clone()));
+                name
+            });
+            patterns.push(format!("({})", pattern.join(", ")));
+            angles.push(self.text(angle));
         }
-        partners
+        let (pattern, value) = match (&patterns[..], &angles[..]) {
+            ([pattern], [angle]) => (pattern.clone(), Text::sin_cos(angle)),
+            _ => (
+                format!("[{}]", patterns.join(", ")),
+                Text::sin_cos_all(&angles),
+            ),
+        };
+        let variables = named.iter().map(|(_, name)| name.clone()).collect();
+        self.statements
+            .push(Statement::Let(variables, pattern, value.text));
+        for (index, name) in named {
+            self.texts[index] = Some(Text::atom(name));
+            self.store(index);
+        }
+    }
+
+    fn let_one(&mut self, name: &str, value: String) {
+        let name = name.to_owned();
+        self.statements
+            .push(Statement::Let(vec![name.clone()], name, value));
     }
 
     fn size(&self, size: &[usize], operand: Operand) -> usize {

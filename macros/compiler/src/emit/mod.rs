@@ -23,6 +23,7 @@ mod expression;
 mod names;
 mod pose_margin;
 mod results;
+mod sines;
 mod violation;
 
 use std::fmt::{Debug, Write};

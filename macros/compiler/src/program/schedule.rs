@@ -14,15 +14,32 @@ pub(super) fn schedule(graph: &Graph, results: &[ExprId]) -> Vec<ExprId> {
         .filter(|&id| !is_leaf(graph, id))
         .collect();
     let mut schedule = Schedule::new(graph, &needed);
-    let is_angle =
-        |id: &&ExprId| matches!(graph.node(**id), Node::Unary(Unary::Sin | Unary::Cos, _));
-    for &id in needed.iter().filter(is_angle) {
+    for id in sines(graph, &needed) {
         schedule.place(id);
     }
     for &id in results {
         schedule.place(id);
     }
     schedule.order
+}
+
+/// Sines and cosines, those first that need no other: what can be computed side by side comes in a row.
+fn sines(graph: &Graph, needed: &[ExprId]) -> Vec<ExprId> {
+    let mut depth = vec![0; graph.len()];
+    let mut sines = Vec::new();
+    for &id in needed {
+        depth[id.index()] = match graph.node(id) {
+            Node::Constant(_) | Node::Symbol(_) => 0,
+            Node::Unary(Unary::Sin | Unary::Cos, a) => {
+                sines.push(id);
+                depth[a.index()] + 1
+            }
+            Node::Unary(_, a) => depth[a.index()],
+            Node::Binary(_, a, b) => depth[a.index()].max(depth[b.index()]),
+        };
+    }
+    sines.sort_by_key(|id| depth[id.index()]);
+    sines
 }
 
 fn is_leaf(graph: &Graph, id: ExprId) -> bool {
