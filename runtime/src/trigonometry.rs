@@ -49,20 +49,20 @@ pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
     let number = V::constant;
     let shifted = x * number(FRAC_2_PI) + number(ROUND);
     let turns = shifted - number(ROUND);
-    // r + tail = x - turns pi/2
+    // r - rest = x - turns pi/2
     let first = x - turns * number(PI_2[0]);
     let second = turns * number(PI_2[1]);
     let r = first - second;
     let lost = (first - r) - second;
-    let tail = lost - turns * number(PI_2[2]);
+    let rest = turns * number(PI_2[2]) - lost;
 
     let z = r * r;
     let w = z * z;
     let half = number(0.5) * z;
     let near_one = number(1.0) - half;
     let slope = number(SINE[0]) + z * sine_terms(z, w);
-    let sine = r + ((z * r) * slope + tail * near_one);
-    let correction = w * cosine_terms(z, w) - r * tail;
+    let sine = r - (rest * near_one - (z * r) * slope);
+    let correction = w * cosine_terms(z, w) + r * rest;
     let cosine = near_one + (((number(1.0) - near_one) - half) + correction);
     shifted.turn(sine, cosine)
 }

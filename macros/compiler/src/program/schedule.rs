@@ -2,7 +2,7 @@
 //!
 //! A processor has sixteen registers, and what does not fit is written to memory and read again. Values are therefore
 //! computed where they are needed: depth first from the results, the operand that takes more registers first. Sines and
-//! cosines come before all that does not lead to them: nothing has to survive the branch that each of them holds.
+//! cosines come before: nothing else has to survive the branch that they hold, and several are taken at once.
 
 use crate::algebra::{Graph, Node, Unary, reachable};
 use crate::base::ids::ExprId;
