@@ -43,6 +43,18 @@ pub trait Real:
     fn cos(self) -> Self {
         self.sin_cos().1
     }
+    /// Sines and cosines of several angles, the same numbers as one by one.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+        angles.map(Self::sin_cos)
+    }
+    /// Runs a kernel with the instructions of the processor that suit it. Its result does not depend on them. Generated
+    /// code calls it; the kernel is to be marked `#[inline(always)]`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn run<R>(kernel: impl FnOnce() -> R) -> R {
+        kernel()
+    }
 }
 
 /// Power by repeated squaring; written out, because the standard library leaves open which products are formed.
@@ -69,15 +81,24 @@ pub(crate) fn integer_power<T: Real>(base: T, exponent: i32) -> T {
 /// of `f64` are our own.
 #[cfg(any(feature = "std", feature = "libm"))]
 macro_rules! float {
-    ($float:ident, $sin_cos:expr, $($libm:ident),*) => {
+    ($float:ident, $sin_cos:expr, $sin_cos_all:expr, $($libm:ident),*) => {
         impl Real for $float {
             #[inline]
             fn constant(value: f64) -> Self {
                 value as $float
             }
-            #[inline]
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
+            }
+            #[inline(always)]
+            fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+                $sin_cos_all(angles)
+            }
+            #[cfg(target_arch = "x86_64")]
+            #[inline(always)]
+            fn run<R>(kernel: impl FnOnce() -> R) -> R {
+                crate::lanes::compact(kernel)
             }
             float!(@functions $float, $($libm),*);
         }
@@ -151,6 +172,7 @@ macro_rules! float {
 float!(
     f64,
     crate::trigonometry::sin_cos,
+    crate::trigonometry::sin_cos_all,
     sqrt,
     tan,
     asin,
@@ -164,6 +186,7 @@ float!(
 float!(
     f32,
     libm::sincosf,
+    |angles: [f32; K]| angles.map(libm::sincosf),
     sqrtf,
     tanf,
     asinf,

@@ -49,23 +49,20 @@ pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
     let number = V::constant;
     let shifted = x * number(FRAC_2_PI) + number(ROUND);
     let turns = shifted - number(ROUND);
-    // r + tail = x - turns pi/2
+    // r - rest = x - turns pi/2
     let first = x - turns * number(PI_2[0]);
     let second = turns * number(PI_2[1]);
-    let both = first - second;
-    let lost = (first - both) - second;
+    let r = first - second;
+    let lost = (first - r) - second;
     let rest = turns * number(PI_2[2]) - lost;
-    let r = both - rest;
-    let tail = (both - r) - rest;
 
     let z = r * r;
     let w = z * z;
-    let v = z * r;
-    let high = sine_terms(z, w);
-    let sine = r - ((z * (number(0.5) * tail - v * high) - tail) - v * number(SINE[0]));
     let half = number(0.5) * z;
     let near_one = number(1.0) - half;
-    let correction = w * cosine_terms(z, w) - r * tail;
+    let slope = number(SINE[0]) + z * sine_terms(z, w);
+    let sine = r - (rest * near_one - (z * r) * slope);
+    let correction = w * cosine_terms(z, w) + r * rest;
     let cosine = near_one + (((number(1.0) - near_one) - half) + correction);
     shifted.turn(sine, cosine)
 }
@@ -105,7 +102,7 @@ fn cosine_terms<V: Vector>(z: V, w: V) -> V {
 
 /// Sine and cosine of `x` rad, each within one unit in the last place; the same bits on every machine. NaN for what is not
 /// finite.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() <= LIMIT {
         sin_cos_within(x)
@@ -114,7 +111,17 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
+/// [`sin_cos`] of several angles, in vectors where the target has them.
+#[inline(always)]
+pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> [(f64, f64); K] {
+    #[cfg(target_arch = "x86_64")]
+    return crate::lanes::sines_and_cosines(angles);
+    #[cfg(not(target_arch = "x86_64"))]
+    angles.map(sin_cos)
+}
+
 #[cold]
+#[inline(never)]
 fn beyond(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }

@@ -49,3 +49,5 @@ pub(crate) use instructions::Task;
 #[cfg(feature = "std")]
 pub(crate) use kernels::generated;
 pub(crate) use vector::Vector;
+#[cfg(all(target_arch = "x86_64", any(feature = "std", feature = "libm")))]
+pub(crate) use x86::{compact, sines_and_cosines};

@@ -30,6 +30,40 @@ fn a_wrong_last_digit_is_seen() {
     assert!(units(right.next_up().next_up(), sine, rest) > 1.0);
 }
 
+/// Side by side: the bits of one by one, whatever stands beside, and the sign of zero.
+#[test]
+fn several_angles_at_once() {
+    let angles = [
+        0.3,
+        -0.0,
+        2e5,
+        -1.2e4,
+        f64::NAN,
+        7.0,
+        f64::INFINITY,
+        1.0,
+        0.0,
+    ];
+    let bits = |(s, c): (f64, f64)| [s.to_bits(), c.to_bits()];
+    let alone = angles.map(|x| bits(Real::sin_cos(x)));
+    let comparable = |k: usize| angles[k].is_finite();
+    for (k, pair) in Real::sin_cos_all(angles).into_iter().enumerate() {
+        assert!(
+            !comparable(k) || bits(pair) == alone[k],
+            "{}: {pair:?}",
+            angles[k]
+        );
+        assert!(comparable(k) || (pair.0.is_nan() && pair.1.is_nan()));
+    }
+    let [(even, _)] = Real::sin_cos_all([-0.0_f64]);
+    let [(first, _), _] = Real::sin_cos_all([-0.0_f64, 1.0]);
+    assert!(even.is_sign_negative() && first.is_sign_negative());
+    for [x, ..] in values::EXACT {
+        let [(s, c), _] = Real::sin_cos_all([x, 0.5]);
+        assert_eq!(bits((s, c)), bits(Real::sin_cos(x)), "{x:e}");
+    }
+}
+
 #[test]
 fn agrees_with_the_standard_library_everywhere() {
     let mut state = 1_u64;

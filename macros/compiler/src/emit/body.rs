@@ -7,6 +7,7 @@ use crate::program::{Kernel, Operand, Operation};
 
 use super::expression::Text;
 use super::names::{Names, wanted};
+use super::sines::{Group, groups};
 
 /// Statements in one block. A long chain of plain `let`s nests one scope per statement, which rustc cannot take beyond a
 /// few thousand; longer bodies declare the names of each block at once and assign them in turn.
@@ -16,29 +17,39 @@ const BLOCK: usize = 256;
 const INLINE: usize = 6;
 
 /// Names that the emitter writes itself around the statements.
-const RESERVED: [&str; 8] = [
-    "T", "self", "value", "volume", "margin", "smaller", "least", "known",
+const RESERVED: [&str; 10] = [
+    "T", "self", "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
 ];
 
 /// A method body: statements, and the text of every operand that results refer to.
 pub(super) struct Body<'a> {
     kernel: &'a Kernel,
+    /// Where each value is stored as soon as it is known.
+    places: Vec<Vec<String>>,
     texts: Vec<Option<Text>>,
     entries: Vec<Vec<String>>,
     statements: Vec<Statement>,
 }
 
-struct Statement {
-    names: Vec<String>,
-    value: String,
+enum Statement {
+    /// Local variables, a pattern of them, and its value.
+    Let(Vec<String>, String, String),
+    /// A place in a result gets its value.
+    Store(String, String),
 }
 
 impl<'a> Body<'a> {
     /// Writes the statements of a kernel.
     pub(super) fn new(kernel: &'a Kernel) -> Self {
+        Self::storing(kernel, vec![Vec::new(); kernel.instructions.len()])
+    }
+
+    /// Writes the statements of a kernel, and behind each instruction that its value goes to the places given for it.
+    pub(super) fn storing(kernel: &'a Kernel, places: Vec<Vec<String>>) -> Self {
         let mut names = Names::new(kernel.parameters.iter().map(|p| p.name).chain(RESERVED));
         let mut this = Self {
             kernel,
+            places,
             texts: vec![None; kernel.instructions.len()],
             entries: Vec::new(),
             statements: Vec::new(),
@@ -64,30 +75,27 @@ impl<'a> Body<'a> {
     /// The statements as text.
     pub(super) fn statements(&self) -> String {
         let mut text = String::new();
-        let pattern = |names: &[String]| match names {
-            [name] => name.clone(),
-            names => format!("({})", names.join(", ")),
-        };
-        if self.statements.len() <= BLOCK {
-            for statement in &self.statements {
-                let _ = writeln!(
-                    text,
-                    "let {} = {};",
-                    pattern(&statement.names),
-                    statement.value
-                );
-            }
-            return text;
-        }
+        let plain = self.statements.len() <= BLOCK;
+        let keyword = if plain { "let " } else { "" };
         for block in self.statements.chunks(BLOCK) {
             let names: Vec<&str> = block
                 .iter()
-                .flat_map(|s| &s.names)
+                .flat_map(|statement| match statement {
+                    Statement::Let(names, ..) => names.as_slice(),
+                    Statement::Store(..) => &[],
+                })
                 .map(String::as_str)
                 .collect();
-            let _ = writeln!(text, "let ({},);", names.join(", "));
+            if !plain && !names.is_empty() {
+                let _ = writeln!(text, "let ({},);", names.join(", "));
+            }
             for statement in block {
-                let _ = writeln!(text, "{} = {};", pattern(&statement.names), statement.value);
+                let _ = match statement {
+                    Statement::Let(_, pattern, value) => {
+                        writeln!(text, "{keyword}{pattern} = {value};")
+                    }
+                    Statement::Store(place, value) => writeln!(text, "{place} = {value};"),
+                };
             }
         }
         text
@@ -108,10 +116,7 @@ impl<'a> Body<'a> {
                 }
                 let name = names.unique(wanted);
                 let value = format!("{}[{entry}]", parameter.name);
-                self.statements.push(Statement {
-                    names: vec![name.clone()],
-                    value,
-                });
+                self.let_one(&name, value);
                 entries.push(name);
             }
             self.entries.push(entries);
@@ -146,30 +151,12 @@ impl<'a> Body<'a> {
     fn compute(&mut self, names: &mut Names) {
         let instructions = &self.kernel.instructions;
         let uses = self.uses();
-        let partners = self.sine_partners();
+        let (groups, membership) = groups(self.kernel);
         let mut size = vec![1; instructions.len()];
         for (index, instruction) in instructions.iter().enumerate() {
-            if self.texts[index].is_some() {
-                continue;
-            }
-            if let Some(cosine) = partners[index] {
-                let Operation::Unary(_, angle) = instruction.operation else {
-                    continue;
-                };
-                let (first, second) = (index, cosine);
-                let pair = [first, second].map(|k| {
-                    let name = wanted(&instructions[k], |operand| self.name(operand));
-                    names.unique(&name)
-                });
-                let sine_first = matches!(instruction.operation, Operation::Unary(Unary::Sin, _));
-                let order = if sine_first { [0, 1] } else { [1, 0] };
-                let value = Text::sin_cos(&self.text(angle)).text;
-                self.statements.push(Statement {
-                    names: order.map(|k| pair[k].clone()).to_vec(),
-                    value,
-                });
-                for (k, name) in [first, second].into_iter().zip(pair) {
-                    self.texts[k] = Some(Text::atom(name));
+            if let Some(group) = membership[index] {
+                if groups[group].last == index {
+                    self.sines(&groups[group], names);
                 }
                 continue;
             }
@@ -183,21 +170,32 @@ impl<'a> Body<'a> {
                 ),
             };
             let sign = matches!(instruction.operation, Operation::Unary(Unary::Negate, _));
-            let inline =
-                sign || (uses[index] == 1 && instruction.name.is_none() && operations < INLINE);
+            let least = match self.places[index].is_empty() {
+                true => operations < INLINE,
+                false => true,
+            };
+            let inline = sign || (uses[index] == 1 && instruction.name.is_none() && least);
             if inline {
                 size[index] = operations + usize::from(!sign);
                 self.texts[index] = Some(text);
+                self.store(index);
                 continue;
             }
             size[index] = 0;
             let wanted = wanted(instruction, |operand| self.name(operand));
             let name = names.unique(&wanted);
-            self.statements.push(Statement {
-                names: vec![name.clone()],
-                value: text.text,
-            });
+            self.let_one(&name, text.text);
             self.texts[index] = Some(Text::atom(name));
+            self.store(index);
+        }
+    }
+
+    /// Stores a value where results want it.
+    fn store(&mut self, index: usize) {
+        let places = std::mem::take(&mut self.places[index]);
+        for place in places {
+            let value = self.text(Operand::Instruction(index)).text;
+            self.statements.push(Statement::Store(place, value));
         }
     }
 
@@ -223,22 +221,43 @@ impl<'a> Body<'a> {
         uses
     }
 
-    /// For the first of a sine and a cosine of one angle, the other.
-    fn sine_partners(&self) -> Vec<Option<usize>> {
-        let instructions = &self.kernel.instructions;
-        let mut partners = vec![None; instructions.len()];
-        let mut first: Vec<(Operand, Unary, usize)> = Vec::new();
-        for (index, instruction) in instructions.iter().enumerate() {
-            if let Operation::Unary(operator @ (Unary::Sin | Unary::Cos), angle) =
-                instruction.operation
-            {
-                match first.iter().find(|(a, o, _)| *a == angle && *o != operator) {
-                    Some(&(_, _, earlier)) => partners[earlier] = Some(index),
-                    None => first.push((angle, operator, index)),
-                }
-            }
+    /// The sines and cosines of a group in one statement.
+    fn sines(&mut self, group: &Group, names: &mut Names) {
+        let mut named = Vec::new();
+        let (mut patterns, mut angles) = (Vec::new(), Vec::new());
+        for &(angle, functions) in &group.angles {
+            let pattern = functions.map(|index| {
+                let Some(index) = index else {
+                    return "_".to_owned();
+                };
+                let instruction = &self.kernel.instructions[index];
+                let name = names.unique(&wanted(instruction, |operand| self.name(operand)));
+                named.push((index, name.clone()));
+                name
+            });
+            patterns.push(format!("({})", pattern.join(", ")));
+            angles.push(self.text(angle));
         }
-        partners
+        let (pattern, value) = match (&patterns[..], &angles[..]) {
+            ([pattern], [angle]) => (pattern.clone(), Text::sin_cos(angle)),
+            _ => (
+                format!("[{}]", patterns.join(", ")),
+                Text::sin_cos_all(&angles),
+            ),
+        };
+        let variables = named.iter().map(|(_, name)| name.clone()).collect();
+        self.statements
+            .push(Statement::Let(variables, pattern, value.text));
+        for (index, name) in named {
+            self.texts[index] = Some(Text::atom(name));
+            self.store(index);
+        }
+    }
+
+    fn let_one(&mut self, name: &str, value: String) {
+        let name = name.to_owned();
+        self.statements
+            .push(Statement::Let(vec![name.clone()], name, value));
     }
 
     fn size(&self, size: &[usize], operand: Operand) -> usize {

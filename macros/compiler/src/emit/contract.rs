@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use crate::algebra::Stage;
-use crate::program::{Array, Kernel};
+use crate::program::Kernel;
 
-use super::body::Body;
+use super::results::Results;
 
 /// Numbers of free coordinates, inputs, design variables and outputs.
 #[derive(Clone, Copy)]
@@ -65,57 +65,35 @@ const INLINED: [&str; 7] = [
     "residual_gradient",
 ];
 
+/// Instructions that a kernel may have for `Real::run` to choose those of the processor: it is compiled once for each choice.
+const CHOSEN: usize = 2048;
+
+/// Kernels that are generated for small mechanisms only: for these it is worth it at any length.
+const OF_SMALL: [&str; 2] = ["motion_linear", "linear_partials"];
+
 /// A method as text.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
-    let body = Body::new(kernel);
-    let arrays: Vec<String> = kernel
-        .results
-        .iter()
-        .map(|array| literal(&body, array))
-        .collect();
-    let types: Vec<String> = kernel
-        .results
-        .iter()
-        .map(|array| array_type(&array.shape))
-        .collect();
-    let (returned, result) = match form {
-        Form::Single => (types[0].clone(), arrays[0].clone()),
-        Form::Tuple => (
-            format!("({})", types.join(", ")),
-            format!("({})", arrays.join(", ")),
-        ),
-        Form::Record(name, generics) => {
-            let generics: String = generics(sizes)
-                .iter()
-                .fold("T".to_owned(), |list, n| format!("{list}, {n}"));
-            let fields: Vec<String> = kernel
-                .results
-                .iter()
-                .zip(&arrays)
-                .map(|(array, value)| format!("{}: {value}", array.name))
-                .collect();
-            (
-                format!("::eigentol::{name}<{generics}>"),
-                format!("::eigentol::{name} {{ {} }}", fields.join(", ")),
-            )
-        }
-        Form::Partials => (
-            format!(
-                "::eigentol::LinearPartials<T, {}, {}, {}>",
-                sizes.coordinates, sizes.inputs, sizes.design
-            ),
-            partials(&body, kernel),
-        ),
+    let results = Results::new(kernel, form, sizes);
+    let kind = results.kind();
+    let mut text = signature(kernel, &kind, "");
+    let chosen = kernel.instructions.len() <= CHOSEN || OF_SMALL.contains(&kernel.name);
+    let run = |body: &str| match chosen && !kernel.instructions.is_empty() {
+        true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
+        false => format!("{{\n{body}\n}}\n"),
     };
-    let mut text = signature(kernel, &returned, "");
-    if INLINED.contains(&kernel.name) {
-        let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
-        let inlined = format!("{}_inlined", kernel.name);
-        let _ = writeln!(text, "{{ self.{inlined}({}) }}", arguments.join(", "));
-        let head = head(kernel, &inlined, &returned, "");
-        let _ = write!(text, "#[doc(hidden)]\n#[inline(always)]\n{head}");
+    if !INLINED.contains(&kernel.name) {
+        text += &run(&results.body());
+        return text;
     }
-    let _ = writeln!(text, "{{\n{}{result}\n}}", body.statements());
+    let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
+    let inlined = format!("{}_inlined", kernel.name);
+    text += &run(&format!("self.{inlined}({})", arguments.join(", ")));
+    let head = head(kernel, &inlined, &kind, "");
+    let _ = write!(
+        text,
+        "#[doc(hidden)]\n#[inline(always)]\n{head}{{\n{}\n}}\n",
+        results.body()
+    );
     text
 }
 
@@ -170,56 +148,4 @@ fn documentation(kernel: &Kernel) -> String {
         );
     }
     text
-}
-
-/// `[[T; 3]; 2]` of shape 2, 3.
-fn array_type(shape: &[usize]) -> String {
-    shape
-        .iter()
-        .rev()
-        .fold("T".to_owned(), |inner, n| format!("[{inner}; {n}]"))
-}
-
-fn literal(body: &Body, array: &Array) -> String {
-    nested(body, &array.shape, &array.values)
-}
-
-fn nested(body: &Body, shape: &[usize], values: &[crate::program::Operand]) -> String {
-    let Some((&length, inner)) = shape.split_first() else {
-        return body.text(values[0]).text;
-    };
-    let size = values.len().checked_div(length).unwrap_or(0);
-    let entries: Vec<String> = (0..length)
-        .map(|k| nested(body, inner, &values[k * size..(k + 1) * size]))
-        .collect();
-    format!("[{}]", entries.join(", "))
-}
-
-fn partials(body: &Body, kernel: &Kernel) -> String {
-    let mut fields = Vec::new();
-    for (name, arrays) in ["by_coordinate", "by_input", "by_design"]
-        .iter()
-        .zip(kernel.results.chunks(3))
-    {
-        let count = arrays[0].shape[0];
-        let entries: Vec<String> = (0..count)
-            .map(|k| {
-                let matrices: Vec<String> = arrays
-                    .iter()
-                    .map(|array| {
-                        let size = array.values.len() / count;
-                        let values = &array.values[k * size..(k + 1) * size];
-                        format!(
-                            "{}: {}",
-                            array.name,
-                            nested(body, &array.shape[1..], values)
-                        )
-                    })
-                    .collect();
-                format!("::eigentol::Linear {{ {} }}", matrices.join(", "))
-            })
-            .collect();
-        fields.push(format!("{name}: [{}]", entries.join(", ")));
-    }
-    format!("::eigentol::LinearPartials {{ {} }}", fields.join(", "))
 }

@@ -65,6 +65,12 @@ impl Text {
         Self::atom(format!("{}.sin_cos()", a.within(Binding::Atom)))
     }
 
+    /// Sines and cosines of several angles.
+    pub(super) fn sin_cos_all(angles: &[Self]) -> Self {
+        let angles: Vec<&str> = angles.iter().map(|angle| angle.text.as_str()).collect();
+        Self::atom(format!("T::sin_cos_all([{}])", angles.join(", ")))
+    }
+
     /// An operator of two operands. The order of evaluation is the graph's: the right operand keeps its parentheses.
     pub(super) fn binary(operator: Operator, a: &Self, b: &Self) -> Self {
         let infix = |sign, left, right, binding| Self {

@@ -22,6 +22,8 @@ mod description;
 mod expression;
 mod names;
 mod pose_margin;
+mod results;
+mod sines;
 mod violation;
 
 use std::fmt::{Debug, Write};

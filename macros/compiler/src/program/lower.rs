@@ -1,8 +1,9 @@
 //! From expressions to instructions.
 
-use crate::algebra::{Function, Graph, Node, reachable};
+use crate::algebra::{Function, Graph, Node};
 use crate::base::ids::{ExprId, SymbolId};
 
+use super::schedule::schedule;
 use super::{Array, Instruction, Kernel, Operand, Operation, Parameter, Program};
 
 /// Lowers every function.
@@ -24,13 +25,7 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
                     scalar: parameter.scalar,
                 })
                 .collect();
-            let roots = function.roots();
-            let mut order: Vec<ExprId> = reachable(graph, &roots)
-                .into_iter()
-                .filter(|&id| !matches!(graph.node(id), Node::Constant(_) | Node::Symbol(_)))
-                .collect();
-            // Stable: within a stage operands keep coming before their users.
-            order.sort_by_key(|id| stages[id.index()]);
+            let order = schedule(graph, &function.roots());
             let mut lowering = Lowering::new(graph, function);
             let instructions = order
                 .into_iter()

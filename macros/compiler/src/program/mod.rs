@@ -6,6 +6,7 @@
 mod interpret;
 mod lower;
 mod print;
+mod schedule;
 
 pub use lower::lower;
 
@@ -25,7 +26,7 @@ pub struct Kernel {
     pub name: &'static str,
     /// Arguments.
     pub parameters: Vec<Parameter>,
-    /// Every operand is an earlier instruction. Ordered by stage: what changes least comes first.
+    /// Every operand is an earlier instruction.
     pub instructions: Vec<Instruction>,
     /// Results.
     pub results: Vec<Array>,
@@ -112,9 +113,9 @@ impl Kernel {
             if matches!(instruction.operation, Operation::Unary(Unary::Negate, _)) {
                 continue;
             }
-            match counts.last_mut() {
-                Some((stage, count)) if *stage == instruction.stage => *count += 1,
-                _ => counts.push((instruction.stage, 1)),
+            match counts.binary_search_by_key(&instruction.stage, |&(stage, _)| stage) {
+                Ok(found) => counts[found].1 += 1,
+                Err(place) => counts.insert(place, (instruction.stage, 1)),
             }
         }
         counts

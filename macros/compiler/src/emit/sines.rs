@@ -1,0 +1,68 @@
+//! Sines and cosines that are computed side by side.
+
+use crate::algebra::Unary;
+use crate::program::{Kernel, Operand, Operation};
+
+/// Angles whose sines and cosines need no other of the group.
+pub(super) struct Group {
+    /// Each angle with the instructions that take its sine and its cosine.
+    pub(super) angles: Vec<(Operand, [Option<usize>; 2])>,
+    /// The last of these instructions: no other uses one of them before.
+    pub(super) last: usize,
+}
+
+/// The groups, and of every instruction the group that it is in. A single function of a single angle is left alone.
+pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut depth = vec![0; kernel.instructions.len()];
+    for (index, instruction) in kernel.instructions.iter().enumerate() {
+        let operands = instruction.operation.operands();
+        let below = operands
+            .map(|operand| match operand {
+                Operand::Instruction(index) => depth[index],
+                _ => 0,
+            })
+            .max()
+            .unwrap_or(0);
+        let (which, angle) = match instruction.operation {
+            Operation::Unary(Unary::Sin, angle) => (0, angle),
+            Operation::Unary(Unary::Cos, angle) => (1, angle),
+            _ => {
+                depth[index] = below;
+                continue;
+            }
+        };
+        depth[index] = below + 1;
+        if groups.len() == below {
+            groups.push(Group {
+                angles: Vec::new(),
+                last: index,
+            });
+        }
+        let group = &mut groups[below];
+        group.last = index;
+        match group.angles.iter_mut().find(|(known, _)| *known == angle) {
+            Some((_, functions)) => functions[which] = Some(index),
+            None => {
+                let mut functions = [None; 2];
+                functions[which] = Some(index);
+                group.angles.push((angle, functions));
+            }
+        }
+    }
+    let mut membership = vec![None; kernel.instructions.len()];
+    for (number, group) in groups.iter().enumerate() {
+        let members: Vec<usize> = group
+            .angles
+            .iter()
+            .flat_map(|(_, f)| *f)
+            .flatten()
+            .collect();
+        if members.len() > 1 {
+            for index in members {
+                membership[index] = Some(number);
+            }
+        }
+    }
+    (groups, membership)
+}
