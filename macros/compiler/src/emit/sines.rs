@@ -3,13 +3,17 @@
 use crate::algebra::Unary;
 use crate::program::{Kernel, Operand, Operation};
 
-/// Angles whose sines and cosines need no other of the group.
+/// Angles whose sines and cosines need no other of the group; a single one in long kernels.
 pub(super) struct Group {
     /// Each angle with the instructions that take its sine and its cosine.
     pub(super) angles: Vec<(Operand, [Option<usize>; 2])>,
     /// The last of these instructions: no other uses one of them before.
     pub(super) last: usize,
 }
+
+/// Instructions of a kernel whose angles are worth it: among more, sines and cosines are nothing, and the code of two at a time
+/// is longer.
+const FEW: usize = 2048;
 
 /// The groups, and of every instruction the group that it is in. A single function of a single angle is left alone.
 pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
@@ -33,13 +37,19 @@ pub(super) fn groups(kernel: &Kernel) -> (Vec<Group>, Vec<Option<usize>>) {
             }
         };
         depth[index] = below + 1;
-        if groups.len() == below {
+        let place = if kernel.instructions.len() <= FEW {
+            below
+        } else {
+            let own = |group: &Group| group.angles.iter().any(|(known, _)| *known == angle);
+            groups.iter().position(own).unwrap_or(groups.len())
+        };
+        if groups.len() == place {
             groups.push(Group {
                 angles: Vec::new(),
                 last: index,
             });
         }
-        let group = &mut groups[below];
+        let group = &mut groups[place];
         group.last = index;
         match group.angles.iter_mut().find(|(known, _)| *known == angle) {
             Some((_, functions)) => functions[which] = Some(index),
