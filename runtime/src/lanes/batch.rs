@@ -31,12 +31,44 @@ impl Default for Batch {
 
 /// The vectors of the states from `at` on.
 #[inline(always)]
-pub(super) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [V; K] {
+pub(crate) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [V; K] {
     let mut vectors = [V::constant(0.0); K];
     for (vector, from) in vectors.iter_mut().zip(from) {
         *vector = V::load(from, at);
     }
     vectors
+}
+
+/// The same of a matrix.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn load_matrix<V: Vector, const R: usize, const C: usize>(
+    from: &[[Batch; C]; R],
+    at: usize,
+) -> [[V; C]; R] {
+    let mut rows = [[V::constant(0.0); C]; R];
+    for (row, from) in rows.iter_mut().zip(from) {
+        *row = load(from, at);
+    }
+    rows
+}
+
+/// Writes the vectors of the states from `at` on.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn store<V: Vector, const K: usize>(to: &mut [Batch; K], at: usize, from: &[V; K]) {
+    to.store(from, at);
+}
+
+/// The same of a matrix.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn store_matrix<V: Vector, const R: usize, const C: usize>(
+    to: &mut [[Batch; C]; R],
+    at: usize,
+    from: &[[V; C]; R],
+) {
+    to.store(from, at);
 }
 
 /// Writes results for the states from `at` on: the same shape, of vectors here and of batches there.

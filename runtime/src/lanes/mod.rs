@@ -43,6 +43,8 @@ pub use kernels::{
 };
 
 #[cfg(feature = "std")]
+pub(crate) use batch::{load, load_matrix, store, store_matrix};
+#[cfg(feature = "std")]
 pub(crate) use instructions::Task;
 #[cfg(feature = "std")]
 pub(crate) use kernels::generated;

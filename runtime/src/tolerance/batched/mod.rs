@@ -11,5 +11,5 @@ mod solve;
 mod sums;
 
 pub(super) use prepared::Prepared;
-pub(super) use solve::Solved;
+pub(super) use solve::{Solved, TOGETHER};
 pub(super) use sums::Sums;

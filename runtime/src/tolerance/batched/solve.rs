@@ -3,8 +3,9 @@
 use super::{Prepared, Sums};
 use crate::batched::algebra::{congruent, constants, keep};
 use crate::batched::closed::{self, Solver};
-use crate::lanes::{Batch, Task, Vector};
+use crate::lanes::{Batch, Task, Vector, WIDTH, load, load_matrix, store, store_matrix};
 use crate::tolerance::normal::standard_normal_pair;
+use crate::tolerance::sampling::Bits;
 use crate::{Linear, Mechanism};
 
 /// Steps of Newton's method; one does where second derivatives predict the equilibrium well.
@@ -23,6 +24,10 @@ const STIFFENED: f64 = 2.0;
 /// Greatest displacement from the nominal position, in displacements of one standard deviation.
 pub(super) const FAR: f64 = 6.0;
 
+/// Batches that go through each stage together: a stage waits for its own results most of the time, and meanwhile the
+/// processor can work on the next batch.
+pub(in crate::tolerance) const TOGETHER: usize = 8;
+
 /// Samples of one batch.
 pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
     pub(in crate::tolerance) design: [Batch; P],
@@ -30,15 +35,34 @@ pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
     pub(in crate::tolerance) frequencies: [Batch; N],
     /// Bit `k`: sample `k` passed every check. Of others only the design means anything.
     pub(in crate::tolerance) accepted: u32,
+    /// Random bits, by pair of design variables.
+    pub(in crate::tolerance) bits: [[Bits; 2]; P],
+    /// How many of them are samples.
+    pub(in crate::tolerance) members: usize,
+    /// One for those that passed every check so far.
+    flags: Batch,
+    /// One for those at whose equilibrium Newton's method came to rest.
+    resting: Batch,
+    residual: [Batch; N],
+    /// In coordinates on the way to the equilibrium, between the nominal modes there.
+    stiffness: [[Batch; N]; N],
+    mass: [[Batch; N]; N],
 }
 
 impl<const N: usize, const P: usize> Solved<N, P> {
-    pub(in crate::tolerance) fn new() -> Self {
+    pub(in crate::tolerance) const fn new() -> Self {
         Self {
-            design: [Batch::default(); P],
-            coordinates: [Batch::default(); N],
-            frequencies: [Batch::default(); N],
+            design: [Batch([0.0; WIDTH]); P],
+            coordinates: [Batch([0.0; WIDTH]); N],
+            frequencies: [Batch([0.0; WIDTH]); N],
             accepted: 0,
+            bits: [[[0; WIDTH]; 2]; P],
+            members: 0,
+            flags: Batch([0.0; WIDTH]),
+            resting: Batch([0.0; WIDTH]),
+            residual: [Batch([0.0; WIDTH]); N],
+            stiffness: [[Batch([0.0; WIDTH]); N]; N],
+            mass: [[Batch([0.0; WIDTH]); N]; N],
         }
     }
 }
@@ -47,19 +71,11 @@ impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared
 where
     M: Mechanism<N, U, P, O>,
 {
-    /// Solves the first `number` samples of a batch from pairs of probabilities, and adds them to `sums`.
-    pub(in crate::tolerance) fn solve(
-        &self,
-        pairs: &[[Batch; 2]; P],
-        number: usize,
-        solved: &mut Solved<N, P>,
-        sums: &mut Sums<N>,
-    ) {
+    /// Solves the members of some batches from their random bits, and adds them to `sums`.
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<N, P>], sums: &mut Sums<N>) {
         self.instructions.run(Work {
             prepared: self,
-            pairs,
-            number,
-            solved,
+            batches,
             sums,
         });
     }
@@ -67,9 +83,7 @@ where
 
 struct Work<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
     prepared: &'a Prepared<'a, M, N, U, P, O>,
-    pairs: &'a [[Batch; 2]; P],
-    number: usize,
-    solved: &'a mut Solved<N, P>,
+    batches: &'a mut [Solved<N, P>],
     sums: &'a mut Sums<N>,
 }
 
@@ -84,77 +98,115 @@ where
     fn run<V: Vector>(self) {
         let Self {
             prepared,
-            pairs,
-            number,
-            solved,
+            batches,
             sums,
         } = self;
-        solved.accepted = 0;
-        for at in (0..number).step_by(V::WIDTH) {
-            let design = draw::<V, M, N, U, P, O>(prepared, pairs, at);
-            for (batch, value) in solved.design.iter_mut().zip(design) {
-                value.store(batch, at);
+        let one = V::constant(1.0);
+        for batch in &mut *batches {
+            for at in (0..batch.members).step_by(V::WIDTH) {
+                let design: [V; P] = draw(prepared, &batch.bits, at);
+                store(&mut batch.design, at, &design);
+                store(&mut batch.coordinates, at, &predicted(prepared, &design));
             }
-            let samples = at..(at + V::WIDTH).min(number);
-            let possible = if prepared.all_possible && samples.len() == V::WIDTH {
-                V::constant(1.0)
+            batch.resting = Batch([0.0; WIDTH]);
+            let all = prepared.all_possible && batch.members == WIDTH;
+            batch.flags = if all {
+                Batch::all(1.0)
             } else {
-                V::load(&possible(prepared, &solved.design, samples), at)
+                possible(prepared, &batch.design, batch.members)
             };
-            let (q, found) = equilibrium(prepared, &design);
-            let flag = keep(possible, V::constant(1.0).at_most(found));
-            let (lambda, flag) = modes(prepared, &design, &q, flag);
-            for (batch, value) in solved.coordinates.iter_mut().zip(q) {
-                value.store(batch, at);
+        }
+        for _ in 0..STEPS {
+            let mut moving = false;
+            for batch in &mut *batches {
+                for at in (0..batch.members).step_by(V::WIDTH) {
+                    if !rests::<V, N, P>(batch, at) {
+                        moving = true;
+                        evaluate::<V, M, N, U, P, O>(prepared, batch, at);
+                    }
+                }
             }
-            for (r, lambda) in lambda.into_iter().enumerate() {
-                let frequency = lambda.sqrt();
-                frequency.store(&mut solved.frequencies[r], at);
-                let nominal = V::constant(prepared.frequencies[r]);
-                sums.add(r, at, frequency - nominal, flag);
+            if !moving {
+                break;
             }
-            let accepted = V::bits(V::constant(1.0).at_most(flag));
-            sums.count(accepted.count_ones());
-            solved.accepted |= accepted << at;
+            for batch in &mut *batches {
+                for at in (0..batch.members).step_by(V::WIDTH) {
+                    if !rests::<V, N, P>(batch, at) {
+                        improve::<V, M, N, U, P, O>(prepared, batch, at);
+                    }
+                }
+            }
+        }
+        for batch in &mut *batches {
+            for at in (0..batch.members).step_by(V::WIDTH) {
+                matrices::<V, M, N, U, P, O>(prepared, batch, at);
+            }
+        }
+        for batch in &mut *batches {
+            batch.accepted = 0;
+            for at in (0..batch.members).step_by(V::WIDTH) {
+                let (lambda, flag) = modes::<V, M, N, U, P, O>(prepared, batch, at);
+                for (r, lambda) in lambda.into_iter().enumerate() {
+                    let frequency = lambda.sqrt();
+                    frequency.store(&mut batch.frequencies[r], at);
+                    let nominal = V::constant(prepared.frequencies[r]);
+                    sums.add(r, at, frequency - nominal, flag);
+                }
+                let accepted = V::bits(one.at_most(flag));
+                sums.count(accepted.count_ones());
+                batch.accepted |= accepted << at;
+            }
         }
     }
+}
+
+/// Whether all of these samples have come to rest.
+#[inline(always)]
+fn rests<V: Vector, const N: usize, const P: usize>(batch: &Solved<N, P>, at: usize) -> bool {
+    V::every(V::constant(1.0).at_most(V::load(&batch.resting, at)))
 }
 
 /// `b = b_nominal + L z`, `z` standard normal.
 #[inline(always)]
 fn draw<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     prepared: &Prepared<'_, M, N, U, P, O>,
-    pairs: &[[Batch; 2]; P],
+    pairs: &[[Bits; 2]; P],
     at: usize,
 ) -> [V; P] {
     let mut standard = [V::constant(0.0); P];
-    for &pair in &prepared.drawn {
-        let [radius, angle] = &pairs[pair];
-        let (first, second) = standard_normal_pair(V::load(radius, at), V::load(angle, at));
-        standard[2 * pair] = first;
-        if 2 * pair + 1 < P {
-            standard[2 * pair + 1] = second;
+    for pair in 0..P.div_ceil(2) {
+        if prepared.drawn[pair] {
+            let [radius, angle] = &pairs[pair];
+            let (first, second) =
+                standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
+            standard[2 * pair] = first;
+            if 2 * pair + 1 < P {
+                standard[2 * pair + 1] = second;
+            }
         }
     }
     let mut design: [V; P] = constants(&prepared.nominal.design);
-    for &(i, j, factor) in &prepared.draws {
+    for &(i, j, factor) in &prepared.shared {
         design[i] = design[i] + V::constant(factor) * standard[j];
+    }
+    for ((design, standard), factor) in design.iter_mut().zip(standard).zip(&prepared.own) {
+        *design = *design + V::constant(*factor) * standard;
     }
     design
 }
 
-/// Ones for the samples whose bodies can exist.
+/// Ones for the members whose bodies can exist.
 #[inline(always)]
 fn possible<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     prepared: &Prepared<'_, M, N, U, P, O>,
     design: &[Batch; P],
-    samples: core::ops::Range<usize>,
+    members: usize,
 ) -> Batch
 where
     M: Mechanism<N, U, P, O>,
 {
-    let mut flags = Batch::default();
-    for sample in samples {
+    let mut flags = Batch([0.0; WIDTH]);
+    for sample in 0..members {
         let design = core::array::from_fn(|i| design[i].0[sample]);
         let violation = prepared
             .mechanism
@@ -164,61 +216,83 @@ where
     flags
 }
 
-/// The equilibrium by Newton's method from the predicted one; the flag says that it came to rest, through positive definite
-/// stiffness, near the nominal position.
+/// The equilibrium as the derivatives of the nominal one predict it.
 #[inline(always)]
-fn equilibrium<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+fn predicted<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     prepared: &Prepared<'_, M, N, U, P, O>,
     design: &[V; P],
-) -> ([V; N], V)
-where
+) -> [V; N] {
+    let mut q: [V; N] = constants(&prepared.nominal.coordinates);
+    let mut change = [V::constant(0.0); P];
+    // Bounds that the compiler knows: these loops are unrolled.
+    for k in 0..P {
+        let Some(&variable) = prepared.varied.get(k) else {
+            break;
+        };
+        change[k] = design[variable] - V::constant(prepared.nominal.design[variable]);
+        let mut slope: [V; N] = constants(&prepared.first[k]);
+        if let Some(second) = prepared.second.get(k) {
+            for j in 0..=k {
+                for (slope, coefficient) in slope.iter_mut().zip(&second[j]) {
+                    *slope = *slope + V::constant(*coefficient) * change[j];
+                }
+            }
+        }
+        for (q, slope) in q.iter_mut().zip(slope) {
+            *q = *q + slope * change[k];
+        }
+    }
+    q
+}
+
+/// Residual and stiffness on the way to the equilibrium.
+#[inline(always)]
+fn evaluate<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    batch: &mut Solved<N, P>,
+    at: usize,
+) where
     M: Mechanism<N, U, P, O>,
 {
-    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    let q: [V; N] = load(&batch.coordinates, at);
     let inputs = constants(&prepared.nominal.inputs);
-    let start: [V; N] = constants(&prepared.nominal.coordinates);
-    let mut q = start;
-    let mut change = [zero; P];
-    for ((change, &i), slope) in change.iter_mut().zip(&prepared.varied).zip(&prepared.first) {
-        *change = design[i] - V::constant(prepared.nominal.design[i]);
-        for (q, slope) in q.iter_mut().zip(slope) {
-            *q = *q + V::constant(*slope) * *change;
-        }
+    let design = load(&batch.design, at);
+    let (residual, stiffness) = prepared
+        .mechanism
+        .residual_and_stiffness_inlined(&q, &inputs, &design);
+    store(&mut batch.residual, at, &residual);
+    store_matrix(&mut batch.stiffness, at, &stiffness);
+}
+
+/// A step of Newton's method; a sample fails where the stiffness is not positive definite on the way.
+#[inline(always)]
+fn improve<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    batch: &mut Solved<N, P>,
+    at: usize,
+) where
+    M: Mechanism<N, U, P, O>,
+{
+    let one = V::constant(1.0);
+    let mut q: [V; N] = load(&batch.coordinates, at);
+    let stiffness: [[V; N]; N] = load_matrix(&batch.stiffness, at);
+    let (solver, positive) = Solver::new(&stiffness, POSITIVE);
+    let step = solver.solve(&load(&batch.residual, at));
+    let correction = solver.solve(&curved(&prepared.curvature, &step));
+    // Samples at rest stay where they are, so that none depends on the others.
+    let rested = V::load(&batch.resting, at);
+    let moving = rested.at_most(V::constant(0.0));
+    let flag = V::load(&batch.flags, at);
+    let flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
+    flag.store(&mut batch.flags, at);
+    let mut resting = one;
+    for ((q, step), correction) in q.iter_mut().zip(step).zip(correction) {
+        let scale = V::constant(LAST_CORRECTION) * (q.abs() + V::constant(SMALL_MOTION));
+        resting = keep(resting, correction.abs().at_most(scale));
+        *q = V::choose(moving, *q - (step + correction), *q);
     }
-    for (j, k, coefficients) in &prepared.second {
-        let product = change[*j] * change[*k];
-        for (q, coefficient) in q.iter_mut().zip(coefficients) {
-            *q = *q + V::constant(*coefficient) * product;
-        }
-    }
-    let (mut resting, mut flag) = (zero, one);
-    for _ in 0..STEPS {
-        let (residual, stiffness) = prepared
-            .mechanism
-            .residual_and_stiffness_inlined(&q, &inputs, design);
-        let (solver, positive) = Solver::new(&stiffness, POSITIVE);
-        let step = solver.solve(&residual);
-        let correction = solver.solve(&curved(&prepared.curvature, &step));
-        // Lanes at rest stay where they are, so that none depends on the others.
-        let moving = resting.at_most(zero);
-        flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
-        let mut last = one;
-        for ((q, step), correction) in q.iter_mut().zip(step).zip(correction) {
-            let scale = V::constant(LAST_CORRECTION) * (q.abs() + V::constant(SMALL_MOTION));
-            last = keep(last, correction.abs().at_most(scale));
-            *q = V::choose(moving, *q - (step + correction), *q);
-        }
-        resting = V::choose(moving, last, resting);
-        if V::every(one.at_most(resting)) {
-            break;
-        }
-    }
-    flag = keep(flag, one.at_most(resting));
-    for ((q, start), reach) in q.iter().zip(start).zip(&prepared.reach) {
-        let displacement = (*q - start).abs();
-        flag = keep(flag, displacement.at_most(V::constant(FAR * reach)));
-    }
-    (q, flag)
+    store(&mut batch.coordinates, at, &q);
+    V::choose(moving, resting, rested).store(&mut batch.resting, at);
 }
 
 /// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
@@ -237,24 +311,44 @@ fn curved<V: Vector, const N: usize>(curvature: &[[[f64; N]; N]; N], step: &[V; 
     rest
 }
 
-/// `lambda` of the modes in the nominal order; the flag says that all are recognised, and that the stiffness is positive definite
-/// here and, as far as its derivative tells, from the nominal position to its mirror image: then so it is all the way.
+/// Mass and stiffness at the equilibrium, between the nominal modes.
+#[inline(always)]
+fn matrices<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    prepared: &Prepared<'_, M, N, U, P, O>,
+    batch: &mut Solved<N, P>,
+    at: usize,
+) where
+    M: Mechanism<N, U, P, O>,
+{
+    let q: [V; N] = load(&batch.coordinates, at);
+    let inputs = constants(&prepared.nominal.inputs);
+    let design = load(&batch.design, at);
+    let Linear {
+        mass, stiffness, ..
+    } = prepared.mechanism.linear_inlined(&q, &inputs, &design);
+    store_matrix(&mut batch.mass, at, &congruent(&mass, &prepared.shapes));
+    let stiffness = congruent(&stiffness, &prepared.shapes);
+    store_matrix(&mut batch.stiffness, at, &stiffness);
+}
+
+/// `lambda` of the modes in the nominal order; the flag says that every check was passed: at last, that all modes are recognised,
+/// the equilibrium is near the nominal one, and the stiffness is positive definite here and, as far as its derivative
+/// tells, from the nominal position to its mirror image: then so it is all the way.
 #[inline(always)]
 fn modes<V: Vector, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     prepared: &Prepared<'_, M, N, U, P, O>,
-    design: &[V; P],
-    q: &[V; N],
-    flag: V,
+    batch: &Solved<N, P>,
+    at: usize,
 ) -> ([V; N], V)
 where
     M: Mechanism<N, U, P, O>,
 {
-    let inputs = constants(&prepared.nominal.inputs);
-    let Linear {
-        mass, stiffness, ..
-    } = prepared.mechanism.linear_inlined(q, &inputs, design);
-    let mass = congruent(&mass, &prepared.shapes);
-    let stiffness = congruent(&stiffness, &prepared.shapes);
+    let one = V::constant(1.0);
+    let q: [V; N] = load(&batch.coordinates, at);
+    let mass = load_matrix(&batch.mass, at);
+    let stiffness: [[V; N]; N] = load_matrix(&batch.stiffness, at);
+    let at_rest = one.at_most(V::load(&batch.resting, at));
+    let mut flag = keep(V::load(&batch.flags, at), at_rest);
     let mut nearby = stiffness;
     let displacements = q.iter().zip(&prepared.nominal.coordinates);
     for ((q, nominal), stiffening) in displacements.zip(&prepared.stiffening) {
@@ -265,7 +359,11 @@ where
             }
         }
     }
-    let one = V::constant(1.0);
+    let displacements = q.iter().zip(&prepared.nominal.coordinates);
+    for ((q, nominal), reach) in displacements.zip(&prepared.reach) {
+        let displacement = (*q - V::constant(*nominal)).abs();
+        flag = keep(flag, displacement.at_most(V::constant(FAR * reach)));
+    }
     let flag = keep(
         flag,
         one.at_most(closed::definite(&nearby, CLEARLY_POSITIVE)),
