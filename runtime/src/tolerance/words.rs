@@ -25,11 +25,7 @@ pub(super) struct Words {
 
 impl Words {
     /// The words of `seed` and `stream` from block `first` on.
-    pub(super) fn from(
-        (seed, stream): (u64, u64),
-        first: u64,
-        instructions: Instructions,
-    ) -> Self {
+    pub(super) fn from((seed, stream): (u64, u64), first: u64, instructions: Instructions) -> Self {
         let key = ChaCha8Rng::seed_from_u64(seed).get_seed();
         let word = |bytes: &[u8], at: usize| {
             u32::from_le_bytes(core::array::from_fn(|byte| bytes[4 * at + byte]))
@@ -77,6 +73,7 @@ impl Task for Fill<'_> {
 
     /// The lanes are those that the compiler makes of the loop over the blocks.
     #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "by word, then by block")]
     fn run<V: Vector>(self) {
         let Words {
             state,

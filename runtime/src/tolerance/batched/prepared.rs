@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-10;
 /// Displacement (rad or m) for differences where the equilibrium does not move.
 const SMALL: f64 = 1e-4;
 /// Change of the stiffness of a mode that may come of second derivatives over the displacement of one standard deviation,
-/// relative to it: [`FAR`](super::solve::FAR) of these leave three quarters of it.
+/// relative to it: [`FAR`](super::stages::FAR) of these leave three quarters of it.
 const STRAIGHT: f64 = 0.007;
 
 /// The nominal state in the form that samples need.
@@ -101,8 +101,7 @@ where
             .collect();
         let own = core::array::from_fn(|i| factor[i][i]);
         let used = |j: usize| own[j] != 0.0 || shared.iter().any(|one| one.1 == j);
-        let drawn =
-            core::array::from_fn(|pair| (2 * pair..P.min(2 * pair + 2)).any(used));
+        let drawn = core::array::from_fn(|pair| (2 * pair..P.min(2 * pair + 2)).any(used));
         let varied: Vec<_> = (0..P)
             .filter(|&i| factor[i].iter().any(|value| *value != 0.0))
             .collect();
