@@ -89,11 +89,11 @@ impl Batches {
     pub(super) fn next<const P: usize>(&mut self, pairs: &mut [[Bits; 2]; P]) {
         let numbers = 2 * Draw::<P>::PAIRS;
         for block in 0..numbers * WIDTH / NUMBERS {
-            for (k, number) in self.words.next().into_iter().enumerate() {
+            self.words.next(|k, number| {
                 let place = block * NUMBERS + k;
                 let (sample, number_of_sample) = (place / numbers, place % numbers);
                 pairs[number_of_sample / 2][number_of_sample % 2][sample] = number;
-            }
+            });
         }
     }
 }

@@ -45,18 +45,18 @@ impl Words {
         }
     }
 
-    /// The next block.
-    #[inline]
-    pub(super) fn next(&mut self) -> [u64; NUMBERS] {
+    /// The numbers of the next block, with their places in it.
+    #[inline(always)]
+    pub(super) fn next(&mut self, mut each: impl FnMut(usize, u64)) {
         if self.taken == BLOCKS {
             self.instructions.run(Fill(self));
         }
         let block = self.taken;
         self.taken += 1;
-        core::array::from_fn(|k| {
+        for k in 0..NUMBERS {
             let [low, high] = [2 * k, 2 * k + 1].map(|word| u64::from(self.words[word][block]));
-            low | high << 32
-        })
+            each(k, low | high << 32);
+        }
     }
 }
 
@@ -143,8 +143,7 @@ mod tests {
                 random.set_stream(stream);
                 random.set_word_pos(u128::from(first) * 16);
                 for _ in 0..3 * BLOCKS + 1 {
-                    let expected = core::array::from_fn(|_| random.next_u64());
-                    assert_eq!(words.next(), expected);
+                    words.next(|_, number| assert_eq!(number, random.next_u64()));
                 }
             }
         }

@@ -10,7 +10,7 @@ use crate::tolerance::sampling::Bits;
 const STEPS: usize = 6;
 /// Batches that go through each stage together: a stage waits for its own results most of the time, and meanwhile the
 /// processor can work on the next batch.
-pub(in crate::tolerance) const TOGETHER: usize = 8;
+pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 /// Samples of one batch.
 pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
