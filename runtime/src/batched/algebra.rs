@@ -91,12 +91,15 @@ pub(crate) fn congruent<V: Vector, const N: usize>(
     for r in 0..N {
         let mut image = [zero; N];
         for i in 0..N {
-            for j in 0..N {
+            // Sums start from their first term: a sum with zero is an operation too.
+            image[i] = matrix[i][0] * V::constant(basis[r][0]);
+            for j in 1..N {
                 image[i] = image[i] + matrix[i][j] * V::constant(basis[r][j]);
             }
         }
         for s in r..N {
-            for i in 0..N {
+            result[s][r] = image[0] * V::constant(basis[s][0]);
+            for i in 1..N {
                 result[s][r] = result[s][r] + image[i] * V::constant(basis[s][i]);
             }
         }

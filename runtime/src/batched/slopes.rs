@@ -5,7 +5,7 @@ use super::algebra::keep;
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use crate::Mechanism;
-use crate::lanes::{Store, Task, Vector, WIDTH, load};
+use crate::lanes::{Store, Task, Vector, WIDTH, load, load_matrix};
 use crate::sensitivity::{Cheaper, of_undamped};
 
 /// Adds the derivatives of the modes of a block. Keeps the flags of lanes where they are finite.
@@ -27,10 +27,7 @@ where
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let (u, b): ([V; U], [V; P]) = (load(&block.inputs, at), load(&block.design, at));
             let q: [V; N] = load(&block.coordinates, at);
-            let mut stiffness = [[V::constant(0.0); N]; N];
-            for (row, from) in stiffness.iter_mut().zip(&block.linear.stiffness) {
-                *row = load(from, at);
-            }
+            let stiffness: [[V; N]; N] = load_matrix(&block.linear.stiffness, at);
             let (solver, _) = Solver::new(&stiffness, POSITIVE);
             let mut total = V::constant(0.0);
             if const { Cheaper::<M, N, U, P, O>::MATRICES } {

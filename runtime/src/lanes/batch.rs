@@ -39,6 +39,20 @@ pub(crate) fn load<V: Vector, const K: usize>(from: &[Batch; K], at: usize) -> [
     vectors
 }
 
+/// The same of a matrix.
+#[inline(always)]
+#[cfg(feature = "std")]
+pub(crate) fn load_matrix<V: Vector, const R: usize, const C: usize>(
+    from: &[[Batch; C]; R],
+    at: usize,
+) -> [[V; C]; R] {
+    let mut rows = [[V::constant(0.0); C]; R];
+    for (row, from) in rows.iter_mut().zip(from) {
+        *row = load(from, at);
+    }
+    rows
+}
+
 /// Writes results for the states from `at` on: the same shape, of vectors here and of batches there.
 pub(crate) trait Store<From> {
     fn store(&mut self, from: &From, at: usize);

@@ -43,7 +43,7 @@ pub use kernels::{
 };
 
 #[cfg(feature = "std")]
-pub(crate) use batch::{Store, load};
+pub(crate) use batch::{Store, load, load_matrix};
 #[cfg(feature = "std")]
 pub(crate) use instructions::Task;
 #[cfg(feature = "std")]

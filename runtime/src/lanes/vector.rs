@@ -1,6 +1,6 @@
 //! What a vector of the processor can do: everything a [`Real`] can, one state in each lane, and a choice by lane.
 
-use super::Batch;
+use super::{Batch, WIDTH};
 use crate::Real;
 
 /// As many states as the processor computes at once. Every lane of every operation gives the bits that [`f64`] gives.
@@ -29,6 +29,10 @@ pub(crate) trait Vector: Real {
     /// (`e`, `m`) with `self = m 2^e` and `m` between 0.7 and 1.5, for positive normal numbers.
     fn split(self) -> (Self, Self);
 
+    /// `(k + 1/2) / 2^52` of the first 52 bits `k` of random numbers from `at` on: strictly inside (0, 1), one bit less than a
+    /// double has.
+    fn probability(bits: &[u64; WIDTH], at: usize) -> Self;
+
     /// True in every lane.
     #[inline(always)]
     fn every(mask: Self::Mask) -> bool {
@@ -42,6 +46,10 @@ pub(super) const LEAST: u64 = 0x3fe6_a09e_0000_0000;
 pub(super) const SHIFT: u64 = (1023 << 52) - LEAST;
 /// The bits below the exponent.
 pub(super) const MANTISSA: u64 = (1 << 52) - 1;
+/// Exponent of the numbers from one to two.
+pub(super) const ONE: u64 = 1023 << 52;
+/// `1 - 2^-53`.
+pub(super) const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 /// 2^52: what is added to its bits is added to its value.
 pub(super) const INTEGER: f64 = 4503599627370496.0;
 
@@ -83,6 +91,10 @@ impl Vector for f64 {
         let exponent = Self::from_bits((shifted >> 52) + INTEGER.to_bits());
         let mantissa = Self::from_bits((shifted & MANTISSA) + LEAST);
         (exponent - (INTEGER + 1023.0), mantissa)
+    }
+    #[inline(always)]
+    fn probability(bits: &[u64; WIDTH], at: usize) -> Self {
+        Self::from_bits(bits[at] >> 12 | ONE) - BELOW_ONE
     }
     #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {

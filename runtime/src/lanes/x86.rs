@@ -8,7 +8,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::instructions::Task;
-use super::vector::{INTEGER, LEAST, MANTISSA, SHIFT};
+use super::vector::{BELOW_ONE, INTEGER, LEAST, MANTISSA, ONE, SHIFT};
 use super::{Batch, Vector, WIDTH};
 use crate::{Real, trigonometry};
 
@@ -296,6 +296,17 @@ impl Vector for Two {
         (Self::of([e0, e1]), Self::of([m0, m1]))
     }
     #[inline(always)]
+    fn probability(bits: &[u64; WIDTH], at: usize) -> Self {
+        assert!(at + 2 <= WIDTH);
+        // SAFETY: see the module; within the array by the assertion.
+        let number = unsafe {
+            let bits = _mm_loadu_si128(bits.as_ptr().add(at).cast());
+            let one = _mm_set1_epi64x(ONE.cast_signed());
+            _mm_castsi128_pd(_mm_or_si128(_mm_srli_epi64::<12>(bits), one))
+        };
+        Self(number) - Self::constant(BELOW_ONE)
+    }
+    #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the module.
         unsafe {
@@ -373,6 +384,17 @@ impl Vector for Four {
         }
     }
     #[inline(always)]
+    fn probability(bits: &[u64; WIDTH], at: usize) -> Self {
+        assert!(at + 4 <= WIDTH);
+        // SAFETY: see the module; within the array by the assertion.
+        let number = unsafe {
+            let bits = _mm256_loadu_si256(bits.as_ptr().add(at).cast());
+            let one = _mm256_set1_epi64x(ONE.cast_signed());
+            _mm256_castsi256_pd(_mm256_or_si256(_mm256_srli_epi64::<12>(bits), one))
+        };
+        Self(number) - Self::constant(BELOW_ONE)
+    }
+    #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {
         // SAFETY: see the module.
         unsafe {
@@ -447,6 +469,17 @@ impl Vector for Eight {
                 Self(_mm512_castsi512_pd(mantissa)),
             )
         }
+    }
+    #[inline(always)]
+    fn probability(bits: &[u64; WIDTH], at: usize) -> Self {
+        assert!(at + 8 <= WIDTH);
+        // SAFETY: see the module; within the array by the assertion.
+        let number = unsafe {
+            let bits = _mm512_loadu_si512(bits.as_ptr().add(at).cast());
+            let one = _mm512_set1_epi64(ONE.cast_signed());
+            _mm512_castsi512_pd(_mm512_or_si512(_mm512_srli_epi64::<12>(bits), one))
+        };
+        Self(number) - Self::constant(BELOW_ONE)
     }
     #[inline(always)]
     fn turn(self, sine: Self, cosine: Self) -> (Self, Self) {

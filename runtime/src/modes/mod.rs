@@ -117,6 +117,7 @@ pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
 ///
 /// # Errors
 /// As [`undamped_modes`].
+#[inline]
 pub fn modes_of<const N: usize>(
     linear: &Linear<f64, N>,
     family: Family,
@@ -177,7 +178,7 @@ impl<const N: usize> Modes<N> {
     #[inline]
     fn empty(linear: &Linear<f64, N>, family: Family, description: &'static Description) -> Self {
         Self {
-            modes: PerMode::blank(Mode::BLANK),
+            modes: const { PerMode::blank(Mode::BLANK) },
             family,
             damping_ignored: family == Family::Undamped
                 && description.damping != DampingKind::Zero

@@ -15,7 +15,7 @@ pub struct PerMode<T, const N: usize> {
 impl<T: Copy, const N: usize> PerMode<T, N> {
     /// Without entries; `blank` stands in their places.
     #[inline]
-    pub(crate) fn blank(blank: T) -> Self {
+    pub(crate) const fn blank(blank: T) -> Self {
         Self {
             entries: Some([[blank; 2]; N]),
             count: 0,

@@ -241,8 +241,12 @@ where
         });
     }
 
+    #[inline]
     fn ready(&self) -> Result<(), Error> {
-        self.fault.clone().map_or(Ok(()), Err)
+        match &self.fault {
+            None => Ok(()),
+            Some(fault) => Err(fault.clone()),
+        }
     }
 
     /// Where solvers start: the start values, assembled where coordinates are held.
@@ -279,6 +283,7 @@ where
     ///
     /// # Errors
     /// [`Error::Setting`] when they make no sense; [`Error::UnknownHandle`].
+    #[inline]
     pub fn tolerances(&self) -> Result<Tolerances<P>, Error> {
         self.ready()?;
         let half_widths = core::array::from_fn(|j| match self.half_widths[j] {

@@ -31,6 +31,7 @@ impl<const P: usize> Tolerances<P> {
     /// # Errors
     /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
     /// that is not symmetric and positive semidefinite with ones on its diagonal.
+    #[inline]
     pub fn new(
         half_widths: [f64; P],
         sigma_level: f64,
@@ -62,18 +63,21 @@ impl<const P: usize> Tolerances<P> {
                 ),
             ));
         }
+        let deviations = half_widths.map(|value| value / sigma_level);
         let mut factor = [[0.0; P]; P];
         match &correlation {
-            Some(matrix) => factor = semidefinite_factor(matrix)?,
-            None => (0..P).for_each(|j| factor[j][j] = 1.0),
-        }
-        for (row, half_width) in factor.iter_mut().zip(half_widths) {
-            *row = row.map(|value| value * half_width / sigma_level);
+            Some(matrix) => {
+                factor = semidefinite_factor(matrix)?;
+                for (row, half_width) in factor.iter_mut().zip(half_widths) {
+                    *row = row.map(|value| value * half_width / sigma_level);
+                }
+            }
+            None => (0..P).for_each(|j| factor[j][j] = deviations[j]),
         }
         Ok(Self {
             half_widths,
             sigma_level,
-            deviations: half_widths.map(|value| value / sigma_level),
+            deviations,
             correlation,
             factor,
         })

@@ -153,13 +153,15 @@ pub struct OutputTolerances<const P: usize, const O: usize> {
 }
 
 /// First-order spread of every mode.
+// Inlined, as what it returns is long to copy.
+#[inline(always)]
 pub fn first_order<const N: usize, const U: usize, const P: usize>(
     modes: &Modes<N>,
     sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> FirstOrder<N, P> {
     let mut found = FirstOrder {
-        modes: PerMode::blank(ModeTolerance::BLANK),
+        modes: const { PerMode::blank(ModeTolerance::BLANK) },
         sigma_level: tolerances.sigma_level(),
         distance_to_critical: f64::INFINITY,
         family: modes.family,
@@ -167,25 +169,31 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
     };
     for (r, own) in sensitivities.modes.iter().enumerate() {
         let spread = match modes.family {
-            Family::Undamped => undamped(r, own, modes, sensitivities, tolerances),
-            Family::General => general(r, own, modes, sensitivities, tolerances),
+            Family::Undamped => undamped(&modes.modes[r], own, tolerances),
+            Family::General => general(&modes.modes[r], own, tolerances),
         };
         found.distance_to_critical = found.distance_to_critical.min(spread.distance_to_critical);
         found.modes.push(spread);
     }
+    for r in 0..found.modes.len() {
+        for other in 0..r {
+            let own = distances(r, other, modes, sensitivities, tolerances);
+            for (place, distance) in [r, other].into_iter().zip(own) {
+                let least = &mut found.modes[place].distance_to_neighbour;
+                *least = least.min(distance);
+            }
+        }
+    }
     found
 }
 
-/// The spread of an undamped mode: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
+/// The spread of an undamped mode, its neighbours left out: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
 #[inline]
 fn undamped<const N: usize, const U: usize, const P: usize>(
-    r: usize,
+    mode: &Mode<N>,
     own: &ModeSensitivity<U, P>,
-    modes: &Modes<N>,
-    sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> ModeTolerance<P> {
-    let mode = &modes.modes[r];
     let (lambda_sigma, lambda_shares) = tolerances.spread(&own.lambda_by_design);
     let level = tolerances.sigma_level();
     let moving = |mean: f64| {
@@ -221,20 +229,17 @@ fn undamped<const N: usize, const U: usize, const P: usize>(
         growth,
         distance_to_critical: in_sigmas(mode.lambda, lambda_sigma),
         distance_to_instability: f64::INFINITY,
-        distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
+        distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,
     }
 }
 
-/// The spread of a general mode: that of each quantity by its own derivatives.
+/// The spread of a general mode, its neighbours left out: that of each quantity by its own derivatives.
 fn general<const N: usize, const U: usize, const P: usize>(
-    r: usize,
+    mode: &Mode<N>,
     own: &ModeSensitivity<U, P>,
-    modes: &Modes<N>,
-    sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
 ) -> ModeTolerance<P> {
-    let mode = &modes.modes[r];
     let (lambda_sigma, lambda_shares) = match own.s {
         None => (f64::INFINITY, [0.0; P]),
         Some(_) => tolerances.spread(&own.lambda_by_design),
@@ -265,7 +270,7 @@ fn general<const N: usize, const U: usize, const P: usize>(
             .map_or(f64::INFINITY, |spread| {
                 in_sigmas(-spread.mean, spread.sigma)
             }),
-        distance_to_neighbour: distance_to_neighbour(r, modes, sensitivities, tolerances),
+        distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,
     }
 }
@@ -323,43 +328,43 @@ pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
     }
 }
 
-/// Least distance of mode `r` to another one, in standard deviations of their difference.
-fn distance_to_neighbour<const N: usize, const U: usize, const P: usize>(
+/// Distance of two modes in standard deviations of their difference, as either of them sees it.
+#[inline]
+fn distances<const N: usize, const U: usize, const P: usize>(
     r: usize,
+    other: usize,
     modes: &Modes<N>,
     sensitivities: &Sensitivities<N, U, P>,
     tolerances: &Tolerances<P>,
-) -> f64 {
-    let others = (0..modes.modes.len()).filter(|&other| other != r);
-    others.fold(f64::INFINITY, |least, other| {
-        let (a, b) = (&modes.modes[r], &modes.modes[other]);
-        let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
-        // Halves, because a difference may exceed the range of a double.
-        let (gap, sigma) = match (modes.family, da.s, db.s) {
-            (Family::Undamped, ..) => {
-                let (da, db) = (&da.lambda_by_design, &db.lambda_by_design);
-                let slopes = core::array::from_fn(|j| 0.5 * da[j] - 0.5 * db[j]);
-                let gap = (0.5 * a.lambda - 0.5 * b.lambda).abs();
-                (gap, tolerances.sigma(&slopes))
-            }
-            (Family::General, Some(da), Some(db)) => {
-                let part = |pick: fn(crate::Complex) -> f64| {
-                    let (da, db) = (da.by_design, db.by_design);
-                    tolerances.sigma(&core::array::from_fn(|j| {
-                        0.5 * pick(da[j]) - 0.5 * pick(db[j])
-                    }))
-                };
-                let gap = 0.5 * (a.s - b.s).norm();
-                (gap, part(|value| value.re).hypot(part(|value| value.im)))
-            }
-            // It has merged, perhaps with the other: nothing tells what moves them.
-            (Family::General, None, _) => (0.0, 1.0),
-            (Family::General, Some(_), None) => return least,
-        };
-        if sigma > 0.0 {
-            least.min(gap / sigma)
-        } else {
-            least
+) -> [f64; 2] {
+    let (a, b) = (&modes.modes[r], &modes.modes[other]);
+    let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
+    // Halves, because a difference may exceed the range of a double.
+    let (gap, sigma) = match (modes.family, da.s, db.s) {
+        (Family::Undamped, ..) => {
+            let (da, db) = (&da.lambda_by_design, &db.lambda_by_design);
+            let slopes = core::array::from_fn(|j| 0.5 * da[j] - 0.5 * db[j]);
+            let gap = (0.5 * a.lambda - 0.5 * b.lambda).abs();
+            (gap, tolerances.sigma(&slopes))
         }
-    })
+        (Family::General, Some(da), Some(db)) => {
+            let part = |pick: fn(crate::Complex) -> f64| {
+                let (da, db) = (da.by_design, db.by_design);
+                tolerances.sigma(&core::array::from_fn(|j| {
+                    0.5 * pick(da[j]) - 0.5 * pick(db[j])
+                }))
+            };
+            let gap = 0.5 * (a.s - b.s).norm();
+            (gap, part(|value| value.re).hypot(part(|value| value.im)))
+        }
+        // One that has merged did so perhaps with the other: nothing tells what moves them. To the other it says nothing.
+        (Family::General, one, another) => {
+            return [one, another].map(|slopes| slopes.map_or(0.0, |_| f64::INFINITY));
+        }
+    };
+    [if sigma > 0.0 {
+        gap / sigma
+    } else {
+        f64::INFINITY
+    }; 2]
 }

@@ -2,18 +2,18 @@
 
 use rayon::prelude::*;
 
-use super::batched::{Prepared, Solved, Sums};
+use super::batched::{Prepared, Solved, Sums, TOGETHER};
 use super::pool;
-use super::sampling::Draw;
+use super::sampling::{Batches, Draw};
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
-use crate::lanes::{Batch, Instructions, WIDTH};
+use crate::lanes::{Instructions, WIDTH};
 use crate::modes::{Family, PerMode, clusters, match_modes, solve_modes};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
 
-/// Samples worked on by one thread at a time; fixed, so that sums are formed in the same order on any machine.
+/// Samples worked on by one thread at a time, whole batches; fixed, so that sums are formed in the same order on any machine.
 const CHUNK: usize = 256;
 
 /// How to sample.
@@ -269,12 +269,7 @@ where
     fn chunk(&self, index: usize) -> Piece<N, P> {
         let first = index * CHUNK;
         let number = CHUNK.min(self.sampling.samples - first);
-        let mut draw = Draw::from(
-            (self.sampling.seed, self.sampling.stream),
-            first as u64,
-            &self.nominal.design,
-            self.tolerances,
-        );
+        let sequence = (self.sampling.seed, self.sampling.stream);
         let empty = self.modes.modes.map(|_| Moments::EMPTY);
         let keep = self.sampling.keep_samples;
         let mut piece = Piece {
@@ -286,9 +281,12 @@ where
         };
         match &self.prepared {
             Some(prepared) if const { Prepared::<M, N, U, P, O>::POSSIBLE } => {
+                let mut draw = Batches::from::<P>(sequence, first as u64, prepared.instructions);
                 self.side_by_side(prepared, &mut draw, number, &mut piece);
             }
             _ => {
+                let nominal = &self.nominal.design;
+                let mut draw = Draw::from(sequence, first as u64, nominal, self.tolerances);
                 for _ in 0..number {
                     self.alone(draw.next(), &mut piece);
                 }
@@ -304,35 +302,45 @@ where
     fn side_by_side(
         &self,
         prepared: &Prepared<'_, M, N, U, P, O>,
-        draw: &mut Draw<'_, P>,
+        draw: &mut Batches,
         number: usize,
         piece: &mut Piece<N, P>,
     ) {
         let mut sums = Sums::new();
-        let mut pairs = [[Batch::all(0.5); 2]; P];
-        let mut solved = Solved::new();
-        for first in (0..number).step_by(WIDTH) {
-            let members = WIDTH.min(number - first);
-            draw.probabilities(members, &mut pairs);
-            prepared.solve(&pairs, members, &mut solved, &mut sums);
-            let accepted = solved.accepted;
-            piece
-                .counts
-                .add(Outcome::Stable, accepted.count_ones() as usize);
-            if accepted.count_ones() as usize == members && !self.sampling.keep_samples {
-                continue;
+        let mut batches = [const { Solved::new() }; TOGETHER];
+        let mut left = number;
+        while left > 0 {
+            let used = TOGETHER.min(left.div_ceil(WIDTH));
+            let batches = &mut batches[..used];
+            for batch in &mut *batches {
+                batch.members = WIDTH.min(left);
+                left -= batch.members;
+                draw.next(&mut batch.bits);
             }
-            for member in 0..members {
-                if accepted >> member & 1 == 0 {
-                    self.alone(solved.design.map(|batch| batch.0[member]), piece);
-                } else if self.sampling.keep_samples {
-                    piece.samples.push(self.accepted(&solved, member));
-                }
+            prepared.solve(batches, &mut sums);
+            for batch in &*batches {
+                self.decided(batch, piece);
             }
         }
         for (r, nominal) in prepared.frequencies.iter().enumerate() {
             piece.frequencies[r].merge(&sums.frequency(r, *nominal));
             piece.damping_ratios[r].merge(&sums.damping_ratio());
+        }
+    }
+
+    /// Counts what a batch accepted, and solves the others alone.
+    fn decided(&self, batch: &Solved<N, P>, piece: &mut Piece<N, P>) {
+        let accepted = batch.accepted.count_ones() as usize;
+        piece.counts.add(Outcome::Stable, accepted);
+        if accepted == batch.members && !self.sampling.keep_samples {
+            return;
+        }
+        for member in 0..batch.members {
+            if batch.accepted >> member & 1 == 0 {
+                self.alone(batch.design.map(|batch| batch.0[member]), piece);
+            } else if self.sampling.keep_samples {
+                piece.samples.push(self.accepted(batch, member));
+            }
         }
     }
 

@@ -5,7 +5,11 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::Tolerances;
 use super::normal::standard_normal_pair;
-use crate::lanes::{Batch, WIDTH};
+use super::words::{NUMBERS, Words};
+use crate::lanes::{Instructions, Vector, WIDTH};
+
+/// Random bits of one probability of each sample of a batch.
+pub(super) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence from a given sample on.
 pub(super) struct Draw<'a, const P: usize> {
@@ -14,8 +18,6 @@ pub(super) struct Draw<'a, const P: usize> {
     tolerances: &'a Tolerances<P>,
     /// Whether anything depends on this pair of random numbers, the first of which are used.
     used: [bool; P],
-    /// Random words of a batch.
-    bytes: [[[[u8; 8]; 2]; P]; WIDTH],
 }
 
 impl<'a, const P: usize> Draw<'a, P> {
@@ -43,24 +45,6 @@ impl<'a, const P: usize> Draw<'a, P> {
             nominal,
             tolerances,
             used: core::array::from_fn(|pair| variable(2 * pair) || variable(2 * pair + 1)),
-            bytes: [[[[0; 8]; 2]; P]; WIDTH],
-        }
-    }
-
-    /// Writes the pairs of probabilities that the next `number` samples are made of, up to a batch of them; pairs on which
-    /// nothing depends, and other places, keep what they hold.
-    pub(super) fn probabilities(&mut self, number: usize, pairs: &mut [[Batch; 2]; P]) {
-        let bytes = &mut self.bytes.as_flattened_mut()[..number.min(WIDTH) * Self::PAIRS];
-        self.random
-            .fill_bytes(bytes.as_flattened_mut().as_flattened_mut());
-        for (pair, batches) in pairs.iter_mut().enumerate().take(Self::PAIRS) {
-            if self.used[pair] {
-                for (sample, bytes) in bytes.iter().skip(pair).step_by(Self::PAIRS).enumerate() {
-                    for (batch, bytes) in batches.iter_mut().zip(bytes) {
-                        batch.0[sample] = probability(u64::from_le_bytes(*bytes));
-                    }
-                }
-            }
         }
     }
 
@@ -83,10 +67,40 @@ impl<'a, const P: usize> Draw<'a, P> {
     }
 }
 
-/// A probability strictly inside (0, 1) of 64 random bits, which takes one bit less than a double has.
-pub(super) fn probability(bits: u64) -> f64 {
-    // As a signed number, which processors convert at once.
-    ((bits >> 12).cast_signed() as f64 + 0.5) / (1_u64 << 52) as f64
+/// The random bits of the samples that [`Draw`] gives, batch after batch.
+pub(super) struct Batches {
+    words: Words,
+}
+
+impl Batches {
+    /// Prepares to draw sample `first`, the first of a batch, and its successors.
+    pub(super) fn from<const P: usize>(
+        sequence: (u64, u64),
+        first: u64,
+        instructions: Instructions,
+    ) -> Self {
+        let block = first / WIDTH as u64 * 2 * Draw::<P>::PAIRS as u64;
+        Self {
+            words: Words::from(sequence, block, instructions),
+        }
+    }
+
+    /// Writes those of a batch.
+    pub(super) fn next<const P: usize>(&mut self, pairs: &mut [[Bits; 2]; P]) {
+        let numbers = 2 * Draw::<P>::PAIRS;
+        for block in 0..numbers * WIDTH / NUMBERS {
+            self.words.next(|k, number| {
+                let place = block * NUMBERS + k;
+                let (sample, number_of_sample) = (place / numbers, place % numbers);
+                pairs[number_of_sample / 2][number_of_sample % 2][sample] = number;
+            });
+        }
+    }
+}
+
+/// A probability strictly inside (0, 1) of 64 random bits.
+fn probability(bits: u64) -> f64 {
+    f64::probability(&[bits; WIDTH], 0)
 }
 
 #[cfg(test)]
@@ -137,20 +151,20 @@ mod tests {
     #[test]
     fn batches_hold_what_single_samples_are_made_of() {
         let tolerances = Tolerances::new([1.0, 0.0, 1.0], 1.0, None).expect("valid");
-        let mut draw = Draw::from((9, 0), 5, &[0.0; 3], &tolerances);
-        let mut pairs = [[Batch::all(0.5); 2]; 3];
-        draw.probabilities(6, &mut pairs);
-        for sample in 0..6 {
-            let alone = design(9, 5 + sample as u64, &tolerances);
-            let normal = |pair: usize| {
-                let [radius, angle] = pairs[pair].map(|batch| batch.0[sample]);
-                standard_normal_pair(radius, angle).0
-            };
-            assert_eq!(alone, [normal(0), 0.0, normal(1)]);
+        let first = 5 * WIDTH;
+        let mut batches = Batches::from::<3>((9, 0), first as u64, Instructions::best());
+        let mut pairs = [[[0; WIDTH]; 2]; 3];
+        for batch in 0..7 {
+            batches.next(&mut pairs);
+            for sample in 0..WIDTH {
+                let alone = design(9, (first + batch * WIDTH + sample) as u64, &tolerances);
+                let normal = |pair: usize| {
+                    let [radius, angle] = pairs[pair].map(|bits| probability(bits[sample]));
+                    standard_normal_pair(radius, angle).0
+                };
+                assert_eq!(alone, [normal(0), 0.0, normal(1)]);
+            }
         }
-        // The seventh comes next, and its place was not touched.
-        assert_eq!(draw.next(), design(9, 11, &tolerances));
-        assert_eq!(pairs[0][0].0[6], 0.5);
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Monte Carlo of undamped modes in the vectors of the processor: several samples side by side through the same arithmetic.
+//! Monte Carlo of undamped modes in the vectors of the processor: several samples side by side through the same arithmetic,
+//! several batches of them through one stage after the other.
 //!
 //! Every sample is checked: that Newton's method came to rest, that the equilibrium is a minimum with a margin, on the
 //! way from the nominal position too, and that each mode is clearly the nominal one. A sample that fails a check goes to
@@ -8,8 +9,9 @@
 mod prepared;
 mod range;
 mod solve;
+mod stages;
 mod sums;
 
 pub(super) use prepared::Prepared;
-pub(super) use solve::Solved;
+pub(super) use solve::{Solved, TOGETHER};
 pub(super) use sums::Sums;

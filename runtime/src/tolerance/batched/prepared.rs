@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-10;
 /// Displacement (rad or m) for differences where the equilibrium does not move.
 const SMALL: f64 = 1e-4;
 /// Change of the stiffness of a mode that may come of second derivatives over the displacement of one standard deviation,
-/// relative to it: [`FAR`](super::solve::FAR) of these leave three quarters of it.
+/// relative to it: [`FAR`](super::stages::FAR) of these leave three quarters of it.
 const STRAIGHT: f64 = 0.007;
 
 /// The nominal state in the form that samples need.
@@ -31,18 +31,20 @@ pub(in crate::tolerance) struct Prepared<
     const O: usize,
 > {
     pub(super) mechanism: &'a M,
-    pub(super) instructions: Instructions,
+    pub(in crate::tolerance) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium<N, U, P>,
-    /// (`i`, `j`, `L_ij`) of the factor of the covariance, row by row, without zeros.
-    pub(super) draws: Vec<(usize, usize, f64)>,
+    /// Diagonal of the factor `L` of the covariance.
+    pub(super) own: [f64; P],
+    /// (`i`, `j`, `L_ij`) beside the diagonal, row by row, without zeros.
+    pub(super) shared: Vec<(usize, usize, f64)>,
     /// Pairs of random numbers on which anything depends.
-    pub(super) drawn: Vec<usize>,
+    pub(super) drawn: [bool; P],
     /// Design variables that vary.
     pub(super) varied: Vec<usize>,
     /// `dq*/db` by varied variable.
-    pub(super) first: Vec<[f64; N]>,
-    /// (`j`, `k`, coefficient of `db_j db_k` in `q*`), positions in `varied`.
-    pub(super) second: Vec<(usize, usize, [f64; N])>,
+    pub(super) first: [[f64; N]; P],
+    /// Coefficient of `db_j db_k` in `q*` by `k` and `j <= k`, positions in `varied`; empty without.
+    pub(super) second: Vec<[[f64; N]; P]>,
     /// Nominal modes, one in each row.
     pub(super) shapes: [[f64; N]; N],
     /// Their `lambda`, 1/s^2, and frequencies, rad/s.
@@ -93,14 +95,15 @@ where
             return None;
         }
         let factor = tolerances.factor();
-        let draws: Vec<_> = (0..P)
-            .flat_map(|i| (0..=i).map(move |j| (i, j, factor[i][j])))
+        let shared: Vec<_> = (0..P)
+            .flat_map(|i| (0..i).map(move |j| (i, j, factor[i][j])))
             .filter(|(_, _, value)| *value != 0.0)
             .collect();
-        let drawn = |pair: &usize| draws.iter().any(|draw| draw.1 / 2 == *pair);
-        let drawn = (0..P.div_ceil(2)).filter(drawn).collect();
+        let own = core::array::from_fn(|i| factor[i][i]);
+        let used = |j: usize| own[j] != 0.0 || shared.iter().any(|one| one.1 == j);
+        let drawn = core::array::from_fn(|pair| (2 * pair..P.min(2 * pair + 2)).any(used));
         let varied: Vec<_> = (0..P)
-            .filter(|i| draws.iter().any(|draw| draw.0 == *i))
+            .filter(|&i| factor[i].iter().any(|value| *value != 0.0))
             .collect();
         let answer = Answer { mechanism, nominal };
         let first = answer.slopes(&nominal.coordinates, &nominal.design, &varied)?;
@@ -116,7 +119,8 @@ where
             all_possible: all_possible(mechanism, nominal, factor),
             reach,
             stiffening: slopes.map(|slope| between(&slope, &shapes)),
-            draws,
+            own,
+            shared,
             drawn,
             varied,
             first,
@@ -175,7 +179,7 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
         q: &[f64; N],
         b: &[f64; P],
         varied: &[usize],
-    ) -> Option<Vec<[f64; N]>>
+    ) -> Option<[[f64; N]; P]>
     where
         M: Mechanism<N, U, P, O>,
     {
@@ -183,21 +187,21 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
         let (_, stiffness) = self.mechanism.residual_and_stiffness(q, inputs, b);
         let (_, by_design) = self.mechanism.residual_partials(q, inputs, b);
         let factors = Cholesky::new(&stiffness).ok()?;
-        let slope = |&j: &usize| {
-            let slope = factors.solve(&core::array::from_fn(|i| -by_design[i][j]));
-            all_finite(&slope).then_some(slope)
-        };
-        varied.iter().map(slope).collect()
+        let mut slopes = [[0.0; N]; P];
+        for (slope, &j) in slopes.iter_mut().zip(varied) {
+            *slope = factors.solve(&core::array::from_fn(|i| -by_design[i][j]));
+        }
+        slopes.iter().all(all_finite).then_some(slopes)
     }
 
-    /// Half of `d2q*/db_j db_k` for equal variables, all of it for others: secants of the slopes over one standard deviation
+    /// Half of `d2q*/db_j db_k` for equal variables, all of it for others, `j <= k`: secants of the slopes over one standard deviation
     /// along the equilibria.
     fn curvatures<const O: usize>(
         &self,
         varied: &[usize],
         first: &[[f64; N]],
         deviations: &[f64; P],
-    ) -> Option<Vec<(usize, usize, [f64; N])>>
+    ) -> Option<Vec<[[f64; N]; P]>>
     where
         M: Mechanism<N, U, P, O>,
     {
@@ -214,13 +218,14 @@ impl<M, const N: usize, const U: usize, const P: usize> Answer<'_, M, N, U, P> {
                 self.slopes(&q, &b, varied)
             };
             let (above, below) = (at(step)?, at(-step)?);
-            for j in 0..=k {
+            let mut row = [[0.0; N]; P];
+            for (j, row) in row.iter_mut().enumerate().take(k + 1) {
                 let share = if j == k { 0.25 } else { 0.5 };
-                let change = |i: usize| share * (above[j][i] - below[j][i]) / step;
-                second.push((j, k, core::array::from_fn(change)));
+                *row = core::array::from_fn(|i| share * (above[j][i] - below[j][i]) / step);
             }
+            second.push(row);
         }
-        let finite = second.iter().all(|(_, _, value)| all_finite(value));
+        let finite = second.iter().flatten().all(all_finite);
         finite.then_some(second)
     }
 
