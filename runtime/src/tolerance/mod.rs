@@ -20,7 +20,6 @@ mod second_order;
 mod statistics;
 mod summary;
 mod trust;
-mod words;
 
 pub use band::{Band, ModeMargin, mode_margin};
 pub use cluster_sampling::{

@@ -281,7 +281,7 @@ where
         };
         match &self.prepared {
             Some(prepared) if const { Prepared::<M, N, U, P, O>::POSSIBLE } => {
-                let mut draw = Batches::from::<P>(sequence, first as u64, prepared.instructions);
+                let mut draw = Batches::from::<P>(sequence, first as u64);
                 self.side_by_side(prepared, &mut draw, number, &mut piece);
             }
             _ => {

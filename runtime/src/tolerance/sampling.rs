@@ -5,8 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::Tolerances;
 use super::normal::standard_normal_pair;
-use super::words::{NUMBERS, Words};
-use crate::lanes::{Instructions, Vector, WIDTH};
+use crate::lanes::{Vector, WIDTH};
 
 /// Random bits of one probability of each sample of a batch.
 pub(super) type Bits = [u64; WIDTH];
@@ -21,19 +20,13 @@ pub(super) struct Draw<'a, const P: usize> {
 }
 
 impl<'a, const P: usize> Draw<'a, P> {
-    /// Variables `2 p` and `2 p + 1` share pair `p`.
-    const PAIRS: usize = P.div_ceil(2);
-
-    /// Prepares to draw sample `first` and its successors; each takes four words of the stream by pair of design variables.
+    /// Prepares to draw sample `first` and its successors.
     pub(super) fn from(
-        (seed, stream): (u64, u64),
+        sequence: (u64, u64),
         first: u64,
         nominal: &'a [f64; P],
         tolerances: &'a Tolerances<P>,
     ) -> Self {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(stream);
-        random.set_word_pos(u128::from(first) * 4 * Self::PAIRS as u128);
         let factor = tolerances.factor();
         let variable = |j: usize| {
             factor
@@ -41,7 +34,7 @@ impl<'a, const P: usize> Draw<'a, P> {
                 .any(|row| row.get(j).is_some_and(|l| *l != 0.0))
         };
         Self {
-            random,
+            random: generator::<P>(sequence, first),
             nominal,
             tolerances,
             used: core::array::from_fn(|pair| variable(2 * pair) || variable(2 * pair + 1)),
@@ -68,34 +61,37 @@ impl<'a, const P: usize> Draw<'a, P> {
 }
 
 /// The random bits of the samples that [`Draw`] gives, batch after batch.
-pub(super) struct Batches {
-    words: Words,
-}
+pub(super) struct Batches(ChaCha8Rng);
 
 impl Batches {
-    /// Prepares to draw sample `first`, the first of a batch, and its successors.
-    pub(super) fn from<const P: usize>(
-        sequence: (u64, u64),
-        first: u64,
-        instructions: Instructions,
-    ) -> Self {
-        let block = first / WIDTH as u64 * 2 * Draw::<P>::PAIRS as u64;
-        Self {
-            words: Words::from(sequence, block, instructions),
-        }
+    /// Prepares to draw sample `first` and its successors.
+    pub(super) fn from<const P: usize>(sequence: (u64, u64), first: u64) -> Self {
+        Self(generator::<P>(sequence, first))
     }
 
     /// Writes those of a batch.
     pub(super) fn next<const P: usize>(&mut self, pairs: &mut [[Bits; 2]; P]) {
-        let numbers = 2 * Draw::<P>::PAIRS;
-        for block in 0..numbers * WIDTH / NUMBERS {
-            self.words.next(|k, number| {
-                let place = block * NUMBERS + k;
-                let (sample, number_of_sample) = (place / numbers, place % numbers);
-                pairs[number_of_sample / 2][number_of_sample % 2][sample] = number;
-            });
+        for sample in 0..WIDTH {
+            for pair in &mut pairs[..pairs_of::<P>()] {
+                for number in pair {
+                    number[sample] = self.0.next_u64();
+                }
+            }
         }
     }
+}
+
+/// The generator at the numbers of sample `first`: each takes two by pair of design variables.
+fn generator<const P: usize>((seed, stream): (u64, u64), first: u64) -> ChaCha8Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(stream);
+    random.set_word_pos(u128::from(first) * 4 * pairs_of::<P>() as u128);
+    random
+}
+
+/// Variables `2 p` and `2 p + 1` share pair `p`.
+const fn pairs_of<const P: usize>() -> usize {
+    P.div_ceil(2)
 }
 
 /// A probability strictly inside (0, 1) of 64 random bits.
@@ -152,7 +148,7 @@ mod tests {
     fn batches_hold_what_single_samples_are_made_of() {
         let tolerances = Tolerances::new([1.0, 0.0, 1.0], 1.0, None).expect("valid");
         let first = 5 * WIDTH;
-        let mut batches = Batches::from::<3>((9, 0), first as u64, Instructions::best());
+        let mut batches = Batches::from::<3>((9, 0), first as u64);
         let mut pairs = [[[0; WIDTH]; 2]; 3];
         for batch in 0..7 {
             batches.next(&mut pairs);
