@@ -118,6 +118,30 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         }
     }
 
+    /// [`Mechanism::linear_partials`] and [`Mechanism::residual_partials`] in one: of a small mechanism with the sines, and what
+    /// else both need, computed once; a large one is asked for them one after the other.
+    #[inline]
+    #[allow(clippy::type_complexity)]
+    fn partials<T: Real>(
+        &self,
+        q: &[T; N],
+        u: &[T; U],
+        b: &[T; P],
+    ) -> (LinearPartials<T, N, U, P>, ([[T; U]; N], [[T; P]; N])) {
+        if const { N * N * (N + U + P) <= FEW_PARTIALS } {
+            T::run(
+                #[inline(always)]
+                || {
+                    let matrices = self.linear_partials_inlined(q, u, b);
+                    (matrices, self.residual_partials_inlined(q, u, b))
+                },
+            )
+        } else {
+            let matrices = self.linear_partials(q, u, b);
+            (matrices, self.residual_partials(q, u, b))
+        }
+    }
+
     /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
     fn linear_along<T: Real>(
         &self,
@@ -352,6 +376,9 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         self.residual_gradient(q, u, b, w)
     }
 }
+
+/// Entries of one matrix's derivatives up to which all partials in one function pay: more do not stay in registers.
+const FEW_PARTIALS: usize = 256;
 
 fn zeros<T: Real, const K: usize>() -> [T; K] {
     [T::constant(0.0); K]

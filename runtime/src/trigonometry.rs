@@ -104,11 +104,8 @@ fn cosine_terms<V: Vector>(z: V, w: V) -> V {
 /// finite.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() <= LIMIT {
-        sin_cos_within(x)
-    } else {
-        beyond(x)
-    }
+    let near = sin_cos_within(x);
+    if x.abs() <= LIMIT { near } else { beyond(x) }
 }
 
 /// [`sin_cos`] of several angles, in vectors where the target has them.

@@ -90,6 +90,10 @@ where
     }
 }
 
+/// Partial derivatives of the residual by inputs and design.
+type ResidualPartials<const N: usize, const U: usize, const P: usize> =
+    ([[f64; U]; N], [[f64; P]; N]);
+
 /// Undamped modes, the gradient of each from reverse differentiation.
 fn undamped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
@@ -99,7 +103,9 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    undamped_from(state, modes, |mode| {
+    let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL }
+        .then(|| state.mechanism.residual_partials(q, u, b));
+    undamped_from(state, modes, residual.as_ref(), |mode| {
         state
             .mechanism
             .mode_gradient(q, u, b, &mode.real_shape(), mode.lambda)
@@ -115,10 +121,10 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let partials = state.mechanism.linear_partials(q, u, b);
+    let (matrices, residual) = state.mechanism.partials(q, u, b);
     let symmetric = const { M::DESCRIPTION.symmetric_stiffness };
-    undamped_from(state, modes, |mode| {
-        of_undamped(&partials, &mode.real_shape(), mode.lambda, symmetric)
+    undamped_from(state, modes, Some(&residual), |mode| {
+        of_undamped(&matrices, &mode.real_shape(), mode.lambda, symmetric)
     })
 }
 
@@ -126,6 +132,7 @@ where
 fn undamped_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
+    residual: Option<&ResidualPartials<N, U, P>>,
     direct: impl Fn(&Mode<N>) -> Gradient<f64, N, U, P>,
 ) -> Result<Sensitivities<N, U, P>, Error>
 where
@@ -133,12 +140,10 @@ where
 {
     let (mechanism, at) = (state.mechanism, state.at);
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let partials =
-        const { Cheaper::<M, N, U, P, O>::RESIDUAL }.then(|| mechanism.residual_partials(q, u, b));
     assemble(at, modes, Method::Adjoint, |mode| {
         let direct = direct(mode);
         let adjoint = state.factors.solve(&direct.coordinates);
-        let (inputs, design) = match &partials {
+        let (inputs, design) = match residual {
             Some((by_input, by_design)) => {
                 (combine(&adjoint, by_input), combine(&adjoint, by_design))
             }
@@ -162,7 +167,10 @@ fn general<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 where
     M: Mechanism<N, U, P, O>,
 {
-    general_from(state, modes, |mode| {
+    let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
+    let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL_GENERAL }
+        .then(|| state.mechanism.residual_partials(q, u, b));
+    general_from(state, modes, residual.as_ref(), |mode| {
         let form = Form::of(&mode.left, mode.s, &mode.shape);
         form_gradient(state.mechanism, state.at, &form)
     })
@@ -177,14 +185,17 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let partials = state.mechanism.linear_partials(q, u, b);
-    general_from(state, modes, |mode| of_general(&partials, mode))
+    let (matrices, residual) = state.mechanism.partials(q, u, b);
+    general_from(state, modes, Some(&residual), |mode| {
+        of_general(&matrices, mode)
+    })
 }
 
 #[inline]
 fn general_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
+    residual: Option<&ResidualPartials<N, U, P>>,
     direct: impl Fn(&Mode<N>) -> Gradient<Complex, N, U, P>,
 ) -> Result<Sensitivities<N, U, P>, Error>
 where
@@ -192,12 +203,10 @@ where
 {
     let (mechanism, at) = (state.mechanism, state.at);
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let partials = const { Cheaper::<M, N, U, P, O>::RESIDUAL_GENERAL }
-        .then(|| mechanism.residual_partials(q, u, b));
     assemble(at, modes, Method::Adjoint, |mode| {
         let direct = direct(mode);
         let adjoint = state.factors.solve_complex(&direct.coordinates);
-        let (inputs, design) = match &partials {
+        let (inputs, design) = match residual {
             Some((by_input, by_design)) => {
                 (combine(&adjoint, by_input), combine(&adjoint, by_design))
             }

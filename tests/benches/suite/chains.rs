@@ -134,8 +134,12 @@ where
         _ => Box::new(Closures {
             inputs,
             evaluate: move |s: &State<N, P>| {
-                black_box(&chain.residual_partials(&s.q, &s.u, &s.b));
-                black_box(&chain.linear_partials(&s.q, &s.u, &s.b));
+                if N < 8 {
+                    black_box(&chain.partials(&s.q, &s.u, &s.b));
+                } else {
+                    black_box(&chain.residual_partials(&s.q, &s.u, &s.b));
+                    black_box(&chain.linear_partials(&s.q, &s.u, &s.b));
+                }
             },
             results: move |s: &State<N, P>| all_partials(&again, s),
         }),

@@ -134,8 +134,9 @@ macro_rules! real {
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
+                let near = trigonometry::sin_cos_within(self);
                 if Self::every(self.abs().at_most(Self::constant(trigonometry::LIMIT))) {
-                    return trigonometry::sin_cos_within(self);
+                    return near;
                 }
                 let [sines, cosines] = Self::sin_cos_beyond(&self.array());
                 (Self::of(sines), Self::of(cosines))
