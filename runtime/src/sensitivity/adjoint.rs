@@ -202,7 +202,6 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (mechanism, at) = (state.mechanism, state.at);
-    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
     assemble(at, modes, Method::Adjoint, |mode| {
         let direct = direct(mode);
         let adjoint = state.factors.solve_complex(&direct.coordinates);
