@@ -46,7 +46,13 @@ pub trait Real:
     /// Sines and cosines of several angles, the same numbers as one by one.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
-        angles.map(Self::sin_cos)
+        // A loop: what an adaptor of an iterator calls leaves the instructions of the lanes behind.
+        let zero = Self::constant(0.0);
+        let mut results = [(zero, zero); K];
+        for (result, angle) in results.iter_mut().zip(&angles) {
+            *result = angle.sin_cos();
+        }
+        results
     }
     /// Runs a kernel with the instructions of the processor that suit it. Its result does not depend on them. Generated
     /// code calls it; the kernel is to be marked `#[inline(always)]`.
