@@ -2,15 +2,11 @@
 
 use super::algebra::keep;
 use super::block::{Block, Past};
+use crate::equilibrium::prediction::{MISSED, STILL};
 use crate::lanes::{Batch, Task, Vector, WIDTH};
 
-/// Share of the way that a prediction may miss.
-const MISSED: f64 = 0.25;
-/// Coordinates that differ by no more than this do not move.
-const STILL: f64 = 1e-9;
-
 /// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
-/// them: what [`confirmed`](crate::equilibrium) asks of one state.
+/// them: what [`confirmed`](crate::equilibrium::prediction::confirmed) asks of one state.
 pub(super) struct Continuity<'a, const N: usize, const U: usize, const P: usize> {
     pub(super) past: &'a Past<N>,
     pub(super) block: &'a mut Block<N, U, P>,

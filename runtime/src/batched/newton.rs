@@ -4,14 +4,11 @@ use super::algebra::keep;
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use crate::Mechanism;
+use crate::equilibrium::convergence::{LAST_STEP, SMALL_MOTION};
 use crate::lanes::{Store, Task, Vector, WIDTH, load};
 
 /// Steps at most: predicted states are near to what they predict.
 const STEPS: usize = 6;
-/// A step this small, relative to a coordinate or a small motion, is the last: what it leaves is rounding.
-const LAST_STEP: f64 = 1e-8;
-/// Displacement (rad or m) that coordinates near zero are compared with.
-pub(super) const SMALL_MOTION: f64 = 1e-3;
 /// Greatest change of a coordinate in a step, rad or m.
 const RADIUS: f64 = 1.0;
 

@@ -3,18 +3,11 @@
 use super::algebra::{congruent, keep};
 use super::block::{Block, POSITIVE};
 use super::closed::{self, Solver};
-use super::newton::SMALL_MOTION;
+use crate::equilibrium::convergence::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
 use crate::lanes::{Store, Task, Vector, WIDTH, load};
 use crate::modes::symmetric::INACCURATE;
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Linear, Mechanism, RestParts};
-
-/// Relative residual of a result ([`Equilibrium`](crate::Equilibrium)).
-const SOLVED: f64 = 1e-10;
-/// Share of a coordinate that counts as a small motion in the scale of a residual.
-const ROUNDED: f64 = 1.5e-5;
-/// A displacement this small, relative to a coordinate or a small motion, is rounding of the residual.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Completes the states of a block. `shapes` are modes near by, one in each row, that tell the modes apart. Keeps the flags of
 /// lanes that are solved to rounding, a clear minimum, each mode recognised, oscillating and apart from the others.
@@ -92,7 +85,7 @@ fn remainder<V: Vector, const N: usize>(
         most = V::choose(own.at_most(most), most, own);
     }
     let (solver, mut flag) = Solver::new(stiffness, POSITIVE);
-    flag = keep(flag, most.at_most(V::constant(SOLVED)));
+    flag = keep(flag, most.at_most(V::constant(TOLERANCE)));
     for (rest, q) in solver.solve(residual).iter().zip(q) {
         let scale = V::constant(ROUNDING) * (q.abs() + V::constant(SMALL_MOTION));
         flag = keep(flag, rest.abs().at_most(scale));

@@ -8,23 +8,23 @@ use crate::array::{Square, greater, largest};
 use crate::{Mechanism, RestParts};
 
 /// Relative residual that counts as solved once it no longer falls.
-pub(super) const TOLERANCE: f64 = 1e-10;
+pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Relative residual that a result may have; beyond it, it is no equilibrium.
 pub(super) const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small changes nothing.
 const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// A displacement this small may be the rounding of the residual.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
-const LAST_STEP: f64 = 1e-8;
+pub(crate) const LAST_STEP: f64 = 1e-8;
 /// A residual that keeps this share in a step has stopped falling: even where `Khat` is singular at the solution, Newton
 /// steps leave less than 1/e of it.
 const STALLED: f64 = 0.5;
 /// Displacement (rad or m) that coordinates near zero are compared with.
-const SMALL_MOTION: f64 = 1e-3;
+pub(crate) const SMALL_MOTION: f64 = 1e-3;
 /// Share of a coordinate that counts as a displacement in the scale of a residual: times [`TOLERANCE`] it is some seven
 /// roundings of the coordinate, which is what a far-off coordinate can resolve.
-const ROUNDED: f64 = 1.5e-5;
+pub(crate) const ROUNDED: f64 = 1.5e-5;
 /// Way, relative to where the residual last fell, on which a residual that stays the same is not small but left behind.
 const DRIFT: f64 = 1e3;
 

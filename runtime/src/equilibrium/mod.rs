@@ -3,14 +3,14 @@
 mod assembly;
 pub(crate) mod branch;
 mod closing;
-mod convergence;
+pub(crate) mod convergence;
 mod critical;
 mod crossing;
 mod descent;
 mod follow;
 mod multistart;
 mod newton;
-mod prediction;
+pub(crate) mod prediction;
 mod problem;
 mod quick;
 mod range;

@@ -2,6 +2,11 @@
 
 use crate::array::{greater, largest};
 
+/// Share of the way that a prediction may miss.
+pub(crate) const MISSED: f64 = 0.25;
+/// Coordinates that differ by no more than this do not move.
+pub(crate) const STILL: f64 = 1e-9;
+
 /// The last states on the way: at most three, the latest first.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path<const N: usize> {
@@ -55,10 +60,6 @@ pub(super) fn confirmed<const N: usize>(
     predicted: &[f64; N],
     last: &[f64; N],
 ) -> bool {
-    /// Share of the way that a prediction may miss.
-    const MISSED: f64 = 0.25;
-    /// Coordinates that differ by no more than this do not move.
-    const STILL: f64 = 1e-9;
     let distance =
         |from: &[f64; N]| largest(&core::array::from_fn::<_, N, _>(|i| found[i] - from[i]));
     let still = STILL * greater(1.0, largest(found));
