@@ -1,8 +1,9 @@
-//! What a method returns, put together at the end, or, where it has many entries, stored entry by entry.
+//! What a method returns, put together at the end, or, where it is many matrices, stored entry by entry.
 //!
 //! Entries that wait for the end have to be held somewhere and copied; a variable to store them in has to be set to zero first.
 //! Measured with 600 entries both take the same time, with 5000 of a chain of eight bars storing takes half. rustc checks a
-//! statement that stores in a quarter of a millisecond, though, so that fewer entries are not worth it.
+//! statement that stores in a quarter of a millisecond, though, so that it is for partial derivatives only, which are generated
+//! for small mechanisms.
 
 use std::fmt::Write;
 
@@ -32,7 +33,7 @@ impl<'a> Results<'a> {
             kernel,
             form,
             sizes,
-            at_once: entries <= MOST_AT_ONCE,
+            at_once: entries <= MOST_AT_ONCE || !matches!(form, Form::Partials),
         }
     }
 
@@ -156,19 +157,12 @@ impl<'a> Results<'a> {
         text
     }
 
-    /// `result.mass[1][0]`.
+    /// `result.by_design[2].mass[1][0]`.
     fn place(&self, array: usize, entry: usize) -> String {
         let result = &self.kernel.results[array];
         let mut indices = indices(&result.shape, entry).into_iter();
-        let mut place = match self.form {
-            Form::Single => "result".to_owned(),
-            Form::Tuple => format!("result.{array}"),
-            Form::Record(..) => format!("result.{}", result.name),
-            Form::Partials => {
-                let which = indices.next().unwrap_or(0);
-                format!("result.{}[{which}].{}", BY[array / 3], result.name)
-            }
-        };
+        let which = indices.next().unwrap_or(0);
+        let mut place = format!("result.{}[{which}].{}", BY[array / 3], result.name);
         for index in indices {
             let _ = write!(place, "[{index}]");
         }
