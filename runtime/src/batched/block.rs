@@ -11,7 +11,7 @@ use crate::{DampingKind, Input, Linear, Mechanism};
 /// Largest mechanism whose values are solved side by side.
 const LARGEST: usize = 8;
 /// Least pivot of a matrix that is clearly positive definite, relative to its diagonal element.
-pub(super) const POSITIVE: f64 = 1e-10;
+pub(crate) const POSITIVE: f64 = 1e-10;
 
 /// The last three values of the input and the states there, the latest first.
 pub(crate) type Past<const N: usize> = [(f64, [f64; N]); 3];

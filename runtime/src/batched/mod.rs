@@ -14,4 +14,4 @@ mod reading;
 mod slopes;
 mod state;
 
-pub(crate) use block::Block;
+pub(crate) use block::{Block, POSITIVE};

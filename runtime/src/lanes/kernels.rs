@@ -94,26 +94,5 @@ kernel! {
 /// Whether the compiler generated this kernel, and with it the form that is inlined; a kernel written by hand is called as
 /// it is, and vectors would only slow it down.
 pub(crate) const fn generated(description: &Description, kernel: &str) -> bool {
-    let mut k = 0;
-    while k < description.kernels.len() {
-        if same(description.kernels[k].name.as_bytes(), kernel.as_bytes()) {
-            return true;
-        }
-        k += 1;
-    }
-    false
-}
-
-const fn same(a: &[u8], b: &[u8]) -> bool {
-    if a.len() != b.len() {
-        return false;
-    }
-    let mut k = 0;
-    while k < a.len() {
-        if a[k] != b[k] {
-            return false;
-        }
-        k += 1;
-    }
-    true
+    description.kernel(kernel).is_some()
 }

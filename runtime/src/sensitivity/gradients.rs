@@ -11,23 +11,10 @@ const FUNCTION: usize = 40;
 
 /// Additions and multiplications of a kernel; `None` where it is not written out.
 const fn cost(description: &Description, name: &str) -> Option<usize> {
-    let kernels = description.kernels;
-    let mut k = 0;
-    while k < kernels.len() {
-        if same(kernels[k].name.as_bytes(), name.as_bytes()) {
-            return Some(kernels[k].operations + FUNCTION * kernels[k].functions);
-        }
-        k += 1;
+    match description.kernel(name) {
+        Some(kernel) => Some(kernel.operations + FUNCTION * kernel.functions),
+        None => None,
     }
-    None
-}
-
-const fn same(a: &[u8], b: &[u8]) -> bool {
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
 }
 
 /// Whether one call of `shared` with `use_of_it` operations for each mode costs less than `calls` of `own` for each mode.

@@ -1,6 +1,5 @@
 //! Some batches of samples, through each stage together.
 
-use super::stages::{draw, evaluate, improve, matrices, modes, possible, predicted};
 use super::{Prepared, Sums};
 use crate::Mechanism;
 use crate::lanes::{Batch, Store, Task, Vector, WIDTH};
@@ -88,16 +87,16 @@ where
         let one = V::constant(1.0);
         for batch in &mut *batches {
             for at in (0..batch.members).step_by(V::WIDTH) {
-                let design: [V; P] = draw(prepared, &batch.bits, at);
+                let design: [V; P] = prepared.draw(&batch.bits, at);
                 batch.design.store(&design, at);
-                batch.coordinates.store(&predicted(prepared, &design), at);
+                batch.coordinates.store(&prepared.predicted(&design), at);
             }
             batch.resting = Batch([0.0; WIDTH]);
             let all = prepared.all_possible && batch.members == WIDTH;
             batch.flags = if all {
                 Batch::all(1.0)
             } else {
-                possible(prepared, &batch.design, batch.members)
+                prepared.possible(&batch.design, batch.members)
             };
         }
         for _ in 0..STEPS {
@@ -106,7 +105,7 @@ where
                 for at in (0..batch.members).step_by(V::WIDTH) {
                     if !rests::<V, N, P>(batch, at) {
                         moving = true;
-                        evaluate::<V, M, N, U, P, O>(prepared, batch, at);
+                        prepared.evaluate::<V>(batch, at);
                     }
                 }
             }
@@ -116,20 +115,20 @@ where
             for batch in &mut *batches {
                 for at in (0..batch.members).step_by(V::WIDTH) {
                     if !rests::<V, N, P>(batch, at) {
-                        improve::<V, M, N, U, P, O>(prepared, batch, at);
+                        prepared.improve::<V>(batch, at);
                     }
                 }
             }
         }
         for batch in &mut *batches {
             for at in (0..batch.members).step_by(V::WIDTH) {
-                matrices::<V, M, N, U, P, O>(prepared, batch, at);
+                prepared.matrices::<V>(batch, at);
             }
         }
         for batch in &mut *batches {
             batch.accepted = 0;
             for at in (0..batch.members).step_by(V::WIDTH) {
-                let (lambda, flag) = modes::<V, M, N, U, P, O>(prepared, batch, at);
+                let (lambda, flag) = prepared.modes::<V>(batch, at);
                 for (r, lambda) in lambda.into_iter().enumerate() {
                     let frequency = lambda.sqrt();
                     frequency.store(&mut batch.frequencies[r], at);
