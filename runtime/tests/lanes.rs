@@ -137,6 +137,9 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
             same_list(partials.0.as_flattened(), state, by_input.as_flattened());
             same_list(partials.1.as_flattened(), state, by_design.as_flattened());
             let alone = m.linear_partials(&q, &u, &b);
+            let at_once = m.partials(&q, &u, &b);
+            let one_by_one = (alone, (by_input, by_design));
+            assert!(format!("{at_once:?}") == format!("{one_by_one:?}"));
             for (batch, alone) in [
                 (&matrices.by_coordinate[..], &alone.by_coordinate[..]),
                 (&matrices.by_input, &alone.by_input),

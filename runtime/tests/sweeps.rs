@@ -1,7 +1,7 @@
 //! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
 //! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
 
-use eigentol::equilibrium::{Following, Sweep, sweep};
+use eigentol::equilibrium::{Following, Sweep, SweepPoint, sweep};
 use eigentol::lanes::Instructions;
 use eigentol::sensitivity::{sensitivities, sensitivity_sweep};
 use eigentol::{Error, Family, Input, Mechanism, Policy, Sensitivities, Study, mechanism};
@@ -363,4 +363,37 @@ fn spreads_along_a_sweep_are_those_of_each_value() {
     }
     let foreign = study.first_order_sweep(Input(7), &values);
     assert!(matches!(foreign, Err(Error::UnknownHandle { .. })));
+}
+
+/// Above its critical speed a uniform bar has `lambda = u^2 - (3 g / 2 l)^2 / u^2`.
+#[test]
+fn a_bar_along_its_speeds_is_the_closed_form() {
+    let (l, gravity) = (1.0_f64, 9.81);
+    let values = steps(4.2, 9.0, 64);
+    let mut seen = 0;
+    let each = |point: &SweepPoint<1, 1, 2>, slopes: &Result<Sensitivities<1, 1, 2>, Error>| {
+        let (Ok(state), Ok(modes), Ok(slopes)) = (&point.equilibrium, &point.modes, slopes) else {
+            panic!("{point:?}");
+        };
+        let (u, w) = (point.value, 1.5 * gravity / l);
+        near(state.coordinates[0].cos(), w / (u * u), 0.0);
+        near(modes.modes[0].lambda, u * u - (w / u).powi(2), 0.0);
+        let own = &slopes.modes[0];
+        near(
+            own.lambda_by_input[0],
+            2.0 * u + 2.0 * w * w / u.powi(3),
+            0.0,
+        );
+        near(own.lambda_by_design[0], 0.0, 1.0);
+        near(own.lambda_by_design[1], 2.0 * w * w / (l * u * u), 0.0);
+        let by_length = own.omega_by_design.map(|slopes| slopes[1]);
+        let omega = modes.modes[0].lambda.sqrt();
+        near(by_length.unwrap_or(0.0), w * w / (l * u * u * omega), 0.0);
+        seen += 1;
+    };
+    let b = nominal::<Single, 1, 1, 2, 0>();
+    let along = (Single::omega, &values[..]);
+    sensitivity_sweep(&Single, (&[0.0], &b), &[1.0], Policy::Stable, along, each)
+        .expect("an input of the mechanism");
+    assert_eq!(seen, values.len());
 }
