@@ -365,6 +365,71 @@ fn spreads_along_a_sweep_are_those_of_each_value() {
     assert!(matches!(foreign, Err(Error::UnknownHandle { .. })));
 }
 
+/// Central differences of frequencies, each found anew at a changed design, one by one.
+#[test]
+fn derivatives_along_a_sweep_are_what_differences_show() {
+    let values = steps(4.5, 8.0, 24);
+    let start = [1.0, 0.1];
+    let design = nominal::<Double, 2, 2, 4, 0>();
+    let squares = |design: &[f64; 4]| -> Vec<[f64; 2]> {
+        let following = Following {
+            vectors: None,
+            ..Policy::Stable.into()
+        };
+        let found = sweep(
+            &Double,
+            &[0.0, 3.0],
+            design,
+            &start,
+            following,
+            Double::omega,
+            &values,
+        );
+        let points = found.expect("an input of the mechanism");
+        let modes = points
+            .iter()
+            .map(|point| point.modes.as_ref().expect("modes"));
+        modes
+            .map(|modes| [0, 1].map(|r| modes.modes[r].lambda))
+            .collect()
+    };
+    let mut slopes = Vec::new();
+    let each = |_: &SweepPoint<2, 2, 4>, found: &Result<Sensitivities<2, 2, 4>, Error>| {
+        let found = found.as_ref().expect("derivatives");
+        slopes.push([0, 1].map(|r| found.modes[r].lambda_by_design));
+    };
+    let along = (Double::omega, &values[..]);
+    sensitivity_sweep(
+        &Double,
+        (&[0.0, 3.0], &design),
+        &start,
+        Policy::Stable,
+        along,
+        each,
+    )
+    .expect("an input of the mechanism");
+    for j in 0..4 {
+        let at = |step: f64| {
+            let mut moved = design;
+            moved[j] += step;
+            squares(&moved)
+        };
+        let step = 1e-5;
+        let (above, below) = (at(step), at(-step));
+        for (point, slopes) in slopes.iter().enumerate() {
+            for r in 0..2 {
+                let expected = (above[point][r] - below[point][r]) / (2.0 * step);
+                let scale = slopes[r].iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+                let error = (slopes[r][j] - expected).abs();
+                assert!(
+                    error <= 1e-7 * scale,
+                    "{point} {r} {j}: {error:e} of {scale:e}"
+                );
+            }
+        }
+    }
+}
+
 /// Above its critical speed a uniform bar has `lambda = u^2 - (3 g / 2 l)^2 / u^2`.
 #[test]
 fn a_bar_along_its_speeds_is_the_closed_form() {
