@@ -91,6 +91,7 @@ mod study;
 #[cfg(feature = "std")]
 pub mod tolerance;
 
+pub use dual::Dual;
 pub use eigentol_macros::mechanism;
 pub use mechanism::{Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{

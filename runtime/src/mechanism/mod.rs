@@ -151,7 +151,8 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         }
     }
 
-    /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`).
+    /// Directional derivatives of `Mhat`, `Chat` and `Khat` along (`dq`, `du`, `db`). Like the other kernels along a direction
+    /// not generated: [`Mechanism::linear`] in dual numbers.
     fn linear_along<T: Real>(
         &self,
         q: &[T; N],
@@ -160,7 +161,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         dq: &[T; N],
         du: &[T; U],
         db: &[T; P],
-    ) -> Linear<T, N>;
+    ) -> Linear<T, N> {
+        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
+        self.linear(&q, &u, &b).slopes()
+    }
 
     /// Gradient of `a(q, u, b) = phi^T (Khat - lambda Mhat) phi`, `phi` and `lambda` held fixed, by reverse
     /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
@@ -215,7 +219,12 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         db: &[T; P],
         dphi: &[T; N],
         dlambda: T,
-    ) -> Gradient<T, N, U, P>;
+    ) -> Gradient<T, N, U, P> {
+        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
+        let [lambda] = Dual::along(&[lambda], &[dlambda]);
+        self.mode_gradient(&q, &u, &b, &Dual::along(phi, dphi), lambda)
+            .slopes()
+    }
 
     /// Directional derivative of [`Mechanism::pencil_gradient`] along (`dq`, `du`, `db`, `dleft`, `dacceleration`,
     /// `dvelocity`, `dposition`).
@@ -236,7 +245,19 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         dacceleration: &[T; N],
         dvelocity: &[T; N],
         dposition: &[T; N],
-    ) -> Gradient<T, N, U, P>;
+    ) -> Gradient<T, N, U, P> {
+        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
+        self.pencil_gradient(
+            &q,
+            &u,
+            &b,
+            &Dual::along(left, dleft),
+            &Dual::along(acceleration, dacceleration),
+            &Dual::along(velocity, dvelocity),
+            &Dual::along(position, dposition),
+        )
+        .slopes()
+    }
 
     /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).
     #[allow(clippy::too_many_arguments)]
@@ -250,7 +271,11 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         du: &[T; U],
         db: &[T; P],
         dw: &[T; N],
-    ) -> Gradient<T, N, U, P>;
+    ) -> Gradient<T, N, U, P> {
+        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
+        self.residual_gradient(&q, &u, &b, &Dual::along(w, dw))
+            .slopes()
+    }
 
     /// Whether the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`, circles in the sense in which the bodies
     /// spin: `[moment, size]`, `-size <= moment <= size` up to rounding.

@@ -1,5 +1,7 @@
 //! What kernels return.
 
+use crate::dual::Dual;
+
 /// A physical requirement that is not met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Violation<T> {
@@ -38,6 +40,19 @@ pub struct Linear<T, const N: usize> {
     pub damping: [[T; N]; N],
     /// `Khat`.
     pub stiffness: [[T; N]; N],
+}
+
+impl<T, const N: usize> Linear<Dual<T>, N> {
+    /// The derivatives.
+    #[inline]
+    pub(super) fn slopes(self) -> Linear<T, N> {
+        let slopes = |matrix: [[Dual<T>; N]; N]| matrix.map(|row| row.map(|entry| entry.slope));
+        Linear {
+            mass: slopes(self.mass),
+            damping: slopes(self.damping),
+            stiffness: slopes(self.stiffness),
+        }
+    }
 }
 
 impl<T: Copy + Default, const N: usize> Default for Linear<T, N> {
@@ -83,6 +98,18 @@ pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
     pub inputs: [T; U],
     /// By each design variable.
     pub design: [T; P],
+}
+
+impl<T, const N: usize, const U: usize, const P: usize> Gradient<Dual<T>, N, U, P> {
+    /// The derivatives.
+    #[inline]
+    pub(super) fn slopes(self) -> Gradient<T, N, U, P> {
+        Gradient {
+            coordinates: self.coordinates.map(|entry| entry.slope),
+            inputs: self.inputs.map(|entry| entry.slope),
+            design: self.design.map(|entry| entry.slope),
+        }
+    }
 }
 
 impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default

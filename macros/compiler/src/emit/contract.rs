@@ -37,16 +37,9 @@ pub(super) fn form(kernel: &str) -> Option<Form> {
             Form::Tuple
         }
         "residual_parts" => Form::Record("RestParts", |s| vec![s.coordinates]),
-        "linear" | "linear_along" | "motion_linear" => {
-            Form::Record("Linear", |s| vec![s.coordinates])
-        }
+        "linear" | "motion_linear" => Form::Record("Linear", |s| vec![s.coordinates]),
         "linear_partials" => Form::Partials,
-        "mode_gradient"
-        | "pencil_gradient"
-        | "residual_gradient"
-        | "mode_gradient_along"
-        | "pencil_gradient_along"
-        | "residual_gradient_along" => {
+        "mode_gradient" | "pencil_gradient" | "residual_gradient" => {
             Form::Record("Gradient", |s| vec![s.coordinates, s.inputs, s.design])
         }
         _ => return None,

@@ -67,13 +67,3 @@ pub(super) fn state_gradient(g: &mut Graph, s: &Symbols, root: ExprId) -> Vec<Ar
         })
         .collect()
 }
-
-pub(super) fn gradient_along(g: &mut Graph, gradient: &[Array], along: &Direction) -> Vec<Array> {
-    gradient
-        .iter()
-        .map(|array| Array {
-            values: derivatives_along(g, &array.values, along),
-            ..array.clone()
-        })
-        .collect()
-}

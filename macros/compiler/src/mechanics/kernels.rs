@@ -1,11 +1,9 @@
 //! The kernels of the runtime's contract: which expressions each returns, and in which order.
 
-use crate::algebra::{Array, Direction, Function, Graph, Parameter, derivatives_along, substitute};
+use crate::algebra::{Array, Function, Graph, Parameter, substitute};
 use crate::base::ids::ExprId;
 
-use super::adjoint::{
-    gradient_along, mode_functional, pencil_functional, state_gradient, weighted_sum,
-};
+use super::adjoint::{mode_functional, pencil_functional, state_gradient, weighted_sum};
 use super::derive::Equations;
 use super::functions::Limits;
 use super::linearise::{Linear, columns, linear_arrays};
@@ -55,58 +53,15 @@ pub(super) fn kernels(
             .flat_map(|list| linear.partials(g, n, list))
             .collect()
     });
-    let along = direction("_along", [(&s.q, &s.dq), (&s.u, &s.du), (&s.b, &s.db)]);
-    let linear_along = derivatives_along(g, &linear.roots(), &along);
-
     let mode_functional = mode_functional(g, s, e);
     let mode_gradient = state_gradient(g, s, mode_functional);
-    let mode_along = direction(
-        "_along",
-        [
-            (&s.q, &s.dq),
-            (&s.u, &s.du),
-            (&s.b, &s.db),
-            (&s.phi, &s.dphi),
-            (&s.lambda, &s.dlambda),
-        ],
-    );
-    let mode_gradient_along = gradient_along(g, &mode_gradient, &mode_along);
-
     let pencil_functional = pencil_functional(g, s, e);
     let pencil_gradient = state_gradient(g, s, pencil_functional);
-    let (pencil, dpencil) = (&s.pencil, &s.dpencil);
-    let pencil_along = direction(
-        "_along",
-        [
-            (&s.q, &s.dq),
-            (&s.u, &s.du),
-            (&s.b, &s.db),
-            (&pencil.left, &dpencil.left),
-            (&pencil.acceleration, &dpencil.acceleration),
-            (&pencil.velocity, &dpencil.velocity),
-            (&pencil.position, &dpencil.position),
-        ],
-    );
-    let pencil_gradient_along = gradient_along(g, &pencil_gradient, &pencil_along);
-
     let weighted = weighted_sum(g, &s.w.values, &e.rest);
     let residual_gradient = state_gradient(g, s, weighted);
-    let residual_along = direction(
-        "_along",
-        [(&s.q, &s.dq), (&s.u, &s.du), (&s.b, &s.db), (&s.w, &s.dw)],
-    );
-    let residual_gradient_along = gradient_along(g, &residual_gradient, &residual_along);
-
     let outputs_by: Vec<Vec<Vec<ExprId>>> = [&s.q, &s.u, &s.b]
         .map(|list| columns(g, &e.outputs, list))
         .into();
-    let directions = || {
-        vec![
-            parameter("dq", &s.dq),
-            parameter("du", &s.du),
-            parameter("db", &s.db),
-        ]
-    };
     let mode = || vec![parameter("phi", &s.phi), scalar("lambda", &s.lambda)];
 
     let mut functions = vec![
@@ -156,17 +111,11 @@ pub(super) fn kernels(
                 rows("by_design", n, &by_design),
             ],
         ),
-        function(
-            "linear_along",
-            vec![],
-            directions(),
-            linear_arrays(&linear_along, n),
-        ),
         function("mode_gradient", vec![], mode(), mode_gradient),
         function(
             "pencil_gradient",
             vec![],
-            vectors(pencil, ["left", "acceleration", "velocity", "position"]),
+            vectors(&s.pencil),
             pencil_gradient,
         ),
         function(
@@ -174,42 +123,6 @@ pub(super) fn kernels(
             vec![],
             vec![parameter("w", &s.w)],
             residual_gradient,
-        ),
-        function(
-            "mode_gradient_along",
-            vec![],
-            [
-                mode(),
-                directions(),
-                vec![parameter("dphi", &s.dphi), scalar("dlambda", &s.dlambda)],
-            ]
-            .concat(),
-            mode_gradient_along,
-        ),
-        function(
-            "pencil_gradient_along",
-            vec![],
-            [
-                vectors(pencil, ["left", "acceleration", "velocity", "position"]),
-                directions(),
-                vectors(
-                    dpencil,
-                    ["dleft", "dacceleration", "dvelocity", "dposition"],
-                ),
-            ]
-            .concat(),
-            pencil_gradient_along,
-        ),
-        function(
-            "residual_gradient_along",
-            vec![],
-            [
-                vec![parameter("w", &s.w)],
-                directions(),
-                vec![parameter("dw", &s.dw)],
-            ]
-            .concat(),
-            residual_gradient_along,
         ),
         function(
             "outputs",
@@ -245,14 +158,6 @@ pub(super) fn kernels(
     functions
 }
 
-fn direction<const K: usize>(suffix: &str, moves: [(&SymbolList, &SymbolList); K]) -> Direction {
-    let rates = moves
-        .iter()
-        .flat_map(|(list, rates)| list.with(&rates.values))
-        .collect();
-    Direction::new(suffix, rates)
-}
-
 pub(super) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
     Parameter {
         name,
@@ -261,18 +166,15 @@ pub(super) fn parameter(name: &'static str, list: &SymbolList) -> Parameter {
     }
 }
 
-fn vectors(pencil: &Pencil, names: [&'static str; 4]) -> Vec<Parameter> {
-    let lists = [
-        &pencil.left,
-        &pencil.acceleration,
-        &pencil.velocity,
-        &pencil.position,
-    ];
-    names
-        .into_iter()
-        .zip(lists)
-        .map(|(name, list)| parameter(name, list))
-        .collect()
+fn vectors(pencil: &Pencil) -> Vec<Parameter> {
+    [
+        ("left", &pencil.left),
+        ("acceleration", &pencil.acceleration),
+        ("velocity", &pencil.velocity),
+        ("position", &pencil.position),
+    ]
+    .map(|(name, list)| parameter(name, list))
+    .into()
 }
 
 fn scalar(name: &'static str, list: &SymbolList) -> Parameter {

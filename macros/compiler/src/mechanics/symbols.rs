@@ -39,11 +39,9 @@ pub(super) struct Pencil {
 }
 
 impl Pencil {
-    fn new(g: &mut Graph, prefix: &str, coordinates: &[String]) -> Self {
+    fn new(g: &mut Graph, coordinates: &[String]) -> Self {
         let mut list = |vector: &str| {
-            let names = coordinates
-                .iter()
-                .map(|name| format!("{prefix}{vector}_{name}"));
+            let names = coordinates.iter().map(|name| format!("{vector}_{name}"));
             SymbolList::new(g, Stage::Rate, names)
         };
         Self {
@@ -76,17 +74,8 @@ pub(super) struct Symbols {
     pub(super) lambda: SymbolList,
     /// A weight on the residual.
     pub(super) w: SymbolList,
-    /// Direction of the coordinates, and so on for the others.
-    pub(super) dq: SymbolList,
-    pub(super) du: SymbolList,
-    pub(super) db: SymbolList,
-    pub(super) dphi: SymbolList,
-    pub(super) dlambda: SymbolList,
-    pub(super) dw: SymbolList,
     /// Vectors around the linearised matrices.
     pub(super) pencil: Pencil,
-    /// Their direction.
-    pub(super) dpencil: Pencil,
     /// Real and imaginary part of a vibration.
     pub(super) real: SymbolList,
     pub(super) imaginary: SymbolList,
@@ -133,14 +122,7 @@ impl Symbols {
             phi: SymbolList::new(g, Stage::Rate, named("phi_", &free)),
             lambda: SymbolList::new(g, Stage::Rate, one("lambda")),
             w: SymbolList::new(g, Stage::Rate, named("w_", &free)),
-            dq: SymbolList::new(g, Stage::Rate, named("d_", &free)),
-            du: SymbolList::new(g, Stage::Rate, named("d_", &inputs)),
-            db: SymbolList::new(g, Stage::Rate, named("d_", &design)),
-            dphi: SymbolList::new(g, Stage::Rate, named("d_phi_", &free)),
-            dlambda: SymbolList::new(g, Stage::Rate, one("d_lambda")),
-            dw: SymbolList::new(g, Stage::Rate, named("d_w_", &free)),
-            pencil: Pencil::new(g, "", &free),
-            dpencil: Pencil::new(g, "d_", &free),
+            pencil: Pencil::new(g, &free),
             real: SymbolList::new(g, Stage::Rate, named("real_", &free)),
             imaginary: SymbolList::new(g, Stage::Rate, named("imaginary_", &free)),
         }
@@ -159,22 +141,12 @@ impl Symbols {
         extend(&mut self.acceleration, Stage::Rate, "acceleration_");
         extend(&mut self.phi, Stage::Rate, "phi_");
         extend(&mut self.w, Stage::Rate, "w_");
-        extend(&mut self.dq, Stage::Rate, "d_");
-        extend(&mut self.dphi, Stage::Rate, "d_phi_");
-        extend(&mut self.dw, Stage::Rate, "d_w_");
         extend(&mut self.real, Stage::Rate, "real_");
         extend(&mut self.imaginary, Stage::Rate, "imaginary_");
-        for (pencil, prefix) in [(&mut self.pencil, ""), (&mut self.dpencil, "d_")] {
-            let lists = [
-                (&mut pencil.left, "left"),
-                (&mut pencil.acceleration, "acceleration"),
-                (&mut pencil.velocity, "velocity"),
-                (&mut pencil.position, "position"),
-            ];
-            for (list, vector) in lists {
-                extend(list, Stage::Rate, &format!("{prefix}{vector}_"));
-            }
-        }
+        extend(&mut self.pencil.left, Stage::Rate, "left_");
+        extend(&mut self.pencil.acceleration, Stage::Rate, "acceleration_");
+        extend(&mut self.pencil.velocity, Stage::Rate, "velocity_");
+        extend(&mut self.pencil.position, Stage::Rate, "position_");
         self
     }
 }
