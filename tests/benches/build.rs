@@ -28,7 +28,7 @@ const MOST_WITH_PARTIALS: usize = 16;
 const MOST_IN_LANES: usize = 16;
 
 /// The kernels whose growth is measured: `growth::Kernels` is the contract cut down to them.
-const GROWING: [&str; 3] = ["residual", "mode_gradient", "mode_gradient_along"];
+const GROWING: [&str; 2] = ["residual", "mode_gradient"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");

@@ -11,6 +11,8 @@ use eigentol_oracle::kernels::{At, Gradient, Kernels, Pencil};
 use eigentol_oracle::model::Model;
 use eigentol_oracle::{Linear, LinearPartials};
 
+use crate::interpreter::interpret_along;
+
 /// Explicit partial derivatives whatever their number.
 const EVERYTHING: Limits = Limits::NONE;
 
@@ -44,15 +46,29 @@ impl Compiled {
         kernel: &str,
         arguments: &[&[f64]],
     ) -> [Vec<f64>; ARRAYS] {
-        let arrays = self
-            .program
-            .evaluate(kernel, arguments)
-            .unwrap_or_else(|| panic!("there is a kernel {kernel}"));
-        let count = arrays.len();
-        arrays
-            .try_into()
-            .unwrap_or_else(|_| panic!("{kernel} returns {ARRAYS} arrays, not {count}"))
+        let results = self.program.evaluate(kernel, arguments);
+        arrays(kernel, results.expect("a kernel of the contract"))
     }
+
+    /// Derivatives along a direction, as the runtime takes them.
+    fn along<const ARRAYS: usize>(
+        &self,
+        kernel: &str,
+        arguments: &[&[f64]],
+        direction: &[&[f64]],
+    ) -> [Vec<f64>; ARRAYS] {
+        let found = self.program.kernel(kernel);
+        let found = found.expect("a kernel of the contract");
+        arrays(kernel, interpret_along(found, arguments, direction))
+    }
+}
+
+/// A fixed number of arrays.
+fn arrays<const ARRAYS: usize>(kernel: &str, arrays: Vec<Vec<f64>>) -> [Vec<f64>; ARRAYS] {
+    let count = arrays.len();
+    arrays
+        .try_into()
+        .unwrap_or_else(|_| panic!("{kernel} returns {ARRAYS} arrays, not {count}"))
 }
 
 fn linear([mass, damping, stiffness]: [Vec<f64>; 3]) -> Linear<f64> {
@@ -119,7 +135,7 @@ impl Kernels for Compiled {
     }
 
     fn linear_along(&self, [q, u, b]: At, [dq, du, db]: At) -> Linear<f64> {
-        linear(self.evaluate("linear_along", &[q, u, b, dq, du, db]))
+        linear(self.along("linear", &[q, u, b], &[dq, du, db]))
     }
 
     fn mode_gradient(&self, [q, u, b]: At, phi: &[f64], lambda: f64) -> Gradient {
@@ -151,8 +167,8 @@ impl Kernels for Compiled {
         (dphi, dlambda): (&[f64], f64),
     ) -> Gradient {
         let (lambda, dlambda) = ([lambda], [dlambda]);
-        let arguments = [q, u, b, phi, &lambda, dq, du, db, dphi, &dlambda];
-        self.evaluate("mode_gradient_along", &arguments)
+        let direction = [dq, du, db, dphi, &dlambda];
+        self.along("mode_gradient", &[q, u, b, phi, &lambda], &direction)
     }
 
     fn pencil_gradient_along(
@@ -162,8 +178,9 @@ impl Kernels for Compiled {
         along: At,
         pencil_along: Pencil,
     ) -> Gradient {
-        let arguments = [&at[..], &pencil, &along, &pencil_along].concat();
-        self.evaluate("pencil_gradient_along", &arguments)
+        let [arguments, direction] =
+            [(at, pencil), (along, pencil_along)].map(|(at, pencil)| [&at[..], &pencil].concat());
+        self.along("pencil_gradient", &arguments, &direction)
     }
 
     fn residual_gradient_along(
@@ -173,6 +190,6 @@ impl Kernels for Compiled {
         [dq, du, db]: At,
         dw: &[f64],
     ) -> Gradient {
-        self.evaluate("residual_gradient_along", &[q, u, b, w, dq, du, db, dw])
+        self.along("residual_gradient", &[q, u, b, w], &[dq, du, db, dw])
     }
 }

@@ -1,6 +1,6 @@
 //! Kernels run without rustc in any scalar: instantiating generated code for one more scalar would cost minutes.
 
-use eigentol::Real;
+use eigentol::{Dual, Real};
 use eigentol_compiler::algebra::{Operator, Unary};
 use eigentol_compiler::program::{Kernel, Operand, Operation};
 
@@ -27,6 +27,23 @@ pub fn interpret<T: Real>(kernel: &Kernel, arguments: &[&[T]]) -> Vec<Vec<T>> {
         .iter()
         .map(|result| array(&result.values))
         .collect()
+}
+
+/// Derivatives of the results along a direction, in the dual numbers in which the runtime differentiates kernels.
+pub fn interpret_along(
+    kernel: &Kernel,
+    arguments: &[&[f64]],
+    direction: &[&[f64]],
+) -> Vec<Vec<f64>> {
+    let dual = |(&value, &slope): (&f64, &f64)| Dual { value, slope };
+    let moved = |(values, slopes): (&&[f64], &&[f64])| -> Vec<Dual<f64>> {
+        assert_eq!(values.len(), slopes.len(), "{}", kernel.name);
+        values.iter().zip(*slopes).map(dual).collect()
+    };
+    let moved: Vec<_> = arguments.iter().zip(direction).map(moved).collect();
+    let slices: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
+    let slopes = |list: &Vec<Dual<f64>>| list.iter().map(|entry| entry.slope).collect();
+    interpret(kernel, &slices).iter().map(slopes).collect()
 }
 
 fn unary<T: Real>(operator: Unary, a: T) -> T {

@@ -90,8 +90,7 @@ fn source(machine: &Machine, calls: &str) -> String {
     format!("{uses}\nmechanism! {{ {text} }}\n\nfn main() {{ {call} }}\n")
 }
 
-/// A package of a user. It depends on the contract of generated code only: the solvers are compiled once, whatever is
-/// declared.
+/// A package of a user, with the solvers: with the standard library each kernel of `f64` is compiled for two sets of instructions.
 struct Package {
     folder: PathBuf,
 }
@@ -106,7 +105,7 @@ impl Package {
         fs::create_dir_all(folder.join("src"))?;
         let manifest = format!(
             "[package]\nname = \"user\"\nedition = \"2024\"\n\n[dependencies.eigentol]\n\
-             path = {:?}\ndefault-features = false\nfeatures = [\"libm\"]\n\n[workspace]\n\n{profiles}",
+             path = {:?}\n\n[workspace]\n\n{profiles}",
             root.join("runtime")
         );
         fs::write(folder.join("Cargo.toml"), manifest)?;

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use eigentol::{Description, Gradient, Real};
+use eigentol::{Description, Dual, Gradient, Real};
 
 use crate::work::{Closures, INPUTS, Random, Work};
 
@@ -29,21 +29,6 @@ pub(crate) trait Kernels<const N: usize, const P: usize> {
         phi: &[T; N],
         lambda: T,
     ) -> Gradient<T, N, 1, P>;
-
-    #[allow(clippy::too_many_arguments)]
-    fn mode_gradient_along<T: Real>(
-        &self,
-        q: &[T; N],
-        u: &[T; 1],
-        b: &[T; P],
-        phi: &[T; N],
-        lambda: T,
-        dq: &[T; N],
-        du: &[T; 1],
-        db: &[T; P],
-        dphi: &[T; N],
-        dlambda: T,
-    ) -> Gradient<T, N, 1, P>;
 }
 
 /// Sees every chain, with the bytes of its emitted text.
@@ -63,9 +48,9 @@ mod generated {
 pub(crate) struct Grown {
     pub(crate) kernel: &'static str,
     pub(crate) bars: usize,
-    /// Operations and function calls.
+    /// Operations and function calls; in dual numbers each is about three.
     pub(crate) operations: usize,
-    /// Bytes of the text of all growing kernels of this chain.
+    /// Bytes of the text of both growing kernels of this chain.
     pub(crate) bytes: usize,
     pub(crate) work: Box<dyn Work>,
 }
@@ -90,15 +75,20 @@ impl Visitor for Collector {
     where
         M: Kernels<N, P> + Copy + 'static,
     {
-        for info in M::DESCRIPTION.kernels {
+        let mut add = |kernel, name: &str| {
+            let info = M::DESCRIPTION.kernels.iter().find(|info| info.name == name);
+            let operations = info.map_or(0, |info| info.operations + info.functions);
             self.0.push(Grown {
-                kernel: info.name,
+                kernel,
                 bars: N,
-                operations: info.operations + info.functions,
+                operations,
                 bytes,
-                work: work(chain, info.name),
+                work: work(chain, kernel),
             });
-        }
+        };
+        add("residual", "residual");
+        add("mode_gradient", "mode_gradient");
+        add("mode_gradient_along", "mode_gradient");
     }
 }
 
@@ -151,9 +141,13 @@ where
         _ => Box::new(Closures {
             inputs,
             evaluate: move |s: &State<N, P>| {
-                let [lambda, dlambda] = s.lambda;
-                black_box(&chain.mode_gradient_along(
-                    &s.q, &s.u, &s.b, &s.phi, lambda, &s.dq, &s.du, &s.db, &s.dphi, dlambda,
+                let [value, slope] = s.lambda;
+                black_box(&chain.mode_gradient(
+                    &Dual::along(&s.q, &s.dq),
+                    &Dual::along(&s.u, &s.du),
+                    &Dual::along(&s.b, &s.db),
+                    &Dual::along(&s.phi, &s.dphi),
+                    Dual { value, slope },
                 ));
             },
             results,

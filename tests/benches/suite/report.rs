@@ -131,7 +131,7 @@ impl Report {
             );
         }
         if !self.growth.is_empty() {
-            text += "\n| kernel | bars | operations | bytes of text, three kernels | ns | ns per bar |\n";
+            text += "\n| kernel | bars | operations | bytes of text, both kernels | ns | ns per bar |\n";
             text += "| --- | ---: | ---: | ---: | ---: | ---: |\n";
         }
         for row in &self.growth {

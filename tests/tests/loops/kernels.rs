@@ -4,6 +4,7 @@
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::Program;
+use eigentol_tests::interpreter::interpret_along;
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::common::{Case, LOOPS, Point, assert_close, assert_near, complex};
@@ -59,9 +60,17 @@ impl Loop {
             .unwrap_or_else(|| panic!("there is a kernel {kernel}"))
     }
 
-    fn matrices(&self, kernel: &str, arguments: &[&[f64]]) -> Linear {
+    fn linear(&self, at: &[&[f64]; 3]) -> Linear {
+        self.matrices(&self.evaluate("linear", at))
+    }
+
+    fn linear_along(&self, at: &[&[f64]; 3], direction: &[&[f64]; 3]) -> Linear {
+        let kernel = self.program.kernel("linear").expect("in the contract");
+        self.matrices(&interpret_along(kernel, at, direction))
+    }
+
+    fn matrices(&self, arrays: &[Vec<f64>]) -> Linear {
         let n = self.unknowns.len();
-        let arrays = self.evaluate(kernel, arguments);
         Linear(std::array::from_fn(|k| {
             DMatrix::from_row_slice(n, n, &arrays[k])
         }))
@@ -122,7 +131,8 @@ fn check_point(machine: &Loop, case: &Case, point: &Point) {
     let (u, b) = ([point.input], &case.design[..]);
     let x = machine.unknowns_at(point, &u, b);
     let n = x.len();
-    let linear = machine.matrices("linear", &[x.as_slice(), &u, b]);
+    let at = [x.as_slice(), &u, b];
+    let linear = machine.linear(&at);
     let partials = machine.evaluate("residual_partials", &[x.as_slice(), &u, b]);
 
     // How the unknowns move with each variable.
@@ -175,7 +185,7 @@ fn check_point(machine: &Loop, case: &Case, point: &Point) {
         assert_near(s - off, s, 0.0, &what);
         for (j, variable) in case.variables.iter().enumerate() {
             let [dx, du, db] = &along[j];
-            let rate = machine.matrices("linear_along", &[x.as_slice(), &u, b, dx, du, db]);
+            let rate = machine.linear_along(&at, &[dx, du, db]);
             let found = -left.dot(&(rate.at(s) * &right)) / norm;
             let expected = complex(&mode.get("s_by").get(variable));
             let what = format!("{what} by {variable}");
