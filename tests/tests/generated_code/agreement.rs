@@ -1,6 +1,6 @@
 //! Interpreter and generated code: every number the same to the last bit, for every kernel of every machine.
 
-use eigentol::Mechanism;
+use eigentol::{LinearPartials, Mechanism};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{compile, program};
@@ -226,6 +226,57 @@ fn large_machines_get_their_partials_column_by_column() {
     let mut columns = Columns { machines: 0 };
     visit(&mut columns);
     assert_eq!(columns.machines, 1);
+}
+
+/// Partial derivatives into a result that held those of other states.
+#[derive(Default)]
+struct Reused {
+    machines: usize,
+    /// Entries of the largest result of which not everything is set anew.
+    largest: usize,
+}
+
+impl Visitor for Reused {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        _: &'static str,
+        machine: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        let mut numbers = Numbers::new(6);
+        let mut result: Box<LinearPartials<f64, N, U, P>> = Box::default();
+        for _ in 0..3 {
+            let arguments = numbers.arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
+            let q = arguments[0][..].try_into().expect("N");
+            let u = arguments[1][..].try_into().expect("U");
+            let b = arguments[2][..].try_into().expect("P");
+            machine.linear_partials_into(q, u, b, &mut result);
+            assert_eq!(*result, machine.linear_partials(q, u, b), "{name}");
+        }
+        let mut marked = LinearPartials::default();
+        for matrices in &mut marked.by_coordinate {
+            matrices.damping = [[f64::NAN; N]; N];
+        }
+        machine.linear_partials_into(&[0.1; N], &[1.0; U], &[1.0; P], &mut marked);
+        let kept = |list: &[eigentol::Linear<f64, N>]| {
+            let entries = list.iter().flat_map(|one| one.damping.as_flattened());
+            entries.filter(|entry| entry.is_nan()).count()
+        };
+        if kept(&marked.by_coordinate) > 0 {
+            self.largest = self.largest.max(3 * N * N * (N + U + P));
+        }
+        self.machines += 1;
+    }
+}
+
+#[test]
+fn partials_into_a_used_result_are_those_of_a_new_one() {
+    let mut reused = Reused::default();
+    visit(&mut reused);
+    assert_eq!(reused.machines, corpus().len());
+    assert!(reused.largest > 4096, "{}", reused.largest);
 }
 
 /// A word of the language that no machine uses is a word that the tests above say nothing about.

@@ -64,39 +64,57 @@ const CHOSEN: usize = 2048;
 /// Kernels that are generated for small mechanisms only: for these it is worth it at any length.
 const OF_SMALL: [&str; 2] = ["motion_linear", "linear_partials"];
 
-/// A method as text.
+/// A method as text, with its variants.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
     let results = Results::new(kernel, form, sizes);
-    let kind = results.kind();
+    let (name, kind) = (kernel.name, results.kind());
     let mut text = signature(kernel, &kind, "");
-    let chosen = kernel.instructions.len() <= CHOSEN || OF_SMALL.contains(&kernel.name);
-    let run = |body: &str| match chosen && !kernel.instructions.is_empty() {
-        true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
-        false => format!("{{\n{body}\n}}\n"),
-    };
-    if !INLINED.contains(&kernel.name) {
-        text += &run(&results.body());
+    if !INLINED.contains(&name) {
+        text += &run(kernel, &results.body());
         return text;
     }
-    let arguments: Vec<&str> = kernel.parameters.iter().map(|p| p.name).collect();
-    let inlined = format!("{}_inlined", kernel.name);
-    text += &run(&format!("self.{inlined}({})", arguments.join(", ")));
-    let head = head(kernel, &inlined, &kind, "");
-    let _ = write!(
-        text,
-        "#[doc(hidden)]\n#[inline(always)]\n{head}{{\n{}\n}}\n",
-        results.body()
-    );
+    let hidden = format!("{name}_inlined");
+    text += &run(kernel, &call(kernel, &hidden, ""));
+    text += &inlined(&head(kernel, &hidden, "", &kind, ""), &results.body());
+    if let Some(stores) = results.stores() {
+        let (into, hidden) = (format!("{name}_into"), format!("{name}_into_inlined"));
+        let head = |name: &str| head(kernel, name, &format!("result: &mut {kind}"), "()", "");
+        text += &head(&into);
+        text += &run(kernel, &call(kernel, &hidden, "result"));
+        text += &inlined(&head(&hidden), &stores);
+    }
     text
+}
+
+/// A call of a variant of the kernel's method, with one more argument or none.
+pub(super) fn call(kernel: &Kernel, method: &str, last: &str) -> String {
+    let names = kernel.parameters.iter().map(|p| p.name);
+    let arguments: Vec<&str> = names.chain((!last.is_empty()).then_some(last)).collect();
+    format!("self.{method}({})", arguments.join(", "))
+}
+
+/// A body that runs with the instructions of the processor that suit it, where that pays.
+fn run(kernel: &Kernel, body: &str) -> String {
+    let chosen = kernel.instructions.len() <= CHOSEN || OF_SMALL.contains(&kernel.name);
+    match chosen && !kernel.instructions.is_empty() {
+        true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
+        false => format!("{{\n{body}\n}}\n"),
+    }
+}
+
+/// A method that is written where it is called.
+fn inlined(head: &str, body: &str) -> String {
+    format!("#[doc(hidden)]\n#[inline(always)]\n{head}{{\n{body}\n}}\n")
 }
 
 /// Documentation and signature of a method; `bound` is added to the scalar's.
 pub(super) fn signature(kernel: &Kernel, returned: &str, bound: &str) -> String {
-    let head = head(kernel, kernel.name, returned, bound);
+    let head = head(kernel, kernel.name, "", returned, bound);
     format!("#[doc = {:?}]\n{head}", documentation(kernel))
 }
 
-fn head(kernel: &Kernel, name: &str, returned: &str, bound: &str) -> String {
+/// A signature with one more parameter or none.
+fn head(kernel: &Kernel, name: &str, last: &str, returned: &str, bound: &str) -> String {
     let mut parameters = String::new();
     for parameter in &kernel.parameters {
         let kind = match parameter.scalar {
@@ -104,6 +122,9 @@ fn head(kernel: &Kernel, name: &str, returned: &str, bound: &str) -> String {
             false => format!("&[T; {}]", parameter.entries.len()),
         };
         let _ = write!(parameters, ", {}: {kind}", parameter.name);
+    }
+    if !last.is_empty() {
+        let _ = write!(parameters, ", {last}");
     }
     format!("fn {name}<T: ::eigentol::Real{bound}>(&self{parameters}) -> {returned} ")
 }
