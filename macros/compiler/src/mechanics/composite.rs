@@ -16,10 +16,10 @@ use super::step_axis::StepAxis;
 
 /// Mass, first and second moment (`integral rho rho^T dm`) about a body's origin, as the body's motion is written.
 #[derive(Clone, Copy)]
-struct Composite {
-    mass: ExprId,
-    first: Vector3,
-    second: [[ExprId; 3]; 3],
+pub(super) struct Composite {
+    pub(super) mass: ExprId,
+    pub(super) first: Vector3,
+    pub(super) second: [[ExprId; 3]; 3],
 }
 
 impl Composite {
@@ -40,45 +40,25 @@ impl Composite {
             let share = axes[k].scale(g, body.first.0[k]);
             this.first = this.first.add(g, share);
             let diagonal = axes[k].scale(g, body.second[k][k]);
-            this.add_second(g, |g, i, j| g.mul(diagonal.0[i], axes[k].0[j]));
+            add_symmetric(g, &mut this.second, |g, i, j| {
+                g.mul(diagonal.0[i], axes[k].0[j])
+            });
             for j in k + 1..3 {
                 let weighted = axes[j].scale(g, body.second[k][j]);
-                this.add_products(g, axes[k], weighted);
+                add_products(g, &mut this.second, axes[k], weighted);
             }
         }
         let zero = g.zero();
-        this.add_second(g, |_, i, j| if i == j { body.isotropic } else { zero });
+        add_symmetric(g, &mut this.second, |_, i, j| {
+            if i == j { body.isotropic } else { zero }
+        });
         this
     }
 
     fn add(&mut self, g: &mut Graph, other: &Self) {
         self.mass = g.add(self.mass, other.mass);
         self.first = self.first.add(g, other.first);
-        self.add_second(g, |_, i, j| other.second[i][j]);
-    }
-
-    /// Adds a symmetric matrix, given by its entries on and above the diagonal, to the second moment.
-    fn add_second(
-        &mut self,
-        g: &mut Graph,
-        mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
-    ) {
-        for i in 0..3 {
-            for j in i..3 {
-                let more = entry(g, i, j);
-                let sum = g.add(self.second[i][j], more);
-                (self.second[i][j], self.second[j][i]) = (sum, sum);
-            }
-        }
-    }
-
-    /// Adds `a b^T + b a^T` to the second moment.
-    fn add_products(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
-        self.add_second(g, |g, i, j| {
-            let product = g.mul(a.0[i], b.0[j]);
-            let mirrored = g.mul(b.0[i], a.0[j]);
-            g.add(product, mirrored)
-        });
+        add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
     }
 
     /// As the parent's motion is written, about the parent's origin. Only `mass` is not part of the augmented parent.
@@ -90,16 +70,42 @@ impl Composite {
         }
         let offset = motion.frame.offset;
         let first = moved.first;
-        moved.add_products(g, offset, first);
+        add_products(g, &mut moved.second, offset, first);
         let share = offset.scale(g, mass);
-        moved.add_second(g, |g, i, j| g.mul(offset.0[i], share.0[j]));
+        add_symmetric(g, &mut moved.second, |g, i, j| {
+            g.mul(offset.0[i], share.0[j])
+        });
         moved.first = moved.first.add(g, share);
         moved
     }
 }
 
+/// Adds a symmetric matrix, given by its entries on and above the diagonal.
+pub(super) fn add_symmetric(
+    g: &mut Graph,
+    matrix: &mut [[ExprId; 3]; 3],
+    mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
+) {
+    for i in 0..3 {
+        for j in i..3 {
+            let more = entry(g, i, j);
+            let sum = g.add(matrix[i][j], more);
+            (matrix[i][j], matrix[j][i]) = (sum, sum);
+        }
+    }
+}
+
+/// Adds `a b^T + b a^T`.
+pub(super) fn add_products(g: &mut Graph, matrix: &mut [[ExprId; 3]; 3], a: Vector3, b: Vector3) {
+    add_symmetric(g, matrix, |g, i, j| {
+        let product = g.mul(a.0[i], b.0[j]);
+        let mirrored = g.mul(b.0[i], a.0[j]);
+        g.add(product, mirrored)
+    });
+}
+
 /// Force and moment that a unit acceleration along `step` takes: of a body and of what it carries.
-fn accelerating(
+pub(super) fn accelerating(
     g: &mut Graph,
     step: &StepAxis,
     body: &AugmentedBody,
@@ -136,7 +142,7 @@ fn accelerating(
 }
 
 /// `integral rho x (axis x rho) dm = (tr second 1 - second) axis`, without the terms that cancel.
-fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Vector3 {
+pub(super) fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Vector3 {
     Vector3(std::array::from_fn(|i| {
         let mut sum = g.zero();
         for j in (0..3).filter(|&j| j != i) {
@@ -149,6 +155,60 @@ fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Vector3 {
     }))
 }
 
+/// What a body carries, by body id.
+pub(super) struct Composites {
+    /// What turns with the body's angle.
+    pub(super) carried: Vec<Composite>,
+    /// The body with all it carries.
+    pub(super) whole: Vec<Composite>,
+    /// Of this mass, what is not part of the augmented parent: it moves to the parent's origin with the rest.
+    pub(super) apart: Vec<ExprId>,
+}
+
+impl Composites {
+    pub(super) fn new(
+        g: &mut Graph,
+        problem: &Problem,
+        kinematics: &Kinematics,
+        bodies: &[AugmentedBody],
+    ) -> Self {
+        let count = problem.mechanism.bodies.len();
+        let empty = Composite::empty(g);
+        let mut this = Self {
+            carried: vec![empty; count],
+            whole: vec![empty; count],
+            apart: vec![empty.mass; count],
+        };
+        // what continues the body's run
+        let mut going_on = vec![empty; count];
+        for branch in problem.topology.branches.iter().rev() {
+            let index = branch.body.index();
+            let motion = kinematics.of(branch.body);
+            let mut whole = this.carried[index];
+            whole.add(g, &going_on[index]);
+            let behind = whole.mass;
+            let own = Composite::of_body(g, &bodies[index], &motion.frame);
+            whole.add(g, &own);
+            let apart = if rides_on_seat(g, motion) {
+                behind
+            } else {
+                whole.mass
+            };
+            (this.whole[index], this.apart[index]) = (whole, apart);
+            let Frame::Body(parent) = branch.parent else {
+                continue;
+            };
+            let moved = whole.moved_to_parent(g, motion, apart);
+            let slot = match problem.runs.layout.of(branch.body).continues_run {
+                true => &mut going_on[parent.index()],
+                false => &mut this.carried[parent.index()],
+            };
+            slot.add(g, &moved);
+        }
+        this
+    }
+}
+
 /// The mass matrix over the angles in all, by columns; zero beyond the coordinates that move. Only accelerations of free
 /// coordinates have columns.
 pub(super) fn mass_matrix(
@@ -158,35 +218,7 @@ pub(super) fn mass_matrix(
 ) -> Vec<Vec<ExprId>> {
     let topology = problem.topology;
     let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);
-    let count = problem.mechanism.bodies.len();
-    let empty = Composite::empty(g);
-    // carried: what turns with the body's angle; going on: what continues its run
-    let mut carried = vec![empty; count];
-    let mut going_on = vec![empty; count];
-    for branch in topology.branches.iter().rev() {
-        let Frame::Body(parent) = branch.parent else {
-            continue;
-        };
-        let index = branch.body.index();
-        let motion = kinematics.of(branch.body);
-        let mut all = carried[index];
-        all.add(g, &going_on[index]);
-        let apart = all.mass;
-        let own = Composite::of_body(g, &bodies[index], &motion.frame);
-        all.add(g, &own);
-        let mass = if rides_on_seat(g, motion) {
-            apart
-        } else {
-            all.mass
-        };
-        let moved = all.moved_to_parent(g, motion, mass);
-        let slot = match problem.runs.layout.of(branch.body).continues_run {
-            true => &mut going_on[parent.index()],
-            false => &mut carried[parent.index()],
-        };
-        slot.add(g, &moved);
-    }
-
+    let carried = Composites::new(g, problem, kinematics, &bodies).carried;
     let n = problem.symbols.q.ids.len();
     let free = topology.free.len();
     let tree = Tree::new(problem.mechanism, topology);

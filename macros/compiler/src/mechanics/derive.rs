@@ -20,6 +20,7 @@ use super::sources::Sources;
 use super::steady_state;
 use super::symbols::Symbols;
 use super::values::Values;
+use super::variation::{Variation, variation};
 use super::whirl::whirl;
 
 /// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
@@ -162,6 +163,8 @@ pub(super) struct Equations {
     /// `g(qddot, qdot, q; u, b)`, and its parts.
     pub(super) motion: Vec<ExprId>,
     pub(super) parts: Parts,
+    /// Derivatives of the inertial part, where there is a shorter way than to differentiate it.
+    pub(super) variation: Option<Variation>,
     /// `g(qddot, 0, q; u, b)`.
     pub(super) without_velocity: Vec<ExprId>,
     /// `g(0, 0, q; u, b)`.
@@ -183,6 +186,9 @@ impl Equations {
         let zeros = vec![zero; symbols.q.ids.len()];
         let parts = problem.parts(g, &running, &kinematics, Sources::ALL);
         let motion = problem.together(g, &parts);
+        let inertial = problem.inertial_kinematics(g, &running, Sources::ALL);
+        let wrenches = problem.inertial(g, &running, Sources::ALL);
+        let variation = variation(g, problem, &inertial, &wrenches);
         let inertia = problem.residual(g, &running, &kinematics, Sources::INERTIA);
         let applied = problem.residual(g, &running, &kinematics, Sources::APPLIED);
         let outputs = outputs(g, problem, &running, &kinematics);
@@ -199,6 +205,7 @@ impl Equations {
         Self {
             motion,
             parts,
+            variation,
             without_velocity,
             rest,
             rest_inertia,

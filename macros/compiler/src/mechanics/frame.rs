@@ -20,7 +20,7 @@ pub(super) struct FrameMotion {
     /// Both before the last turn, or before all turns of a run.
     before_turn: (Vector3, Vector3),
     /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
-    second_rate: Matrix3,
+    pub(super) second_rate: Matrix3,
     /// Second time derivatives of the axes: `W` applied to each.
     axes_second_rate: Matrix3,
 }

@@ -1,6 +1,6 @@
 //! Linearisation by differentiating the residual (eqs. 13-17).
 
-use crate::algebra::{Array, Direction, Graph, derivatives_along, substitute};
+use crate::algebra::{Array, Direction, Graph, cost, derivatives_along, substitute};
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::composite::mass_matrix;
@@ -10,6 +10,7 @@ use super::problem::Problem;
 use super::properties::vanish;
 use super::sources::Sources;
 use super::symbols::{SymbolList, Symbols};
+use super::variation::Variation;
 
 /// Derivative of `roots` by one symbol.
 pub(super) fn by_symbol(g: &mut Graph, roots: &[ExprId], symbol: SymbolId) -> Vec<ExprId> {
@@ -201,12 +202,24 @@ impl Linear {
     /// no symmetry.
     pub(super) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
         let n = e.motion.len();
-        let mut roots = self.mass.clone();
-        for list in [&s.velocity, &s.q] {
-            let columns = columns(g, &e.motion, list);
-            roots.extend(entries(n).map(|(i, j)| columns[j][i]));
-        }
-        roots
+        let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {
+            let mut roots = self.mass.clone();
+            let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
+            for (k, list) in [&s.velocity, &s.q].into_iter().enumerate() {
+                let mut columns = columns(g, motion, list);
+                if let Some(known) = inertial {
+                    columns = added(g, known[k], &columns);
+                }
+                roots.extend(entries(n).map(|(i, j)| columns[j][i]));
+            }
+            roots
+        };
+        let differentiated = all(g, &e.motion, None);
+        let Some(known) = &e.variation else {
+            return differentiated;
+        };
+        let composed = all(g, &e.parts.applied, Some(known));
+        cheaper(g, differentiated, composed)
     }
 
     /// The three matrices.
@@ -232,6 +245,16 @@ impl Linear {
             });
         }
         arrays
+    }
+}
+
+/// Of two ways to write the same, the one with fewer operations.
+fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
+    let operations = |roots: &[ExprId]| cost(g, roots).operations;
+    if operations(&other) < operations(&one) {
+        other
+    } else {
+        one
     }
 }
 

@@ -35,6 +35,7 @@ mod steady_state;
 mod step_axis;
 mod symbols;
 mod values;
+mod variation;
 mod whirl;
 
 pub use derive::derive;
