@@ -71,8 +71,30 @@ impl Jacobians {
         let stiffness = columns(g, &at_rest_inertial, &runs.position);
         let moving = columns(g, inertial, &runs.velocity);
         let damping: Vec<_> = moving.iter().map(|column| still(g, column)).collect();
-        let stiffness = summed(g, problem, &stiffness, &outward);
-        let damping = summed(g, problem, &damping, &outward);
+        let mut stiffness = summed(g, problem, &stiffness, &outward);
+        let mut damping = summed(g, problem, &damping, &outward);
+        if let Some(known) = &e.variation {
+            let [by_position, by_velocity] = [&known.by_position, &known.by_velocity]
+                .map(|list| -> Vec<_> { list.iter().map(|column| still(g, column)).collect() });
+            // what a coordinate asks of those before it is the shorter half
+            let by_position = match is_symmetric(g, problem, &by_position) {
+                true => transposed(&by_position),
+                false => by_position,
+            };
+            let composed = [
+                summed(g, problem, &by_position, &outward),
+                summed(g, problem, &by_velocity, &outward),
+            ];
+            let operations = |stiffness: &[Vec<ExprId>], damping: &[Vec<ExprId>]| {
+                let of_rest = [at_rest_inertial.clone(), stiffness.concat()].concat();
+                let of_all = [mass.concat(), damping.concat(), stiffness.concat()].concat();
+                cost(g, &of_rest).operations + cost(g, &of_all).operations
+            };
+            let before = operations(&stiffness, &damping);
+            if operations(&composed[0], &composed[1]) < before {
+                [stiffness, damping] = composed;
+            }
+        }
 
         let applied = &e.parts.applied;
         let applied_at_rest = at_rest(g, s, applied);
@@ -100,14 +122,23 @@ fn summed(
     columns: &[Vec<ExprId>],
     outward: &[usize],
 ) -> Vec<Vec<ExprId>> {
+    let symmetric = is_symmetric(g, problem, columns);
+    problem.runs.matrix(g, columns, symmetric, outward)
+}
+
+fn is_symmetric(g: &mut Graph, problem: &Problem, columns: &[Vec<ExprId>]) -> bool {
     let mut asymmetry = Vec::new();
     for (j, column) in columns.iter().enumerate() {
         for (i, mirrored) in columns[..j].iter().enumerate() {
             asymmetry.push(g.sub(column[i], mirrored[j]));
         }
     }
-    let symmetric = vanish(g, problem, &asymmetry).into_iter().all(|zero| zero);
-    problem.runs.matrix(g, columns, symmetric, outward)
+    vanish(g, problem, &asymmetry).into_iter().all(|zero| zero)
+}
+
+fn transposed(columns: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
+    let row = |i: usize| columns.iter().map(|column| column[i]).collect();
+    (0..columns.len()).map(row).collect()
 }
 
 fn added(g: &mut Graph, a: &[Vec<ExprId>], b: &[Vec<ExprId>]) -> Vec<Vec<ExprId>> {
