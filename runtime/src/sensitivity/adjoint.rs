@@ -121,10 +121,12 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let (matrices, residual) = state.mechanism.partials(q, u, b);
+    // Borrowed: to move them would take as long as to use them.
+    let partials = state.mechanism.partials(q, u, b);
+    let (matrices, residual) = &partials;
     let symmetric = const { M::DESCRIPTION.symmetric_stiffness };
-    undamped_from(state, modes, Some(&residual), |mode| {
-        of_undamped(&matrices, &mode.real_shape(), mode.lambda, symmetric)
+    undamped_from(state, modes, Some(residual), |mode| {
+        of_undamped(matrices, &mode.real_shape(), mode.lambda, symmetric)
     })
 }
 
@@ -185,9 +187,11 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let (matrices, residual) = state.mechanism.partials(q, u, b);
-    general_from(state, modes, Some(&residual), |mode| {
-        of_general(&matrices, mode)
+    // Borrowed: to move them would take as long as to use them.
+    let partials = state.mechanism.partials(q, u, b);
+    let (matrices, residual) = &partials;
+    general_from(state, modes, Some(residual), |mode| {
+        of_general(matrices, mode)
     })
 }
 
