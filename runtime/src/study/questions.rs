@@ -4,7 +4,7 @@ use super::Study;
 use crate::equilibrium::{self, Assembly, Equilibrium, Search};
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
-    self, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
+    self, EquilibriumShift, Method, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
     ShapeSensitivity,
 };
 use crate::tolerance::{
@@ -77,8 +77,11 @@ where
 
     fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
         state.regular()?;
-        let family = self.family.unwrap_or(Family::of(state.description));
-        modes::modes_of(&state.linear, family, state.description)
+        modes::modes_of(&state.linear, self.family_of(state), state.description)
+    }
+
+    fn family_of(&self, state: &Equilibrium<N, U, P>) -> Family {
+        self.family.unwrap_or(Family::of(state.description))
     }
 
     /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
@@ -120,11 +123,13 @@ where
         let tolerances = borrowed(&tolerances)?;
         let state = self.equilibrium();
         let state = borrowed(&state)?;
-        let found = self.modes_at(state);
-        let found = borrowed(&found)?;
-        let slopes = sensitivity::sensitivities(&self.mechanism, state, found);
-        let slopes = borrowed(&slopes)?;
-        Ok(tolerance::first_order(found, slopes, tolerances))
+        state.regular()?;
+        let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
+        let solved = found.solve(&state.linear);
+        solved.map_err(|failure| failure.explain(state.description))?;
+        let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
+        sensitivity::sensitivities_into(&self.mechanism, state, &found, &mut slopes)?;
+        Ok(tolerance::first_order(&found, &slopes, tolerances))
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
