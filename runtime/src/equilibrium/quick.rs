@@ -1,8 +1,9 @@
-//! The usual case of a stable equilibrium: a start in the valley of the answer, from which full Newton steps lead to it.
-//! Every step passes the tests of [`descent`](super::descent) at once; as soon as one does not, descent starts again with
-//! all that it has for hard cases.
+//! The usual case of a stable equilibrium: a start in the valley of the answer, from which Newton steps lead to it. They are the
+//! steps that [`descent`](super::descent) takes, as long as each passes its tests at once; from where one does not, descent
+//! goes on with all that it has for hard cases.
 
 use super::convergence::{ACCEPTED, Last, last};
+use super::descent::{FIRST_RADIUS, GROWTH, Way};
 use super::problem::Problem;
 use super::settle::{End, Found, last_step};
 use crate::Mechanism;
@@ -10,10 +11,8 @@ use crate::array::{Cholesky, add_scaled, dot, form, largest};
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
-/// Greatest change of a coordinate in a step, rad or m.
-const RADIUS: f64 = 1.0;
 
-/// The minimum of the amended potential to which full Newton steps lead from `start`, all of them through states where it is
+/// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
 /// convex; otherwise the last such state, or the start. For mechanisms without constraints.
 #[inline]
 pub(super) fn quick<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -28,12 +27,13 @@ where
         problem.mechanism.residual_and_stiffness(q, inputs, design)
     };
     let mut q = *start;
+    let mut radius = FIRST_RADIUS;
     let (mut residual, mut stiffness) = evaluate(&q);
     for iterations in 0..MAX_ITERATIONS {
         let Ok(factors) = Cholesky::new(&stiffness) else {
             return Err(q);
         };
-        let step = factors.solve(&residual).map(|value| -value);
+        let mut step = factors.solve(&residual).map(|value| -value);
         let found = |end: End<N>, iterations| Found {
             coordinates: end.coordinates,
             residual: end.residual,
@@ -59,17 +59,30 @@ where
             }
             Last::More => {}
         }
-        if largest(&step) > RADIUS {
-            return Err(q);
+        let size = largest(&step);
+        let limited = size > radius;
+        let mut share = 1.0;
+        if limited {
+            share = radius / size;
+            step = step.map(|value| share * value);
         }
-        let before = dot(&step, &residual);
+        let slope = dot(&step, &residual);
+        // A Newton step has as much curvature as it has slope.
+        let way = Way {
+            slope,
+            curvature: -share * slope,
+        };
         let next = add_scaled(&q, 1.0, &step);
         (residual, stiffness) = evaluate(&next);
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(&step, &residual);
         let curvature = form(&step, &stiffness, &step);
-        if !(slope.abs() <= 0.5 * before.abs() && (0.0..f64::INFINITY).contains(&curvature)) {
+        let finite = slope.is_finite() && curvature.is_finite();
+        if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
             return Err(q);
+        }
+        if limited && way.predicts(1.0, slope) {
+            radius *= GROWTH;
         }
         q = next;
     }
