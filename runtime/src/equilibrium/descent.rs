@@ -54,14 +54,14 @@ where
         let found = |end: End<N>, iterations| Found {
             coordinates: end.coordinates,
             residual: end.residual,
-            parts: end.parts,
+            measured: end.measured,
             iterations,
             left_unstable_region,
         };
         let here = |base: &Base<N, S>| End {
             coordinates: base.q,
             residual: base.residual,
-            parts: None,
+            measured: None,
         };
         step = base.space.lift(&step);
         let progress = watch.judge(problem, &base.q, at, Some(&step));

@@ -30,7 +30,7 @@ where
         let found = Found {
             coordinates: base.q,
             residual: base.residual,
-            parts: None,
+            measured: None,
             iterations,
             left_unstable_region: false,
         };
@@ -57,7 +57,7 @@ where
             return Ok(Found {
                 coordinates: end.coordinates,
                 residual: end.residual,
-                parts: end.parts,
+                measured: end.measured,
                 iterations: iterations + 1,
                 ..found
             });

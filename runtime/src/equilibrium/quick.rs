@@ -37,7 +37,7 @@ where
         let found = |end: End<N>, iterations| Found {
             coordinates: end.coordinates,
             residual: end.residual,
-            parts: end.parts,
+            measured: end.measured,
             iterations,
             left_unstable_region: false,
         };

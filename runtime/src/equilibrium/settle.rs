@@ -8,7 +8,7 @@ use super::problem::{Failure, Problem};
 use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
 use crate::array::{Cholesky, Square, add_scaled, all_finite, dot, largest};
 use crate::constraints::{ConstraintState, Structure, Tangent, all_rows, placed};
-use crate::{DampingKind, Description, Linear, Mechanism, RestParts, Stability};
+use crate::{DampingKind, Description, Linear, Mechanism, Stability};
 
 /// As [`equilibrium`], for values already checked; a failure owns nothing.
 pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -163,21 +163,29 @@ where
 pub(crate) struct Found<const N: usize> {
     pub(crate) coordinates: [f64; N],
     pub(crate) residual: [f64; N],
-    /// Of the residual, where they are known.
-    pub(crate) parts: Option<RestParts<f64, N>>,
+    /// Where it is known.
+    pub(crate) measured: Option<Measured<N>>,
     pub(crate) iterations: usize,
     pub(crate) left_unstable_region: bool,
+}
+
+/// What is asked of a state that may be the result.
+pub(crate) struct Measured<const N: usize> {
+    linear: Linear<f64, N>,
+    /// Infinite unless all is finite.
+    relative_residual: f64,
 }
 
 /// A state that may be the result.
 pub(super) struct End<const N: usize> {
     pub(super) coordinates: [f64; N],
     pub(super) residual: [f64; N],
-    pub(super) parts: Option<RestParts<f64, N>>,
+    /// Without constraints.
+    pub(super) measured: Option<Measured<N>>,
 }
 
 impl<const N: usize> End<N> {
-    /// The state at `q`. Without constraints the parts, which the judgement of a result asks for, are the residual as well.
+    /// The state at `q`. Without constraints the parts of the residual, with which a result is measured, are the residual as well.
     #[inline]
     pub(super) fn at<M, const U: usize, const P: usize, const O: usize>(
         problem: &Problem<'_, M, N, U, P, O>,
@@ -186,18 +194,32 @@ impl<const N: usize> End<N> {
     where
         M: Mechanism<N, U, P, O>,
     {
-        let parts = const { Structure::of(&M::DESCRIPTION).open() }.then(|| problem.parts(q));
+        if const { !Structure::of(&M::DESCRIPTION).open() } {
+            return Self {
+                coordinates: *q,
+                residual: problem.residual(q),
+                measured: None,
+            };
+        }
+        let (parts, linear) = problem.parts_and_linear(q);
+        let residual = add_scaled(&parts.inertia, -1.0, &parts.applied);
+        let finite = all_finite(&residual) && problem.check(q, &linear).is_ok();
+        let relative_residual = if finite {
+            relative_to(problem, &parts, q, &residual, &linear.stiffness)
+        } else {
+            f64::INFINITY
+        };
         Self {
             coordinates: *q,
-            residual: match &parts {
-                Some(parts) => add_scaled(&parts.inertia, -1.0, &parts.applied),
-                None => problem.residual(q),
-            },
-            parts,
+            residual,
+            measured: Some(Measured {
+                linear,
+                relative_residual,
+            }),
         }
     }
 
-    /// Whether the relative residual is finite and within `tolerance`.
+    /// Whether the relative residual is finite and within `tolerance`; `stiffness` is near to that of the state.
     #[inline]
     pub(super) fn is_solved<M, const U: usize, const P: usize, const O: usize>(
         &self,
@@ -208,12 +230,13 @@ impl<const N: usize> End<N> {
     where
         M: Mechanism<N, U, P, O>,
     {
-        let (q, residual) = (&self.coordinates, &self.residual);
-        all_finite(residual)
-            && match &self.parts {
-                Some(parts) => relative_to(problem, parts, q, residual, stiffness) <= tolerance,
-                None => settled(problem, q, residual, stiffness, tolerance),
+        match &self.measured {
+            Some(measured) => measured.relative_residual <= tolerance,
+            None => {
+                let (q, residual) = (&self.coordinates, &self.residual);
+                all_finite(residual) && settled(problem, q, residual, stiffness, tolerance)
             }
+        }
     }
 }
 
@@ -244,22 +267,15 @@ fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 where
     M: Mechanism<N, U, P, O>,
 {
-    let mut linear = problem.linear(&found.coordinates)?;
-    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
-            linear = problem.linear(&least)?;
-            found.coordinates = least;
-        }
-        // With the gaps of constraints that were left out.
-        found.residual = problem.residual(&found.coordinates);
-    }
+    let Measured {
+        linear,
+        relative_residual: relative,
+    } = match found.measured.take() {
+        Some(measured) => measured,
+        None => measure(problem, &mut found)?,
+    };
     let place = (&found.coordinates, problem.inputs, problem.design);
     let constraints = ConstraintState::new(problem.mechanism, place, &linear);
-    let at = (&found.coordinates, &found.residual, &linear.stiffness);
-    let relative = match &found.parts {
-        Some(parts) => relative_to(problem, parts, at.0, at.1, at.2),
-        None => relative_residual(problem, at.0, at.1, at.2),
-    };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: "the residual stays larger than rounding explains",
@@ -293,6 +309,30 @@ where
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),
+    })
+}
+
+/// Determines the reactions of a state and measures it.
+fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    found: &mut Found<N>,
+) -> Result<Measured<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut linear = problem.linear(&found.coordinates)?;
+    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
+            linear = problem.linear(&least)?;
+            found.coordinates = least;
+        }
+        // With the gaps of constraints that were left out.
+        found.residual = problem.residual(&found.coordinates);
+    }
+    let (q, residual) = (&found.coordinates, &found.residual);
+    Ok(Measured {
+        relative_residual: relative_residual(problem, q, residual, &linear.stiffness),
+        linear,
     })
 }
 
