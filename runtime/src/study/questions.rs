@@ -1,7 +1,7 @@
 //! What a study can be asked at one operating point: each question runs the chain of functions that answers it.
 
 use super::Study;
-use crate::equilibrium::{self, Assembly, Equilibrium, Search};
+use crate::equilibrium::{self, Assembly, Equilibrium, Problem, Search};
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
     self, EquilibriumShift, Method, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
@@ -121,8 +121,13 @@ where
         // Borrowed: to move them would take a noticeable part of the time.
         let tolerances = self.tolerances();
         let tolerances = borrowed(&tolerances)?;
-        let state = self.equilibrium();
-        let state = borrowed(&state)?;
+        let problem = Problem::new(&self.mechanism, &self.inputs, &self.design)?;
+        let start = self.assembled_start()?;
+        problem.check_start(&start)?;
+        let state = equilibrium::settle(&problem, &start, self.policy);
+        let state = state
+            .as_ref()
+            .map_err(|failure| failure.explain(problem.description()))?;
         state.regular()?;
         let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
         let solved = found.solve(&state.linear);
