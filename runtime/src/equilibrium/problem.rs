@@ -208,7 +208,7 @@ where
 }
 
 /// Coordinates up to which two kernels in one function pay: code for more is long.
-const FEW_COORDINATES: usize = 4;
+pub(super) const FEW_COORDINATES: usize = 4;
 
 /// Refuses the first value that is not finite, under its name.
 #[inline]

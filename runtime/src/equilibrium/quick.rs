@@ -4,10 +4,10 @@
 
 use super::convergence::{ACCEPTED, Last, last};
 use super::descent::{FIRST_RADIUS, GROWTH, Way};
-use super::problem::Problem;
+use super::problem::{FEW_COORDINATES, Problem};
 use super::settle::{End, Found, last_step};
-use crate::Mechanism;
-use crate::array::{Cholesky, add_scaled, dot, form, largest};
+use crate::array::{Cholesky, Square, add_scaled, dot, form, largest};
+use crate::{Mechanism, Real};
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
@@ -22,10 +22,35 @@ pub(super) fn quick<M, const N: usize, const U: usize, const P: usize, const O: 
 where
     M: Mechanism<N, U, P, O>,
 {
-    let evaluate = |q: &[f64; N]| {
-        let (inputs, design) = (problem.inputs, problem.design);
-        problem.mechanism.residual_and_stiffness(q, inputs, design)
-    };
+    let (mechanism, u, b) = (problem.mechanism, problem.inputs, problem.design);
+    if const { N <= FEW_COORDINATES } {
+        <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                steps(
+                    problem,
+                    start,
+                    #[inline(always)]
+                    |q| mechanism.residual_and_stiffness_inlined(q, u, b),
+                )
+            },
+        )
+    } else {
+        steps(problem, start, |q| {
+            mechanism.residual_and_stiffness(q, u, b)
+        })
+    }
+}
+
+#[inline(always)]
+fn steps<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    start: &[f64; N],
+    evaluate: impl Fn(&[f64; N]) -> ([f64; N], Square<N>),
+) -> Result<Found<N>, [f64; N]>
+where
+    M: Mechanism<N, U, P, O>,
+{
     let mut q = *start;
     let mut radius = FIRST_RADIUS;
     let (mut residual, mut stiffness) = evaluate(&q);
