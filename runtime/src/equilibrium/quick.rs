@@ -2,10 +2,10 @@
 //! steps that [`descent`](super::descent) takes, as long as each passes its tests at once; from where one does not, descent
 //! goes on with all that it has for hard cases.
 
-use super::convergence::{ACCEPTED, Last, last};
+use super::convergence::{Last, last};
 use super::descent::{FIRST_RADIUS, GROWTH, Way};
 use super::problem::{FEW_COORDINATES, Problem};
-use super::settle::{End, Found, last_step};
+use super::settle::{Found, last_step};
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest};
 use crate::{Mechanism, Real};
 
@@ -59,30 +59,22 @@ where
             return Err(q);
         };
         let mut step = factors.solve(&residual).map(|value| -value);
-        let found = |end: End<N>, iterations| Found {
-            coordinates: end.coordinates,
-            residual: end.residual,
-            measured: end.measured,
-            iterations,
-            left_unstable_region: false,
-        };
-        match last(&step, &q, N) {
-            Last::Reached => {
-                let end = End::at(problem, &q);
-                let solved = end.is_solved(problem, &stiffness, ACCEPTED);
-                return if solved {
-                    Ok(found(end, iterations))
-                } else {
-                    Err(q)
-                };
-            }
-            Last::OneMore => {
-                let rest = |rest: &[f64; N]| factors.solve(rest);
-                return last_step(problem, &q, (&residual, &stiffness), &step, rest)
-                    .map(|end| found(end, iterations + 1))
-                    .ok_or(q);
-            }
-            Last::More => {}
+        let left = last(&step, &q, N);
+        if left != Last::More {
+            // A step that changes nothing is not taken.
+            let (step, taken) = match left {
+                Last::Reached => ([0.0; N], 0),
+                _ => (step, 1),
+            };
+            let displacement = |rest: &[f64; N]| factors.solve(rest);
+            let end = last_step(problem, &q, (&residual, &stiffness), &step, displacement);
+            return end.ok_or(q).map(|end| Found {
+                coordinates: end.coordinates,
+                residual: end.residual,
+                measured: end.measured,
+                iterations: iterations + taken,
+                left_unstable_region: false,
+            });
         }
         let size = largest(&step);
         let limited = size > radius;
