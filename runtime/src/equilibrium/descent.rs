@@ -15,30 +15,52 @@ use crate::modes::symmetric;
 const MAX_ITERATIONS: usize = 300;
 const MAX_DEPARTURES: usize = 8;
 /// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
-pub(super) const FIRST_RADIUS: f64 = 1.0;
+const FIRST_RADIUS: f64 = 1.0;
 /// By how much it grows at a time.
 pub(super) const GROWTH: f64 = 4.0;
 /// Displacement (rad or m) by which an unstable equilibrium is left.
 const DEPARTURE: f64 = 1e-3;
 
-/// Descends to a minimum of the amended potential from `from`, a state on the way from `start`; both meet the constraints.
+/// Where a search has come to.
+#[derive(Clone, Copy)]
+pub(super) struct Place<const N: usize> {
+    pub(super) q: [f64; N],
+    /// Greatest change of a coordinate in the next step, rad or m.
+    pub(super) radius: f64,
+    /// Spent so far.
+    pub(super) iterations: usize,
+}
+
+impl<const N: usize> Place<N> {
+    /// The start.
+    #[inline]
+    pub(super) fn first(q: &[f64; N]) -> Self {
+        Self {
+            q: *q,
+            radius: FIRST_RADIUS,
+            iterations: 0,
+        }
+    }
+}
+
+/// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints.
 pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-    from: &[f64; N],
+    from: &Place<N>,
 ) -> Result<Found<N>, Failure<N>>
 where
     S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, from)?;
-    let mut radius = FIRST_RADIUS;
+    let mut base: Base<N, S> = S::base(problem, &from.q)?;
+    let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
-    for iterations in 0..MAX_ITERATIONS {
+    for iterations in from.iterations..MAX_ITERATIONS {
         let at = (&base.residual, &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);

@@ -3,7 +3,7 @@
 //! goes on with all that it has for hard cases.
 
 use super::convergence::{Last, last};
-use super::descent::{FIRST_RADIUS, GROWTH, Way};
+use super::descent::{GROWTH, Place, Way};
 use super::problem::{FEW_COORDINATES, Problem};
 use super::settle::{Found, last_step};
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest};
@@ -13,12 +13,12 @@ use crate::{Mechanism, Real};
 const MAX_ITERATIONS: usize = 8;
 
 /// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
-/// convex; otherwise the last such state, or the start. For mechanisms without constraints.
+/// convex; otherwise where that ended: at the last such state, or at the start. For mechanisms without constraints.
 #[inline]
 pub(super) fn quick<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-) -> Result<Found<N>, [f64; N]>
+) -> Result<Found<N>, Place<N>>
 where
     M: Mechanism<N, U, P, O>,
 {
@@ -47,19 +47,18 @@ fn steps<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
     evaluate: impl Fn(&[f64; N]) -> ([f64; N], Square<N>),
-) -> Result<Found<N>, [f64; N]>
+) -> Result<Found<N>, Place<N>>
 where
     M: Mechanism<N, U, P, O>,
 {
-    let mut q = *start;
-    let mut radius = FIRST_RADIUS;
-    let (mut residual, mut stiffness) = evaluate(&q);
-    for iterations in 0..MAX_ITERATIONS {
+    let mut place = Place::first(start);
+    let (mut residual, mut stiffness) = evaluate(start);
+    while place.iterations < MAX_ITERATIONS {
         let Ok(factors) = Cholesky::new(&stiffness) else {
-            return Err(q);
+            return Err(place);
         };
         let mut step = factors.solve(&residual).map(|value| -value);
-        let left = last(&step, &q, N);
+        let left = last(&step, &place.q, N);
         if left != Last::More {
             // A step that changes nothing is not taken.
             let (step, taken) = match left {
@@ -67,21 +66,27 @@ where
                 _ => (step, 1),
             };
             let displacement = |rest: &[f64; N]| factors.solve(rest);
-            let end = last_step(problem, &q, (&residual, &stiffness), &step, displacement);
-            return end.ok_or(q).map(|end| Found {
+            let end = last_step(
+                problem,
+                &place.q,
+                (&residual, &stiffness),
+                &step,
+                displacement,
+            );
+            return end.ok_or(place).map(|end| Found {
                 coordinates: end.coordinates,
                 residual: end.residual,
                 measured: end.measured,
-                iterations: iterations + taken,
+                iterations: place.iterations + taken,
                 left_unstable_region: false,
             });
         }
         let size = largest(&step);
-        let limited = size > radius;
+        let limited = size > place.radius;
         let mut share = 1.0;
         if limited {
-            share = radius / size;
-            step = step.map(|value| share * value);
+            share = place.radius / size;
+            step = step.map(|value| value * place.radius / size);
         }
         let slope = dot(&step, &residual);
         // A Newton step has as much curvature as it has slope.
@@ -89,19 +94,20 @@ where
             slope,
             curvature: -share * slope,
         };
-        let next = add_scaled(&q, 1.0, &step);
+        let next = add_scaled(&place.q, 1.0, &step);
         (residual, stiffness) = evaluate(&next);
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(&step, &residual);
         let curvature = form(&step, &stiffness, &step);
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
-            return Err(q);
+            return Err(place);
         }
         if limited && way.predicts(1.0, slope) {
-            radius *= GROWTH;
+            place.radius *= GROWTH;
         }
-        q = next;
+        place.q = next;
+        place.iterations += 1;
     }
-    Err(q)
+    Err(place)
 }

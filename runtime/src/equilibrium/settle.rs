@@ -3,6 +3,7 @@
 use super::convergence::{
     ACCEPTED, TOLERANCE, is_rounding, relative_residual, relative_to, settled,
 };
+use super::descent::Place;
 use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
 use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
@@ -34,10 +35,10 @@ where
     if const { Structure::of(&M::DESCRIPTION).open() } {
         return match quick::quick(problem, start) {
             Ok(found) => finish(problem, found),
-            Err(base) => from_afar(problem, start, &base),
+            Err(place) => from_afar(problem, start, &place),
         };
     }
-    from_afar(problem, start, start)
+    from_afar(problem, start, &Place::first(start))
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
@@ -66,12 +67,12 @@ where
     finish(problem, found).ok()
 }
 
-/// As [`settle`], for a stable equilibrium to which no straight way leads; the search begins at `base`.
+/// As [`settle`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
 #[cold]
 fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-    base: &[f64; N],
+    place: &Place<N>,
 ) -> Result<Equilibrium<N, U, P>, Failure<N>>
 where
     M: Mechanism<N, U, P, O>,
@@ -81,9 +82,9 @@ where
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, base)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, place)
     } else {
-        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, base)
+        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, place)
             .and_then(|found| polished(problem, found))
     };
     found
