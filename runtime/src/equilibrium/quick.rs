@@ -111,3 +111,55 @@ where
     }
     Err(place)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::descent::stable;
+    use super::super::space::Whole;
+    use super::*;
+    use crate::mechanism;
+
+    mechanism! {
+        mechanism DoublePendulum {
+            input  omega: rad/s;
+            gravity 9.81 m/s^2 along -z;
+            body shaft: massless;
+            body bar1: rod(mass: 3 kg, length: 1 m, along: -z);
+            body bar2: rod(mass: 3 kg, length: 1 m, along: -z);
+            joint spin:   revolute(z) from ground to shaft, driven at omega;
+            joint theta1: revolute(y) from shaft to bar1;
+            joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -1 m];
+        }
+    }
+
+    #[test]
+    fn the_way_is_that_of_descent() {
+        let mut alone = 0;
+        for omega in [0.0, 1.0, 3.0, 3.3, 5.0, 9.0] {
+            let inputs = [omega];
+            let problem = Problem::unchecked(&DoublePendulum, &inputs, &[]);
+            for k in 0..400_i32 {
+                let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
+                let Ok(expected) =
+                    stable::<Whole, _, 2, 1, 0, 0>(&problem, &start, &Place::first(&start))
+                else {
+                    panic!("no state from {start:?}")
+                };
+                let found = match quick(&problem, &start) {
+                    Ok(found) => {
+                        alone += 1;
+                        assert!(!expected.left_unstable_region, "{omega} {start:?}");
+                        Ok(found)
+                    }
+                    Err(place) => stable::<Whole, _, 2, 1, 0, 0>(&problem, &start, &place),
+                };
+                let Ok(found) = found else {
+                    panic!("nothing from {start:?}")
+                };
+                let apart = add_scaled(&found.coordinates, -1.0, &expected.coordinates);
+                assert!(largest(&apart) < 1e-9, "{omega} {start:?}: {apart:?}");
+            }
+        }
+        assert!(alone > 300, "{alone}");
+    }
+}
