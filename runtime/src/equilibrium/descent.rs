@@ -4,8 +4,8 @@
 //! positions the same along the directions they leave free.
 
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
-use super::settle::{End, Found, last_step};
 use super::space::{Base, Space, Trial};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};

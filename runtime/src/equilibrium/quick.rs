@@ -4,8 +4,8 @@
 
 use super::convergence::{Last, last};
 use super::descent::{GROWTH, Place, Way};
+use super::end::{Found, last_step};
 use super::problem::{FEW_COORDINATES, Problem};
-use super::settle::{Found, last_step};
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest};
 use crate::{Mechanism, Real};
 
