@@ -130,7 +130,7 @@ impl<const N: usize> Cholesky<N> {
                 lower[i][j] = sum / pivots[j];
                 pivot -= sum * lower[i][j];
             }
-            if pivot > threshold * matrix[i][i].abs() && pivot.is_finite() {
+            if pivot > threshold * matrix[i][i].abs() && pivot < f64::INFINITY {
                 pivots[i] = pivot;
             } else {
                 return Err(i);

@@ -57,6 +57,10 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod dual;
+// Generated code in unit tests names the crate from outside.
+#[cfg(test)]
+extern crate self as eigentol;
+
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod lanes;
 mod mechanism;

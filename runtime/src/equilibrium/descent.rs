@@ -4,8 +4,8 @@
 //! positions the same along the directions they leave free.
 
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
-use super::settle::{End, Found, last_step};
 use super::space::{Base, Space, Trial};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
@@ -16,27 +16,51 @@ const MAX_ITERATIONS: usize = 300;
 const MAX_DEPARTURES: usize = 8;
 /// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
 const FIRST_RADIUS: f64 = 1.0;
+/// By how much it grows at a time.
+pub(super) const GROWTH: f64 = 4.0;
 /// Displacement (rad or m) by which an unstable equilibrium is left.
 const DEPARTURE: f64 = 1e-3;
 
-/// Descends to a minimum of the amended potential from `from`, a state on the way from `start`; both meet the constraints.
+/// Where a search has come to.
+#[derive(Clone, Copy)]
+pub(super) struct Place<const N: usize> {
+    pub(super) q: [f64; N],
+    /// Greatest change of a coordinate in the next step, rad or m.
+    pub(super) radius: f64,
+    /// Spent so far.
+    pub(super) iterations: usize,
+}
+
+impl<const N: usize> Place<N> {
+    /// The start.
+    #[inline]
+    pub(super) fn first(q: &[f64; N]) -> Self {
+        Self {
+            q: *q,
+            radius: FIRST_RADIUS,
+            iterations: 0,
+        }
+    }
+}
+
+/// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints.
 pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-    from: &[f64; N],
+    from: &Place<N>,
 ) -> Result<Found<N>, Failure<N>>
 where
     S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
     let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, from)?;
-    let mut radius = FIRST_RADIUS;
+    let mut base: Base<N, S> = S::base(problem, &from.q)?;
+    let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
-    for iterations in 0..MAX_ITERATIONS {
+    for iterations in from.iterations..MAX_ITERATIONS {
         let at = (&base.residual, &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
@@ -52,14 +76,14 @@ where
         let found = |end: End<N>, iterations| Found {
             coordinates: end.coordinates,
             residual: end.residual,
-            parts: end.parts,
+            measured: end.measured,
             iterations,
             left_unstable_region,
         };
         let here = |base: &Base<N, S>| End {
             coordinates: base.q,
             residual: base.residual,
-            parts: None,
+            measured: None,
         };
         step = base.space.lift(&step);
         let progress = watch.judge(problem, &base.q, at, Some(&step));
@@ -105,7 +129,7 @@ where
         if next.length < 1.0 {
             radius = radius.min(2.0 * next.length * largest(&step));
         } else if limited && next.predicted {
-            radius *= 4.0;
+            radius *= GROWTH;
         }
         base = S::arrive(problem, next.trial)?;
         if largest_of(&base.q[..motions]) > escaped {
@@ -197,8 +221,32 @@ struct Next<const N: usize> {
     predicted: bool,
 }
 
-/// Line search on the change of the potential, which is integrated from the slopes and curvatures at both ends
-/// (corrected trapezoidal rule), since the potential itself is not available.
+/// The potential along a step, at its beginning: derivatives by the share of the step.
+pub(super) struct Way {
+    pub(super) slope: f64,
+    pub(super) curvature: f64,
+}
+
+impl Way {
+    /// Whether the potential is lower at a share `length` of the step, where it has these derivatives: its minimum along the
+    /// step is near, or it fell by their integral (corrected trapezoidal rule), since the potential itself is not available.
+    #[inline]
+    pub(super) fn falls(&self, length: f64, slope: f64, curvature: f64) -> bool {
+        let near = slope.abs() <= 0.5 * self.slope.abs() && curvature >= 0.0;
+        let change = 0.5 * length * (self.slope + slope)
+            + length * length / 12.0 * (self.curvature - curvature);
+        near || change <= 1e-4 * length * self.slope
+    }
+
+    /// Whether the derivatives at the beginning told the slope there.
+    #[inline]
+    pub(super) fn predicts(&self, length: f64, slope: f64) -> bool {
+        let expected = self.slope + length * self.curvature;
+        (slope - expected).abs() <= 0.25 * self.slope.abs()
+    }
+}
+
+/// Line search on the change of the potential.
 fn search<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     base: &Base<N, S>,
@@ -208,9 +256,11 @@ where
     S: Space<N>,
     M: Mechanism<N, U, P, O>,
 {
-    let slope_0 = dot(step, &base.residual);
-    let curvature_0 = form(step, &base.stiffness, step);
-    if slope_0.is_nan() || slope_0 >= 0.0 {
+    let way = Way {
+        slope: dot(step, &base.residual),
+        curvature: form(step, &base.stiffness, step),
+    };
+    if way.slope.is_nan() || way.slope >= 0.0 {
         return None;
     }
     let mut length = 1.0;
@@ -221,20 +271,15 @@ where
         };
         let slope = dot(step, &trial.residual);
         let curvature = form(&trial.direction, &trial.stiffness, &trial.direction);
-        let change =
-            0.5 * length * (slope_0 + slope) + length * length / 12.0 * (curvature_0 - curvature);
-        let settled = slope.abs() <= 0.5 * slope_0.abs() && curvature >= 0.0;
-        if settled || change <= 1e-4 * length * slope_0 {
-            let expected = slope_0 + length * curvature_0;
-            let predicted = (slope - expected).abs() <= 0.25 * slope_0.abs();
+        if way.falls(length, slope, curvature) {
             return Some(Next {
                 trial,
                 length,
-                predicted,
+                predicted: way.predicts(length, slope),
             });
         }
         length *= if slope > 0.0 {
-            (slope_0 / (slope_0 - slope)).clamp(0.1, 0.7)
+            (way.slope / (way.slope - slope)).clamp(0.1, 0.7)
         } else {
             0.5
         };

@@ -5,7 +5,7 @@ use super::SweepPoint;
 use super::track::{Tracked, Tracker, even};
 use crate::batched::Block;
 use crate::lanes::WIDTH;
-use crate::sensitivity::sensitivities;
+use crate::sensitivity::{Method, sensitivities};
 use crate::{Error, Mechanism, Sensitivities};
 
 /// What is known at one value.
@@ -99,7 +99,7 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
                 equilibrium: Ok(last.equilibrium),
                 modes: Ok(last.modes),
             },
-            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes))),
+            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes, Method::Adjoint))),
             smooth: true,
         }
     }

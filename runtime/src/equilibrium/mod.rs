@@ -7,6 +7,7 @@ pub(crate) mod convergence;
 mod critical;
 mod crossing;
 mod descent;
+mod end;
 mod follow;
 mod multistart;
 mod newton;

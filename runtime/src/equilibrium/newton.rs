@@ -1,8 +1,8 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
+use super::end::{Found, last_step};
 use super::problem::{Failure, Problem};
-use super::settle::{Found, last_step};
 use super::space::{Base, Space, Trial};
 use crate::Mechanism;
 use crate::array::{Cholesky, Lu, Square, times, transpose};
@@ -30,7 +30,7 @@ where
         let found = Found {
             coordinates: base.q,
             residual: base.residual,
-            parts: None,
+            measured: None,
             iterations,
             left_unstable_region: false,
         };
@@ -57,7 +57,7 @@ where
             return Ok(Found {
                 coordinates: end.coordinates,
                 residual: end.residual,
-                parts: end.parts,
+                measured: end.measured,
                 iterations: iterations + 1,
                 ..found
             });

@@ -3,7 +3,7 @@
 use crate::array::{Square, all_finite, all_finite_square};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::modes::symmetric::Trouble;
-use crate::{DampingKind, Description, Error, Linear, Mechanism, RestParts, Role};
+use crate::{DampingKind, Description, Error, Linear, Mechanism, Real, RestParts, Role};
 
 /// A mechanism at given inputs and design variables.
 pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
@@ -162,6 +162,34 @@ where
     /// The linearised mechanism, its gauge fixed.
     pub(crate) fn linear(&self, q: &[f64; N]) -> Result<Linear<f64, N>, Failure<N>> {
         let mut linear = self.mechanism.linear(q, self.inputs, self.design);
+        self.check(q, &linear)?;
+        if const { !Self::STRUCTURE.open() } {
+            fix_gauge(&mut linear.stiffness, Self::STRUCTURE);
+        }
+        Ok(linear)
+    }
+
+    /// [`Self::parts`] and the linearised mechanism, neither of which may be finite, its gauge as it is. Of a small mechanism
+    /// the sines, and what else both need, are computed once.
+    #[inline]
+    pub(crate) fn parts_and_linear(&self, q: &[f64; N]) -> (RestParts<f64, N>, Linear<f64, N>) {
+        let (mechanism, u, b) = (self.mechanism, self.inputs, self.design);
+        if const { N <= FEW_COORDINATES } {
+            <f64 as Real>::run(
+                #[inline(always)]
+                || {
+                    let parts = mechanism.residual_parts_inlined(q, u, b);
+                    (parts, mechanism.linear_inlined(q, u, b))
+                },
+            )
+        } else {
+            (self.parts(q), mechanism.linear(q, u, b))
+        }
+    }
+
+    /// Refuses matrices that are not finite.
+    #[inline]
+    pub(crate) fn check(&self, q: &[f64; N], linear: &Linear<f64, N>) -> Result<(), Failure<N>> {
         let undamped = const { matches!(M::DESCRIPTION.damping, DampingKind::Zero) };
         let what = if !all_finite_square(&linear.mass) {
             "the mass matrix"
@@ -170,20 +198,17 @@ where
         } else if !all_finite_square(&linear.stiffness) {
             "the stiffness matrix"
         } else {
-            ""
+            return Ok(());
         };
-        if !what.is_empty() {
-            return Err(Failure::OutsideDomain {
-                what,
-                coordinates: *q,
-            });
-        }
-        if const { !Self::STRUCTURE.open() } {
-            fix_gauge(&mut linear.stiffness, Self::STRUCTURE);
-        }
-        Ok(linear)
+        Err(Failure::OutsideDomain {
+            what,
+            coordinates: *q,
+        })
     }
 }
+
+/// Coordinates up to which two kernels in one function pay: code for more is long.
+pub(super) const FEW_COORDINATES: usize = 4;
 
 /// Refuses the first value that is not finite, under its name.
 #[inline]
@@ -192,6 +217,9 @@ fn finite<const K: usize>(
     name: impl Fn(usize) -> Option<&'static str>,
     values: &[f64; K],
 ) -> Result<(), Error> {
+    if all_finite(values) {
+        return Ok(());
+    }
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
         Some(index) => Err(Error::NotFinite {

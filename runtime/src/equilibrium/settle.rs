@@ -1,14 +1,14 @@
 //! From a start value to an equilibrium that is finished: solved to rounding, judged, its reactions determined.
 
-use super::convergence::{
-    ACCEPTED, TOLERANCE, is_rounding, relative_residual, relative_to, settled,
-};
+use super::convergence::{ACCEPTED, relative_residual};
+use super::descent::Place;
+use super::end::{Found, Measured};
 use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
 use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
-use crate::array::{Cholesky, Square, add_scaled, all_finite, dot, largest};
+use crate::array::{Cholesky, add_scaled, dot};
 use crate::constraints::{ConstraintState, Structure, Tangent, all_rows, placed};
-use crate::{DampingKind, Description, Linear, Mechanism, RestParts, Stability};
+use crate::{DampingKind, Description, Linear, Mechanism, Stability};
 
 /// As [`equilibrium`], for values already checked; a failure owns nothing.
 pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O: usize>(
@@ -34,10 +34,10 @@ where
     if const { Structure::of(&M::DESCRIPTION).open() } {
         return match quick::quick(problem, start) {
             Ok(found) => finish(problem, found),
-            Err(base) => from_afar(problem, start, &base),
+            Err(place) => from_afar(problem, start, &place),
         };
     }
-    from_afar(problem, start, start)
+    from_afar(problem, start, &Place::first(start))
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
@@ -66,12 +66,12 @@ where
     finish(problem, found).ok()
 }
 
-/// As [`settle`], for a stable equilibrium to which no straight way leads; the search begins at `base`.
+/// As [`settle`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
 #[cold]
 fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-    base: &[f64; N],
+    place: &Place<N>,
 ) -> Result<Equilibrium<N, U, P>, Failure<N>>
 where
     M: Mechanism<N, U, P, O>,
@@ -81,9 +81,9 @@ where
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, base)
+        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, place)
     } else {
-        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, base)
+        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, place)
             .and_then(|found| polished(problem, found))
     };
     found
@@ -159,84 +159,6 @@ where
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
 
-/// What a solver found, before its stability is judged.
-pub(crate) struct Found<const N: usize> {
-    pub(crate) coordinates: [f64; N],
-    pub(crate) residual: [f64; N],
-    /// Of the residual, where they are known.
-    pub(crate) parts: Option<RestParts<f64, N>>,
-    pub(crate) iterations: usize,
-    pub(crate) left_unstable_region: bool,
-}
-
-/// A state that may be the result.
-pub(super) struct End<const N: usize> {
-    pub(super) coordinates: [f64; N],
-    pub(super) residual: [f64; N],
-    pub(super) parts: Option<RestParts<f64, N>>,
-}
-
-impl<const N: usize> End<N> {
-    /// The state at `q`. Without constraints the parts, which the judgement of a result asks for, are the residual as well.
-    #[inline]
-    pub(super) fn at<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Self
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let parts = const { Structure::of(&M::DESCRIPTION).open() }.then(|| problem.parts(q));
-        Self {
-            coordinates: *q,
-            residual: match &parts {
-                Some(parts) => add_scaled(&parts.inertia, -1.0, &parts.applied),
-                None => problem.residual(q),
-            },
-            parts,
-        }
-    }
-
-    /// Whether the relative residual is finite and within `tolerance`.
-    #[inline]
-    pub(super) fn is_solved<M, const U: usize, const P: usize, const O: usize>(
-        &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        stiffness: &Square<N>,
-        tolerance: f64,
-    ) -> bool
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let (q, residual) = (&self.coordinates, &self.residual);
-        all_finite(residual)
-            && match &self.parts {
-                Some(parts) => relative_to(problem, parts, q, residual, stiffness) <= tolerance,
-                None => settled(problem, q, residual, stiffness, tolerance),
-            }
-    }
-}
-
-/// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding: to a small share, or to
-/// what `displacement`, from a residual to the Newton step it asks for, says is nothing.
-#[inline]
-pub(super) fn last_step<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    (residual, stiffness): (&[f64; N], &Square<N>),
-    step: &[f64; N],
-    displacement: impl FnOnce(&[f64; N]) -> [f64; N],
-) -> Option<End<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let end = End::at(problem, &add_scaled(q, 1.0, step));
-    let fell = largest(&end.residual) <= 1e-3 * largest(residual)
-        || is_rounding(&displacement(&end.residual), &end.coordinates, motions);
-    (fell && end.is_solved(problem, stiffness, TOLERANCE)).then_some(end)
-}
-
 fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     mut found: Found<N>,
@@ -244,22 +166,15 @@ fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 where
     M: Mechanism<N, U, P, O>,
 {
-    let mut linear = problem.linear(&found.coordinates)?;
-    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
-            linear = problem.linear(&least)?;
-            found.coordinates = least;
-        }
-        // With the gaps of constraints that were left out.
-        found.residual = problem.residual(&found.coordinates);
-    }
+    let Measured {
+        linear,
+        relative_residual: relative,
+    } = match found.measured.take() {
+        Some(measured) => measured,
+        None => measure(problem, &mut found)?,
+    };
     let place = (&found.coordinates, problem.inputs, problem.design);
     let constraints = ConstraintState::new(problem.mechanism, place, &linear);
-    let at = (&found.coordinates, &found.residual, &linear.stiffness);
-    let relative = match &found.parts {
-        Some(parts) => relative_to(problem, parts, at.0, at.1, at.2),
-        None => relative_residual(problem, at.0, at.1, at.2),
-    };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: "the residual stays larger than rounding explains",
@@ -293,6 +208,30 @@ where
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
         description: problem.description(),
+    })
+}
+
+/// Determines the reactions of a state and measures it.
+fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    found: &mut Found<N>,
+) -> Result<Measured<N>, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let mut linear = problem.linear(&found.coordinates)?;
+    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
+            linear = problem.linear(&least)?;
+            found.coordinates = least;
+        }
+        // With the gaps of constraints that were left out.
+        found.residual = problem.residual(&found.coordinates);
+    }
+    let (q, residual) = (&found.coordinates, &found.residual);
+    Ok(Measured {
+        relative_residual: relative_residual(problem, q, residual, &linear.stiffness),
+        linear,
     })
 }
 

@@ -191,7 +191,7 @@ pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> 
 }
 
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
-#[inline]
+#[inline(always)]
 pub(crate) fn near_another<const N: usize>(modes: &Modes<N>, i: usize, gap: f64) -> bool {
     let near = |a: &Mode<N>, b: &Mode<N>| match modes.family {
         Family::Undamped => {

@@ -123,14 +123,7 @@ pub fn modes_of<const N: usize>(
     family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, Error> {
-    // Made where it is returned: a long list, which would cost as much to copy as to find.
-    let mut result = Ok(Modes::empty(linear, family, description));
-    if let Ok(modes) = &mut result
-        && let Err(trouble) = modes.solve(linear)
-    {
-        result = Err(trouble.explain(description));
-    }
-    result
+    solve_modes(linear, family, description).map_err(|failure| failure.explain(description))
 }
 
 /// A failure that owns nothing.
@@ -176,7 +169,11 @@ pub(crate) fn solve_modes<const N: usize>(
 impl<const N: usize> Modes<N> {
     /// None yet.
     #[inline]
-    fn empty(linear: &Linear<f64, N>, family: Family, description: &'static Description) -> Self {
+    pub(crate) fn empty(
+        linear: &Linear<f64, N>,
+        family: Family,
+        description: &'static Description,
+    ) -> Self {
         Self {
             modes: const { PerMode::blank(Mode::BLANK) },
             family,
@@ -187,9 +184,9 @@ impl<const N: usize> Modes<N> {
         }
     }
 
-    /// Fills an empty list.
+    /// Fills an empty list: of a long one, which would cost as much to copy as to find, where it stands.
     #[inline]
-    fn solve(&mut self, linear: &Linear<f64, N>) -> Result<(), ModesFailure> {
+    pub(crate) fn solve(&mut self, linear: &Linear<f64, N>) -> Result<(), ModesFailure> {
         match self.family {
             Family::Undamped => undamped(linear, self.description, &mut self.modes),
             Family::General => {
@@ -219,28 +216,16 @@ fn undamped<const N: usize>(
         let pairs =
             symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
         let threshold = neutral_threshold(&pairs.lambda);
-        for r in 0..N {
+        for (r, mode) in modes.places(N).iter_mut().enumerate() {
             let (lambda, residual) = (pairs.lambda[r], pairs.residuals[r]);
-            modes.push(undamped_mode(
-                r,
-                lambda,
-                &pairs.shapes[r],
-                residual,
-                threshold,
-            ));
+            *mode = undamped_mode(r, lambda, &pairs.shapes[r], residual, threshold);
         }
         return Ok(());
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
     let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
-    for r in 0..lambda.len() {
-        modes.push(undamped_mode(
-            r,
-            lambda[r],
-            &shapes[r],
-            residuals[r],
-            pairs.threshold,
-        ));
+    for (r, mode) in modes.places(lambda.len()).iter_mut().enumerate() {
+        *mode = undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold);
     }
     Ok(())
 }
@@ -296,7 +281,8 @@ fn damped<const N: usize>(
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
-    for (r, root) in roots.iter().enumerate() {
+    let places = modes.places(roots.len()).iter_mut();
+    for (r, (mode, root)) in places.zip(roots).enumerate() {
         let mut s = root.s;
         let zero = s.norm() <= root.error;
         let keeps_amplitude = s.re.abs() <= root.error;
@@ -313,7 +299,7 @@ fn damped<const N: usize>(
             (_, false, false) => Behaviour::Decaying(-s.re),
             (_, false, true) => Behaviour::Divergent(s.re),
         };
-        modes.push(Mode {
+        *mode = Mode {
             s,
             lambda: -(s * s).re,
             shape: root.right,
@@ -323,7 +309,7 @@ fn damped<const N: usize>(
             error: root.error,
             condition: root.condition,
             label: r,
-        });
+        };
     }
     Ok(())
 }

@@ -64,7 +64,7 @@ pub struct Mode<const N: usize> {
 }
 
 impl<const N: usize> Mode<N> {
-    /// What stands in places without a mode.
+    /// What stands where a mode is going to be written.
     pub(super) const BLANK: Self = Self {
         s: Complex::ZERO,
         lambda: 0.0,

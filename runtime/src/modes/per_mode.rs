@@ -13,7 +13,7 @@ pub struct PerMode<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> PerMode<T, N> {
-    /// Without entries; `blank` stands in their places.
+    /// Without entries, but with room for them: `blank` stands in their places.
     #[inline]
     pub(crate) const fn blank(blank: T) -> Self {
         Self {
@@ -22,15 +22,11 @@ impl<T: Copy, const N: usize> PerMode<T, N> {
         }
     }
 
-    /// Adds one of at most `2 N` entries.
+    /// Makes room for `count` entries, at most `2 N`: places to be written over.
     #[inline]
-    pub(crate) fn push(&mut self, entry: T) {
-        if let Some(entries) = &mut self.entries
-            && let Some(place) = entries.as_flattened_mut().get_mut(self.count)
-        {
-            *place = entry;
-            self.count += 1;
-        }
+    pub(crate) fn places(&mut self, count: usize) -> &mut [T] {
+        self.count = count.min(2 * N);
+        self
     }
 
     /// The first `count` of the values of `entry`, at most `2 N`.
@@ -43,18 +39,11 @@ impl<T: Copy, const N: usize> PerMode<T, N> {
                 count,
             };
         }
-        let mut entries = [[entry(0); 2]; N];
-        for (r, place) in entries.as_flattened_mut()[..count]
-            .iter_mut()
-            .enumerate()
-            .skip(1)
-        {
+        let mut list = Self::blank(entry(0));
+        for (r, place) in list.places(count).iter_mut().enumerate().skip(1) {
             *place = entry(r);
         }
-        Self {
-            entries: Some(entries),
-            count,
-        }
+        list
     }
 
     /// A list of equal length made from each entry.
@@ -76,6 +65,7 @@ impl<T, const N: usize> Deref for PerMode<T, N> {
 }
 
 impl<T, const N: usize> DerefMut for PerMode<T, N> {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [T] {
         match &mut self.entries {
             Some(entries) => &mut entries.as_flattened_mut()[..self.count],

@@ -4,7 +4,7 @@
 
 use super::gradients::{Cheaper, of_general, of_undamped};
 use super::pencil::{Form, form_gradient, residual_gradient};
-use super::{Method, Sensitivities, Slopes, assemble, redundancy};
+use super::{Method, Sensitivities, Slopes, redundancy};
 use crate::array::{Cholesky, Lu, dot_complex, transpose};
 use crate::modes::Family;
 use crate::pencil::pencil_slope_times;
@@ -23,17 +23,38 @@ pub fn sensitivities<M, const N: usize, const U: usize, const P: usize, const O:
 where
     M: Mechanism<N, U, P, O>,
 {
+    let mut found = Sensitivities::blank(modes, Method::Adjoint);
+    sensitivities_into(mechanism, at, modes, &mut found)?;
+    Ok(found)
+}
+
+/// As [`sensitivities`], written into `found`, where there is room for these modes: they are long to copy.
+pub(crate) fn sensitivities_into<
+    M,
+    const N: usize,
+    const U: usize,
+    const P: usize,
+    const O: usize,
+>(
+    mechanism: &M,
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    found: &mut Sensitivities<N, U, P>,
+) -> Result<(), Error>
+where
+    M: Mechanism<N, U, P, O>,
+{
     redundancy::check(mechanism, at)?;
     let state = State::new(mechanism, at)?;
     match modes.family {
         Family::Undamped if const { Cheaper::<M, N, U, P, O>::MATRICES } => {
-            undamped_from_partials(&state, modes)
+            undamped_from_partials(&state, modes, found)
         }
-        Family::Undamped => undamped(&state, modes),
+        Family::Undamped => undamped(&state, modes, found),
         Family::General if const { Cheaper::<M, N, U, P, O>::MATRICES_GENERAL } => {
-            general_from_partials(&state, modes)
+            general_from_partials(&state, modes, found)
         }
-        Family::General => general(&state, modes),
+        Family::General => general(&state, modes, found),
     }
 }
 
@@ -98,14 +119,15 @@ type ResidualPartials<const N: usize, const U: usize, const P: usize> =
 fn undamped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
-) -> Result<Sensitivities<N, U, P>, Error>
+    found: &mut Sensitivities<N, U, P>,
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
     let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL }
         .then(|| state.mechanism.residual_partials(q, u, b));
-    undamped_from(state, modes, residual.as_ref(), |mode| {
+    undamped_from(state, modes, found, residual.as_ref(), |mode| {
         state
             .mechanism
             .mode_gradient(q, u, b, &mode.real_shape(), mode.lambda)
@@ -116,15 +138,18 @@ where
 fn undamped_from_partials<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
-) -> Result<Sensitivities<N, U, P>, Error>
+    found: &mut Sensitivities<N, U, P>,
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let (matrices, residual) = state.mechanism.partials(q, u, b);
+    // Borrowed: to move them would take as long as to use them.
+    let partials = state.mechanism.partials(q, u, b);
+    let (matrices, residual) = &partials;
     let symmetric = const { M::DESCRIPTION.symmetric_stiffness };
-    undamped_from(state, modes, Some(&residual), |mode| {
-        of_undamped(&matrices, &mode.real_shape(), mode.lambda, symmetric)
+    undamped_from(state, modes, found, Some(residual), |mode| {
+        of_undamped(matrices, &mode.real_shape(), mode.lambda, symmetric)
     })
 }
 
@@ -132,15 +157,16 @@ where
 fn undamped_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
+    found: &mut Sensitivities<N, U, P>,
     residual: Option<&ResidualPartials<N, U, P>>,
     direct: impl Fn(&Mode<N>) -> Gradient<f64, N, U, P>,
-) -> Result<Sensitivities<N, U, P>, Error>
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (mechanism, at) = (state.mechanism, state.at);
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    assemble(at, modes, Method::Adjoint, |mode| {
+    found.fill(at, modes, |mode| {
         let direct = direct(mode);
         let adjoint = state.factors.solve(&direct.coordinates);
         let (inputs, design) = match residual {
@@ -163,14 +189,15 @@ where
 fn general<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
-) -> Result<Sensitivities<N, U, P>, Error>
+    found: &mut Sensitivities<N, U, P>,
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
     let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL_GENERAL }
         .then(|| state.mechanism.residual_partials(q, u, b));
-    general_from(state, modes, residual.as_ref(), |mode| {
+    general_from(state, modes, found, residual.as_ref(), |mode| {
         let form = Form::of(&mode.left, mode.s, &mode.shape);
         form_gradient(state.mechanism, state.at, &form)
     })
@@ -180,14 +207,17 @@ where
 fn general_from_partials<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
-) -> Result<Sensitivities<N, U, P>, Error>
+    found: &mut Sensitivities<N, U, P>,
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let (matrices, residual) = state.mechanism.partials(q, u, b);
-    general_from(state, modes, Some(&residual), |mode| {
-        of_general(&matrices, mode)
+    // Borrowed: to move them would take as long as to use them.
+    let partials = state.mechanism.partials(q, u, b);
+    let (matrices, residual) = &partials;
+    general_from(state, modes, found, Some(residual), |mode| {
+        of_general(matrices, mode)
     })
 }
 
@@ -195,14 +225,15 @@ where
 fn general_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     state: &State<'_, M, N, U, P, O>,
     modes: &Modes<N>,
+    found: &mut Sensitivities<N, U, P>,
     residual: Option<&ResidualPartials<N, U, P>>,
     direct: impl Fn(&Mode<N>) -> Gradient<Complex, N, U, P>,
-) -> Result<Sensitivities<N, U, P>, Error>
+) -> Result<(), Error>
 where
     M: Mechanism<N, U, P, O>,
 {
     let (mechanism, at) = (state.mechanism, state.at);
-    assemble(at, modes, Method::Adjoint, |mode| {
+    found.fill(at, modes, |mode| {
         let direct = direct(mode);
         let adjoint = state.factors.solve_complex(&direct.coordinates);
         let (inputs, design) = match residual {

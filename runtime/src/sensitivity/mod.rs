@@ -17,6 +17,7 @@ mod shift;
 mod sweep;
 
 pub use adjoint::sensitivities;
+pub(crate) use adjoint::sensitivities_into;
 pub use clusters::{ModalCouplings, modal_couplings};
 pub use events::{critical_sensitivity, crossing_sensitivity};
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
@@ -103,7 +104,7 @@ impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
         Some(self.s?.map(|ds| quantity.slope(self.value, ds)))
     }
 
-    /// What stands in places without a mode.
+    /// What stands where derivatives are going to be written.
     const BLANK: Self = Self {
         lambda_by_input: [0.0; U],
         lambda_by_design: [0.0; P],
@@ -219,44 +220,30 @@ pub struct Sensitivities<const N: usize, const U: usize, const P: usize> {
 
 impl<const N: usize, const U: usize, const P: usize> Sensitivities<N, U, P> {
     /// Room for the derivatives of these modes.
-    pub(crate) fn blank(modes: &Modes<N>) -> Self {
-        let mut blank = PerMode::blank(ModeSensitivity::BLANK);
-        for _ in modes.modes.iter() {
-            blank.push(ModeSensitivity::BLANK);
-        }
-        Self {
-            modes: blank,
-            method: Method::Adjoint,
+    #[inline]
+    pub(crate) fn blank(modes: &Modes<N>, method: Method) -> Self {
+        let mut blank = Self {
+            modes: const { PerMode::blank(ModeSensitivity::BLANK) },
+            method,
             family: modes.family,
             description: modes.description,
-        }
+        };
+        blank.modes.places(modes.modes.len());
+        blank
     }
-}
 
-/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
-/// shapes.
-pub(crate) const CLUSTER_GAP: f64 = 1e-6;
-
-/// The derivatives of every mode from those of its eigenvalue: of `lambda` (real part) for undamped modes, of `s` for
-/// general ones. Refuses what is not finite.
-#[inline]
-fn assemble<const N: usize, const U: usize, const P: usize>(
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    method: Method,
-    mut eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
-) -> Result<Sensitivities<N, U, P>, Error> {
-    let mut finite = true;
-    // Made where it is returned: these are long lists, and copying them costs as much as filling them.
-    let mut result = Ok(Sensitivities {
-        modes: PerMode::blank(ModeSensitivity::BLANK),
-        method,
-        family: modes.family,
-        description: modes.description,
-    });
-    if let Ok(sensitivities) = &mut result {
-        for (position, mode) in modes.modes.iter().enumerate() {
-            let own = if merged(modes, position) {
+    /// The derivatives of every mode from those of its eigenvalue: of `lambda` (real part) for undamped modes, of `s` for
+    /// general ones. Refuses what is not finite.
+    #[inline]
+    fn fill(
+        &mut self,
+        at: &Equilibrium<N, U, P>,
+        modes: &Modes<N>,
+        mut eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
+    ) -> Result<(), Error> {
+        let mut finite = true;
+        for (position, (own, mode)) in self.modes.iter_mut().zip(&modes.modes).enumerate() {
+            *own = if merged(modes, position) {
                 ModeSensitivity::merged(mode)
             } else {
                 let slopes = eigenvalue(mode);
@@ -269,11 +256,27 @@ fn assemble<const N: usize, const U: usize, const P: usize>(
                 }
             };
             finite &= own.finite();
-            sensitivities.modes.push(own);
+        }
+        if finite {
+            Ok(())
+        } else {
+            Err(shift::outside_domain(at))
         }
     }
-    if !finite {
-        result = Err(shift::outside_domain(at));
-    }
-    result
+}
+
+/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
+/// shapes.
+pub(crate) const CLUSTER_GAP: f64 = 1e-6;
+
+/// As [`Sensitivities::fill`], by value.
+fn assemble<const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
+    modes: &Modes<N>,
+    method: Method,
+    eigenvalue: impl FnMut(&Mode<N>) -> Slopes<Complex, U, P>,
+) -> Result<Sensitivities<N, U, P>, Error> {
+    let mut found = Sensitivities::blank(modes, method);
+    found.fill(at, modes, eigenvalue)?;
+    Ok(found)
 }

@@ -1,10 +1,10 @@
 //! What a study can be asked at one operating point: each question runs the chain of functions that answers it.
 
 use super::Study;
-use crate::equilibrium::{self, Assembly, Equilibrium, Search};
+use crate::equilibrium::{self, Assembly, Equilibrium, Problem, Search};
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
-    self, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
+    self, EquilibriumShift, Method, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
     ShapeSensitivity,
 };
 use crate::tolerance::{
@@ -77,8 +77,11 @@ where
 
     fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
         state.regular()?;
-        let family = self.family.unwrap_or(Family::of(state.description));
-        modes::modes_of(&state.linear, family, state.description)
+        modes::modes_of(&state.linear, self.family_of(state), state.description)
+    }
+
+    fn family_of(&self, state: &Equilibrium<N, U, P>) -> Family {
+        self.family.unwrap_or(Family::of(state.description))
     }
 
     /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
@@ -118,13 +121,20 @@ where
         // Borrowed: to move them would take a noticeable part of the time.
         let tolerances = self.tolerances();
         let tolerances = borrowed(&tolerances)?;
-        let state = self.equilibrium();
-        let state = borrowed(&state)?;
-        let found = self.modes_at(state);
-        let found = borrowed(&found)?;
-        let slopes = sensitivity::sensitivities(&self.mechanism, state, found);
-        let slopes = borrowed(&slopes)?;
-        Ok(tolerance::first_order(found, slopes, tolerances))
+        let problem = Problem::new(&self.mechanism, &self.inputs, &self.design)?;
+        let start = self.assembled_start()?;
+        problem.check_start(&start)?;
+        let state = equilibrium::settle(&problem, &start, self.policy);
+        let state = state
+            .as_ref()
+            .map_err(|failure| failure.explain(problem.description()))?;
+        state.regular()?;
+        let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
+        let solved = found.solve(&state.linear);
+        solved.map_err(|failure| failure.explain(state.description))?;
+        let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
+        sensitivity::sensitivities_into(&self.mechanism, state, &found, &mut slopes)?;
+        Ok(tolerance::first_order(&found, &slopes, tolerances))
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).

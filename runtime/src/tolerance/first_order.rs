@@ -81,7 +81,7 @@ pub struct ModeTolerance<const P: usize> {
 }
 
 impl<const P: usize> ModeTolerance<P> {
-    /// What stands in places without a mode.
+    /// What stands where a spread is going to be written.
     const BLANK: Self = Self {
         lambda: 0.0,
         lambda_sigma: 0.0,
@@ -167,13 +167,14 @@ pub fn first_order<const N: usize, const U: usize, const P: usize>(
         family: modes.family,
         description: modes.description,
     };
-    for (r, own) in sensitivities.modes.iter().enumerate() {
-        let spread = match modes.family {
-            Family::Undamped => undamped(&modes.modes[r], own, tolerances),
-            Family::General => general(&modes.modes[r], own, tolerances),
+    let of_modes = modes.modes.iter().zip(&sensitivities.modes);
+    let places = found.modes.places(sensitivities.modes.len()).iter_mut();
+    for (spread, (mode, own)) in places.zip(of_modes) {
+        *spread = match modes.family {
+            Family::Undamped => undamped(mode, own, tolerances),
+            Family::General => general(mode, own, tolerances),
         };
         found.distance_to_critical = found.distance_to_critical.min(spread.distance_to_critical);
-        found.modes.push(spread);
     }
     for r in 0..found.modes.len() {
         for other in 0..r {
