@@ -20,6 +20,7 @@ mod kinematics;
 mod layout;
 mod linearise;
 mod loads;
+mod momentum;
 mod orientation;
 mod outputs;
 mod path;

@@ -13,14 +13,16 @@
 //! of the motion of what it carries, and every coordinate behind it asks with one covector: one walk towards the ground for each.
 
 use crate::algebra::{Graph, Vector3};
-use crate::base::ids::ExprId;
+use crate::base::ids::{BodyId, ExprId};
 use crate::model::mechanism::Frame;
 
-use super::augmented::{AugmentedBody, augmented_bodies};
-use super::composite::{Composite, Composites, accelerating, add_products, add_symmetric, spun};
+use super::augmented::augmented_bodies;
+use super::composite::{Composite, Composites, accelerating, spun};
 use super::forces::Wrench;
+use super::frame::second_rate;
 use super::inertial::Inertial;
-use super::kinematics::{BodyMotion, Kinematics};
+use super::kinematics::{BodyMotion, CoordinateMotion, Kinematics};
+use super::momentum::{Momentum, momenta, rates};
 use super::path::Tree;
 use super::problem::Problem;
 use super::sources::Sources;
@@ -47,116 +49,118 @@ impl Change {
         let acceleration = self.acceleration.dot(g, other.acceleration);
         g.sum([spin, growth, acceleration])
     }
-}
 
-/// The axis and the velocity of the body's origin, per unit rate.
-struct Twist {
-    axis: Vector3,
-    velocity: Vector3,
-}
-
-impl Twist {
-    fn of(g: &mut Graph, step: &StepAxis) -> Self {
-        let zero = Vector3::zero(g);
-        Self {
-            axis: step.turn.unwrap_or(zero),
-            velocity: step.velocity(g, zero),
+    /// What is asked of a body is asked of its parent, whose origin the body's leaves at `rate`.
+    fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
+        if let Some(rotation) = motion.to_parent {
+            for part in [&mut self.spin, &mut self.growth, &mut self.acceleration] {
+                *part = rotation.apply(g, *part);
+            }
         }
-    }
-
-    /// How the body moves otherwise, seen in its axes, where the joint stands further on.
-    fn by_position(&self, g: &mut Graph, motion: &BodyMotion) -> Change {
-        let frame = &motion.frame;
-        let turned = frame.acceleration.cross(g, self.axis);
-        let moved = frame.second_rate.apply(g, self.velocity);
-        Change {
-            spin: frame.angular_velocity.cross(g, self.axis),
-            growth: frame.second_rate.apply(g, self.axis),
-            acceleration: turned.add(g, moved),
-        }
-    }
-
-    /// The same where the joint moves faster.
-    fn by_velocity(&self, g: &mut Graph, motion: &BodyMotion) -> Change {
-        let omega = motion.frame.angular_velocity;
+        let lever = motion.frame.offset.cross(g, self.acceleration);
+        self.growth = self.growth.add(g, lever);
         let two = g.constant(2.0);
-        Change {
-            spin: self.axis,
-            growth: omega.cross(g, self.axis).scale(g, two),
-            acceleration: omega.cross(g, self.velocity).scale(g, two),
-        }
+        let carried = rate.cross(g, self.acceleration).scale(g, two);
+        self.spin = self.spin.add(g, carried);
     }
+}
 
+/// An elementary motion of a free coordinate, and what it does to the motion of the body that it carries.
+struct Step {
+    unknown: usize,
+    axis: StepAxis,
+    /// The axis, and the velocity of the body's origin per unit rate.
+    turn: Vector3,
+    velocity: Vector3,
+    /// How the body moves otherwise, seen in its axes, where the joint stands further on.
+    further: Change,
+    /// The same where the joint moves faster.
+    faster: Change,
+}
+
+impl Step {
     /// A wrench that moves with the body, by position, seen from before the joint.
     fn carry(&self, g: &mut Graph, wrench: &Wrench) -> Wrench {
-        let turned = self.axis.cross(g, wrench.moment);
+        let turned = self.turn.cross(g, wrench.moment);
         let moved = self.velocity.cross(g, wrench.force);
         Wrench {
-            force: self.axis.cross(g, wrench.force),
+            force: self.turn.cross(g, wrench.force),
             moment: turned.add(g, moved),
         }
     }
 }
 
-/// Rates of the mass distribution about a body's origin, as the body's motion is written.
-#[derive(Clone, Copy)]
-struct Momentum {
-    linear: Vector3,
-    angular: Vector3,
-    second: [[ExprId; 3]; 3],
-}
-
-impl Momentum {
-    fn of_body(g: &mut Graph, body: &AugmentedBody, motion: &BodyMotion) -> Self {
-        let omega = motion.frame.angular_velocity;
-        let columns = body.second.map(|column| omega.cross(g, Vector3(column)));
-        let mut second = [[g.zero(); 3]; 3];
-        add_symmetric(g, &mut second, |g, i, j| {
-            g.add(columns[j].0[i], columns[i].0[j])
-        });
-        let twice = g.scale(2.0, body.isotropic);
-        let isotropic = omega.scale(g, twice);
-        Self {
-            linear: omega.cross(g, body.first),
-            angular: spun(g, body.second, omega).add(g, isotropic),
-            second,
+/// The free motions of a joint, from the parent to the body.
+///
+/// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and `W` (its
+/// second rate), its point at `O` has the acceleration `a`, and `O` leaves that point at `u`, the rate of the motions that
+/// follow. Further on by one unit, the frame is turned and moved, and what moved it is not: seen from it,
+///
+/// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
+///
+/// and faster by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
+fn steps(g: &mut Graph, problem: &Problem, kinematics: &Kinematics, body: BodyId) -> Vec<Step> {
+    let motion = kinematics.of(body);
+    let frame = &motion.frame;
+    let (mut omega, mut alpha) = (frame.angular_velocity, frame.angular_acceleration);
+    let mut acceleration = frame.acceleration;
+    let zero = Vector3::zero(g);
+    let two = g.constant(2.0);
+    let mut leaving = zero;
+    let mut steps = Vec::new();
+    for axis in motion.steps.iter().rev() {
+        let turn = axis.turn.unwrap_or(zero);
+        let velocity = axis.velocity(g, zero);
+        let free = &problem.topology.free;
+        if let Some(unknown) = free.iter().position(|&id| id == axis.coordinate) {
+            let second_rate = second_rate(g, omega, alpha);
+            let spin = omega.cross(g, turn);
+            let turned = acceleration.cross(g, turn);
+            let moved = second_rate.apply(g, velocity);
+            let carried = spin.cross(g, leaving).scale(g, two);
+            let further = Change {
+                spin,
+                growth: second_rate.apply(g, turn),
+                acceleration: turned.add(g, moved).add(g, carried),
+            };
+            let moved = omega.cross(g, velocity);
+            let carried = turn.cross(g, leaving);
+            let faster = Change {
+                spin: turn,
+                growth: spin.scale(g, two),
+                acceleration: moved.add(g, carried).scale(g, two),
+            };
+            steps.push(Step {
+                unknown,
+                axis: *axis,
+                turn,
+                velocity,
+                further,
+                faster,
+            });
         }
-    }
-
-    fn add(&mut self, g: &mut Graph, other: &Self) {
-        self.linear = self.linear.add(g, other.linear);
-        self.angular = self.angular.add(g, other.angular);
-        add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
-    }
-
-    /// As the parent's motion is written, about the parent's origin, which the body's leaves at `rate`; with the first moment
-    /// and the mass that move along.
-    fn moved_to_parent(
-        &self,
-        g: &mut Graph,
-        motion: &BodyMotion,
-        rate: Vector3,
-        (first, mass): (Vector3, ExprId),
-    ) -> Self {
-        let (mut moved, mut first) = (*self, first);
-        if let Some(rotation) = motion.to_parent {
-            moved.linear = rotation.apply(g, self.linear);
-            moved.angular = rotation.apply(g, self.angular);
-            moved.second = rotation.turn_symmetric(g, self.second);
-            first = rotation.apply(g, first);
+        // the frame before this motion
+        let CoordinateMotion {
+            velocity: rate,
+            acceleration: growth,
+            ..
+        } = kinematics.coordinates[axis.coordinate.index()];
+        let spin = turn.scale(g, rate);
+        let speed = velocity.scale(g, rate);
+        omega = omega.sub(g, spin);
+        let growing = turn.scale(g, growth);
+        let gyroscopic = omega.cross(g, spin);
+        alpha = alpha.sub(g, growing).sub(g, gyroscopic);
+        let growing = velocity.scale(g, growth);
+        let coriolis = omega.cross(g, speed).scale(g, two);
+        let centripetal = spin.cross(g, speed);
+        for term in [growing, coriolis, centripetal] {
+            acceleration = acceleration.sub(g, term);
         }
-        let offset = motion.frame.offset;
-        let share = offset.scale(g, mass);
-        let first = first.add(g, share);
-        add_products(g, &mut moved.second, offset, moved.linear);
-        add_products(g, &mut moved.second, rate, first);
-        let orbital = offset.cross(g, moved.linear);
-        let growing = first.cross(g, rate);
-        moved.angular = moved.angular.add(g, orbital).add(g, growing);
-        let push = rate.scale(g, mass);
-        moved.linear = moved.linear.add(g, push);
-        moved
+        leaving = leaving.add(g, speed);
     }
+    steps.reverse();
+    steps
 }
 
 /// A body with all it carries, its joints held to their motion.
@@ -186,48 +190,41 @@ impl Carried {
         Wrench { force, moment }
     }
 
-    /// What the load along a twist asks of the spin.
-    fn asks_of_spin(&self, g: &mut Graph, twist: &Twist) -> Vector3 {
+    /// What the load along an elementary motion asks of the spin.
+    fn asks_of_spin(&self, g: &mut Graph, step: &Step) -> Vector3 {
         let two = g.constant(2.0);
-        let pushed = self.momentum.linear.cross(g, twist.velocity);
+        let pushed = self.momentum.linear.cross(g, step.velocity);
         let pushed = pushed.scale(g, two);
-        let spreading = spun(g, self.momentum.second, twist.axis);
-        let turning = self.momentum.angular.cross(g, twist.axis);
+        let spreading = spun(g, self.momentum.second, step.turn);
+        let turning = self.momentum.angular.cross(g, step.turn);
         pushed.add(g, spreading).add(g, turning)
     }
 }
 
-/// Whether every body is written along its own axes and hangs on a joint of one motion, as far as it moves freely.
-fn applies(problem: &Problem, kinematics: &Kinematics) -> bool {
-    let topology = problem.topology;
-    topology.coasting.is_empty()
-        && topology.branches.iter().all(|branch| {
-            let steps = &kinematics.of(branch.body).steps;
-            let free = steps
-                .iter()
-                .any(|step| topology.free.contains(&step.coordinate));
-            let layout = problem.runs.layout.of(branch.body);
-            layout.own_axes && (steps.len() == 1 || !free)
-        })
-}
-
 /// Derivatives of inertia less weight along the unknowns; nothing for mechanisms that are written otherwise than along the axes of
-/// each body. `kinematics` is that of the layout of runs with the ground accelerated against gravity, `inertial` what it gives.
+/// each body, or with coasting coordinates. `kinematics` is that of the layout of runs with the ground accelerated against gravity,
+/// `inertial` what it gives.
 pub(super) fn variation(
     g: &mut Graph,
     problem: &Problem,
     kinematics: &Kinematics,
     inertial: &Inertial,
 ) -> Option<Variation> {
-    if !applies(problem, kinematics) {
+    let topology = problem.topology;
+    let mut layouts = topology
+        .branches
+        .iter()
+        .map(|branch| problem.runs.layout.of(branch.body));
+    if !topology.coasting.is_empty() || layouts.any(|layout| !layout.own_axes) {
         return None;
     }
-    let topology = problem.topology;
     let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);
     let composites = Composites::new(g, problem, kinematics, &bodies);
     let rates = rates(g, problem, kinematics);
     let momenta = momenta(g, problem, kinematics, &bodies, &composites, &rates);
-    let unknown = |step: &StepAxis| topology.free.iter().position(|&id| id == step.coordinate);
+    let steps: Vec<Vec<Step>> = (0..bodies.len())
+        .map(|index| steps(g, problem, kinematics, BodyId::new(index)))
+        .collect();
 
     let n = problem.symbols.q.ids.len();
     let mut this = Variation {
@@ -237,128 +234,77 @@ pub(super) fn variation(
     let tree = Tree::new(problem.mechanism, topology);
     for branch in &topology.branches {
         let index = branch.body.index();
-        let motion = kinematics.of(branch.body);
-        let [step] = &motion.steps[..] else { continue };
-        let Some(k) = unknown(step) else { continue };
-        let carried = Carried {
+        let frame = &kinematics.of(branch.body).frame;
+        let whole = Carried {
             mass: composites.whole[index],
             momentum: momenta[index],
         };
-        let twist = Twist::of(g, step);
-        let load = accelerating(
-            g,
-            step,
-            &bodies[index],
-            &motion.frame,
-            &composites.carried[index],
-        );
-        let mut asks = Change {
-            spin: carried.asks_of_spin(g, &twist),
-            growth: load.moment,
-            acceleration: load.force,
-        };
-        let [further, faster] = [twist.by_position(g, motion), twist.by_velocity(g, motion)];
-        this.by_position[k][k] = asks.dot(g, &further);
-        this.by_velocity[k][k] = asks.dot(g, &faster);
-        let further = carried.wrench(g, &further);
-        let turned = twist.carry(g, &inertial.wrenches[index]);
-        let mut loads = [further.add(g, turned), carried.wrench(g, &faster)];
-
-        let mut at = *branch;
-        while let Frame::Body(parent) = at.parent {
-            let motion = kinematics.of(at.body);
-            let (offset, rate) = (motion.frame.offset, rates[at.body.index()]);
-            if let Some(rotation) = motion.to_parent {
-                let parts = [&mut asks.spin, &mut asks.growth, &mut asks.acceleration];
-                for part in parts {
-                    *part = rotation.apply(g, *part);
-                }
-                for load in &mut loads {
-                    load.force = rotation.apply(g, load.force);
-                    load.moment = rotation.apply(g, load.moment);
-                }
-            }
-            let lever = offset.cross(g, asks.acceleration);
-            asks.growth = asks.growth.add(g, lever);
-            let two = g.constant(2.0);
-            let carried_on = rate.cross(g, asks.acceleration).scale(g, two);
-            asks.spin = asks.spin.add(g, carried_on);
-            for load in &mut loads {
-                let shift = offset.cross(g, load.force);
-                load.moment = load.moment.add(g, shift);
-            }
-            let motion = kinematics.of(parent);
-            if let [step] = &motion.steps[..]
-                && let Some(i) = unknown(step)
-            {
-                let twist = Twist::of(g, step);
-                let [further, faster] =
-                    [twist.by_position(g, motion), twist.by_velocity(g, motion)];
-                this.by_position[i][k] = asks.dot(g, &further);
-                this.by_velocity[i][k] = asks.dot(g, &faster);
-                let [by_position, by_velocity] =
-                    loads.map(|load| step.project(g, load.force, load.moment));
-                this.by_position[k][i] = by_position;
-                this.by_velocity[k][i] = by_velocity;
-            }
-            let Some(next) = tree.branch(parent) else {
-                break;
+        for (place, step) in steps[index].iter().enumerate() {
+            let carried = &composites.carried[index];
+            let load = accelerating(g, &step.axis, &bodies[index], frame, carried);
+            let mut asks = Change {
+                spin: whole.asks_of_spin(g, step),
+                growth: load.moment,
+                acceleration: load.force,
             };
-            at = next;
+            let further = whole.wrench(g, &step.further);
+            let turned = step.carry(g, &inertial.wrenches[index]);
+            let mut loads = [further.add(g, turned), whole.wrench(g, &step.faster)];
+            this.by_position[step.unknown][step.unknown] = asks.dot(g, &step.further);
+            this.by_velocity[step.unknown][step.unknown] = asks.dot(g, &step.faster);
+            this.meet(g, step, &steps[index][..place], &asks, &loads);
+
+            let mut at = *branch;
+            while let Frame::Body(parent) = at.parent {
+                let motion = kinematics.of(at.body);
+                asks.move_to_parent(g, motion, rates[at.body.index()]);
+                for load in &mut loads {
+                    *load = moved_to_parent(g, motion, load);
+                }
+                this.meet(g, step, &steps[parent.index()], &asks, &loads);
+                let Some(next) = tree.branch(parent) else {
+                    break;
+                };
+                at = next;
+            }
         }
     }
     Some(this)
 }
 
-/// By body id: how fast its origin leaves its parent's, as the parent's motion is written.
-fn rates(g: &mut Graph, problem: &Problem, kinematics: &Kinematics) -> Vec<Vector3> {
-    let mut rates = vec![Vector3::zero(g); problem.mechanism.bodies.len()];
-    for branch in &problem.topology.branches {
-        let motion = kinematics.of(branch.body);
-        let omega = kinematics.frame(branch.parent).angular_velocity;
-        let mut rate = omega.cross(g, motion.frame.offset);
-        for step in &motion.steps {
-            let speed = kinematics.coordinates[step.coordinate.index()].velocity;
-            let twist = Twist::of(g, step).velocity.scale(g, speed);
-            let twist = match motion.to_parent {
-                Some(rotation) => rotation.apply(g, twist),
-                None => twist,
-            };
-            rate = rate.add(g, twist);
+impl Variation {
+    /// Entries of a motion with those nearer to the ground, at the body that carries them: what it asks of their change, and
+    /// what its change loads them with.
+    fn meet(
+        &mut self,
+        g: &mut Graph,
+        step: &Step,
+        before: &[Step],
+        asks: &Change,
+        loads: &[Wrench; 2],
+    ) {
+        let k = step.unknown;
+        for other in before {
+            let i = other.unknown;
+            self.by_position[i][k] = asks.dot(g, &other.further);
+            self.by_velocity[i][k] = asks.dot(g, &other.faster);
+            let [by_position, by_velocity] =
+                loads.map(|load| other.axis.project(g, load.force, load.moment));
+            self.by_position[k][i] = by_position;
+            self.by_velocity[k][i] = by_velocity;
         }
-        rates[branch.body.index()] = rate;
     }
-    rates
 }
 
-/// By body id: of the body with all it carries.
-fn momenta(
-    g: &mut Graph,
-    problem: &Problem,
-    kinematics: &Kinematics,
-    bodies: &[AugmentedBody],
-    composites: &Composites,
-    rates: &[Vector3],
-) -> Vec<Momentum> {
-    let zero = Vector3::zero(g);
-    let still = Momentum {
-        linear: zero,
-        angular: zero,
-        second: [zero.0; 3],
-    };
-    let mut momenta = vec![still; bodies.len()];
-    for branch in problem.topology.branches.iter().rev() {
-        let index = branch.body.index();
-        let motion = kinematics.of(branch.body);
-        let own = Momentum::of_body(g, &bodies[index], motion);
-        momenta[index].add(g, &own);
-        if let Frame::Body(parent) = branch.parent {
-            let along = (composites.whole[index].first, composites.apart[index]);
-            let moved = momenta[index].moved_to_parent(g, motion, rates[index], along);
-            momenta[parent.index()].add(g, &moved);
-        }
+fn moved_to_parent(g: &mut Graph, motion: &BodyMotion, load: &Wrench) -> Wrench {
+    let mut load = *load;
+    if let Some(rotation) = motion.to_parent {
+        load.force = rotation.apply(g, load.force);
+        load.moment = rotation.apply(g, load.moment);
     }
-    momenta
+    let shift = motion.frame.offset.cross(g, load.force);
+    load.moment = load.moment.add(g, shift);
+    load
 }
 
 #[cfg(test)]
@@ -461,6 +407,22 @@ mod tests {
              joint c: screw(z, lead: 100 mm) from hand to hub at [0.1, 0, 0] m;",
         );
         assert!(entries.is_some_and(|count| count >= 10), "{entries:?}");
+    }
+
+    #[test]
+    fn joints_of_several_motions() {
+        let entries = of_joints(
+            "joint a: spherical(a1: z, a2: y, a3: x) from ground to hub at [0.1, 0, 0.3] m, at [0.2, 0.1, 0] m on hub;
+             joint b: cylindrical(b1: [1, 0, 1], b2: [1, 0, 1]) from hub to arm at [l, 0, 0.2 m], at [0, 0.3, 0.1] m rotated(x, 20 deg) on arm;
+             joint c: universal(c1: x, c2: z) from hand to arm at [0.1, 0.2, 0.3] m rotated(y, 15 deg), c2 driven at omega;",
+        );
+        assert!(entries.is_some_and(|count| count >= 55), "{entries:?}");
+        let entries = of_joints(
+            "joint a: free(x1: x, x2: y, x3: [0, 1, 1], a1: z, a2: y, a3: x) from ground to hub, x2 driven at 0.3 m/s, a1 driven at omega;
+             joint b: planar(b1: x, b2: y, b3: z) from hub to arm at [l, 0, 0.2 m], at [0, 0.3, 0.1] m on arm, b2 driven at 0.2 m/s;
+             joint c: fixed from arm to hand;",
+        );
+        assert!(entries.is_some_and(|count| count >= 35), "{entries:?}");
     }
 
     #[test]
