@@ -20,7 +20,7 @@ use super::augmented::augmented_bodies;
 use super::composite::{Composite, Composites, accelerating, spun};
 use super::forces::Wrench;
 use super::frame::second_rate;
-use super::inertial::Inertial;
+use super::inertial::inertial;
 use super::kinematics::{BodyMotion, CoordinateMotion, Kinematics};
 use super::momentum::{Momentum, momenta, rates};
 use super::path::Tree;
@@ -201,15 +201,9 @@ impl Carried {
     }
 }
 
-/// Derivatives of inertia less weight along the unknowns; nothing for mechanisms that are written otherwise than along the axes of
-/// each body, or with coasting coordinates. `kinematics` is that of the layout of runs with the ground accelerated against gravity,
-/// `inertial` what it gives.
-pub(super) fn variation(
-    g: &mut Graph,
-    problem: &Problem,
-    kinematics: &Kinematics,
-    inertial: &Inertial,
-) -> Option<Variation> {
+/// Derivatives of inertia less weight along the unknowns while the running coordinates stand at `running`; nothing for
+/// mechanisms that are written otherwise than along the axes of each body, or with coasting coordinates.
+pub(super) fn variation(g: &mut Graph, problem: &Problem, running: &[ExprId]) -> Option<Variation> {
     let topology = problem.topology;
     let mut layouts = topology
         .branches
@@ -218,6 +212,8 @@ pub(super) fn variation(
     if !topology.coasting.is_empty() || layouts.any(|layout| !layout.own_axes) {
         return None;
     }
+    let kinematics = &problem.inertial_kinematics(g, running, Sources::ALL);
+    let inertial = inertial(g, problem, kinematics, Sources::ALL);
     let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);
     let composites = Composites::new(g, problem, kinematics, &bodies);
     let rates = rates(g, problem, kinematics);
@@ -310,7 +306,6 @@ fn moved_to_parent(g: &mut Graph, motion: &BodyMotion, load: &Wrench) -> Wrench 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::inertial::inertial;
     use crate::mechanics::layout::Runs;
     use crate::mechanics::linearise::columns;
     use crate::mechanics::properties::{probe, vanish};
@@ -339,9 +334,8 @@ mod tests {
             rows: &[],
         };
         let running = vec![g.zero(); symbols.running.ids.len()];
-        let kinematics = problem.inertial_kinematics(g, &running, Sources::ALL);
-        let loads = inertial(g, &problem, &kinematics, Sources::ALL);
-        let found = variation(g, &problem, &kinematics, &loads)?;
+        let loads = problem.inertial(g, &running, Sources::ALL);
+        let found = variation(g, &problem, &running)?;
         let free = topology.free.iter();
         let along: Vec<ExprId> = free.map(|id| loads.along[id.index()]).collect();
         let mut differences = Vec::new();
