@@ -41,3 +41,5 @@ mod whirl;
 
 pub use derive::derive;
 pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, Role, Unknown};
+#[cfg(test)]
+pub(crate) use variation::compared;
