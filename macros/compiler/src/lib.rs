@@ -20,6 +20,8 @@ pub mod model;
 mod pipeline;
 pub mod program;
 pub mod syntax;
+#[cfg(test)]
+mod tests;
 pub mod topology;
 
 pub use pipeline::{Compilation, compile};

@@ -86,12 +86,10 @@ pub(super) fn add_symmetric(
     matrix: &mut [[ExprId; 3]; 3],
     mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
 ) {
-    for i in 0..3 {
-        for j in i..3 {
-            let more = entry(g, i, j);
-            let sum = g.add(matrix[i][j], more);
-            (matrix[i][j], matrix[j][i]) = (sum, sum);
-        }
+    for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+        let more = entry(g, i, j);
+        let sum = g.add(matrix[i][j], more);
+        (matrix[i][j], matrix[j][i]) = (sum, sum);
     }
 }
 

@@ -186,9 +186,7 @@ impl Equations {
         let zeros = vec![zero; symbols.q.ids.len()];
         let parts = problem.parts(g, &running, &kinematics, Sources::ALL);
         let motion = problem.together(g, &parts);
-        let inertial = problem.inertial_kinematics(g, &running, Sources::ALL);
-        let wrenches = problem.inertial(g, &running, Sources::ALL);
-        let variation = variation(g, problem, &inertial, &wrenches);
+        let variation = variation(g, problem, &running);
         let inertia = problem.residual(g, &running, &kinematics, Sources::INERTIA);
         let applied = problem.residual(g, &running, &kinematics, Sources::APPLIED);
         let outputs = outputs(g, problem, &running, &kinematics);

@@ -20,7 +20,7 @@ pub(super) struct FrameMotion {
     /// Both before the last turn, or before all turns of a run.
     before_turn: (Vector3, Vector3),
     /// `W = [alpha]x + [omega]x [omega]x`: takes a body-fixed vector to its second time derivative.
-    pub(super) second_rate: Matrix3,
+    second_rate: Matrix3,
     /// Second time derivatives of the axes: `W` applied to each.
     axes_second_rate: Matrix3,
 }
@@ -247,7 +247,7 @@ impl FrameMotion {
 }
 
 /// `[alpha]x + omega omega^T - |omega|^2 1`.
-fn second_rate(g: &mut Graph, omega: Vector3, alpha: Vector3) -> Matrix3 {
+pub(super) fn second_rate(g: &mut Graph, omega: Vector3, alpha: Vector3) -> Matrix3 {
     let ([wx, wy, wz], [ax, ay, az]) = (omega.0, alpha.0);
     let [xx, yy, zz] = omega.0.map(|w| {
         let square = g.mul(w, w);

@@ -59,42 +59,7 @@ impl Jacobians {
         let symmetric = problem.topology.coasting.is_empty();
         let mass = runs.matrix(g, &mass, symmetric, &outward);
 
-        let inertial = &e.parts.inertial;
-        let still = |g: &mut Graph, roots: &[ExprId]| {
-            let zeros = vec![g.zero(); s.q.ids.len()];
-            let rates = runs.velocity.with(&zeros);
-            let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
-            let roots = substitute(g, roots, &all);
-            at_rest(g, s, &roots)
-        };
-        let at_rest_inertial = still(g, inertial);
-        let stiffness = columns(g, &at_rest_inertial, &runs.position);
-        let moving = columns(g, inertial, &runs.velocity);
-        let damping: Vec<_> = moving.iter().map(|column| still(g, column)).collect();
-        let mut stiffness = summed(g, problem, &stiffness, &outward);
-        let mut damping = summed(g, problem, &damping, &outward);
-        if let Some(known) = &e.variation {
-            let [by_position, by_velocity] = [&known.by_position, &known.by_velocity]
-                .map(|list| -> Vec<_> { list.iter().map(|column| still(g, column)).collect() });
-            // what a coordinate asks of those before it is the shorter half
-            let by_position = match is_symmetric(g, problem, &by_position) {
-                true => transposed(&by_position),
-                false => by_position,
-            };
-            let composed = [
-                summed(g, problem, &by_position, &outward),
-                summed(g, problem, &by_velocity, &outward),
-            ];
-            let operations = |stiffness: &[Vec<ExprId>], damping: &[Vec<ExprId>]| {
-                let of_rest = [at_rest_inertial.clone(), stiffness.concat()].concat();
-                let of_all = [mass.concat(), damping.concat(), stiffness.concat()].concat();
-                cost(g, &of_rest).operations + cost(g, &of_all).operations
-            };
-            let before = operations(&stiffness, &damping);
-            if operations(&composed[0], &composed[1]) < before {
-                [stiffness, damping] = composed;
-            }
-        }
+        let [stiffness, damping] = of_inertia(g, problem, e, &mass);
 
         let applied = &e.parts.applied;
         let applied_at_rest = at_rest(g, s, applied);
@@ -112,6 +77,54 @@ impl Jacobians {
             damping: added(g, &damping, &by_velocity),
             stiffness: added(g, &stiffness, &by_position),
         }
+    }
+}
+
+/// Stiffness and damping of inertia and weight, over the unknowns in place of the angles in all: differentiated, or as
+/// [`Variation`] has them where these, with the residual and with the mass matrix, are fewer operations.
+fn of_inertia(
+    g: &mut Graph,
+    problem: &Problem,
+    e: &Equations,
+    mass: &[Vec<ExprId>],
+) -> [Vec<Vec<ExprId>>; 2] {
+    let (s, runs, inertial) = (problem.symbols, problem.runs, &e.parts.inertial);
+    let outward = problem.outward_order();
+    let still = |g: &mut Graph, roots: &[ExprId]| {
+        let zeros = vec![g.zero(); s.q.ids.len()];
+        let rates = runs.velocity.with(&zeros);
+        let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
+        let roots = substitute(g, roots, &all);
+        at_rest(g, s, &roots)
+    };
+    let all_still = |g: &mut Graph, columns: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
+        columns.iter().map(|column| still(g, column)).collect()
+    };
+    let rest = still(g, inertial);
+    let stiffness = columns(g, &rest, &runs.position);
+    let damping = columns(g, inertial, &runs.velocity);
+    let damping = all_still(g, &damping);
+    let differentiated = [stiffness, damping].map(|matrix| summed(g, problem, &matrix, &outward));
+    let Some(known) = &e.variation else {
+        return differentiated;
+    };
+    let [stiffness, damping] =
+        [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
+    // what a coordinate asks of those before it is the shorter half
+    let stiffness = match is_symmetric(g, problem, &stiffness) {
+        true => transposed(&stiffness),
+        false => stiffness,
+    };
+    let composed = [stiffness, damping].map(|matrix| summed(g, problem, &matrix, &outward));
+    let operations = |[stiffness, damping]: &[Vec<Vec<ExprId>>; 2]| {
+        let with_residual = [&rest[..], &stiffness.concat()].concat();
+        let with_mass = [mass.concat(), damping.concat(), stiffness.concat()].concat();
+        cost(g, &with_residual).operations + cost(g, &with_mass).operations
+    };
+    if operations(&composed) < operations(&differentiated) {
+        composed
+    } else {
+        differentiated
     }
 }
 

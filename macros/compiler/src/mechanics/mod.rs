@@ -20,6 +20,7 @@ mod kinematics;
 mod layout;
 mod linearise;
 mod loads;
+mod momentum;
 mod orientation;
 mod outputs;
 mod path;
@@ -40,3 +41,5 @@ mod whirl;
 
 pub use derive::derive;
 pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, Role, Unknown};
+#[cfg(test)]
+pub(crate) use variation::compared;
