@@ -40,6 +40,18 @@ impl Momentum {
         add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
     }
 
+    /// Names the entries for readers.
+    fn set_names(&self, g: &mut Graph, body: &str) {
+        self.linear.set_name(g, &format!("{body}_momentum"));
+        self.angular
+            .set_name(g, &format!("{body}_angular_momentum"));
+        for (row, i) in self.second.into_iter().zip(["x", "y", "z"]) {
+            for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
+                g.set_name(entry, || format!("{body}_second_moment_rate_{i}{j}"));
+            }
+        }
+    }
+
     /// As the parent's motion is written, about the parent's origin, which the body's leaves at `rate`; with the first moment
     /// and the mass that move along.
     fn moved_to_parent(
@@ -113,6 +125,7 @@ pub(super) fn momenta(
         let motion = kinematics.of(branch.body);
         let own = Momentum::of_body(g, &bodies[index], motion);
         momenta[index].add(g, &own);
+        momenta[index].set_names(g, &problem.mechanism.bodies[index].name.to_string());
         if let Frame::Body(parent) = branch.parent {
             let along = (composites.whole[index].first, composites.apart[index]);
             let moved = momenta[index].moved_to_parent(g, motion, rates[index], along);
