@@ -3,7 +3,7 @@
 use super::batch::{Store, load};
 use super::instructions::Task;
 use super::{Batch, Instructions, Vector, WIDTH};
-use crate::{Description, Gradient, Linear, LinearPartials, Mechanism};
+use crate::{DampingKind, Description, Gradient, Linear, LinearPartials, Mechanism};
 
 /// A function that runs a kernel on vectors, and the task behind it.
 macro_rules! kernel {
@@ -11,6 +11,7 @@ macro_rules! kernel {
         $(#[$doc:meta])*
         $name:ident $task:ident ($($argument:ident: $kind:ty),*) -> $output:ty,
         |$mechanism:ident, $q:ident, $u:ident, $b:ident, $at:ident| $call:expr
+        $(, stored by $store:expr)?
     ) => {
         $(#[$doc])*
         #[allow(clippy::too_many_arguments)]
@@ -52,11 +53,13 @@ macro_rules! kernel {
                 for $at in (0..WIDTH).step_by(V::WIDTH) {
                     let $q: &[V; N] = &load(self.q, $at);
                     let ($u, $b): (&[V; U], &[V; P]) = (&load(self.u, $at), &load(self.b, $at));
-                    self.out.store(&$call, $at);
+                    kernel!(@store $($store)?)(self.out, &$call, $at);
                 }
             }
         }
     };
+    (@store) => { Store::store };
+    (@store $store:expr) => { $store };
 }
 
 kernel! {
@@ -67,7 +70,8 @@ kernel! {
 kernel! {
     /// [`Mechanism::linear`] at every state.
     linear LinearTask () -> Linear<Batch, N>,
-    |m, q, u, b, at| m.linear_inlined(q, u, b)
+    |m, q, u, b, at| m.linear_inlined(q, u, b),
+    stored by store_linear::<V, M, N, U, P, O>
 }
 kernel! {
     /// [`Mechanism::residual_partials`] at every state.
@@ -89,6 +93,27 @@ kernel! {
     /// [`Mechanism::residual_gradient`] at every state.
     residual_gradient ResidualGradient (w: [Batch; N]) -> Gradient<Batch, N, U, P>,
     |m, q, u, b, at| m.residual_gradient_inlined(q, u, b, &load(w, at))
+}
+
+/// Stores matrices; a damping matrix that is always zero is not read, so that the kernel need not write it.
+#[inline(always)]
+fn store_linear<V, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    out: &mut Linear<Batch, N>,
+    linear: &Linear<V, N>,
+    at: usize,
+) where
+    V: Vector,
+    M: Mechanism<N, U, P, O>,
+{
+    out.mass.store(&linear.mass, at);
+    out.stiffness.store(&linear.stiffness, at);
+    if const { matches!(M::DESCRIPTION.damping, DampingKind::Zero) } {
+        if at == 0 {
+            out.damping = [[Batch::all(0.0); N]; N];
+        }
+    } else {
+        out.damping.store(&linear.damping, at);
+    }
 }
 
 /// Whether the compiler generated this kernel, and with it the form that is inlined; a kernel written by hand is called as
