@@ -12,7 +12,8 @@ thread_local! {
     static OPERATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Operations and calls of functions that a kernel takes in dual numbers; a sine with its cosine is one call.
+/// Operations and calls of functions that a kernel takes in dual numbers. The interpreter asks for sine and cosine of an angle one
+/// after the other: generated code does a few less.
 pub fn operations_along(kernel: &Kernel) -> usize {
     let start = Dual {
         value: Counted(0.7),
