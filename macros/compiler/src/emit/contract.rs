@@ -61,8 +61,9 @@ const INLINED: [&str; 7] = [
 /// Instructions that a kernel may have for `Real::run` to choose those of the processor: it is compiled once for each choice.
 const CHOSEN: usize = 2048;
 
-/// Kernels that are generated for small mechanisms only: for these it is worth it at any length.
-const OF_SMALL: [&str; 2] = ["motion_linear", "linear_partials"];
+/// Kernels for which it is worth it at any length: two are generated for small mechanisms only, the third is what large ones
+/// spend their time in.
+const ALWAYS_CHOSEN: [&str; 3] = ["motion_linear", "linear_partials", "mode_gradient"];
 
 /// A method as text, with its variants.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
@@ -95,7 +96,7 @@ pub(super) fn call(kernel: &Kernel, method: &str, last: &str) -> String {
 
 /// A body that runs with the instructions of the processor that suit it, where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
-    let chosen = kernel.instructions.len() <= CHOSEN || OF_SMALL.contains(&kernel.name);
+    let chosen = kernel.instructions.len() <= CHOSEN || ALWAYS_CHOSEN.contains(&kernel.name);
     match chosen && !kernel.instructions.is_empty() {
         true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
         false => format!("{{\n{body}\n}}\n"),
