@@ -165,6 +165,10 @@ impl<T: Real> Real for Dual<T> {
     }
     #[inline]
     fn powi(self, exponent: i32) -> Self {
+        if exponent == 0 {
+            // the general form divides by zero at zero
+            return Self::fixed(self.value.powi(0));
+        }
         let below = self.value.powi(exponent - 1);
         let slope = T::constant(f64::from(exponent)) * below;
         self.through(self.value.powi(exponent), slope)
