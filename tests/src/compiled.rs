@@ -11,7 +11,7 @@ use eigentol_oracle::kernels::{At, Gradient, Kernels, Pencil};
 use eigentol_oracle::model::Model;
 use eigentol_oracle::{Linear, LinearPartials};
 
-use crate::interpreter::interpret_along;
+use eigentol_consistency::interpreter::interpret_along;
 
 /// Explicit partial derivatives whatever their number.
 const EVERYTHING: Limits = Limits::NONE;

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use eigentol::{Dual, Real};
 use eigentol_compiler::program::Kernel;
 
-use crate::interpreter::interpret;
+use eigentol_consistency::interpreter::interpret;
 
 thread_local! {
     static OPERATIONS: Cell<usize> = const { Cell::new(0) };

@@ -221,6 +221,7 @@ fn every_fault_is_found() {
         setting: Setting::Spinning,
         bodies: 3,
         rotor: false,
+        special: false,
         seed: 11,
     };
     let model = plan.model();
@@ -254,6 +255,7 @@ fn a_report_names_the_kernel_the_entry_and_the_declaration() {
         setting: Setting::Spinning,
         bodies: 2,
         rotor: false,
+        special: false,
         seed: 11,
     };
     let model = plan.model();

@@ -9,7 +9,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::spectrum::upper_half;
 use super::{Derived, pairs};
 use crate::hyper::Hyper;
-use crate::interpreter::interpret;
+use eigentol_consistency::interpreter::interpret;
 
 /// Repetitions of the Newton step in hyper-dual numbers: two make the second order exact, the others remove rounding.
 pub(super) const REPETITIONS: usize = 4;

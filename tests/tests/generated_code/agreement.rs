@@ -4,9 +4,9 @@ use eigentol::{LinearPartials, Mechanism};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{compile, program};
+use eigentol_consistency::interpreter::interpret;
 use eigentol_tests::corpus::{Visitor, corpus, visit};
 use eigentol_tests::generated::evaluate;
-use eigentol_tests::interpreter::interpret;
 use proc_macro2::TokenStream;
 
 use super::Numbers;

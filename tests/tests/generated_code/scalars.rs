@@ -5,10 +5,10 @@
 use eigentol::Mechanism;
 use eigentol_compiler::program;
 use eigentol_compiler::program::Program;
+use eigentol_consistency::interpreter::interpret;
 use eigentol_tests::corpus::{Visitor, corpus, visit};
 use eigentol_tests::dual::Dual;
 use eigentol_tests::generated::{evaluate, evaluate_at};
-use eigentol_tests::interpreter::interpret;
 use eigentol_tests::loops;
 use eigentol_tests::wheels::{RollingDisk, TowedCaster, caster, disk};
 

@@ -4,7 +4,7 @@
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::{Limits, Role};
 use eigentol_compiler::program::Program;
-use eigentol_tests::interpreter::interpret_along;
+use eigentol_consistency::interpreter::interpret_along;
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::common::{Case, LOOPS, Point, assert_close, assert_near, complex};

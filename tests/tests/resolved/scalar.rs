@@ -2,10 +2,10 @@
 
 use eigentol::{Mechanism, Real};
 use eigentol_compiler::program;
+use eigentol_consistency::interpreter::interpret;
 use eigentol_tests::corpus::governor::{self, Governor};
 use eigentol_tests::generated::evaluate;
 use eigentol_tests::hyper::Hyper;
-use eigentol_tests::interpreter::interpret;
 
 use super::common::assert_close;
 

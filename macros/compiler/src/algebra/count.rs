@@ -16,29 +16,42 @@ pub struct Cost {
 
 /// The nodes that `roots` need, operands first.
 pub fn reachable(graph: &Graph, roots: &[ExprId]) -> Vec<ExprId> {
-    let Some(last) = roots.iter().map(|root| root.index()).max() else {
-        return Vec::new();
+    gathered(graph, roots, |_| true)
+}
+
+/// Of the nodes that `roots` need those that may depend on a symbol of `mask`, operands first.
+pub(super) fn dependent(graph: &Graph, roots: &[ExprId], mask: u128) -> Vec<ExprId> {
+    gathered(graph, roots, |id| graph.may_depend(id, mask))
+}
+
+/// The work is by the number of nodes found, not by the size of the graph.
+fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
+    let mut seen = vec![0_u64; graph.len() / 64 + 1];
+    let mut found = Vec::new();
+    let mut visit = |found: &mut Vec<ExprId>, id: ExprId| {
+        let (word, bit) = (id.index() / 64, 1 << (id.index() % 64));
+        if seen[word] & bit == 0 && wanted(id) {
+            seen[word] |= bit;
+            found.push(id);
+        }
     };
-    let mut needed = vec![false; last + 1];
-    for root in roots {
-        needed[root.index()] = true;
+    for &root in roots {
+        visit(&mut found, root);
     }
-    for index in (0..=last).rev() {
-        if needed[index] {
-            match graph.node(ExprId::new(index)) {
-                Node::Constant(_) | Node::Symbol(_) => {}
-                Node::Unary(_, a) => needed[a.index()] = true,
-                Node::Binary(_, a, b) => {
-                    needed[a.index()] = true;
-                    needed[b.index()] = true;
-                }
+    let mut next = 0;
+    while let Some(&id) = found.get(next) {
+        next += 1;
+        match graph.node(id) {
+            Node::Constant(_) | Node::Symbol(_) => {}
+            Node::Unary(_, a) => visit(&mut found, a),
+            Node::Binary(_, a, b) => {
+                visit(&mut found, a);
+                visit(&mut found, b);
             }
         }
     }
-    (0..=last)
-        .filter(|&index| needed[index])
-        .map(ExprId::new)
-        .collect()
+    found.sort_unstable();
+    found
 }
 
 /// Cost of evaluating `roots` together, each shared node once.

@@ -1,6 +1,6 @@
 //! Forward differentiation: the derivative of many expressions along one direction.
 
-use super::count::reachable;
+use super::count::dependent;
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
 
@@ -45,10 +45,7 @@ pub fn derivatives_along(
     let zero = graph.zero();
     let known = graph.len();
     let mut tangents = vec![zero; known];
-    for id in reachable(graph, roots) {
-        if !graph.may_depend(id, mask) {
-            continue;
-        }
+    for id in dependent(graph, roots, mask) {
         let tangent = match graph.node(id) {
             Node::Constant(_) => zero,
             Node::Symbol(symbol) => direction.rate(symbol).unwrap_or(zero),

@@ -10,6 +10,7 @@ use sums::factor_sums;
 use super::count::{cost, reachable};
 use super::function::Function;
 use super::graph::{Graph, Node, Operator};
+use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
 /// The same results for fewer operations, where sums and products can be grouped so. What several of the functions return
@@ -36,7 +37,9 @@ pub fn regroup(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
         cost.operations + cost.functions + cost.negations
     };
     let before = size(graph, roots);
-    match size(graph, &shared) < before {
+    let smaller = size(graph, &shared) < before;
+    taken(|| format!("regroup: smaller {smaller}"));
+    match smaller {
         true => shared,
         false => roots.to_vec(),
     }

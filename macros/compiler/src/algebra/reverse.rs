@@ -1,6 +1,6 @@
 //! Reverse differentiation: the derivatives of one expression by many symbols, for a small multiple of its cost.
 
-use super::count::reachable;
+use super::count::dependent;
 use super::forward::{slope, slopes};
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
@@ -13,9 +13,9 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
     let mut adjoints = vec![zero; root.index() + 1];
     adjoints[root.index()] = graph.constant(1.0);
     let mut by_symbol = vec![zero; graph.symbol_count()];
-    for id in reachable(graph, &[root]).into_iter().rev() {
+    for id in dependent(graph, &[root], mask).into_iter().rev() {
         let adjoint = adjoints[id.index()];
-        if adjoint == zero || !graph.may_depend(id, mask) {
+        if adjoint == zero {
             continue;
         }
         if adjoint.index() >= known

@@ -1,6 +1,6 @@
 //! Replacing symbols: the graph is rebuilt above them and simplifies as it goes.
 
-use super::count::reachable;
+use super::count::dependent;
 use super::graph::{Graph, Node};
 use crate::base::ids::{ExprId, SymbolId};
 
@@ -13,10 +13,7 @@ pub fn substitute(
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
     let known = graph.len();
     let mut image: Vec<ExprId> = (0..known).map(ExprId::new).collect();
-    for id in reachable(graph, roots) {
-        if !graph.may_depend(id, mask) {
-            continue;
-        }
+    for id in dependent(graph, roots, mask) {
         let replaced = match graph.node(id) {
             Node::Constant(_) => id,
             Node::Symbol(symbol) => replacements

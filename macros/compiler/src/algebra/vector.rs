@@ -1,6 +1,7 @@
 //! Vectors and matrices of expressions in three dimensions.
 
 use super::graph::{Graph, Unary};
+use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
 /// Three components in one frame.
@@ -16,6 +17,14 @@ impl Vector3 {
     /// Whether every component is the constant zero.
     pub fn is_zero(self, g: &Graph) -> bool {
         self.0.iter().all(|&x| g.is(x, 0.0))
+    }
+
+    /// The frame axis that it lies on, of length one: exactly, since the sine of nearly a right angle rounds to one while
+    /// its cosine is not zero.
+    fn unit(self, g: &Graph) -> Option<usize> {
+        let along = |k: usize| g.is(self.0[k], 1.0) || g.is(self.0[k], -1.0);
+        let across = |k: usize| g.is(self.0[(k + 1) % 3], 0.0) && g.is(self.0[(k + 2) % 3], 0.0);
+        (0..3).find(|&k| along(k) && across(k))
     }
 
     /// Component-wise combination.
@@ -111,6 +120,7 @@ impl Matrix3 {
             (turned[i][j], turned[j][i]) = (value, value);
         };
         let Some(plane) = self.plane(g) else {
+            taken(|| "turn_symmetric: any rotation".into());
             for i in 0..3 {
                 // row i of `self s`
                 let row = Vector3(std::array::from_fn(|j| entry(i, j)));
@@ -128,6 +138,7 @@ impl Matrix3 {
             columns: [c, a, b],
             mirrored,
         } = plane;
+        taken(|| format!("turn_symmetric: row {r}, column {c}, mirrored {mirrored}"));
         let axis = entry(r, c);
         let (p, q) = (entry(first, a), entry(first, b));
         let difference = g.sub(s[a][a], s[b][b]);
@@ -156,12 +167,14 @@ impl Matrix3 {
     fn plane(self, g: &mut Graph) -> Option<Plane> {
         let entry = |i: usize, j: usize| self.0[j].0[i];
         for c in 0..3 {
-            let unit = |r: usize| g.is(entry(r, c), 1.0) || g.is(entry(r, c), -1.0);
-            let Some(r) = (0..3).find(|&r| unit(r)) else {
+            let Some(r) = self.0[c].unit(g) else {
                 continue;
             };
             let [a, b] = [(c + 1) % 3, (c + 2) % 3];
             let [first, second] = [(r + 1) % 3, (r + 2) % 3];
+            if ![a, b].iter().all(|&other| g.is(entry(r, other), 0.0)) {
+                continue;
+            }
             let (p, q) = (entry(first, a), entry(first, b));
             let (minus_p, minus_q) = (g.neg(p), g.neg(q));
             let turned = (entry(second, a), entry(second, b));
@@ -194,9 +207,10 @@ impl Matrix3 {
         let one = g.constant(1.0);
         let versine = g.sub(one, cosine);
         let identity = Self::identity(g);
+        let along = axis.unit(g);
         Self(std::array::from_fn(|j| {
             // Along a coordinate axis the general form would leave cos + (1 - cos) unsimplified.
-            if g.is(axis.0[j], 1.0) || g.is(axis.0[j], -1.0) {
+            if along == Some(j) {
                 return identity.0[j];
             }
             let turned = axis.cross(g, identity.0[j]).scale(g, sine);

@@ -1,5 +1,6 @@
 //! What every stage shares: typed ids, source positions, diagnostics, units and dimensions.
 
+pub mod census;
 pub mod diagnostics;
 pub mod dimension;
 pub mod ids;

@@ -3,6 +3,7 @@
 //! seat's motion does not occur. Equations over augmented bodies are shorter, and so are their derivatives.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::{BodyId, ExprId};
 use crate::model::mechanism::Frame;
 
@@ -105,6 +106,7 @@ pub(super) fn augmented_bodies(
         if let Frame::Body(parent) = branch.parent
             && rides_on_seat(g, motion)
         {
+            taken(|| "augmented: rides on its seat".into());
             bodies[parent.index()].add_point(g, carried.mass, motion.seat.arm);
         }
     }

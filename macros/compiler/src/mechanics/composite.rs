@@ -2,6 +2,7 @@
 //! moment that accelerate all the body carries as if it were rigid.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::ExprId;
 use crate::model::mechanism::Frame;
 
@@ -61,9 +62,19 @@ impl Composite {
         add_symmetric(g, &mut self.second, |_, i, j| other.second[i][j]);
     }
 
+    fn add_point(&mut self, g: &mut Graph, mass: ExprId, place: Vector3) {
+        let share = place.scale(g, mass);
+        self.mass = g.add(self.mass, mass);
+        self.first = self.first.add(g, share);
+        add_symmetric(g, &mut self.second, |g, i, j| g.mul(place.0[i], share.0[j]));
+    }
+
     /// As the parent's motion is written, about the parent's origin. Only `mass` is not part of the augmented parent.
     fn moved_to_parent(&self, g: &mut Graph, motion: &BodyMotion, mass: ExprId) -> Self {
-        let mut moved = Self { mass, ..*self };
+        let mut moved = Self {
+            mass: g.zero(),
+            ..*self
+        };
         if let Some(rotation) = motion.to_parent {
             moved.first = rotation.apply(g, self.first);
             moved.second = rotation.turn_symmetric(g, self.second);
@@ -71,11 +82,7 @@ impl Composite {
         let offset = motion.frame.offset;
         let first = moved.first;
         add_products(g, &mut moved.second, offset, first);
-        let share = offset.scale(g, mass);
-        add_symmetric(g, &mut moved.second, |g, i, j| {
-            g.mul(offset.0[i], share.0[j])
-        });
-        moved.first = moved.first.add(g, share);
+        moved.add_point(g, mass, offset);
         moved
     }
 }
@@ -155,7 +162,7 @@ pub(super) fn spun(g: &mut Graph, second: [[ExprId; 3]; 3], axis: Vector3) -> Ve
 
 /// What a body carries, by body id.
 pub(super) struct Composites {
-    /// What turns with the body's angle.
+    /// What turns with the body's angle, and what goes on in its run as points: it moves with its seats without turning.
     pub(super) carried: Vec<Composite>,
     /// The body with all it carries.
     pub(super) whole: Vec<Composite>,
@@ -177,7 +184,7 @@ impl Composites {
             whole: vec![empty; count],
             apart: vec![empty.mass; count],
         };
-        // what continues the body's run
+        // what goes on in the body's run, less its points
         let mut going_on = vec![empty; count];
         for branch in problem.topology.branches.iter().rev() {
             let index = branch.body.index();
@@ -196,12 +203,18 @@ impl Composites {
             let Frame::Body(parent) = branch.parent else {
                 continue;
             };
-            let moved = whole.moved_to_parent(g, motion, apart);
-            let slot = match problem.runs.layout.of(branch.body).continues_run {
-                true => &mut going_on[parent.index()],
-                false => &mut this.carried[parent.index()],
-            };
-            slot.add(g, &moved);
+            let carried = &mut this.carried[parent.index()];
+            if problem.runs.layout.of(branch.body).continues_run {
+                if !g.is(apart, 0.0) {
+                    taken(|| "composite: mass in a run that rides on no seat".into());
+                }
+                carried.add_point(g, apart, motion.frame.offset);
+                let turning = whole.moved_to_parent(g, motion, empty.mass);
+                going_on[parent.index()].add(g, &turning);
+            } else {
+                let moved = whole.moved_to_parent(g, motion, apart);
+                carried.add(g, &moved);
+            }
         }
         this
     }
@@ -216,7 +229,7 @@ pub(super) fn mass_matrix(
 ) -> Vec<Vec<ExprId>> {
     let topology = problem.topology;
     let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);
-    let carried = Composites::new(g, problem, kinematics, &bodies).carried;
+    let Composites { carried, whole, .. } = Composites::new(g, problem, kinematics, &bodies);
     let n = problem.symbols.q.ids.len();
     let free = topology.free.len();
     let tree = Tree::new(problem.mechanism, topology);
@@ -244,6 +257,20 @@ pub(super) fn mass_matrix(
             };
             set(g, motion, load);
             let mut load = load;
+            // what goes on in the run moves with its seat: no work along this angle, but along those before
+            for next in topology.branches.iter().filter(|next| {
+                next.parent == Frame::Body(branch.body)
+                    && problem.runs.layout.of(next.body).continues_run
+            }) {
+                let seat = kinematics.of(next.body).frame.offset;
+                let acceleration = step.velocity(g, seat);
+                let first = whole[next.body.index()].first;
+                let moment = first.cross(g, acceleration);
+                if !moment.is_zero(g) {
+                    taken(|| "composite: moment of what goes on in a run".into());
+                }
+                load.moment = load.moment.add(g, moment);
+            }
             let mut at = *branch;
             while let Frame::Body(parent) = at.parent {
                 let motion = kinematics.of(at.body);

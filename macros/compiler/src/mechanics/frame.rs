@@ -1,6 +1,7 @@
 //! Motion of one frame, and how it follows from the motion of the frame before.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::base::census::taken;
 
 use super::kinematics::CoordinateMotion;
 use super::orientation::Orientation;
@@ -48,6 +49,7 @@ impl FrameMotion {
     /// with every other vector along that axis.
     pub(super) fn carry(&self, g: &mut Graph, vector: Vector3) -> (Vector3, Vector3) {
         let nonzero: Vec<usize> = (0..3).filter(|&k| !g.is(vector.0[k], 0.0)).collect();
+        taken(|| format!("frame: arm with {} components", nonzero.len()));
         match nonzero[..] {
             [] => (vector, vector),
             [k] => {

@@ -9,6 +9,7 @@
 //! A bar needs one arm, a disk one and the isotropic part, any body at most three more than its centre of mass.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::ExprId;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Body, Placement, Shape};
@@ -250,6 +251,7 @@ impl MassDistribution {
             let zero = g.zero();
             return Self::point(g, values, mass, center).with(g, zero, &[(along, second)]);
         }
+        taken(|| "inertia: bar from its origin".into());
         let first = g.mul(mass, half_length);
         let moment = g.mul(first, length);
         let second = g.scale(2.0 / 3.0, moment);
@@ -282,6 +284,7 @@ impl MassDistribution {
             let equal = |k: usize| diagonal.iter().filter(|&&d| d == diagonal[k]).count();
             let pivot = (0..3).rev().max_by_key(|&k| equal(k)).unwrap_or(0);
             let isotropic = diagonal[pivot];
+            taken(|| format!("inertia: {} equal second moments", equal(pivot)));
             let rest: Vec<(Vector3, ExprId)> = (0..3)
                 .filter(|&k| diagonal[k] != isotropic)
                 .map(|k| (unit[k], g.sub(diagonal[k], isotropic)))

@@ -9,6 +9,7 @@
 //!   in which its mass distribution is constant.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::{BodyId, ExprId, SymbolId};
 use crate::model::mechanism::{Frame, Joint, Mechanism, Motion, StepMotion};
 use crate::topology::{Branch, Topology};
@@ -82,12 +83,19 @@ impl Runs {
             let Some(first) = &turns[parent.index()] else {
                 continue;
             };
-            let same_axis = turn.axis == first.axis;
-            if turn.inboard_turned || first.outboard_turned || turn.outboard_moved || !same_axis {
+            let obstacles = [
+                (turn.axis != first.axis, "another axis"),
+                (turn.inboard_turned, "turned before the joint"),
+                (first.outboard_turned, "turned after the joint before"),
+                (turn.outboard_moved, "moved after the joint"),
+            ];
+            if let Some((_, obstacle)) = obstacles.iter().find(|(stands, _)| *stands) {
+                taken(|| format!("layout: no run, {obstacle}"));
                 continue;
             }
             if let (Some(k), Some(previous)) = (unknown(turn), unknown(first)) {
                 before[k] = Some(previous);
+                taken(|| "layout: a body continues a run".into());
                 layout[body].continues_run = true;
                 in_run[body] = true;
                 in_run[parent.index()] = true;

@@ -1,6 +1,7 @@
 //! Linearisation by differentiating the residual (eqs. 13-17).
 
 use crate::algebra::{Array, Direction, Graph, cost, derivatives_along, substitute};
+use crate::base::census::taken;
 use crate::base::ids::{ExprId, SymbolId};
 
 use super::composite::mass_matrix;
@@ -112,7 +113,10 @@ fn of_inertia(
         [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
     // what a coordinate asks of those before it is the shorter half
     let stiffness = match is_symmetric(g, problem, &stiffness) {
-        true => transposed(&stiffness),
+        true => {
+            taken(|| "linearise: symmetric stiffness, transposed".into());
+            transposed(&stiffness)
+        }
         false => stiffness,
     };
     let composed = [stiffness, damping].map(|matrix| summed(g, problem, &matrix, &outward));
@@ -122,6 +126,7 @@ fn of_inertia(
         cost(g, &with_residual).operations + cost(g, &with_mass).operations
     };
     if operations(&composed) < operations(&differentiated) {
+        taken(|| "linearise: stiffness and damping by variation".into());
         composed
     } else {
         differentiated
@@ -296,6 +301,7 @@ impl Linear {
 fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
     let operations = |roots: &[ExprId]| cost(g, roots).operations;
     if operations(&other) < operations(&one) {
+        taken(|| "linearise: along a motion by variation".into());
         other
     } else {
         one

@@ -1,6 +1,7 @@
 //! How a body is turned against the axes in which its motion is written: those of the common frame, or of the layout.
 
 use crate::algebra::{Graph, Matrix3, Unary, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::ExprId;
 
 /// A rotation `R_GB = base * rotation(axis, angle)`. Successive rotations about one axis add their angles, so that a
@@ -47,7 +48,10 @@ impl Orientation {
         name: &str,
     ) -> Self {
         let (base, before) = match self.turn {
-            Some((same, before)) if same == axis => (self.base, Some(before)),
+            Some((same, before)) if same == axis => {
+                taken(|| "orientation: angles about one axis added".into());
+                (self.base, Some(before))
+            }
             _ => (self.axes, None),
         };
         if g.is(angle, 0.0) {

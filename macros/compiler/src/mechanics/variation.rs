@@ -13,6 +13,7 @@
 //! of the motion of what it carries, and every coordinate behind it asks with one covector: one walk towards the ground for each.
 
 use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
 use crate::base::ids::{BodyId, ExprId};
 use crate::model::mechanism::Frame;
 
@@ -222,6 +223,7 @@ pub(super) fn variation(g: &mut Graph, problem: &Problem, running: &[ExprId]) ->
     if !topology.coasting.is_empty() || layouts.any(|layout| !layout.own_axes) {
         return None;
     }
+    taken(|| "variation: walks over bodies".into());
     let kinematics = &problem.inertial_kinematics(g, running, Sources::ALL);
     let inertial = inertial(g, problem, kinematics, Sources::ALL);
     let bodies = augmented_bodies(g, problem, kinematics, Sources::ALL);

@@ -1,7 +1,7 @@
 //! Random joints: words, axes that obey the rules of their words, and where drives leave a steady state.
 
 use super::tree::Builder;
-use super::values::Source;
+use super::values::{Frames, Source};
 use crate::model::{Coordinate, Joint, Model, Motion, Step, Unit, Word};
 
 /// A joint that has no ends yet.
@@ -115,7 +115,19 @@ impl Source {
 
     /// Any joint with at most `room` coordinates, one at least allowed.
     pub(super) fn joint(&mut self, room: usize) -> Draft {
-        let axis = self.axis();
+        let axis = match self.frames == Frames::Aligned && self.random.chance(0.6) {
+            true => self.hinge,
+            false => self.axis(),
+        };
+        self.hinge = axis;
+        let hinge = if self.frames == Frames::Mixed {
+            0.3
+        } else {
+            0.7
+        };
+        if self.special && self.random.chance(hinge) {
+            return (Word::Revolute, vec![turn(axis)]);
+        }
         let draft = match self.random.below(20) {
             0 => (Word::Fixed, Vec::new()),
             1..=3 => (Word::Prismatic, vec![slide(axis)]),

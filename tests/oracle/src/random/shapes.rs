@@ -176,14 +176,24 @@ impl Source {
     /// Any inertia that a body can have: `J = tr(S) I - S` with the second moments `S = A A^T + s I` about the centre,
     /// and `S + m d d^T` about a point at the distance `d` from it.
     fn rigid(&mut self) -> Shape {
-        let a: [[f64; 3]; 3] = std::array::from_fn(|_| self.random.vector(0.5));
+        let mut a: [[f64; 3]; 3] = std::array::from_fn(|_| self.random.vector(0.5));
+        if self.special && self.random.chance(0.7) {
+            // along the axes, some equal, none: a bar, a plate, a ball
+            a = std::array::from_fn(|i| {
+                std::array::from_fn(|j| match i == j {
+                    true => self.random.of(&[0.0, 0.0, 0.3, 0.5]),
+                    false => 0.0,
+                })
+            });
+        }
+        let thick = if self.special { 0.0 } else { 0.05 };
         let about: Option<[f64; 3]> = self.random.chance(0.5).then(|| self.random.vector(0.4));
         let mass = self.random.between(0.3, 3.0);
         let off = self.random.vector(0.15);
         let d = if about.is_some() { off } else { [0.0; 3] };
         let s = |i: usize, j: usize| {
             let own = (0..3).map(|k| a[i][k] * a[j][k]).sum::<f64>();
-            own + 0.05 * f64::from(i == j) + mass * d[i] * d[j]
+            own + thick * f64::from(i == j) + mass * d[i] * d[j]
         };
         let trace = s(0, 0) + s(1, 1) + s(2, 2);
         let j = [

@@ -1,7 +1,7 @@
 //! Random trees of bodies.
 
 use super::joints::{self, Draft};
-use super::values::Source;
+use super::values::{Frames, Source};
 use super::{Plan, Random, Setting};
 use crate::model::{
     Body, Frame, Input, Joint, Model, Motion, Part, Placement, Step, Unit, Value, Values, Word,
@@ -30,12 +30,9 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    pub(super) fn new(random: Random) -> Self {
+    pub(super) fn new(random: Random, special: bool) -> Self {
         Self {
-            source: Source {
-                random,
-                design: Vec::new(),
-            },
+            source: Source::new(random, special),
             bodies: Vec::new(),
             joints: Vec::new(),
             inputs: Vec::new(),
@@ -163,9 +160,11 @@ impl Builder {
     }
 
     fn free_body(&mut self, setting: Setting, trunk: usize) {
+        let aligned = self.source.frames == Frames::Aligned;
         let random = &mut self.source.random;
         let beside = setting == Setting::Still || random.chance(0.15);
-        let parent = if self.bodies.is_empty() || (beside && random.chance(0.4)) {
+        let rooted = if aligned { 0.1 } else { 0.4 };
+        let parent = if self.bodies.is_empty() || (beside && random.chance(rooted)) {
             Frame::Ground
         } else if random.chance(0.5) {
             // A long chain.
@@ -178,7 +177,7 @@ impl Builder {
         self.waiting -= 1;
         let room = self.room().max(1);
         let draft = self.source.joint(room);
-        let placements = [self.source.placement(), self.source.placement()];
+        let placements = [self.source.placement(), self.source.outer_placement()];
         // Leaves get their mass at the end.
         let parts = if draft.1.len() < 2 && self.source.random.chance(0.2) {
             Vec::new()
@@ -242,7 +241,12 @@ impl Builder {
         let reversible = !driven || turns_only || steps.len() == 1 || word == Word::Cylindrical;
         let body = Frame::Body(index);
         let mut ends = [(parent, inboard), (body, outboard)];
-        if reversible && self.source.random.chance(0.25) {
+        let inwards = if self.source.frames == Frames::Aligned {
+            0.05
+        } else {
+            0.25
+        };
+        if reversible && self.source.random.chance(inwards) {
             ends.reverse();
             if driven && turns_only {
                 steps.reverse();

@@ -1,5 +1,7 @@
 //! Random values, some of them multiples of shared design variables.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use super::Random;
 use crate::model::{DesignVariable, Placement, Unit, Value, Values};
 
@@ -9,9 +11,54 @@ const MOST: usize = 8;
 pub(super) struct Source {
     pub(super) random: Random,
     pub(super) design: Vec<DesignVariable>,
+    /// Values come from small sets.
+    pub(super) special: bool,
+    /// How frames lie in a special tree.
+    pub(super) frames: Frames,
+    /// The axis of the last joint.
+    pub(super) hinge: [f64; 3],
 }
 
+/// How frames lie against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Frames {
+    /// Parallel, joints at the origins of what they carry: hinges about one axis follow each other.
+    Aligned,
+    /// Turned by right angles, as in robot files.
+    Square,
+    /// Anyhow.
+    Mixed,
+}
+
+/// Angles of frames: right ones, one that was typed with twelve digits, one whose cosine rounds to one.
+const ANGLES: [f64; 6] = [FRAC_PI_2, -FRAC_PI_2, PI, FRAC_PI_2, 1.57079632679, 1e-8];
+
+/// Axes that lie in a plane, and one that nearly lies on a frame's.
+const LEANING: [[f64; 3]; 4] = [
+    [1.0, 1.0, 0.0],
+    [0.0, 3.0, -4.0],
+    [-1.0, 0.0, 2.0],
+    [1e-9, 1.0, 0.0],
+];
+
 impl Source {
+    pub(super) fn new(mut random: Random, special: bool) -> Self {
+        let frames = match special {
+            true => {
+                let list = [Frames::Aligned, Frames::Aligned, Frames::Aligned];
+                random.of(&[list, [Frames::Square, Frames::Square, Frames::Mixed]].concat())
+            }
+            false => Frames::Mixed,
+        };
+        Self {
+            random,
+            design: Vec::new(),
+            special,
+            frames,
+            hinge: [0.0, 1.0, 0.0],
+        }
+    }
+
     /// A value equal to `number`: a number, a multiple of a design variable that exists already, or a new one.
     pub(super) fn value(&mut self, number: f64, unit: Unit) -> Value {
         if number == 0.0 {
@@ -51,14 +98,18 @@ impl Source {
 
     /// A value in an interval.
     pub(super) fn between(&mut self, low: f64, high: f64, unit: Unit) -> Value {
-        let number = self.random.between(low, high);
+        let number = match self.special && self.random.chance(0.6) {
+            true => low + (high - low) * self.random.of(&[0.25, 0.5]),
+            false => self.random.between(low, high),
+        };
         self.value(number, unit)
     }
 
     /// A position; now and then with a component of zero.
     pub(super) fn position(&mut self, limit: f64) -> Values {
+        let often = if self.special { 0.7 } else { 0.3 };
         std::array::from_fn(|_| {
-            let zero = self.random.chance(0.3);
+            let zero = self.random.chance(often);
             let number = self.random.between(-limit, limit);
             self.value(if zero { 0.0 } else { number }, Unit::Metre)
         })
@@ -67,7 +118,18 @@ impl Source {
     /// An axis: one of the frame's, or any vector but not a unit one.
     pub(super) fn axis(&mut self) -> [f64; 3] {
         let mut axis = [0.0; 3];
-        if self.random.chance(0.4) {
+        if self.special && self.random.chance(0.3) {
+            return self.hinge;
+        }
+        let leaning = if self.frames == Frames::Mixed {
+            0.3
+        } else {
+            0.05
+        };
+        if self.special && self.random.chance(leaning) {
+            return self.random.of(&LEANING);
+        }
+        if self.random.chance(if self.special { 0.9 } else { 0.4 }) {
             axis[self.random.below(3)] = if self.random.chance(0.5) { 1.0 } else { -1.0 };
             return axis;
         }
@@ -84,16 +146,46 @@ impl Source {
 
     /// A placement; now and then none.
     pub(super) fn placement(&mut self) -> Placement {
-        if self.random.chance(0.25) {
+        let none = match self.frames {
+            Frames::Aligned => 0.3,
+            Frames::Square => 0.1,
+            Frames::Mixed => 0.25,
+        };
+        if self.random.chance(none) {
             return Placement::NONE;
         }
         let offset = self.position(0.6);
-        let rotations = self.random.below(3);
-        let rotations =
-            (0..rotations).map(|_| (self.axis(), self.between(-2.0, 2.0, Unit::Radian)));
+        let rotations = match self.frames {
+            Frames::Aligned => usize::from(self.random.chance(0.05)),
+            Frames::Square => 1 + self.random.below(2),
+            Frames::Mixed => self.random.below(3),
+        };
+        let rotations = (0..rotations).map(|_| (self.axis(), self.angle()));
         Placement {
             offset,
             rotations: rotations.collect(),
         }
+    }
+
+    /// The place of a joint on the body that it carries.
+    pub(super) fn outer_placement(&mut self) -> Placement {
+        match self.frames == Frames::Aligned && self.random.chance(0.8) {
+            true => Placement::NONE,
+            false => self.placement(),
+        }
+    }
+
+    fn angle(&mut self) -> Value {
+        if self.special && self.random.chance(0.8) {
+            let angle = match self.frames {
+                Frames::Square => self.random.of(&ANGLES[..4]),
+                _ => self.random.of(&ANGLES),
+            };
+            return match self.random.chance(0.9) {
+                true => Value::Number(angle),
+                false => self.value(angle, Unit::Radian),
+            };
+        }
+        self.between(-2.0, 2.0, Unit::Radian)
     }
 }

@@ -1,0 +1,22 @@
+//! Which special cases a derivation takes. Special code that no test mechanism reaches is untested code, so tests count.
+
+#[cfg(feature = "census")]
+use std::{cell::RefCell, collections::BTreeMap};
+
+#[cfg(feature = "census")]
+thread_local! {
+    static TAKEN: RefCell<BTreeMap<String, u64>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+/// Notes that a special case was taken; nothing without the feature `census`.
+#[inline(always)]
+pub(crate) fn taken(_case: impl FnOnce() -> String) {
+    #[cfg(feature = "census")]
+    TAKEN.with_borrow_mut(|counts| *counts.entry(_case()).or_default() += 1);
+}
+
+/// How often each special case was taken on this thread since the last call.
+#[cfg(feature = "census")]
+pub fn take() -> BTreeMap<String, u64> {
+    TAKEN.take()
+}

@@ -1,0 +1,44 @@
+//! Every machine that the tests know, open, closed, rolling or coasting: each kernel against the equations of motion.
+
+use eigentol::Mechanism;
+use eigentol_compiler::mechanics::Limits;
+use eigentol_consistency::check::check;
+use eigentol_consistency::subject::Subject;
+use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::{loops, machines, wheels};
+
+struct Names(Vec<(&'static str, &'static str)>);
+
+impl Visitor for Names {
+    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        _: M,
+    ) where
+        M: Mechanism<N, U, P, O> + Copy,
+    {
+        self.0.push((name, declaration));
+    }
+}
+
+#[test]
+fn kernels_of_every_machine_are_consistent() {
+    let mut all = Names(Vec::new());
+    for visit in [corpus::visit, machines::visit, loops::visit, wheels::visit] {
+        visit(&mut all);
+    }
+    assert!(all.0.len() >= 38, "{}", all.0.len());
+    for (name, declaration) in all.0 {
+        let subject = Subject::new(declaration, Limits::default())
+            .unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
+        for seed in 1..4 {
+            let outcome = check(&subject.program, &subject.state(seed));
+            assert!(
+                outcome.differences.is_empty(),
+                "{name}: {:#?}",
+                outcome.differences
+            );
+        }
+    }
+}
