@@ -61,7 +61,7 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// (`stiffness`), what implicit integration and inverse dynamics with derivatives need. Without velocity and
     /// acceleration they are [`Mechanism::linear`].
     ///
-    /// Generated for small mechanisms; of a large one each column is differentiated by itself, as here.
+    /// Generated up to some 50,000 operations; of a larger mechanism each column is differentiated by itself, as here.
     fn motion_linear<T: Real>(
         &self,
         acceleration: &[T; N],
@@ -71,12 +71,13 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
         b: &[T; P],
     ) -> Linear<T, N> {
         let fixed = |x: &[T; N]| x.map(Dual::fixed);
-        let (u, b) = (u.map(Dual::fixed), b.map(Dual::fixed));
+        let still = (fixed(acceleration), u.map(Dual::fixed), b.map(Dual::fixed));
         let column = |list: usize, k: usize| {
-            let mut arguments = [fixed(acceleration), fixed(velocity), fixed(q)];
+            let mut arguments = [fixed(velocity), fixed(q)];
             arguments[list][k].slope = T::constant(1.0);
-            let [acceleration, velocity, q] = &arguments;
-            self.motion_residual(acceleration, velocity, q, &u, &b)
+            let [velocity, q] = &arguments;
+            let (acceleration, u, b) = &still;
+            self.motion_residual(acceleration, velocity, q, u, b)
                 .map(|entry| entry.slope)
         };
         let matrix = |list: usize| {
@@ -84,9 +85,9 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
             from_fn(|i| from_fn(|j| columns[j][i]))
         };
         Linear {
-            mass: matrix(0),
-            damping: matrix(1),
-            stiffness: matrix(2),
+            mass: self.motion(velocity, q, u, b).0,
+            damping: matrix(0),
+            stiffness: matrix(1),
         }
     }
 

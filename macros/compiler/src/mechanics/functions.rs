@@ -51,8 +51,8 @@ pub struct Limits {
     /// written out. A larger mechanism computes them column by column from directional derivatives: its code would
     /// grow with the cube of its size.
     pub explicit_partials: usize,
-    /// Most entries of the three matrices linearised along any motion, `3 n^2`, that are written out. Beyond, they are
-    /// differentiated one column at a time.
+    /// Most operations of the three matrices linearised along any motion for them to be written out: 32 joints of a robot take
+    /// 40,000. Beyond, they are differentiated one column at a time.
     pub motion_linear: usize,
 }
 
@@ -68,7 +68,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             explicit_partials: 8192,
-            motion_linear: 512,
+            motion_linear: 50_000,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The kernels of the runtime's contract: which expressions each returns, and in which order.
 
-use crate::algebra::{Array, Function, Graph, Parameter, substitute};
+use crate::algebra::{Array, Function, Graph, Parameter, cost, substitute};
 use crate::base::ids::ExprId;
 
 use super::adjoint::{mode_functional, pencil_functional, state_gradient, weighted_sum};
@@ -141,8 +141,10 @@ pub(super) fn kernels(
                 .collect(),
         ),
     ];
-    if 3 * n * n <= limits.motion_linear {
-        let motion = linear.along_motion(g, s, e);
+    let motion = (3 * n * n <= limits.motion_linear)
+        .then(|| linear.along_motion(g, s, e))
+        .filter(|roots| cost(g, roots).operations <= limits.motion_linear);
+    if let Some(motion) = motion {
         let before = vec![
             parameter("acceleration", &s.acceleration),
             parameter("velocity", &s.velocity),

@@ -4,11 +4,14 @@
 use std::fs;
 use std::path::Path;
 
-use eigentol::Dual;
+use eigentol::Mechanism;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_consistency::check::check;
 use eigentol_consistency::interpreter::{interpret, interpret_along};
 use eigentol_consistency::subject::Subject;
+use eigentol_tests::generated::evaluate;
+use eigentol_tests::robots::{self, Solo12Free, Ur5};
+use proc_macro2::TokenStream;
 use serde_json::Value;
 
 const ROBOTS: [&str; 10] = [
@@ -27,15 +30,9 @@ const ROBOTS: [&str; 10] = [
 /// Relative to the largest entry of an array.
 const TOLERANCE: f64 = 1e-9;
 
-/// As large as any robot here needs, so that every kernel exists.
-const LIMITS: Limits = Limits {
-    explicit_partials: 0,
-    ..Limits::NONE
-};
-
 fn read(file: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../truth/robots")
+        .join("truth/robots")
         .join(file);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
@@ -46,6 +43,9 @@ fn numbers(value: &Value) -> Vec<f64> {
         .unwrap_or_else(|| panic!("a list, not {value}"));
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
+
+/// The results of a kernel by its name.
+type Evaluate<'a> = dyn Fn(&str, &[&[f64]]) -> Vec<Vec<f64>> + 'a;
 
 struct Robot {
     subject: Subject,
@@ -60,8 +60,8 @@ impl Robot {
     fn load(name: &str) -> Self {
         let truth: Value = serde_json::from_str(&read(&format!("{name}.json"))).expect("JSON");
         let text = read(&format!("{name}.mech"));
-        let subject =
-            Subject::new(&text, LIMITS).unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
+        let subject = Subject::new(&text, Limits::default())
+            .unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
         let names: Vec<&str> = truth["coordinates"]
             .as_array()
             .expect("names")
@@ -90,16 +90,21 @@ impl Robot {
         self.order.iter().map(|&place| list[place]).collect()
     }
 
-    fn evaluate(&self, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
-        let found = self.subject.program.kernel(kernel);
-        interpret(
-            found.unwrap_or_else(|| panic!("no kernel `{kernel}`")),
-            arguments,
-        )
+    fn interpreted(&self, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
+        let kernel_of = |name: &str| {
+            let found = self.subject.program.kernel(name);
+            found.unwrap_or_else(|| panic!("no kernel `{name}`"))
+        };
+        match kernel {
+            "linear_along" => {
+                interpret_along(kernel_of("linear"), &arguments[..3], &arguments[3..])
+            }
+            _ => interpret(kernel_of(kernel), arguments),
+        }
     }
 
-    /// The largest error of each quantity over all states.
-    fn errors(&self) -> Vec<(&'static str, f64)> {
+    /// The largest error of each quantity over all states, of kernels that `evaluate` runs.
+    fn errors(&self, evaluate: &Evaluate) -> Vec<(&'static str, f64)> {
         let mut errors: Vec<(&'static str, f64)> = Vec::new();
         // where a quantity is zero, the truth holds rounding errors of 1e-14
         let mut compare = |what, found: &[f64], expected: &[f64]| {
@@ -130,35 +135,30 @@ impl Robot {
             let at = [&q[..], &[], b];
             let moving = [&a[..], &v, &q, &[], b];
 
-            compare(
-                "residual",
-                &self.evaluate("residual", &at)[0],
-                &get("tau_rest"),
-            );
-            let found = self.evaluate("motion_residual", &moving);
+            compare("residual", &evaluate("residual", &at)[0], &get("tau_rest"));
+            let found = evaluate("motion_residual", &moving);
             compare("motion residual", &found[0], &get("tau"));
-            let found = self.evaluate("motion", &[&v, &q, &[], b]);
+            let found = evaluate("motion", &[&v, &q, &[], b]);
             let bias: Vec<f64> = found[1].iter().map(|force| -force).collect();
             compare("motion: force", &bias, &get("bias"));
             compare("motion: mass", &times(&found[0]), &get("mass_w"));
-            let found = self.evaluate("residual_and_stiffness", &at);
+            let found = evaluate("residual_and_stiffness", &at);
             compare(
                 "stiffness with residual",
                 &times(&found[1]),
                 &get("rest_dq_w"),
             );
-            let found = self.evaluate("linear", &at);
+            let found = evaluate("linear", &at);
             compare("mass", &times(&found[0]), &get("mass_w"));
             compare("stiffness", &times(&found[2]), &get("rest_dq_w"));
-            let found = self.evaluate("motion_linear", &moving);
+            let found = evaluate("motion_linear", &moving);
             compare("mass along a motion", &times(&found[0]), &get("mass_w"));
             compare("damping along a motion", &times(&found[1]), &get("dv_w"));
             compare("stiffness along a motion", &times(&found[2]), &get("dq_w"));
 
             let lambda = [state["lambda"].as_f64().expect("lambda")];
-            let partials = self.evaluate("residual_partials", &at);
-            let gradient = self.evaluate("mode_gradient", &[&q, &[], b, &w, &lambda]);
-            let linear = self.subject.program.kernel("linear").expect("a kernel");
+            let partials = evaluate("residual_partials", &at);
+            let gradient = evaluate("mode_gradient", &[&q, &[], b, &w, &lambda]);
             for (k, name) in self.subject.design.iter().enumerate() {
                 let column: Vec<f64> = partials[1]
                     .chunks_exact(b.len())
@@ -175,7 +175,7 @@ impl Robot {
                 let mut along = vec![0.0; b.len()];
                 along[k] = 1.0;
                 let still = vec![0.0; n];
-                let slopes = interpret_along(linear, &at, &[&still, &[], &along]);
+                let slopes = evaluate("linear_along", &[&q, &[], b, &still, &[], &along]);
                 let form = |matrix: &[f64]| -> f64 {
                     times(matrix).iter().zip(&w).map(|(x, w)| x * w).sum()
                 };
@@ -189,14 +189,55 @@ impl Robot {
     }
 }
 
+fn assert_right(name: &str, errors: Vec<(&'static str, f64)>) {
+    assert_eq!(errors.len(), 14);
+    for (what, error) in errors {
+        assert!(error <= TOLERANCE, "{name}: {what} is off by {error:e}");
+    }
+}
+
 #[test]
 fn robots_are_those_of_pinocchio() {
     for name in ROBOTS {
         let robot = Robot::load(name);
-        for (what, error) in robot.errors() {
-            assert!(error <= TOLERANCE, "{name}: {what} is off by {error:e}");
-        }
+        let errors = robot.errors(&|kernel, arguments| robot.interpreted(kernel, arguments));
+        assert_right(name, errors);
     }
+}
+
+fn compiled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    machine: &M,
+    kernel: &str,
+    arguments: &[&[f64]],
+) -> Vec<Vec<f64>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let arguments: Vec<Vec<f64>> = arguments.iter().map(|list| list.to_vec()).collect();
+    evaluate(machine, kernel, &arguments).unwrap_or_else(|| panic!("no kernel `{kernel}`"))
+}
+
+/// The declarations that the macro compiles are those of the files.
+#[test]
+fn compiled_robots_are_those_of_pinocchio() {
+    let tokens = |text: &str| -> String {
+        let tokens: TokenStream = text.parse().expect("tokens");
+        tokens.to_string()
+    };
+    for (name, declaration) in [
+        ("Ur5", robots::ur5::DECLARATION),
+        ("Solo12Free", robots::solo::DECLARATION),
+    ] {
+        assert_eq!(tokens(declaration), tokens(&read(&format!("{name}.mech"))));
+    }
+    let arm = Robot::load("Ur5");
+    assert_right(
+        "Ur5",
+        arm.errors(&|kernel, list| compiled(&Ur5, kernel, list)),
+    );
+    let walker = Robot::load("Solo12Free");
+    let errors = walker.errors(&|kernel, list| compiled(&Solo12Free, kernel, list));
+    assert_right("Solo12Free", errors);
 }
 
 #[test]
@@ -221,44 +262,13 @@ fn kernels_of_robots_are_consistent() {
 #[test]
 fn a_small_fault_is_found() {
     let mut robot = Robot::load("Ur5");
-    let servo = robot
+    let length = robot
         .subject
         .design
         .iter()
         .position(|name| name == "offset_of_elbow_joint");
-    robot.design[servo.expect("a length")] *= 1.0 + 1e-8;
-    let wrong = robot
-        .errors()
-        .into_iter()
-        .filter(|(_, error)| *error > TOLERANCE);
-    assert!(wrong.count() >= 8);
-}
-
-/// The inverse dynamics in dual numbers, without the interpreter's own direction.
-#[test]
-fn duals_of_the_interpreter_carry_slopes() {
-    let robot = Robot::load("Ur5");
-    let kernel = robot.subject.program.kernel("residual").expect("a kernel");
-    let q: Vec<Dual<f64>> = (0..6)
-        .map(|k| Dual {
-            value: 0.1,
-            slope: f64::from(k),
-        })
-        .collect();
-    let b: Vec<Dual<f64>> = robot
-        .design
-        .iter()
-        .map(|&value| Dual::fixed(value))
-        .collect();
-    let found = interpret(kernel, &[&q, &[], &b]);
-    let fixed = vec![0.1; 6];
-    let slopes: Vec<f64> = (0..6).map(f64::from).collect();
-    let zero = vec![0.0; robot.design.len()];
-    let along = interpret_along(
-        kernel,
-        &[&fixed, &[], &robot.design],
-        &[&slopes, &[], &zero],
-    );
-    let expected: Vec<f64> = found[0].iter().map(|dual| dual.slope).collect();
-    assert_eq!(along[0], expected);
+    robot.design[length.expect("a length")] *= 1.0 + 1e-8;
+    let errors = robot.errors(&|kernel, arguments| robot.interpreted(kernel, arguments));
+    let wrong = errors.iter().filter(|(_, error)| *error > TOLERANCE);
+    assert!(wrong.count() >= 8, "{errors:?}");
 }
