@@ -387,7 +387,10 @@ fn a_report_says_what_first_order_leaves_out() {
             "{first}{summary}"
         );
     };
-    said(&plate, "the vibration neither decays nor grows");
+    said(
+        &plate,
+        "the vibration neither grows nor decays within rounding",
+    );
     let fed = plate.design(damping, -0.01);
     said(&fed, "the vibration grows");
     // Whether or not its growth varies.

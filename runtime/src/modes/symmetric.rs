@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
 use crate::array::greater;
+use crate::rounding::of_elements;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +21,8 @@ pub(crate) struct Pairs<const N: usize> {
     pub(crate) lambda: [f64; N],
     pub(crate) shapes: [[f64; N]; N],
     pub(crate) residuals: [f64; N],
+    /// How far each eigenvalue may be off by rounding.
+    pub(crate) errors: [f64; N],
 }
 
 /// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
@@ -38,13 +41,14 @@ pub(crate) fn solve<const N: usize>(
         lambda: [0.0; N],
         shapes: [[0.0; N]; N],
         residuals: [0.0; N],
+        errors: [0.0; N],
     };
     solve_on(
         N,
         (stiffness.as_flattened(), mass.as_flattened()),
         &mut pairs.lambda,
         pairs.shapes.as_flattened_mut(),
-        &mut pairs.residuals,
+        (&mut pairs.residuals, &mut pairs.errors),
     )?;
     Ok(pairs)
 }
@@ -56,7 +60,7 @@ pub(crate) fn solve_on(
     (k, m): (&[f64], &[f64]),
     lambda: &mut [f64],
     shapes: &mut [f64],
-    residuals: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
 ) -> Result<(), Trouble> {
     match n {
         0 => {}
@@ -70,7 +74,7 @@ pub(crate) fn solve_on(
         8 => small_8(k, m, lambda, shapes)?,
         _ => large(n, k, m, lambda, shapes)?,
     }
-    finish(&Matrices { n, k, m }, lambda, shapes, residuals)
+    finish(&Matrices { n, k, m }, lambda, shapes, (residuals, errors))
 }
 
 #[inline]
@@ -221,17 +225,21 @@ fn finish(
     matrices: &Matrices,
     lambda: &mut [f64],
     shapes: &mut [f64],
-    residuals: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
 ) -> Result<(), Trouble> {
     let n = matrices.n;
-    sort(n, lambda, shapes, residuals);
+    sort(n, lambda, shapes, (residuals, errors));
     let mut refined = false;
     for r in 0..n {
         let own = r * n..(r + 1) * n;
-        residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
+        let measured = |lambda: &[f64], shapes: &[f64]| {
+            let rest = matrices.rest(lambda[r], &shapes[own.clone()]);
+            (rest.relative(), rest.error(n))
+        };
+        (residuals[r], errors[r]) = measured(lambda, shapes);
         if residuals[r] > INACCURATE {
             refine(matrices, lambda, shapes, r);
-            residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
+            (residuals[r], errors[r]) = measured(lambda, shapes);
             refined = true;
         }
         if residuals[r].is_nan() || residuals[r] > ACCEPTED {
@@ -246,7 +254,7 @@ fn finish(
         }
     }
     if refined {
-        sort(n, lambda, shapes, residuals);
+        sort(n, lambda, shapes, (residuals, errors));
     }
     for r in 0..n {
         fix_sign(&mut shapes[r * n..(r + 1) * n]);
@@ -255,12 +263,18 @@ fn finish(
 }
 
 #[inline(always)]
-fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], residuals: &mut [f64]) {
+fn sort(
+    n: usize,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) {
     for i in 1..n {
         let mut j = i;
         while j > 0 && lambda[j] < lambda[j - 1] {
             lambda.swap(j, j - 1);
             residuals.swap(j, j - 1);
+            errors.swap(j, j - 1);
             for k in 0..n {
                 shapes.swap(j * n + k, (j - 1) * n + k);
             }
@@ -293,23 +307,22 @@ impl Matrices<'_> {
     /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
     #[inline(always)]
     pub(super) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
-        let (most, size) = self.residual_and_terms(lambda, phi);
-        if most == 0.0 { 0.0 } else { most / size }
+        self.rest(lambda, phi).relative()
     }
 
     /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
     /// that act, and their terms are no measure.
     fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
-        let (most, _) = self.residual_and_terms(lambda, phi);
+        let most = self.rest(lambda, phi).most;
         let matrices = largest(self.k) + lambda.abs() * largest(self.m);
         most <= ROUNDING * matrices * largest(phi)
     }
 
-    /// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
+    /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
     #[inline(always)]
-    fn residual_and_terms(&self, lambda: f64, phi: &[f64]) -> (f64, f64) {
+    fn rest(&self, lambda: f64, phi: &[f64]) -> Rest {
         let n = self.n;
-        let (mut most, mut size) = (0.0_f64, 0.0_f64);
+        let mut rest = Rest::default();
         for i in 0..n {
             let (mut sum, mut terms) = (0.0, 0.0);
             let (k, m) = (&self.k[i * n..(i + 1) * n], &self.m[i * n..(i + 1) * n]);
@@ -319,11 +332,43 @@ impl Matrices<'_> {
                 terms += k.abs() + m.abs();
             }
             if sum.is_nan() {
-                return (f64::NAN, size);
+                rest.most = f64::NAN;
+                return rest;
             }
-            most = greater(most, sum.abs());
-            size = greater(size, terms);
+            rest.most = greater(rest.most, sum.abs());
+            rest.size = greater(rest.size, terms);
+            rest.along += phi[i] * sum;
+            rest.terms += phi[i].abs() * terms;
         }
-        (most, size)
+        rest
+    }
+}
+
+/// `K phi - lambda M phi`, summed up.
+#[derive(Default)]
+struct Rest {
+    /// Greatest component.
+    most: f64,
+    /// Greatest sum of absolute terms in a row.
+    size: f64,
+    /// `phi^T (K - lambda M) phi`, and its absolute terms.
+    along: f64,
+    terms: f64,
+}
+
+impl Rest {
+    #[inline(always)]
+    fn relative(&self) -> f64 {
+        if self.most == 0.0 {
+            0.0
+        } else {
+            self.most / self.size
+        }
+    }
+
+    /// Error of `lambda`: by rounding of the elements, and by what it is away from the quotient of `phi`.
+    #[inline(always)]
+    fn error(&self, n: usize) -> f64 {
+        of_elements(n) * self.terms + self.along.abs()
     }
 }

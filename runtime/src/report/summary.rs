@@ -211,7 +211,11 @@ impl fmt::Display for Doubt {
                 named(modes),
                 number(*distance)
             ),
-            Self::NearCritical { distance } if *distance <= 0.0 => write!(
+            Self::NearCritical { distance: 0.0 } => write!(
+                f,
+                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing: believe Monte Carlo."
+            ),
+            Self::NearCritical { distance } if *distance < 0.0 => write!(
                 f,
                 "the equilibrium is not stable. Samples settle elsewhere: sigma says nothing about them."
             ),
@@ -223,7 +227,7 @@ impl fmt::Display for Doubt {
             ),
             Self::NearInstability { distance: 0.0 } => write!(
                 f,
-                "the vibration neither decays nor grows. Sigma counts samples that are unstable: see the counts of Monte \
+                "the vibration neither grows nor decays within rounding. Sigma counts samples that are unstable: see the counts of Monte \
                  Carlo."
             ),
             Self::NearInstability { distance } if *distance < 0.0 => write!(

@@ -66,7 +66,13 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
         }
         write!(f, "{table}")?;
         undamped(f, self.family, d)?;
-        if self.distance_to_critical <= 0.0 {
+        if self.distance_to_critical == 0.0 {
+            return writeln!(
+                f,
+                "  The stiffness is zero within rounding: this is a critical state. Use Monte Carlo here."
+            );
+        }
+        if self.distance_to_critical < 0.0 {
             return writeln!(
                 f,
                 "  The equilibrium is not stable: a mode that does not oscillate has no frequency to spread."

@@ -77,7 +77,7 @@ where
 
     fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
         state.regular()?;
-        modes::modes_of(&state.linear, self.family_of(state), state.description)
+        modes::modes_at(state, self.family_of(state))
     }
 
     fn family_of(&self, state: &Equilibrium<N, U, P>) -> Family {
@@ -130,7 +130,7 @@ where
             .map_err(|failure| failure.explain(problem.description()))?;
         state.regular()?;
         let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
-        let solved = found.solve(&state.linear);
+        let solved = found.solve(&state.linear, state.rounding);
         solved.map_err(|failure| failure.explain(state.description))?;
         let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
         sensitivity::sensitivities_into(&self.mechanism, state, &found, &mut slopes)?;

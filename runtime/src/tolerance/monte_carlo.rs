@@ -413,7 +413,12 @@ where
         Stability::Undecided => Outcome::Undecided,
         _ => Outcome::Stable,
     };
-    let Ok(found) = solve_modes(&state.linear, modes.family, state.description) else {
+    let Ok(found) = solve_modes(
+        &state.linear,
+        modes.family,
+        state.description,
+        state.rounding,
+    ) else {
         return (sample(Outcome::NoModes, Some(state.coordinates)), false);
     };
     let order = match_modes(modes, &found, &state.linear);

@@ -71,14 +71,14 @@ pub enum Doubt {
         /// They have merged into one defective eigenvalue.
         defective: bool,
     },
-    /// The critical state, beyond which the equilibrium changes branch, is this many standard deviations away; not
-    /// positive beyond it.
+    /// The critical state, beyond which the equilibrium changes branch, is this many standard deviations away; zero within
+    /// rounding of it, negative beyond it.
     NearCritical {
         /// Standard deviations.
         distance: f64,
     },
-    /// The mode begins to grow this many standard deviations away; zero when it keeps its amplitude, negative when it
-    /// grows.
+    /// The mode begins to grow this many standard deviations away; zero when it neither grows nor decays within rounding,
+    /// negative when it grows.
     NearInstability {
         /// Standard deviations.
         distance: f64,

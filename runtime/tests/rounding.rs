@@ -1,0 +1,224 @@
+//! What is zero but for rounding is said to be zero, and what is not is not: equilibria, modes and reports agree.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use eigentol::modes::modes;
+use eigentol::tolerance::Doubt;
+use eigentol::{Behaviour, DesignVariable, Family, Input, Policy, Stability, Study, mechanism};
+
+use common::close;
+use common::derived::Derived;
+use common::models::Plate;
+use common::pendulum::W;
+
+mechanism! {
+    mechanism Bar {
+        input  omega: rad/s;
+        design m = 3 kg +/- 0.03 kg;
+        design l = 1 m +/- 3 %;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin:  revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+mechanism! {
+    /// Masses one behind the other, each held by a spring to the one before.
+    mechanism Row {
+        input  soft:  N/m;
+        input  other: N/m;
+        input  stiff: N/m;
+        body a: sphere(mass: 1 kg, radius: 0.1 m);
+        body b: sphere(mass: 2 kg, radius: 0.1 m);
+        body c: sphere(mass: 3 kg, radius: 0.1 m);
+        joint x: prismatic(x) from ground to a;
+        joint y: prismatic(x) from a to b;
+        joint z: prismatic(x) from b to c;
+        force k1: spring(on: x, stiffness: soft);
+        force k2: spring(on: y, stiffness: other);
+        force k3: spring(on: z, stiffness: stiff);
+    }
+}
+
+/// The representable number `count` places after `value`.
+fn after(value: f64, count: i64) -> f64 {
+    f64::from_bits(value.to_bits().wrapping_add_signed(count))
+}
+
+/// `3 g / (2 L) - omega^2`, stiffness over inertia where the bar hangs, rounded once at the end.
+fn exact_lambda(omega: f64) -> f64 {
+    let square = omega * omega;
+    (W - square) - omega.mul_add(omega, -square)
+}
+
+fn bar(omega: f64, start: f64) -> Study<Bar, 1, 1, 2, 0> {
+    let study = Study::new(Bar).input(Bar::omega, omega);
+    study.start(Bar::theta, start)
+}
+
+#[test]
+fn at_its_critical_speed_a_pendulum_is_neutral() {
+    for start in [0.0, 1e-3, std::f64::consts::FRAC_PI_3] {
+        for places in -3..=3 {
+            let study = bar(after(W.sqrt(), places), start);
+            let at = study.equilibrium().unwrap();
+            assert_eq!(at.stability, Stability::Neutral { zero: 1 });
+            for family in [Family::Undamped, Family::General] {
+                let found = study.clone().family(family).modes().unwrap();
+                let neutral = found.modes.iter().map(|mode| mode.behaviour);
+                assert!(neutral.eq([Behaviour::Neutral]), "{start} {places} {found}");
+            }
+            let summary = study.summary().unwrap();
+            assert_eq!(summary.first.distance_to_critical, 0.0);
+            let doubts = &summary.trust[0].doubts;
+            assert!(
+                doubts.contains(&Doubt::NearCritical { distance: 0.0 }),
+                "{doubts:?}"
+            );
+            for text in [summary.to_string(), summary.first.to_string()] {
+                assert!(text.contains("zero within rounding"), "{text}");
+                assert!(!text.contains("not stable"), "{text}");
+            }
+        }
+    }
+}
+
+/// Against the sign of the exact stiffness: no sign is wrong, and few are left open.
+#[test]
+fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
+    let critical = W.sqrt();
+    for distance in [1e-14, 1e-13, 1e-12, 1e-9, 1e-6, 1e-3] {
+        for omega in [critical * (1.0 - distance), critical * (1.0 + distance)] {
+            let study = bar(omega, 0.0).policy(Policy::Nearest);
+            let at = study.equilibrium().unwrap();
+            let mode = study.modes().unwrap().modes[0];
+            let exact = exact_lambda(omega);
+            let expected = match exact > 0.0 {
+                true => (Stability::Stable, Behaviour::Oscillating(exact.sqrt())),
+                false => (
+                    Stability::Divergent { negative: 1 },
+                    Behaviour::Divergent((-exact).sqrt()),
+                ),
+            };
+            assert!(
+                (mode.lambda - exact).abs() < at.rounding.max(1e-15 * W),
+                "{distance}"
+            );
+            assert_eq!(at.stability, expected.0, "{distance}");
+            let same = core::mem::discriminant(&mode.behaviour);
+            assert_eq!(same, core::mem::discriminant(&expected.1));
+        }
+    }
+}
+
+/// A critical state that was searched for is one, whatever the last digits of the speed make of it.
+#[test]
+fn a_critical_state_that_was_located_is_neutral() {
+    let found = bar(0.0, 0.0).critical_state(Bar::omega, 3.0, 5.0).unwrap();
+    close(found.value, W.sqrt(), 1e-12);
+    let at = &found.equilibrium;
+    assert_eq!(at.stability, Stability::Neutral { zero: 1 });
+    let mode = modes(at).unwrap().modes[0];
+    assert_eq!(mode.behaviour, Behaviour::Neutral);
+}
+
+/// Stiffnesses 1e15 apart, in relative coordinates, where none is hidden in the digits of another one. Expected are the
+/// frequencies where the stiff spring is a rigid joint; what it gives differs by 1e-15 of them.
+#[test]
+fn a_soft_mode_beside_a_stiff_one_is_as_good_as_alone() {
+    // Squares of the frequencies of two masses, a spring on the first and one between.
+    let pair = |(first, near): (f64, f64), (second, between): (f64, f64)| {
+        let trace = (near + between) / first + between / second;
+        let product = near * between / (first * second);
+        let root = (trace * trace - 4.0 * product).sqrt();
+        let high = 0.5 * (trace + root);
+        [product / high, high]
+    };
+    let (one, two, stiff) = (1.0, 2.0, 1e15);
+    let reduced = |a: f64, b: f64| (1.0 / a + 1.0 / b) * stiff;
+    for (springs, soft, high) in [
+        (
+            [one, two, stiff],
+            pair((1.0, one), (5.0, two)),
+            reduced(2.0, 3.0),
+        ),
+        (
+            [one, stiff, two],
+            pair((3.0, one), (3.0, two)),
+            reduced(1.0, 2.0),
+        ),
+        ([stiff, one, two], pair((2.0, one), (3.0, two)), stiff),
+        (
+            [-one, two, stiff],
+            pair((1.0, -one), (5.0, two)),
+            reduced(2.0, 3.0),
+        ),
+    ] {
+        let study = Study::new(Row)
+            .input(Row::soft, springs[0])
+            .input(Row::other, springs[1])
+            .input(Row::stiff, springs[2])
+            .policy(Policy::Nearest);
+        let stable = springs[0] > 0.0;
+        let expected = match stable {
+            true => Stability::Stable,
+            false => Stability::Divergent { negative: 1 },
+        };
+        assert_eq!(study.equilibrium().unwrap().stability, expected);
+        let found = study.modes().unwrap();
+        for (mode, lambda) in found.modes.iter().zip([soft[0], soft[1], high]) {
+            close(
+                mode.lambda,
+                lambda,
+                3e-14 + 2e-15 * f64::from(lambda == high),
+            );
+            assert!(
+                (mode.s.norm() - lambda.abs().sqrt()).abs() <= mode.error + 1e-15 * mode.s.norm()
+            );
+            match lambda > 0.0 {
+                true => assert!(
+                    matches!(mode.behaviour, Behaviour::Oscillating(_)),
+                    "{found}"
+                ),
+                false => assert!(matches!(mode.behaviour, Behaviour::Divergent(_)), "{found}"),
+            }
+        }
+        let general = study.family(Family::General).modes().unwrap();
+        assert_eq!(general.stable(), stable);
+        assert!(
+            general
+                .modes
+                .iter()
+                .all(|mode| mode.behaviour != Behaviour::Neutral)
+        );
+    }
+}
+
+/// Without damping a whirling plate keeps its amplitude at every speed, and the next sample of `c` decides what it does.
+#[test]
+fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
+    for speed in [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.0] {
+        let study = Study::new(Derived(Plate))
+            .family(Family::General)
+            .input(Input(0), speed)
+            .tolerance(DesignVariable(3), 1e-2);
+        let summary = study.summary().unwrap();
+        for (mode, trust) in summary.first.modes.iter().zip(&summary.trust) {
+            assert_eq!(mode.distance_to_instability, 0.0, "{speed}");
+            assert_eq!(trust.doubts, [Doubt::NearInstability { distance: 0.0 }]);
+        }
+        for text in [summary.to_string(), summary.first.to_string()] {
+            assert!(
+                text.contains("neither grows nor decays within rounding"),
+                "{text}"
+            );
+            assert!(
+                !text.contains("vibration grows") && !text.contains("begins to grow"),
+                "{text}"
+            );
+        }
+    }
+}
