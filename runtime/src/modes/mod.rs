@@ -18,7 +18,7 @@ pub(crate) mod symmetric;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged, near_another};
+pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub use per_mode::PerMode;
@@ -28,6 +28,7 @@ use crate::array::{asymmetry, dot_complex};
 use crate::constraints::Structure;
 use crate::pencil::pencil_slope_times;
 use crate::rounding::{Sign, sign};
+use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
 use general::Root;
 use symmetric::Trouble;
@@ -76,6 +77,25 @@ impl<const N: usize> Modes<N> {
     pub(crate) fn least_lambda(&self) -> f64 {
         let lambda = self.modes.iter().map(|mode| mode.lambda);
         lambda.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
+    /// a chain in which each is within 1e-6 of the next, relative to the greater. Tolerances bring more together
+    /// ([`tolerance::clusters`](crate::tolerance::clusters)). Empty when there is no such mode.
+    pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
+        let mut members: Vec<usize> = (mode < self.modes.len())
+            .then_some(mode)
+            .into_iter()
+            .collect();
+        let mut next = 0;
+        while let Some(&of) = members.get(next) {
+            let near = (0..self.modes.len()).filter(|&r| near(self, of, r, CLUSTER_GAP));
+            let new: Vec<usize> = near.filter(|r| !members.contains(r)).collect();
+            members.extend(new);
+            next += 1;
+        }
+        members.sort_unstable();
+        members
     }
 
     /// Whether every small disturbance stays small.

@@ -123,12 +123,11 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Summary<N,
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
             let alone = self.cluster_of(r).is_none();
             let own = |value: Option<f64>| optional(value.filter(|_| alone));
-            let second = self.second.modes[r].as_ref().ok();
             table.row(vec![
                 (r + 1).to_string(),
                 optional(mode.mean),
                 own(mode.sigma),
-                own(second.map(|second| second.frequency.moments.sigma)),
+                own(self.second_order_sigma(r)),
                 own(mode.band),
                 verdict(&trust.doubts),
             ]);
@@ -259,7 +258,7 @@ impl fmt::Display for Doubt {
                 write!(
                     f,
                     "the first-order sigma of the {name} is {:.1} % below that of second order, because it bends within \
-                     the tolerances: believe second order, and Monte Carlo where the two are far apart.",
+                     the tolerances. Second order tells that it bends, not by how much: believe Monte Carlo.",
                     100.0 * sigma_error
                 )
             }

@@ -2,12 +2,11 @@
 //! them has.
 
 use super::distribution::diagonalise;
-use super::eigenvalues::eigenvalues;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::modes::Family;
-use crate::sensitivity::ModalCouplings;
+use crate::sensitivity::{ModalCouplings, eigenvalues};
 use crate::{Complex, Error, Quantity};
 
 /// How to sample a cluster.

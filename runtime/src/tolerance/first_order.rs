@@ -75,7 +75,8 @@ pub struct ModeTolerance<const P: usize> {
     /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
     pub distance_to_neighbour: f64,
-    /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it. That tolerances mix modes
+    /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
+    /// and the numbers here belong to the computed basis of the cluster. That tolerances mix modes
     /// farther apart is told by [`clusters`](super::clusters) and [`summary`](super::summary).
     pub clustered: bool,
 }
