@@ -157,6 +157,11 @@ pub(crate) enum ModesFailure {
     /// Undamped modes were asked for where speeds or constraints on velocities leave none.
     NotHolonomic,
     Pencil(Trouble),
+    /// The square of this eigenvalue exceeds the range of a double.
+    Range {
+        mode: usize,
+        size: f64,
+    },
 }
 
 impl ModesFailure {
@@ -165,6 +170,7 @@ impl ModesFailure {
         match self {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
+            Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
             Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
                 coordinate: description
                     .coordinates
@@ -221,8 +227,7 @@ impl<const N: usize> Modes<N> {
     ) -> Result<(), ModesFailure> {
         match self.family {
             Family::Undamped => undamped(linear, self.description, floor, &mut self.modes),
-            Family::General => damped(linear, self.description, floor, &mut self.modes)
-                .map_err(ModesFailure::Pencil),
+            Family::General => damped(linear, self.description, floor, &mut self.modes),
         }
     }
 }
@@ -300,13 +305,14 @@ fn damped<const N: usize>(
     description: &'static Description,
     floor: f64,
     modes: &mut PerMode<Mode<N>, N>,
-) -> Result<(), Trouble> {
+) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
-        general::solve(linear)?
+        general::solve(linear)
     } else {
-        constrained::general_roots(linear, structure)?
+        constrained::general_roots(linear, structure)
     };
+    let roots = roots.map_err(ModesFailure::Pencil)?;
     let roots = roots.as_slice();
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
@@ -334,9 +340,14 @@ fn damped<const N: usize>(
             (_, false, false) => Behaviour::Decaying(-s.re),
             (_, false, true) => Behaviour::Divergent(s.re),
         };
+        let lambda = -(s * s).re;
+        if !lambda.is_finite() {
+            let size = s.norm();
+            return Err(ModesFailure::Range { mode: r, size });
+        }
         *mode = Mode {
             s,
-            lambda: -(s * s).re,
+            lambda,
             shape: root.right,
             left: root.left,
             behaviour,

@@ -190,6 +190,12 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
         }
         write!(f, "{table}")?;
         undamped(f, self.family, self.description)?;
+        if self.side_by_side {
+            writeln!(
+                f,
+                "  Samples were solved side by side in vectors: one by one the last bits differ."
+            )?;
+        }
         if self.clustered {
             writeln!(
                 f,

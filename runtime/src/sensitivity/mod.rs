@@ -99,13 +99,14 @@ pub struct ModeSensitivity<const U: usize, const P: usize> {
 }
 
 impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
-    /// Total derivatives of a quantity of the mode; `None` where it has none.
+    /// Total derivatives of a quantity of the mode; `None` where it has none, or one beyond the range of a double.
     pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64, U, P>> {
         let oscillates = self.omega_by_design.is_some();
         if !oscillates && quantity != Quantity::Growth {
             return None;
         }
-        Some(self.s?.map(|ds| quantity.slope(self.value, ds)))
+        let slopes = self.s?.map(|ds| quantity.slope(self.value, ds));
+        slopes.finite().then_some(slopes)
     }
 
     /// What stands where derivatives are going to be written.
