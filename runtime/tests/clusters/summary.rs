@@ -244,3 +244,53 @@ fn an_oscillation_about_to_cease_says_so() {
         &["no oscillation", "a member has no frequency"],
     );
 }
+
+/// On both sides of each threshold, from closed forms.
+#[test]
+fn thresholds_are_where_they_are_said_to_be() {
+    let w = 1.5 * GRAVITY;
+    // Hanging, lambda = w / l - u^2: (w - u^2) / (w sigma) standard deviations.
+    let near = |distance: f64, speed: f64| 3.0 * (w - speed * speed) / (w * distance);
+    for (distance, doubted) in [(4.45, true), (4.55, false)] {
+        let summary = pendulum(3.0, near(distance, 3.0));
+        close(summary.first.distance_to_critical, distance, 1e-9);
+        let critical = |doubt: &Doubt| matches!(doubt, Doubt::NearCritical { .. });
+        assert_eq!(summary.trust[0].doubts.iter().any(critical), doubted);
+        assert_eq!(summary.first.trusted(), !doubted);
+        // k1 alone moves lambda = k1 against lambda = k2.
+        let pair = Study::new(Derived(Pair))
+            .sigma_level(1.0)
+            .design(DesignVariable(1), 100.0 + distance)
+            .tolerance(DesignVariable(0), 1.0)
+            .tolerance(DesignVariable(2), 0.0);
+        assert_eq!(pair.clusters().unwrap().len(), usize::from(doubted));
+        assert_eq!(pair.first_order().unwrap().trusted(), !doubted);
+        // Growth -c / (2 m) of a damped mode by c alone: c / sigma(c).
+        let plate = (0..3).fold(Study::new(Derived(Plate)), |study, k| {
+            study.tolerance(DesignVariable(k), 0.0)
+        });
+        let plate = plate.design(DesignVariable(3), 0.02).sigma_level(1.0);
+        let plate = plate
+            .tolerance(DesignVariable(3), 0.02 / distance)
+            .summary()
+            .unwrap();
+        let growing = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
+        assert_eq!(plate.trust[0].doubts.iter().any(growing), doubted);
+    }
+    // Beyond, omega = sqrt(u^2 - w^2 / (u l)^2), which bends: with r = omega'' sigma / (sqrt(2) omega') first order misses
+    // second by 1 - 1 / sqrt(1 + r^2).
+    let speed = 5.0_f64;
+    let rest = (w / speed).powi(2);
+    let omega = (speed * speed - rest).sqrt();
+    let slope = rest / omega;
+    let bend = -(3.0 * rest + slope * slope) / omega;
+    for (error, doubted) in [(0.0495, false), (0.0505, true)] {
+        let ratio = ((1.0_f64 / (1.0 - error)).powi(2) - 1.0).sqrt();
+        let sigma = ratio * 2.0_f64.sqrt() * slope / bend.abs();
+        let summary = pendulum(speed, 3.0 * sigma);
+        assert!(summary.first.distance_to_critical > 4.6);
+        let second = summary.second.modes[0].as_ref().unwrap().frequency;
+        close(second.nonlinearity.sigma_error(), error, 1e-9);
+        assert_eq!(summary.trusted(), !doubted, "{error}");
+    }
+}
