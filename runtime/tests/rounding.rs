@@ -43,6 +43,52 @@ mechanism! {
     }
 }
 
+mechanism! {
+    mechanism DampedBar {
+        input  omega: rad/s;
+        design m = 3 kg +/- 0.03 kg;
+        design l = 1 m +/- 3 %;
+        design c = 0.5 N*m*s/rad;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin:  revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+        force friction: damper(on: theta, damping: c);
+    }
+}
+
+mechanism! {
+    /// Two bars that a gear makes one.
+    mechanism GearedBars {
+        input  omega: rad/s;
+        design m = 3 kg +/- 0.03 kg;
+        design l = 1 m +/- 3 %;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body one: rod(mass: m, length: l, along: -z);
+        body two: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint a: revolute(y) from shaft to one;
+        joint b: revolute(y) from shaft to two;
+        constraint gear: coupling(of: a, with: b, ratio: 1);
+    }
+}
+
+mechanism! {
+    mechanism TwoBars {
+        input  omega: rad/s;
+        design l = 1 m +/- 3 %;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body one: rod(mass: 3 kg, length: l, along: -z);
+        body two: rod(mass: 3 kg, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint a: revolute(y) from shaft to one;
+        joint b: revolute(y) from one to two at [0, 0, -l];
+    }
+}
+
 /// The representable number `count` places after `value`.
 fn after(value: f64, count: i64) -> f64 {
     f64::from_bits(value.to_bits().wrapping_add_signed(count))
@@ -220,5 +266,99 @@ fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
                 "{text}"
             );
         }
+    }
+}
+
+/// The same critical speed with damping, where one of two real eigenvalues vanishes, and with a constraint, where the stiffness
+/// along the one free direction does.
+#[test]
+fn damping_and_constraints_do_not_hide_a_critical_state() {
+    for start in [0.0, 0.5] {
+        for places in -2..=2 {
+            let speed = after(W.sqrt(), places);
+            let damped = Study::new(DampedBar)
+                .input(DampedBar::omega, speed)
+                .start(DampedBar::theta, start);
+            assert_eq!(
+                damped.equilibrium().unwrap().stability,
+                Stability::Neutral { zero: 1 }
+            );
+            let found = damped.modes().unwrap();
+            // s = 0 and s = -c / J.
+            let [neutral, decaying] = [0, 1].map(|r| found.modes[r].behaviour);
+            assert_eq!(neutral, Behaviour::Neutral, "{found}");
+            let Behaviour::Decaying(rate) = decaying else {
+                panic!("{found}")
+            };
+            close(rate, 0.5, 1e-7);
+            let geared = Study::new(GearedBars)
+                .input(GearedBars::omega, speed)
+                .start(GearedBars::a, start);
+            assert_eq!(
+                geared.equilibrium().unwrap().stability,
+                Stability::Neutral { zero: 1 }
+            );
+            for family in [Family::Undamped, Family::General] {
+                let found = geared.clone().family(family).modes().unwrap();
+                assert!(
+                    found
+                        .modes
+                        .iter()
+                        .all(|mode| mode.behaviour == Behaviour::Neutral),
+                    "{found}"
+                );
+            }
+        }
+    }
+    for (speed, stable) in [
+        (W.sqrt() * (1.0 - 1e-12), true),
+        (W.sqrt() * (1.0 + 1e-12), false),
+    ] {
+        let damped = Study::new(DampedBar)
+            .input(DampedBar::omega, speed)
+            .policy(Policy::Nearest);
+        let geared = Study::new(GearedBars)
+            .input(GearedBars::omega, speed)
+            .policy(Policy::Nearest);
+        for judged in [
+            damped.equilibrium().unwrap().stability,
+            geared.equilibrium().unwrap().stability,
+        ] {
+            let expected = match stable {
+                true => Stability::Stable,
+                false => Stability::Divergent { negative: 1 },
+            };
+            assert_eq!(judged, expected);
+        }
+    }
+}
+
+/// No element of `Khat` vanishes at the critical speed of two bars: its determinant does, at 2.6801 rad/s.
+#[test]
+fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
+    let study = Study::new(TwoBars);
+    let critical = study
+        .critical_state(TwoBars::omega, 2.0, 3.0)
+        .unwrap()
+        .value;
+    close(critical, 2.6801, 2e-5);
+    for (distance, expected) in [
+        (0.0, Stability::Neutral { zero: 1 }),
+        (-1e-12, Stability::Stable),
+        (1e-12, Stability::Divergent { negative: 1 }),
+    ] {
+        let at = study
+            .clone()
+            .input(TwoBars::omega, critical * (1.0 + distance))
+            .policy(Policy::Nearest);
+        assert_eq!(at.equilibrium().unwrap().stability, expected);
+        let found = at.modes().unwrap();
+        let neutral = found
+            .modes
+            .iter()
+            .filter(|mode| mode.behaviour == Behaviour::Neutral)
+            .count();
+        assert_eq!(neutral, usize::from(distance == 0.0), "{found}");
+        assert_eq!(found.stable(), distance <= 0.0);
     }
 }
