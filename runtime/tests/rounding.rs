@@ -5,12 +5,15 @@ mod common;
 
 use eigentol::modes::modes;
 use eigentol::tolerance::Doubt;
-use eigentol::{Behaviour, DesignVariable, Family, Input, Policy, Stability, Study, mechanism};
+use eigentol::{
+    Behaviour, DampingKind, Description, DesignVariable, Family, Input, Policy, Real, Stability,
+    Study, mechanism,
+};
 
-use common::close;
-use common::derived::Derived;
+use common::derived::{Derived, Model};
 use common::models::Plate;
 use common::pendulum::W;
+use common::{METRE, STIFFNESS, close, coordinate, design};
 
 mechanism! {
     mechanism Bar {
@@ -86,6 +89,48 @@ mechanism! {
         joint spin: revolute(z) from ground to shaft, driven at omega;
         joint a: revolute(y) from shaft to one;
         joint b: revolute(y) from one to two at [0, 0, -l];
+    }
+}
+
+/// Masses of 1, 2 and 3 kg in a row, coordinates from the ground: springs `k1` and `k2` between them, `g` holds the first. What holds
+/// the row as a whole stands in one element beside `k1`, which rounds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Chain;
+
+impl Model<3, 0, 3, 0> for Chain {
+    const DESCRIPTION: Description = Description {
+        name: "Chain",
+        coordinates: &[
+            coordinate("x", METRE),
+            coordinate("y", METRE),
+            coordinate("z", METRE),
+        ],
+        inputs: &[],
+        design: &[
+            design("k1", STIFFNESS, 1.0, 0.0),
+            design("k2", STIFFNESS, 1.0, 0.0),
+            design("g", STIFFNESS, 0.0, 0.0),
+        ],
+        outputs: &[],
+        symmetric_stiffness: true,
+        damping: DampingKind::Zero,
+        kernels: &[],
+    };
+
+    fn inertia<T: Real>(
+        &self,
+        a: &[T; 3],
+        _: &[T; 3],
+        _: &[T; 3],
+        _: &[T; 0],
+        _: &[T; 3],
+    ) -> [T; 3] {
+        [a[0], T::constant(2.0) * a[1], T::constant(3.0) * a[2]]
+    }
+
+    fn applied<T: Real>(&self, _: &[T; 3], q: &[T; 3], _: &[T; 0], b: &[T; 3]) -> [T; 3] {
+        let (first, second) = (b[0] * (q[1] - q[0]), b[1] * (q[2] - q[1]));
+        [first - b[2] * q[0], second - first, -second]
     }
 }
 
@@ -360,5 +405,45 @@ fn a_stiffness_that_is_singular_but_nowhere_small_is_neutral() {
             .count();
         assert_eq!(neutral, usize::from(distance == 0.0), "{found}");
         assert_eq!(found.stable(), distance <= 0.0);
+    }
+}
+
+/// A row that nothing holds is neutral, though rounding may well leave it a stiffness; one that is held 1e-12 as much as it holds
+/// together is stable, or not. `lambda = g / 6` but for `g^2`.
+#[test]
+fn what_the_elements_cannot_hold_is_neutral() {
+    for i in 1..30 {
+        let (k1, k2) = (0.1 * f64::from(i), 10.0 / f64::from(i));
+        for (share, expected) in [
+            (0.0, Stability::Neutral { zero: 1 }),
+            (1e-12, Stability::Stable),
+            (-1e-12, Stability::Divergent { negative: 1 }),
+        ] {
+            let g = share * (k1 + k2);
+            let study = [k1, k2, g].into_iter().enumerate().fold(
+                Study::new(Derived(Chain)).policy(Policy::Nearest),
+                |study, (k, value)| study.design(DesignVariable(k), value),
+            );
+            assert_eq!(
+                study.equilibrium().unwrap().stability,
+                expected,
+                "{i} {share}"
+            );
+            for family in [Family::Undamped, Family::General] {
+                let found = study.clone().family(family).modes().unwrap();
+                let neutral = found
+                    .modes
+                    .iter()
+                    .filter(|mode| mode.behaviour == Behaviour::Neutral)
+                    .count();
+                assert_eq!(neutral > 0, share == 0.0, "{i} {share} {found}");
+                assert_eq!(found.stable(), share >= 0.0);
+            }
+            let lambda = study.family(Family::Undamped).modes().unwrap().modes[0].lambda;
+            assert!(
+                (lambda - g / 6.0).abs() < 1e-3 * g.abs() + 1e-15 * (k1 + k2),
+                "{lambda} {g}"
+            );
+        }
     }
 }
