@@ -3,11 +3,11 @@
 
 mod common;
 
-use eigentol::modes::modes;
+use eigentol::modes::{modes, modes_of};
 use eigentol::tolerance::Doubt;
 use eigentol::{
-    Behaviour, DampingKind, Description, DesignVariable, Family, Input, Policy, Real, Stability,
-    Study, mechanism,
+    Behaviour, CoordinateInfo, DampingKind, Description, DesignVariable, Family, Input, Linear,
+    Policy, Real, Stability, Study, mechanism,
 };
 
 use common::derived::{Derived, Model};
@@ -446,4 +446,102 @@ fn what_the_elements_cannot_hold_is_neutral() {
             );
         }
     }
+}
+
+/// Matrices of whole numbers with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is farther
+/// off than its error, and no sign is wrong.
+fn known_eigenvalues<const N: usize>(seed: &mut u64) -> [usize; 2] {
+    struct Coordinates<const N: usize>;
+    impl<const N: usize> Coordinates<N> {
+        const ALL: [CoordinateInfo; N] = [coordinate("q", METRE); N];
+        const DESCRIPTION: &'static Description = &Description {
+            name: "Known",
+            coordinates: &Self::ALL,
+            inputs: &[],
+            design: &[],
+            outputs: &[],
+            symmetric_stiffness: true,
+            damping: DampingKind::Zero,
+            kernels: &[],
+        };
+    }
+    let mut next = |count: u64| {
+        *seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 33) % count
+    };
+    let mut t: [[f64; N]; N] =
+        std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    for _ in 0..2 * N {
+        let (i, j) = (next(N as u64) as usize, next(N as u64) as usize);
+        let factor = next(3) as f64 - 1.0;
+        if i != j {
+            t[i] = std::array::from_fn(|k| t[i][k] + factor * t[j][k]);
+        }
+    }
+    // A quarter zero, some negative, the others up to 2^30.
+    let mut d: [f64; N] = std::array::from_fn(|_| match next(4) {
+        0 => 0.0,
+        1 => -(next(1 << 10) as f64),
+        _ => 2.0_f64.powi(next(31) as i32),
+    });
+    let product = |weight: &[f64; N]| -> [[f64; N]; N] {
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..N).map(|k| weight[k] * t[k][i] * t[k][j]).sum())
+        })
+    };
+    let (mass, stiffness) = (product(&[1.0; N]), product(&d));
+    let exact = stiffness
+        .iter()
+        .flatten()
+        .all(|value| value.abs() < 2.0_f64.powi(52));
+    assert!(exact);
+    let linear = Linear {
+        mass,
+        damping: [[0.0; N]; N],
+        stiffness,
+    };
+    let found = modes_of(&linear, Family::Undamped, Coordinates::<N>::DESCRIPTION).unwrap();
+    d.sort_by(f64::total_cmp);
+    let mut counts = [0; 2];
+    for (mode, exact) in found.modes.iter().zip(d) {
+        // Half of it for a zero, of which `error` is the root.
+        let error = match mode.behaviour {
+            Behaviour::Neutral => mode.error * mode.error,
+            _ => mode.error * mode.s.norm(),
+        };
+        assert!(
+            (mode.lambda - exact).abs() <= error,
+            "{found} {exact} {error:e}"
+        );
+        match mode.behaviour {
+            Behaviour::Oscillating(_) => assert!(exact > 0.0),
+            Behaviour::Divergent(_) => assert!(exact < 0.0),
+            _ => counts[0] += usize::from(exact != 0.0),
+        }
+        counts[1] += 1;
+    }
+    counts
+}
+
+#[test]
+fn errors_are_bounds_and_signs_are_true() {
+    let mut seed = 5;
+    let mut open = [0, 0];
+    for _ in 0..400 {
+        let counts = [
+            known_eigenvalues::<1>(&mut seed),
+            known_eigenvalues::<2>(&mut seed),
+            known_eigenvalues::<3>(&mut seed),
+            known_eigenvalues::<5>(&mut seed),
+            known_eigenvalues::<8>(&mut seed),
+            known_eigenvalues::<10>(&mut seed),
+        ];
+        for count in counts {
+            open = [open[0] + count[0], open[1] + count[1]];
+        }
+    }
+    // Signs that are left open though the eigenvalue is not zero.
+    assert_eq!(open, [0, 400 * 29]);
 }

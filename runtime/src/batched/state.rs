@@ -176,6 +176,6 @@ fn mode_residual<V: Vector, const N: usize>(
     }
     let relative = most / size;
     let flag = keep(V::constant(1.0), relative.at_most(V::constant(INACCURATE)));
-    let error = V::constant(of_elements(N)) * weighted + along.abs();
+    let error = V::constant(of_elements(N)) * weighted + V::constant(2.0) * along.abs();
     (relative, error, flag)
 }
