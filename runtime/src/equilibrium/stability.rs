@@ -76,7 +76,7 @@ where
     let structure = Structure::of(description);
     let doubt = |lambda, phi: &[f64; N]| rounding::of_data(mechanism, at, linear, (lambda, phi));
     if structure.open() {
-        return judge_free(description, linear, linear, doubt);
+        return judge_free(description, linear, linear, &doubt);
     }
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() && tangent.freedom == 0 {
@@ -86,7 +86,7 @@ where
         return Ok((by_eigenvalues(description, linear, (0, 0), 0.0), 0.0));
     }
     let reduced = reduce(linear, &tangent);
-    judge_free(description, linear, &reduced, doubt).map_err(|failure| match failure {
+    judge_free(description, linear, &reduced, &doubt).map_err(|failure| match failure {
         Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
         other => other,
     })
@@ -98,7 +98,8 @@ fn judge_free<const N: usize>(
     description: &'static Description,
     whole: &Linear<f64, N>,
     linear: &Linear<f64, N>,
-    doubt: impl Fn(f64, &[f64; N]) -> f64,
+    // Of one type, so that the rest is compiled once for each size.
+    doubt: &dyn Fn(f64, &[f64; N]) -> f64,
 ) -> Result<Verdict, Failure<N>> {
     if let Err(row) = Cholesky::new(&linear.mass) {
         return Err(Failure::SingularMass(row));
