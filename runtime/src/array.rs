@@ -139,6 +139,12 @@ impl<const N: usize> Cholesky<N> {
         Ok(Self { lower, pivots })
     }
 
+    /// The diagonal of `D`.
+    #[inline]
+    pub(crate) fn pivots(&self) -> &[f64; N] {
+        &self.pivots
+    }
+
     /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T D^-1/2`.
     pub(crate) fn orthonormalise(&self, vectors: &mut [[f64; N]]) {
         for i in 0..vectors.len() {

@@ -133,6 +133,18 @@ pub enum Error {
         /// Its residual relative to the sizes of `Khat` and `lambda Mhat`.
         residual: f64,
     },
+    /// The square of an eigenvalue exceeds the range of a double.
+    #[error(
+        "the eigenvalue of mode {} is {size:.3e} 1/s, and its square exceeds the range of a double: a mass is far too \
+         small, or a stiffness, a damping or a speed far too great",
+        .mode + 1
+    )]
+    EigenvalueRange {
+        /// Position of the mode, from 0.
+        mode: usize,
+        /// `|s|`, 1/s.
+        size: f64,
+    },
     /// A mode's frequency was asked for that does not oscillate.
     #[error("mode {} does not oscillate (lambda = {lambda:.6e}): it has no frequency", .mode + 1)]
     NotOscillating {

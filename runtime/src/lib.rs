@@ -48,6 +48,7 @@
 //! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |
 //! | what moves frequencies, damping, shapes, outputs? | `sensitivities`, `shape_sensitivity`, `outputs` | `sensitivity::sensitivities`, ... |
 //! | ... to second order? | `mode_curvature` | `sensitivity::mode_curvature` |
+//! | how do equal frequencies split? | `directional_derivatives` | `sensitivity::directional_derivatives` |
 //! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
 //! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `tolerance::summary`, `tolerance::clusters` |
 //! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
@@ -88,6 +89,8 @@ pub mod motion;
 mod pencil;
 #[cfg(feature = "std")]
 pub mod report;
+#[cfg(feature = "std")]
+mod rounding;
 #[cfg(feature = "std")]
 pub mod sensitivity;
 #[cfg(feature = "std")]

@@ -18,7 +18,7 @@ use eigentol::sensitivity::{
     output_sensitivities, sensitivities, sensitivities_by_finite_difference,
     sensitivities_explicit, sensitivities_with_frozen_equilibrium, shape_sensitivity,
 };
-use eigentol::{Error, Input, Mechanism, Policy};
+use eigentol::{Error, Family, Input, Mechanism, Policy};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 
@@ -362,5 +362,42 @@ fn modes_of_a_cluster_have_no_derivatives_beyond_the_first() {
         let refused = Some(Error::ClusteredMode { mode: 0 }).filter(|_| clustered);
         assert_eq!(mode_curvature(&pair, &state, &found, 0).err(), refused);
         assert_eq!(shape_sensitivity(&pair, &state, &found, 0).err(), refused);
+    }
+}
+
+/// `lambda = -Re s^2` of a damped oscillator is `k / m - c^2 / (2 m^2)`; the plate at rest is two of them.
+#[test]
+fn second_derivatives_of_lambda_of_a_damped_oscillator() {
+    let (m, springs, c) = (0.5_f64, [40.0, 60.0], 0.7_f64);
+    let plate = Derived(Plate);
+    let b = [m, springs[0], springs[1], c];
+    let state = equilibrium(&plate, &[0.0], &b, &[0.0; 2], Policy::Stable).unwrap();
+    let found = modes(&state).unwrap();
+    assert_eq!(found.family, Family::General);
+    for (r, k) in springs.into_iter().enumerate() {
+        let curvature = mode_curvature(&plate, &state, &found, r).unwrap();
+        close(found.modes[r].lambda, k / m - c * c / (2.0 * m * m), 1e-12);
+        let mut expected = [[0.0; 4]; 4];
+        expected[0][0] = 2.0 * k / m.powi(3) - 3.0 * c * c / m.powi(4);
+        expected[0][1 + r] = -1.0 / (m * m);
+        expected[1 + r][0] = -1.0 / (m * m);
+        expected[0][3] = 2.0 * c / m.powi(3);
+        expected[3][0] = 2.0 * c / m.powi(3);
+        expected[3][3] = -1.0 / (m * m);
+        let scale = expected[0][0];
+        for (row, expected) in curvature.lambda.by_design.iter().zip(expected) {
+            for (value, expected) in row.iter().zip(expected) {
+                assert!(
+                    (value - expected).abs() < 1e-11 * scale,
+                    "{value} {expected}"
+                );
+            }
+        }
+        // lambda is even in the speed.
+        assert!(
+            curvature.lambda.by_input_and_design[0]
+                .iter()
+                .all(|value| value.abs() < 1e-9)
+        );
     }
 }

@@ -101,6 +101,11 @@ where
             );
         }
     }
+    // Which it was the result says, and the report where it was not one by one.
+    let said = |run: &MonteCarlo<N, P>| run.to_string().contains("side by side in vectors");
+    assert!(!alone.side_by_side && !said(&alone));
+    assert_eq!(first.side_by_side, said(&first));
+    assert!(first.side_by_side || first.modes == alone.modes);
     assert_eq!(first.counts, alone.counts);
     assert_eq!(first.counts.total(), 1003);
     assert_eq!(first.left_nominal_branch, alone.left_nominal_branch);

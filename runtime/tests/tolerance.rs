@@ -387,7 +387,10 @@ fn a_report_says_what_first_order_leaves_out() {
             "{first}{summary}"
         );
     };
-    said(&plate, "the vibration neither decays nor grows");
+    said(
+        &plate,
+        "the vibration neither grows nor decays within rounding",
+    );
     let fed = plate.design(damping, -0.01);
     said(&fed, "the vibration grows");
     // Whether or not its growth varies.
@@ -425,4 +428,94 @@ fn a_margin_moves_with_speed_and_design() {
         (found - by_length).abs() < 1e-4 * by_length.abs(),
         "{found} {by_length}"
     );
+}
+
+/// The standard error is the scatter of the means of independent runs, and that of one run is its own deviation over the root of
+/// its number.
+#[test]
+fn means_scatter_by_their_standard_error() {
+    let study = pendulum(3.0, 0.03).samples(50).keep_samples(true);
+    let runs = 800;
+    let (mut means, mut errors) = (Vec::new(), 0.0);
+    for stream in 0..runs {
+        let run = study.clone().stream(stream).monte_carlo().unwrap();
+        let own = run.modes[0].unwrap();
+        let values: Vec<f64> = run
+            .all
+            .unwrap()
+            .iter()
+            .map(|sample| sample.frequencies[0].unwrap())
+            .collect();
+        let mean = values.iter().sum::<f64>() / 50.0;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        close(
+            own.standard_error.unwrap(),
+            (squares / 49.0 / 50.0).sqrt(),
+            1e-12,
+        );
+        means.push(own.mean);
+        errors += own.standard_error.unwrap().powi(2);
+    }
+    let count = runs as f64;
+    let centre = means.iter().sum::<f64>() / count;
+    let scatter: f64 = means
+        .iter()
+        .map(|mean| (mean - centre).powi(2))
+        .sum::<f64>()
+        / (count - 1.0);
+    // Four standard errors of a variance.
+    close(scatter / (errors / count), 1.0, 4.0 * (2.0 / count).sqrt());
+}
+
+/// Turning the other way changes nothing but the sign of the derivative by the speed.
+#[test]
+fn a_band_about_a_negative_speed_moves_the_other_way() {
+    let length = |speed: f64| pendulum(speed, 0.03).tolerance(LENGTH, 0.03);
+    let band = Band::around(OMEGA, 0.2);
+    let margin = |speed: f64| length(speed).margin(0, band).unwrap();
+    let (forward, backward) = (margin(5.0), margin(-5.0));
+    let by_speed = |margin: &eigentol::tolerance::ModeMargin<1, 2>| margin.by_input.unwrap()[0];
+    close(
+        backward.margin.first_order,
+        forward.margin.first_order,
+        1e-12,
+    );
+    assert!(by_speed(&forward).abs() > 0.1);
+    close(by_speed(&backward), -by_speed(&forward), 1e-10);
+    let step = 1e-4;
+    let difference =
+        margin(-5.0 + step).margin.first_order - margin(-5.0 - step).margin.first_order;
+    close(by_speed(&backward), difference / (2.0 * step), 1e-4);
+    // So does an order of the other sign.
+    let against = Band::Around {
+        input: OMEGA,
+        order: -1.0,
+        fraction: 0.2,
+    };
+    let found = length(5.0).margin(0, against).unwrap();
+    close(by_speed(&found), by_speed(&forward), 1e-12);
+}
+
+/// At rest each coordinate of the plate is a damped oscillator of its own: `|s|^2 = k / m` vanishes `k / sigma(k)` away.
+#[test]
+fn a_damped_mode_loses_its_stiffness_where_its_spring_does() {
+    let sigma = 0.1;
+    let study = (0..4).fold(Study::new(Derived(Plate)), |study, k| {
+        study.tolerance(DesignVariable(k), 0.0)
+    });
+    let study = study
+        .sigma_level(1.0)
+        .tolerance(DesignVariable(1), sigma)
+        .tolerance(DesignVariable(2), sigma);
+    for damping in [0.0, 0.5, 3.0] {
+        let study = study
+            .clone()
+            .design(DesignVariable(3), damping)
+            .family(Family::General);
+        let first = study.first_order().unwrap();
+        for (mode, k) in first.modes.iter().zip([40.0, 60.0]) {
+            close(mode.distance_to_critical, k / sigma, 1e-9);
+        }
+        close(first.distance_to_critical, 40.0 / sigma, 1e-9);
+    }
 }

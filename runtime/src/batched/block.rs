@@ -30,6 +30,7 @@ pub(crate) struct Block<const N: usize, const U: usize, const P: usize> {
     /// By mode.
     pub(super) shapes: [[Batch; N]; N],
     pub(super) mode_residuals: [Batch; N],
+    pub(super) mode_errors: [Batch; N],
     /// `dlambda` by mode.
     pub(super) by_input: [[Batch; U]; N],
     pub(super) by_design: [[Batch; P]; N],
@@ -70,6 +71,7 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
             lambda: [zero; N],
             shapes: [[zero; N]; N],
             mode_residuals: [zero; N],
+            mode_errors: [zero; N],
             by_input: [[zero; U]; N],
             by_design: [[zero; P]; N],
             flags: zero,

@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use crate::lanes::Batch;
-use crate::modes::{neutral_threshold, undamped_mode};
+use crate::modes::undamped_mode;
 use crate::{Equilibrium, Linear, Mechanism, Modes, Sensitivities, Stability};
 
 impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
@@ -23,6 +23,7 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
         let matrix = |rows: &[[Batch; N]; N]| core::array::from_fn(|i| of(&rows[i], lane));
         state.coordinates = self.state_of(lane);
         state.stability = Stability::Stable;
+        state.rounding = 0.0;
         state.linear = Linear {
             mass: matrix(&self.linear.mass),
             damping: matrix(&self.linear.damping),
@@ -38,11 +39,11 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
     /// The modes, in the order and with the labels that these have.
     pub(crate) fn read_modes(&self, lane: usize, modes: &mut Modes<N>) {
         let lambda = of(&self.lambda, lane);
-        let threshold = neutral_threshold(&lambda);
         for (r, mode) in modes.modes.iter_mut().enumerate() {
             let shape = of(&self.shapes[r], lane);
             let residual = self.mode_residuals[r].0[lane];
-            *mode = undamped_mode(mode.label, lambda[r], &shape, residual, threshold);
+            let error = self.mode_errors[r].0[lane];
+            *mode = undamped_mode(mode.label, (lambda[r], error), &shape, residual);
         }
     }
 

@@ -6,6 +6,7 @@ use super::closed::{self, Solver};
 use crate::equilibrium::convergence::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
 use crate::lanes::{Store, Task, Vector, WIDTH, load};
 use crate::modes::symmetric::INACCURATE;
+use crate::rounding::{SLOW, of_elements};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Linear, Mechanism, RestParts};
 
@@ -51,9 +52,10 @@ where
             block.linear.store(&linear, at);
             block.lambda.store(&lambda, at);
             for r in 0..N {
-                let (most, accurate) = mode_residual(&linear, lambda[r], &vectors[r]);
+                let (most, error, accurate) = mode_residual(&linear, lambda[r], &vectors[r]);
                 flag = keep(flag, one.at_most(accurate));
                 most.store(&mut block.mode_residuals[r], at);
+                error.store(&mut block.mode_errors[r], at);
                 block.shapes[r].store(&vectors[r], at);
             }
             flag.store(&mut block.flags, at);
@@ -108,7 +110,11 @@ fn modes<V: Vector, const N: usize>(
     for lambda in lambda {
         greatest = V::choose(lambda.at_most(greatest), greatest, lambda);
     }
-    let positive = V::constant(4.0 * N as f64 * f64::EPSILON) * greatest;
+    let (positive, slow) = (
+        V::constant(2.0 * of_elements(N)) * greatest,
+        V::constant(SLOW),
+    );
+    let least = V::choose(slow.at_most(positive), positive, slow);
     for r in 0..N {
         for s in 0..N {
             for i in 0..N {
@@ -116,8 +122,8 @@ fn modes<V: Vector, const N: usize>(
             }
         }
         positive_lead(&mut vectors[r]);
-        // At the threshold itself the scalar solver decides.
-        flag = keep(flag, (positive + positive).at_most(lambda[r]));
+        // What is nearer to zero the solver for one state decides.
+        flag = keep(flag, least.at_most(lambda[r]));
         for s in 0..r {
             let gap = (lambda[r] - lambda[s]).abs();
             let size = V::choose(lambda[s].at_most(lambda[r]), lambda[r], lambda[s]);
@@ -141,16 +147,17 @@ fn positive_lead<V: Vector, const N: usize>(vector: &mut [V; N]) {
     }
 }
 
-/// Greatest component of `Khat phi - lambda Mhat phi` relative to the greatest sum of terms in a row, and whether it is as small
-/// as no refinement makes it.
+/// Greatest component of `Khat phi - lambda Mhat phi` relative to the greatest sum of terms in a row, the error of `lambda`, and
+/// whether the first is as small as no refinement makes it.
 #[inline(always)]
 fn mode_residual<V: Vector, const N: usize>(
     linear: &Linear<V, N>,
     lambda: V,
     vector: &[V; N],
-) -> (V, V) {
+) -> (V, V, V) {
     let zero = V::constant(0.0);
     let (mut most, mut size) = (zero, zero);
+    let (mut along, mut weighted) = (zero, zero);
     for i in 0..N {
         let (mut sum, mut terms) = (zero, zero);
         for j in 0..N {
@@ -161,11 +168,14 @@ fn mode_residual<V: Vector, const N: usize>(
             sum = sum + (k - m);
             terms = terms + (k.abs() + m.abs());
         }
+        along = along + vector[i] * sum;
+        weighted = weighted + vector[i].abs() * terms;
         let sum = sum.abs();
         most = V::choose(sum.at_most(most), most, sum);
         size = V::choose(terms.at_most(size), size, terms);
     }
     let relative = most / size;
     let flag = keep(V::constant(1.0), relative.at_most(V::constant(INACCURATE)));
-    (relative, flag)
+    let error = V::constant(of_elements(N)) * weighted + V::constant(2.0) * along.abs();
+    (relative, error, flag)
 }

@@ -9,8 +9,8 @@ use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
 use crate::Mechanism;
 use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
-use crate::modes::neutral_threshold;
 use crate::modes::symmetric;
+use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
 const MAX_DEPARTURES: usize = 8;
@@ -162,7 +162,7 @@ impl<const N: usize> Curved<N> {
     {
         let mass = problem.linear(&base.q)?.mass;
         let pairs = symmetric::solve(stiffness, &base.space.mass(&mass))?;
-        let unstable = pairs.lambda[0] < -neutral_threshold(&pairs.lambda);
+        let unstable = sign(pairs.lambda[0], pairs.errors[0]) == Sign::Negative;
         Ok(Self {
             pairs,
             mass,

@@ -72,6 +72,10 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub design: [f64; P],
     /// Whether the mechanism would stay there.
     pub stability: Stability,
+    /// Eigenvalues `lambda` up to this size cannot be told from zero, 1/s^2: what rounding of inputs, design and coordinates
+    /// changes in one that nearly vanishes, and what its iteration leaves at a critical state that was located. Zero where no
+    /// eigenvalue is so small that it matters, and where `Khat` is not symmetric.
+    pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
     pub linear: Linear<f64, N>,
     /// Remaining residual, N or N m; in the places of reactions what their constraints are open by.

@@ -1,13 +1,14 @@
 //! From a start value to an equilibrium that is finished: solved to rounding, judged, its reactions determined.
 
 use super::convergence::{ACCEPTED, relative_residual};
-use super::descent::Place;
+use super::descent;
 use super::end::{Found, Measured};
 use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
-use super::{Equilibrium, Policy, assembly, descent, newton, quick, space, stability};
+use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
 use crate::array::{Cholesky, add_scaled, dot};
 use crate::constraints::{ConstraintState, Structure, Tangent, all_rows, placed};
+use crate::rounding::Place;
 use crate::{DampingKind, Description, Linear, Mechanism, Stability};
 
 /// As [`equilibrium`], for values already checked; a failure owns nothing.
@@ -37,7 +38,7 @@ where
             Err(place) => from_afar(problem, start, &place),
         };
     }
-    from_afar(problem, start, &Place::first(start))
+    from_afar(problem, start, &descent::Place::first(start))
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
@@ -71,7 +72,7 @@ where
 fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
     problem: &Problem<'_, M, N, U, P, O>,
     start: &[f64; N],
-    place: &Place<N>,
+    place: &descent::Place<N>,
 ) -> Result<Equilibrium<N, U, P>, Failure<N>>
 where
     M: Mechanism<N, U, P, O>,
@@ -183,21 +184,28 @@ where
             relative,
         });
     }
-    let stability = if constraints.singular {
-        Stability::Undecided
+    let (stability, rounding) = if constraints.singular {
+        (Stability::Undecided, 0.0)
     } else if const { at_rest_by_stiffness(&M::DESCRIPTION) }
         && Cholesky::new(&linear.mass).is_ok()
-        && Cholesky::new(&linear.stiffness).is_ok()
+        && stability::clearly_definite(&linear)
     {
-        Stability::Stable
+        (Stability::Stable, 0.0)
     } else {
-        stability::judge(problem.description(), &linear)?
+        let place = Place {
+            coordinates: &found.coordinates,
+            inputs: problem.inputs,
+            design: problem.design,
+            residual: &found.residual,
+        };
+        stability::judge(problem.mechanism, &place, &linear)?
     };
     Ok(Equilibrium {
         coordinates: found.coordinates,
         inputs: *problem.inputs,
         design: *problem.design,
         stability,
+        rounding,
         linear,
         constraints,
         residual: found.residual,

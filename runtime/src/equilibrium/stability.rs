@@ -3,8 +3,9 @@
 use super::problem::Failure;
 use crate::array::{Cholesky, Lu, Square, asymmetry};
 use crate::constraints::{Structure, Tangent, reduce};
-use crate::modes::{Family, SYMMETRIC, neutral_threshold, solve_modes, symmetric};
-use crate::{Behaviour, DampingKind, Description, Linear};
+use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes, symmetric};
+use crate::rounding::{self, Place, Sign, of_form, sign};
+use crate::{Behaviour, DampingKind, Description, Linear, Mechanism};
 
 /// Stability of an equilibrium against small disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,11 +17,11 @@ pub enum Stability {
         /// Number of directions with negative stiffness.
         negative: usize,
     },
-    /// Some oscillation neither grows nor decays to working accuracy, and no theorem says that it does not grow.
+    /// Some oscillation neither grows nor decays within rounding, and no theorem says that it does not grow.
     Marginal,
     /// Not unstable, but this many directions have no stiffness: the mechanism rests anywhere along them.
     Neutral {
-        /// Number of eigenvalues that are zero to working accuracy.
+        /// Number of eigenvalues that are zero within rounding.
         zero: usize,
     },
     /// A disturbance grows without oscillation (static instability).
@@ -50,82 +51,109 @@ impl Stability {
     }
 }
 
+/// What a state is, and which eigenvalues `lambda` cannot be told from zero.
+pub(super) type Verdict = (Stability, f64);
+
+/// Whether `Khat` is positive definite beyond any doubt.
+#[inline]
+pub(super) fn clearly_definite<const N: usize>(linear: &Linear<f64, N>) -> bool {
+    Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
+}
+
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
 /// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
 /// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
 /// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
-pub(super) fn judge<const N: usize>(
-    description: &'static Description,
+pub(super) fn judge<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Place<'_, N, U, P>,
     linear: &Linear<f64, N>,
-) -> Result<Stability, Failure<N>> {
+) -> Result<Verdict, Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let description: &'static Description = &M::DESCRIPTION;
     let structure = Structure::of(description);
+    let doubt = |lambda, phi: &[f64; N]| rounding::of_data(mechanism, at, linear, (lambda, phi));
     if structure.open() {
-        return judge_free(description, linear, linear);
+        return judge_free(description, linear, linear, &doubt);
     }
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() && tangent.freedom == 0 {
-        return Ok(Stability::Stable);
+        return Ok((Stability::Stable, 0.0));
     }
     if !structure.holonomic() {
-        return Ok(by_eigenvalues(description, linear, 0, 0));
+        return Ok((by_eigenvalues(description, linear, (0, 0), 0.0), 0.0));
     }
-    judge_free(description, linear, &reduce(linear, &tangent)).map_err(|failure| match failure {
+    let reduced = reduce(linear, &tangent);
+    judge_free(description, linear, &reduced, &doubt).map_err(|failure| match failure {
         Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
         other => other,
     })
 }
 
-/// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns.
+/// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns, `doubt` tells how far rounding of the
+/// data moves an eigenvalue.
 fn judge_free<const N: usize>(
     description: &'static Description,
     whole: &Linear<f64, N>,
     linear: &Linear<f64, N>,
-) -> Result<Stability, Failure<N>> {
+    // Of one type, so that the rest is compiled once for each size.
+    doubt: &dyn Fn(f64, &[f64; N]) -> f64,
+) -> Result<Verdict, Failure<N>> {
     if let Err(row) = Cholesky::new(&linear.mass) {
         return Err(Failure::SingularMass(row));
     }
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
-        return Ok(if negative {
+        let stability = if negative {
             Stability::Divergent { negative: 1 }
         } else {
-            by_eigenvalues(description, whole, 0, 0)
-        });
+            by_eigenvalues(description, whole, (0, 0), 0.0)
+        };
+        return Ok((stability, 0.0));
     }
-    let (mut negative, mut zero) = (0, 0);
-    if Cholesky::new(&linear.stiffness).is_err() {
-        let lambda = symmetric::solve(&linear.stiffness, &linear.mass)?.lambda;
-        let threshold = neutral_threshold(&lambda);
-        negative = lambda.iter().filter(|&&value| value < -threshold).count();
-        zero = lambda
-            .iter()
-            .filter(|&&value| value.abs() <= threshold)
-            .count();
+    let (mut negative, mut zero, mut floor) = (0, 0, 0.0_f64);
+    if !clearly_definite(linear) {
+        let pairs = free_pairs(whole, description)?;
+        for (&lambda, phi) in pairs.lambda().iter().zip(pairs.shapes()) {
+            if lambda.abs() < rounding::SLOW {
+                let moved = doubt(lambda, phi);
+                floor = floor.max(if moved.is_finite() { moved } else { 0.0 });
+            }
+        }
+        for (&lambda, &error) in pairs.lambda().iter().zip(pairs.errors()) {
+            match sign(lambda, error.max(floor)) {
+                Sign::Negative => negative += 1,
+                Sign::Zero => zero += 1,
+                Sign::Positive => {}
+            }
+        }
     }
     let damped = description.damping != DampingKind::Zero
         && linear.damping.iter().flatten().any(|&value| value != 0.0);
-    Ok(
-        if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
-            Stability::Divergent { negative }
-        } else if negative > 0 || (damped && feeds_energy(linear)?) {
-            by_eigenvalues(description, whole, negative, zero)
-        } else if zero > 0 {
-            Stability::Neutral { zero }
-        } else {
-            Stability::Stable
-        },
-    )
+    let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
+        Stability::Divergent { negative }
+    } else if negative > 0 || (damped && feeds_energy(linear)?) {
+        by_eigenvalues(description, whole, (negative, zero), floor)
+    } else if zero > 0 {
+        Stability::Neutral { zero }
+    } else {
+        Stability::Stable
+    };
+    Ok((stability, floor))
 }
 
-/// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none.
+/// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none; a `lambda` not
+/// beyond `floor` is zero.
 fn by_eigenvalues<const N: usize>(
     description: &'static Description,
     linear: &Linear<f64, N>,
-    negative: usize,
-    free: usize,
+    (negative, free): (usize, usize),
+    floor: f64,
 ) -> Stability {
-    let Ok(found) = solve_modes(linear, Family::General, description) else {
+    let Ok(found) = solve_modes(linear, Family::General, description, floor) else {
         return Stability::Undecided;
     };
     let count = |wanted: fn(Behaviour) -> bool| {
@@ -167,9 +195,9 @@ fn feeds_energy<const N: usize>(linear: &Linear<f64, N>) -> Result<bool, Failure
     let damping = &linear.damping;
     let symmetric_part: Square<N> =
         core::array::from_fn(|i| core::array::from_fn(|j| 0.5 * (damping[i][j] + damping[j][i])));
-    let rates = symmetric::solve(&symmetric_part, &linear.mass)?.lambda;
-    let scale = crate::array::largest_element(damping);
-    let least_mass = (0..N).fold(f64::INFINITY, |least, i| least.min(linear.mass[i][i]));
-    let threshold = 16.0 * N as f64 * f64::EPSILON * scale / least_mass;
-    Ok(rates.iter().any(|&rate| rate < -threshold))
+    let pairs = symmetric::solve(&symmetric_part, &linear.mass)?;
+    Ok((0..N).any(|r| {
+        let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
+        sign(pairs.lambda[r], error) == Sign::Negative
+    }))
 }

@@ -6,7 +6,7 @@ use super::settle::settle_from_prediction;
 use super::{Policy, Problem, SweepPoint, settle};
 use crate::batched::Block;
 use crate::lanes::{Instructions, WIDTH};
-use crate::modes::{Family, match_with_assurance, merged, modes_of, near_another};
+use crate::modes::{Family, match_with_assurance, merged, modes_at, near_another};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Equilibrium, Error, Input, Mechanism, Modes, Stability};
 
@@ -146,7 +146,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         M: Mechanism<N, U, P, O>,
     {
         let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
-        let found = modes_of(&equilibrium.linear, self.family, equilibrium.description)?;
+        let found = modes_at(&equilibrium, self.family)?;
         Ok(Tracked {
             value,
             equilibrium,
@@ -259,7 +259,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     {
         let predicted = self.path.at(value);
         let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_ref())?;
-        let mut found = match modes_of(&state.linear, self.family, state.description) {
+        let mut found = match modes_at(&state, self.family) {
             Ok(found) => found,
             Err(error) => {
                 self.from = state.coordinates;

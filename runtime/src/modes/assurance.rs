@@ -193,13 +193,17 @@ pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> 
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
 #[inline(always)]
 pub(crate) fn near_another<const N: usize>(modes: &Modes<N>, i: usize, gap: f64) -> bool {
-    let near = |a: &Mode<N>, b: &Mode<N>| match modes.family {
+    (0..modes.modes.len()).any(|j| j != i && near(modes, i, j, gap))
+}
+
+/// Whether two eigenvalues are within `gap`, relative to the larger of the two.
+#[inline(always)]
+pub(crate) fn near<const N: usize>(modes: &Modes<N>, i: usize, j: usize, gap: f64) -> bool {
+    let (a, b) = (&modes.modes[i], &modes.modes[j]);
+    match modes.family {
         Family::Undamped => {
             (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs())
         }
         Family::General => (a.s - b.s).norm() <= gap * a.s.norm().max(b.s.norm()),
-    };
-    let own = &modes.modes[i];
-    let mut others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
-    others.any(|(_, other)| near(own, other))
+    }
 }

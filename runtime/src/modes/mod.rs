@@ -18,15 +18,19 @@ pub(crate) mod symmetric;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged, near_another};
+pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub use per_mode::PerMode;
 pub use whirl::{Sense, Whirl, whirls};
 
-use crate::array::asymmetry;
+use crate::array::{asymmetry, dot_complex};
 use crate::constraints::Structure;
+use crate::pencil::pencil_slope_times;
+use crate::rounding::{Sign, sign};
+use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
+use general::Root;
 use symmetric::Trouble;
 
 /// Which equation modes solve.
@@ -75,6 +79,25 @@ impl<const N: usize> Modes<N> {
         lambda.fold(f64::INFINITY, f64::min)
     }
 
+    /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
+    /// a chain in which each is within 1e-6 of the next, relative to the greater. Tolerances bring more together
+    /// ([`tolerance::clusters`](crate::tolerance::clusters)). Empty when there is no such mode.
+    pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
+        let mut members: Vec<usize> = (mode < self.modes.len())
+            .then_some(mode)
+            .into_iter()
+            .collect();
+        let mut next = 0;
+        while let Some(&of) = members.get(next) {
+            let near = (0..self.modes.len()).filter(|&r| near(self, of, r, CLUSTER_GAP));
+            let new: Vec<usize> = near.filter(|r| !members.contains(r)).collect();
+            members.extend(new);
+            next += 1;
+        }
+        members.sort_unstable();
+        members
+    }
+
     /// Whether every small disturbance stays small.
     pub fn stable(&self) -> bool {
         !self.modes.iter().any(|mode| mode.behaviour.grows())
@@ -90,11 +113,7 @@ pub fn modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
     equilibrium.regular()?;
-    modes_of(
-        &equilibrium.linear,
-        Family::of(equilibrium.description),
-        equilibrium.description,
-    )
+    modes_at(equilibrium, Family::of(equilibrium.description))
 }
 
 /// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
@@ -106,14 +125,20 @@ pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
     equilibrium: &Equilibrium<N, U, P>,
 ) -> Result<Modes<N>, Error> {
     equilibrium.regular()?;
-    modes_of(
-        &equilibrium.linear,
-        Family::Undamped,
-        equilibrium.description,
-    )
+    modes_at(equilibrium, Family::Undamped)
 }
 
-/// Modes of given matrices, which belong to the mechanism that `description` describes.
+/// The modes of a family about an equilibrium.
+pub(crate) fn modes_at<const N: usize, const U: usize, const P: usize>(
+    at: &Equilibrium<N, U, P>,
+    family: Family,
+) -> Result<Modes<N>, Error> {
+    solve_modes(&at.linear, family, at.description, at.rounding)
+        .map_err(|failure| failure.explain(at.description))
+}
+
+/// Modes of given matrices, which belong to the mechanism that `description` describes. The elements count as rounded, no
+/// more: that one is the small rest of great terms, as at a critical speed, only an [`Equilibrium`] knows.
 ///
 /// # Errors
 /// As [`undamped_modes`].
@@ -123,7 +148,7 @@ pub fn modes_of<const N: usize>(
     family: Family,
     description: &'static Description,
 ) -> Result<Modes<N>, Error> {
-    solve_modes(linear, family, description).map_err(|failure| failure.explain(description))
+    solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
 }
 
 /// A failure that owns nothing.
@@ -132,6 +157,11 @@ pub(crate) enum ModesFailure {
     /// Undamped modes were asked for where speeds or constraints on velocities leave none.
     NotHolonomic,
     Pencil(Trouble),
+    /// The square of this eigenvalue exceeds the range of a double.
+    Range {
+        mode: usize,
+        size: f64,
+    },
 }
 
 impl ModesFailure {
@@ -140,6 +170,7 @@ impl ModesFailure {
         match self {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
+            Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
             Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
                 coordinate: description
                     .coordinates
@@ -156,13 +187,15 @@ impl ModesFailure {
 /// `Khat` counts as symmetric up to this relative difference.
 pub(crate) const SYMMETRIC: f64 = 1e-11;
 
+/// The modes of given matrices, in which a `lambda` that is not beyond `floor` is zero.
 pub(crate) fn solve_modes<const N: usize>(
     linear: &Linear<f64, N>,
     family: Family,
     description: &'static Description,
+    floor: f64,
 ) -> Result<Modes<N>, ModesFailure> {
     let mut modes = Modes::empty(linear, family, description);
-    modes.solve(linear)?;
+    modes.solve(linear, floor)?;
     Ok(modes)
 }
 
@@ -185,13 +218,16 @@ impl<const N: usize> Modes<N> {
     }
 
     /// Fills an empty list: of a long one, which would cost as much to copy as to find, where it stands.
+    /// A `lambda` that is not beyond `floor` is zero.
     #[inline]
-    pub(crate) fn solve(&mut self, linear: &Linear<f64, N>) -> Result<(), ModesFailure> {
+    pub(crate) fn solve(
+        &mut self,
+        linear: &Linear<f64, N>,
+        floor: f64,
+    ) -> Result<(), ModesFailure> {
         match self.family {
-            Family::Undamped => undamped(linear, self.description, &mut self.modes),
-            Family::General => {
-                damped(linear, self.description, &mut self.modes).map_err(ModesFailure::Pencil)
-            }
+            Family::Undamped => undamped(linear, self.description, floor, &mut self.modes),
+            Family::General => damped(linear, self.description, floor, &mut self.modes),
         }
     }
 }
@@ -200,6 +236,7 @@ impl<const N: usize> Modes<N> {
 fn undamped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
+    floor: f64,
     modes: &mut PerMode<Mode<N>, N>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
@@ -215,37 +252,34 @@ fn undamped<const N: usize>(
     if structure.open() {
         let pairs =
             symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
-        let threshold = neutral_threshold(&pairs.lambda);
         for (r, mode) in modes.places(N).iter_mut().enumerate() {
-            let (lambda, residual) = (pairs.lambda[r], pairs.residuals[r]);
-            *mode = undamped_mode(r, lambda, &pairs.shapes[r], residual, threshold);
+            let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
+            *mode = undamped_mode(r, (lambda, error), &pairs.shapes[r], pairs.residuals[r]);
         }
         return Ok(());
     }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
     let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
     for (r, mode) in modes.places(lambda.len()).iter_mut().enumerate() {
-        *mode = undamped_mode(r, lambda[r], &shapes[r], residuals[r], pairs.threshold);
+        let error = pairs.errors()[r].max(floor);
+        *mode = undamped_mode(r, (lambda[r], error), &shapes[r], residuals[r]);
     }
     Ok(())
 }
 
-/// Mode `r`; eigenvalues within `threshold` cannot be told from zero.
+/// Mode `r` with an eigenvalue and its error.
 #[inline]
 pub(crate) fn undamped_mode<const N: usize>(
     r: usize,
-    lambda: f64,
+    (lambda, error): (f64, f64),
     shape: &[f64; N],
     residual: f64,
-    threshold: f64,
 ) -> Mode<N> {
     let rate = lambda.abs().sqrt();
-    let (s, behaviour) = if lambda > threshold {
-        (Complex::new(0.0, rate), Behaviour::Oscillating(rate))
-    } else if lambda < -threshold {
-        (Complex::new(rate, 0.0), Behaviour::Divergent(rate))
-    } else {
-        (Complex::new(0.0, 0.0), Behaviour::Neutral)
+    let (s, behaviour) = match sign(lambda, error) {
+        Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
+        Sign::Negative => (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
+        Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
     };
     let shape = shape.map(Complex::from);
     Mode {
@@ -255,11 +289,11 @@ pub(crate) fn undamped_mode<const N: usize>(
         left: shape,
         behaviour,
         residual,
-        // `sqrt(threshold)`, or `threshold / rate` where that is less.
-        error: if rate * rate > threshold {
-            threshold / rate
+        // `sqrt(error)`, or `error / rate` where that is less.
+        error: if rate * rate > error {
+            error / rate
         } else {
-            threshold.sqrt()
+            error.sqrt()
         },
         condition: 1.0,
         label: r,
@@ -269,14 +303,16 @@ pub(crate) fn undamped_mode<const N: usize>(
 fn damped<const N: usize>(
     linear: &Linear<f64, N>,
     description: &'static Description,
+    floor: f64,
     modes: &mut PerMode<Mode<N>, N>,
-) -> Result<(), Trouble> {
+) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
-        general::solve(linear)?
+        general::solve(linear)
     } else {
-        constrained::general_roots(linear, structure)?
+        constrained::general_roots(linear, structure)
     };
+    let roots = roots.map_err(ModesFailure::Pencil)?;
     let roots = roots.as_slice();
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
@@ -284,10 +320,15 @@ fn damped<const N: usize>(
     let places = modes.places(roots.len()).iter_mut();
     for (r, (mode, root)) in places.zip(roots).enumerate() {
         let mut s = root.s;
-        let zero = s.norm() <= root.error;
-        let keeps_amplitude = s.re.abs() <= root.error;
+        let error = if floor > 0.0 {
+            root.error.max(moved_by(linear, root, floor))
+        } else {
+            root.error
+        };
+        let zero = sign(s.norm(), error) == Sign::Zero;
+        let keeps_amplitude = sign(s.re, error) == Sign::Zero;
         if zero {
-            s = Complex::new(0.0, 0.0);
+            s = Complex::ZERO;
         } else if s.im > 0.0 && keeps_amplitude && conservative {
             s.re = 0.0;
         }
@@ -299,19 +340,32 @@ fn damped<const N: usize>(
             (_, false, false) => Behaviour::Decaying(-s.re),
             (_, false, true) => Behaviour::Divergent(s.re),
         };
+        let lambda = -(s * s).re;
+        if !lambda.is_finite() {
+            let size = s.norm();
+            return Err(ModesFailure::Range { mode: r, size });
+        }
         *mode = Mode {
             s,
-            lambda: -(s * s).re,
+            lambda,
             shape: root.right,
             left: root.left,
             behaviour,
             residual: root.residual,
-            error: root.error,
+            error,
             condition: root.condition,
             label: r,
         };
     }
     Ok(())
+}
+
+/// How far a change of the pencil by `floor phi^H Mhat phi` moves a root: `d` with `d (|psi^T (2 s M + C) phi| + d) = floor`.
+#[cold]
+fn moved_by<const N: usize>(linear: &Linear<f64, N>, root: &Root<N>, floor: f64) -> f64 {
+    let slope = pencil_slope_times(linear, root.s, &root.right);
+    let slope = dot_complex(&root.left, &slope).norm();
+    2.0 * floor / (slope + (slope * slope + 4.0 * floor).sqrt())
 }
 
 /// Position of the component that tells the phase of a vector: the greatest; a margin keeps the choice when two are equal
@@ -324,13 +378,4 @@ pub(crate) fn lead(x: &[Complex]) -> usize {
         }
     }
     lead
-}
-
-/// Below this size an eigenvalue cannot be told from zero: the rounding of the greatest one.
-#[inline]
-pub(crate) fn neutral_threshold(lambda: &[f64]) -> f64 {
-    if lambda.len() < 2 {
-        return 0.0;
-    }
-    4.0 * lambda.len() as f64 * f64::EPSILON * symmetric::largest(lambda)
 }

@@ -5,7 +5,7 @@ use crate::Complex;
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Behaviour {
-    /// It oscillates and keeps its amplitude, to working accuracy; angular frequency, rad/s.
+    /// It oscillates and neither grows nor decays within rounding; angular frequency, rad/s.
     Oscillating(f64),
     /// It oscillates and decays; angular frequency, rad/s.
     Damped(f64),
@@ -13,7 +13,7 @@ pub enum Behaviour {
     Flutter(f64),
     /// It decays without oscillation (overdamped); rate, 1/s.
     Decaying(f64),
-    /// Nothing resists it: its eigenvalue is zero to working accuracy.
+    /// Nothing resists it: its eigenvalue is zero within rounding.
     Neutral,
     /// It grows without oscillation (static instability); rate, 1/s.
     Divergent(f64),

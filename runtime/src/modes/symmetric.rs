@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
 use crate::array::greater;
+use crate::rounding::of_elements;
 
 /// Why the eigenproblem was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,14 +21,19 @@ pub(crate) struct Pairs<const N: usize> {
     pub(crate) lambda: [f64; N],
     pub(crate) shapes: [[f64; N]; N],
     pub(crate) residuals: [f64; N],
+    /// How far each eigenvalue may be off by rounding.
+    pub(crate) errors: [f64; N],
 }
 
 /// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
 const ACCEPTED: f64 = 1e-9;
-/// Residual relative to the matrices that rounding of the shape explains.
+/// Residual of a pair that has nothing but rounding in it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Residual beyond which a pair is improved by inverse iteration.
 pub(crate) const INACCURATE: f64 = 1e-13;
+
+/// Share of the greatest eigenvalue below which one may be nothing but what the other modes leave in its shape.
+const SMALL: f64 = 1e-6;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
 pub(crate) fn solve<const N: usize>(
@@ -38,13 +44,14 @@ pub(crate) fn solve<const N: usize>(
         lambda: [0.0; N],
         shapes: [[0.0; N]; N],
         residuals: [0.0; N],
+        errors: [0.0; N],
     };
     solve_on(
         N,
         (stiffness.as_flattened(), mass.as_flattened()),
         &mut pairs.lambda,
         pairs.shapes.as_flattened_mut(),
-        &mut pairs.residuals,
+        (&mut pairs.residuals, &mut pairs.errors),
     )?;
     Ok(pairs)
 }
@@ -56,7 +63,7 @@ pub(crate) fn solve_on(
     (k, m): (&[f64], &[f64]),
     lambda: &mut [f64],
     shapes: &mut [f64],
-    residuals: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
 ) -> Result<(), Trouble> {
     match n {
         0 => {}
@@ -70,7 +77,7 @@ pub(crate) fn solve_on(
         8 => small_8(k, m, lambda, shapes)?,
         _ => large(n, k, m, lambda, shapes)?,
     }
-    finish(&Matrices { n, k, m }, lambda, shapes, residuals)
+    finish(&Matrices { n, k, m }, lambda, shapes, (residuals, errors))
 }
 
 #[inline]
@@ -221,17 +228,21 @@ fn finish(
     matrices: &Matrices,
     lambda: &mut [f64],
     shapes: &mut [f64],
-    residuals: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
 ) -> Result<(), Trouble> {
     let n = matrices.n;
-    sort(n, lambda, shapes, residuals);
+    sort(n, lambda, shapes, (residuals, errors));
     let mut refined = false;
     for r in 0..n {
         let own = r * n..(r + 1) * n;
-        residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
+        let measured = |lambda: &[f64], shapes: &[f64]| {
+            let rest = matrices.rest(lambda[r], &shapes[own.clone()]);
+            (rest.relative(), rest.error(n))
+        };
+        (residuals[r], errors[r]) = measured(lambda, shapes);
         if residuals[r] > INACCURATE {
             refine(matrices, lambda, shapes, r);
-            residuals[r] = matrices.relative_residual(lambda[r], &shapes[own.clone()]);
+            (residuals[r], errors[r]) = measured(lambda, shapes);
             refined = true;
         }
         if residuals[r].is_nan() || residuals[r] > ACCEPTED {
@@ -246,7 +257,13 @@ fn finish(
         }
     }
     if refined {
-        sort(n, lambda, shapes, residuals);
+        sort(n, lambda, shapes, (residuals, errors));
+    }
+    let small = SMALL * largest(lambda);
+    for r in 0..n {
+        if lambda[r].abs() <= small {
+            errors[r] += matrices.error_of_shape(lambda, shapes, r);
+        }
     }
     for r in 0..n {
         fix_sign(&mut shapes[r * n..(r + 1) * n]);
@@ -255,12 +272,18 @@ fn finish(
 }
 
 #[inline(always)]
-fn sort(n: usize, lambda: &mut [f64], shapes: &mut [f64], residuals: &mut [f64]) {
+fn sort(
+    n: usize,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) {
     for i in 1..n {
         let mut j = i;
         while j > 0 && lambda[j] < lambda[j - 1] {
             lambda.swap(j, j - 1);
             residuals.swap(j, j - 1);
+            errors.swap(j, j - 1);
             for k in 0..n {
                 shapes.swap(j * n + k, (j - 1) * n + k);
             }
@@ -293,23 +316,57 @@ impl Matrices<'_> {
     /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
     #[inline(always)]
     pub(super) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
-        let (most, size) = self.residual_and_terms(lambda, phi);
-        if most == 0.0 { 0.0 } else { most / size }
+        self.rest(lambda, phi).relative()
     }
 
     /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
     /// that act, and their terms are no measure.
     fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
-        let (most, _) = self.residual_and_terms(lambda, phi);
+        let most = self.rest(lambda, phi).most;
         let matrices = largest(self.k) + lambda.abs() * largest(self.m);
-        most <= ROUNDING * matrices * largest(phi)
+        most <= of_elements(self.n) * matrices * largest(phi)
     }
 
-    /// Greatest component of `K phi - lambda M phi`, and greatest sum of absolute terms in a row.
-    #[inline(always)]
-    fn residual_and_terms(&self, lambda: f64, phi: &[f64]) -> (f64, f64) {
+    /// What the parts of other modes in shape `r` make of its eigenvalue: of second order, twice the sum of
+    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`, without the heap up to size eight.
+    #[cold]
+    fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
         let n = self.n;
-        let (mut most, mut size) = (0.0_f64, 0.0_f64);
+        if n <= 8 {
+            self.error_of_shape_in(lambda, shapes, r, &mut [0.0; 8])
+        } else {
+            self.error_of_shape_in(lambda, shapes, r, &mut vec![0.0; n])
+        }
+    }
+
+    fn error_of_shape_in(&self, lambda: &[f64], shapes: &[f64], r: usize, rest: &mut [f64]) -> f64 {
+        let n = self.n;
+        let phi = &shapes[r * n..(r + 1) * n];
+        for (i, rest) in rest[..n].iter_mut().enumerate() {
+            let row = |matrix: &[f64]| -> f64 {
+                let row = &matrix[i * n..(i + 1) * n];
+                row.iter().zip(phi).map(|(a, b)| a * b).sum()
+            };
+            *rest = row(self.k) - lambda[r] * row(self.m);
+        }
+        let mut sum = 0.0;
+        for s in (0..n).filter(|&s| s != r) {
+            let own = &shapes[s * n..(s + 1) * n];
+            let part: f64 = own.iter().zip(&*rest).map(|(a, b)| a * b).sum();
+            let part = part.abs();
+            if part > 0.0 {
+                // Of equal eigenvalues to first order.
+                sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
+            }
+        }
+        2.0 * sum
+    }
+
+    /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
+    #[inline(always)]
+    fn rest(&self, lambda: f64, phi: &[f64]) -> Rest {
+        let n = self.n;
+        let mut rest = Rest::default();
         for i in 0..n {
             let (mut sum, mut terms) = (0.0, 0.0);
             let (k, m) = (&self.k[i * n..(i + 1) * n], &self.m[i * n..(i + 1) * n]);
@@ -319,11 +376,43 @@ impl Matrices<'_> {
                 terms += k.abs() + m.abs();
             }
             if sum.is_nan() {
-                return (f64::NAN, size);
+                rest.most = f64::NAN;
+                return rest;
             }
-            most = greater(most, sum.abs());
-            size = greater(size, terms);
+            rest.most = greater(rest.most, sum.abs());
+            rest.size = greater(rest.size, terms);
+            rest.along += phi[i] * sum;
+            rest.terms += phi[i].abs() * terms;
         }
-        (most, size)
+        rest
+    }
+}
+
+/// `K phi - lambda M phi`, summed up.
+#[derive(Default)]
+struct Rest {
+    /// Greatest component.
+    most: f64,
+    /// Greatest sum of absolute terms in a row.
+    size: f64,
+    /// `phi^T (K - lambda M) phi`, and its absolute terms.
+    along: f64,
+    terms: f64,
+}
+
+impl Rest {
+    #[inline(always)]
+    fn relative(&self) -> f64 {
+        if self.most == 0.0 {
+            0.0
+        } else {
+            self.most / self.size
+        }
+    }
+
+    /// Error of `lambda`: by rounding of the elements, and by twice what it is away from the quotient of `phi`.
+    #[inline(always)]
+    fn error(&self, n: usize) -> f64 {
+        of_elements(n) * self.terms + 2.0 * self.along.abs()
     }
 }

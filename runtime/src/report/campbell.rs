@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, optional, undamped};
+use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, undamped};
 use crate::campbell::Campbell;
 
 impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N, U, P> {
@@ -35,7 +35,7 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N
             for mode in modes {
                 let own = |exists: bool, text: String| if exists { text } else { "-".to_owned() };
                 let oscillates = mode.behaviour.frequency().is_some();
-                let sigma = |spread: Option<f64>| optional(spread.filter(|_| !mode.clustered));
+                let sigma = |spread: Option<f64>| of_mode(spread, mode.clustered);
                 table.row(vec![
                     value.clone(),
                     (mode.label + 1).to_string(),

@@ -23,7 +23,10 @@ impl fmt::Display for Stability {
                 f,
                 "stable by gyroscopic forces alone ({negative} directions without stiffness)"
             ),
-            Self::Marginal => write!(f, "marginal (an oscillation neither grows nor decays)"),
+            Self::Marginal => write!(
+                f,
+                "marginal (an oscillation neither grows nor decays within rounding)"
+            ),
             Self::Flutter { growing } => match growing {
                 1 => write!(f, "flutter (one growing oscillation)"),
                 _ => write!(f, "flutter ({growing} growing oscillations)"),

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, number, per, undamped};
+use super::table::{Table, cells, heading, number, of_mode, per, undamped};
 use crate::Sensitivities;
 use crate::modes::Family;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
@@ -21,6 +21,7 @@ fn derivatives(
     d: &Description,
     columns: Vec<String>,
     value: impl Fn(usize, usize) -> Option<f64>,
+    clustered: impl Fn(usize) -> bool,
 ) -> Table {
     let mut head = cells(["derivative by"]);
     let count = columns.len();
@@ -29,7 +30,8 @@ fn derivatives(
     for (j, (name, unit)) in variables(d).into_iter().enumerate() {
         let mut row = vec![per(name, unit)];
         row.extend((0..count).map(|column| {
-            super::table::optional(value(column, j).map(|value| value * unit.scale))
+            let value = value(column, j).map(|value| value * unit.scale);
+            of_mode(value, clustered(column))
         }));
         table.row(row);
     }
@@ -90,21 +92,25 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
             columns.extend(numbers.map(|r| format!("damping ratio {r}")));
         }
         let count = self.modes.len();
-        let table = derivatives(self.description, columns, |column, j| {
+        let mode = |column: usize| &self.modes[column % count.max(1)];
+        let value = |column: usize, j| {
             let quantity = match column < count {
                 true => Quantity::Frequency,
                 false => Quantity::DampingRatio,
             };
-            let slopes = self.modes[column % count.max(1)].of(quantity)?;
+            let slopes = mode(column).of(quantity)?;
             pick(&slopes.by_input, &slopes.by_design, j)
-        });
+        };
+        let clustered = |column| mode(column).clustered;
+        let table = derivatives(self.description, columns, value, clustered);
         write!(f, "{table}")?;
         undamped(f, self.family, self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {
                 writeln!(
                     f,
-                    "  Mode {} has nearly equal neighbours: a derivative of its own does not exist.",
+                    "  Mode {} has nearly equal neighbours: a derivative of its own does not exist. `directional_derivatives` has \
+                     those of the cluster.",
                     r + 1
                 )?;
             }
@@ -122,10 +128,11 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             .iter()
             .map(|info| heading(info.name, info.unit))
             .collect();
-        let table = derivatives(d, columns, |i, j| {
+        let value = |i: usize, j| {
             let unit = d.coordinates.get(i)?.unit;
             Some(pick(self.by_input.get(i)?, self.by_design.get(i)?, j)? / unit.scale)
-        });
+        };
+        let table = derivatives(d, columns, value, |_| false);
         write!(f, "{table}")
     }
 }
@@ -143,14 +150,15 @@ impl<const U: usize, const P: usize, const O: usize> fmt::Display for OutputSens
             .iter()
             .map(|info| heading(info.name, info.unit))
             .collect();
-        let table = derivatives(d, columns, |o, j| {
+        let value = |o: usize, j| {
             let unit = d.outputs.get(o)?.unit;
             let (inputs, design) = (
                 self.by_input.get(o)?.as_ref()?,
                 self.by_design.get(o)?.as_ref()?,
             );
             Some(pick(inputs, design, j)? / unit.scale)
-        });
+        };
+        let table = derivatives(d, columns, value, |_| false);
         write!(f, "{table}")
     }
 }

@@ -123,12 +123,11 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Summary<N,
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
             let alone = self.cluster_of(r).is_none();
             let own = |value: Option<f64>| optional(value.filter(|_| alone));
-            let second = self.second.modes[r].as_ref().ok();
             table.row(vec![
                 (r + 1).to_string(),
                 optional(mode.mean),
                 own(mode.sigma),
-                own(second.map(|second| second.frequency.moments.sigma)),
+                own(self.second_order_sigma(r)),
                 own(mode.band),
                 verdict(&trust.doubts),
             ]);
@@ -211,7 +210,11 @@ impl fmt::Display for Doubt {
                 named(modes),
                 number(*distance)
             ),
-            Self::NearCritical { distance } if *distance <= 0.0 => write!(
+            Self::NearCritical { distance: 0.0 } => write!(
+                f,
+                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing: believe Monte Carlo."
+            ),
+            Self::NearCritical { distance } if *distance < 0.0 => write!(
                 f,
                 "the equilibrium is not stable. Samples settle elsewhere: sigma says nothing about them."
             ),
@@ -223,7 +226,7 @@ impl fmt::Display for Doubt {
             ),
             Self::NearInstability { distance: 0.0 } => write!(
                 f,
-                "the vibration neither decays nor grows. Sigma counts samples that are unstable: see the counts of Monte \
+                "the vibration neither grows nor decays within rounding. Sigma counts samples that are unstable: see the counts of Monte \
                  Carlo."
             ),
             Self::NearInstability { distance } if *distance < 0.0 => write!(
@@ -255,7 +258,7 @@ impl fmt::Display for Doubt {
                 write!(
                     f,
                     "the first-order sigma of the {name} is {:.1} % below that of second order, because it bends within \
-                     the tolerances: believe second order, and Monte Carlo where the two are far apart.",
+                     the tolerances. Second order tells that it bends, not by how much: believe Monte Carlo.",
                     100.0 * sigma_error
                 )
             }

@@ -68,6 +68,18 @@ pub(super) fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), number)
 }
 
+/// What stands in place of a number that a member of a cluster of equal eigenvalues does not have.
+pub(super) const CLUSTER: &str = "cluster";
+
+/// As [`optional`], of a mode that may be a member of a cluster.
+pub(super) fn of_mode(value: Option<f64>, clustered: bool) -> String {
+    if clustered {
+        CLUSTER.to_owned()
+    } else {
+        optional(value)
+    }
+}
+
 /// A value converted from SI to a declared unit.
 pub(super) fn in_unit(value: f64, unit: Unit) -> String {
     number(if unit.scale == 0.0 {

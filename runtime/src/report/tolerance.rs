@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::equilibrium::meeting;
 use super::shares;
-use super::table::{Table, cells, heading, in_unit, number, optional, per, undamped};
+use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, per, undamped};
 use crate::modes::Family;
 use crate::tolerance::{
     Counts, Doubt, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
@@ -49,24 +49,32 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
         head.extend(shares::head(d));
         let mut table = Table::new(head);
         for (r, mode) in self.modes.iter().enumerate() {
+            let own = |value: Option<f64>| of_mode(value, mode.clustered);
             let mut row = vec![
                 (r + 1).to_string(),
                 optional(mode.mean),
-                optional(mode.sigma),
-                optional(mode.band),
+                own(mode.sigma),
+                own(mode.band),
             ];
             if general {
                 row.push(optional(mode.damping_ratio.map(|spread| spread.mean)));
-                row.push(optional(mode.damping_ratio.map(|spread| spread.sigma)));
-                row.push(number(mode.distance_to_instability));
+                row.push(own(mode.damping_ratio.map(|spread| spread.sigma)));
+                row.push(own(Some(mode.distance_to_instability)));
             }
-            row.push(number(mode.distance_to_critical));
-            row.extend(shares::cells(d, Some(&mode.variance_shares)));
+            row.push(own(Some(mode.distance_to_critical)));
+            let shares = (!mode.clustered).then_some(&mode.variance_shares[..]);
+            row.extend(shares::cells(d, shares));
             table.row(row);
         }
         write!(f, "{table}")?;
         undamped(f, self.family, d)?;
-        if self.distance_to_critical <= 0.0 {
+        if self.distance_to_critical == 0.0 {
+            return writeln!(
+                f,
+                "  The stiffness is zero within rounding: this is a critical state. Use Monte Carlo here."
+            );
+        }
+        if self.distance_to_critical < 0.0 {
             return writeln!(
                 f,
                 "  The equilibrium is not stable: a mode that does not oscillate has no frequency to spread."
@@ -101,7 +109,7 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
         }
         for (r, mode) in self.modes.iter().enumerate() {
             let distance = mode.distance_to_instability;
-            if distance < TRUSTED_DISTANCE {
+            if distance < TRUSTED_DISTANCE && !mode.clustered {
                 writeln!(
                     f,
                     "  Mode {}: {}",
@@ -182,6 +190,12 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
         }
         write!(f, "{table}")?;
         undamped(f, self.family, self.description)?;
+        if self.side_by_side {
+            writeln!(
+                f,
+                "  Samples were solved side by side in vectors: one by one the last bits differ."
+            )?;
+        }
         if self.clustered {
             writeln!(
                 f,

@@ -6,7 +6,7 @@ use super::shift::directions;
 use crate::array::{dot_complex, times_complex};
 use crate::modes::Family;
 use crate::pencil::pencil_times;
-use crate::{Complex, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
+use crate::{Behaviour, Complex, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
 
 /// First-order motion of several modes together: along a change `db` their eigenvalues are those of
 /// `diag(eigenvalues) + sum_k db_k by_design[k]`.
@@ -99,9 +99,11 @@ where
     });
     let by_input: Vec<_> = matrices.by_ref().take(U).collect();
     let by_design: Vec<_> = matrices.collect();
-    let eigenvalue = |mode: &&Mode<N>| match modes.family {
-        Family::Undamped => mode.lambda.into(),
-        Family::General => mode.s,
+    let eigenvalue = |mode: &&Mode<N>| match (modes.family, mode.behaviour) {
+        // Zero but for rounding, whose sign must not count as growth.
+        (_, Behaviour::Neutral) => Complex::ZERO,
+        (Family::Undamped, _) => mode.lambda.into(),
+        (Family::General, _) => mode.s,
     };
     Ok(ModalCouplings {
         modes: positions.to_vec(),

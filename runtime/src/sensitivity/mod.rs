@@ -3,6 +3,8 @@
 
 mod adjoint;
 mod clusters;
+mod directional;
+mod eigenvalues;
 mod events;
 mod explicit;
 mod finite_difference;
@@ -19,6 +21,8 @@ mod sweep;
 pub use adjoint::sensitivities;
 pub(crate) use adjoint::sensitivities_into;
 pub use clusters::{ModalCouplings, modal_couplings};
+pub use directional::{DirectionalDerivatives, directional_derivatives};
+pub(crate) use eigenvalues::eigenvalues;
 pub use events::{critical_sensitivity, crossing_sensitivity};
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
@@ -87,21 +91,22 @@ pub struct ModeSensitivity<const U: usize, const P: usize> {
     pub omega_by_input: Option<[f64; U]>,
     /// `domega/db`, rad/s by SI unit (eq. 21); `None` for a mode that does not oscillate.
     pub omega_by_design: Option<[f64; P]>,
-    /// The mode is one of several with nearly equal eigenvalues: these numbers belong to the computed basis of the
-    /// cluster, a single-mode derivative does not exist.
+    /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): these numbers belong to the
+    /// computed basis of the cluster, any other one has others. What exists are [`directional_derivatives`].
     pub clustered: bool,
     /// The eigenvalue they belong to.
     value: Complex,
 }
 
 impl<const U: usize, const P: usize> ModeSensitivity<U, P> {
-    /// Total derivatives of a quantity of the mode; `None` where it has none.
+    /// Total derivatives of a quantity of the mode; `None` where it has none, or one beyond the range of a double.
     pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64, U, P>> {
         let oscillates = self.omega_by_design.is_some();
         if !oscillates && quantity != Quantity::Growth {
             return None;
         }
-        Some(self.s?.map(|ds| quantity.slope(self.value, ds)))
+        let slopes = self.s?.map(|ds| quantity.slope(self.value, ds));
+        slopes.finite().then_some(slopes)
     }
 
     /// What stands where derivatives are going to be written.

@@ -47,33 +47,35 @@ impl Quantity {
 
     /// First derivative along a direction in which `s` moves at the rate `ds`.
     pub(crate) fn slope(self, s: Complex, ds: Complex) -> f64 {
+        // Along the unit vector of `s`: powers of `|s|` may exceed the range of a double.
         let size = s.norm();
+        let unit = s / size;
         match self {
             Self::Frequency => ds.im,
             Self::Growth => ds.re,
-            Self::NaturalFrequency => (s.conj() * ds).re / size,
+            Self::NaturalFrequency => (unit.conj() * ds).re,
             // -Im s Im(conj(s) ds) / |s|^3, negated: exact where s is imaginary.
-            Self::DampingRatio => s.im * (s.conj() * ds).im / (size * size * size),
+            Self::DampingRatio => unit.im * (unit.conj() * ds).im / size,
         }
     }
 
     /// Second derivative along two directions in which `s` moves at the rates `a` and `b` and by `ab` along both.
     pub(crate) fn curvature(self, s: Complex, a: Complex, b: Complex, ab: Complex) -> f64 {
         let size = s.norm();
+        let unit = s / size;
         match self {
             Self::Frequency => ab.im,
             Self::Growth => ab.re,
             Self::NaturalFrequency => {
-                let slopes =
-                    Self::NaturalFrequency.slope(s, a) * Self::NaturalFrequency.slope(s, b);
-                ((a.conj() * b + s.conj() * ab).re - slopes) / size
+                // The part of both slopes across `s` bends it.
+                let across = |x: Complex| (unit.conj() * x).im;
+                (unit.conj() * ab).re + across(a) * (across(b) / size)
             }
             Self::DampingRatio => {
                 // -Re (s / |s|) by the logarithms of s: s/|s| = exp(i arg s), arg = Im ln s.
-                let (la, lb) = (a / s, b / s);
-                let lab = ab / s - la * lb;
-                let (cos, sin) = (s.re / size, s.im / size);
-                cos * la.im * lb.im + sin * lab.im
+                let (la, lb) = (over(a, s), over(b, s));
+                let lab = over(ab, s) - la * lb;
+                unit.re * la.im * lb.im + unit.im * lab.im
             }
         }
     }
@@ -81,10 +83,16 @@ impl Quantity {
 
 /// Of undamped modes: derivatives of `s` from those of `lambda = -s^2`.
 pub(super) fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
-    -dlambda / (2.0 * s)
+    over((-0.5 * dlambda).into(), s)
+}
+
+/// `a / s` without the square of `|s|`, which may exceed the range of a double.
+fn over(a: Complex, s: Complex) -> Complex {
+    let size = s.norm();
+    a * (s.conj() / size) / size
 }
 
 /// Second derivative of `s` from the first ones and the second derivative of `lambda = -s^2`.
 pub(super) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
-    -(0.5 * ddlambda + a * b) / s
+    -(over((0.5 * ddlambda).into(), s) + a * over(b, s))
 }

@@ -131,7 +131,13 @@ where
     let mixed = result.lambda.by_input_and_design.iter().flatten();
     let inputs = result.lambda.by_input.iter().flatten();
     let mut all = second.chain(mixed).chain(inputs);
-    if all.all(|value| value.is_finite()) && result.first.finite() {
+    let of_s = result.eigenvalue.as_ref().is_none_or(|of_s| {
+        let mixed = of_s.by_input_and_design.iter().flatten();
+        let all = of_s.by_design.iter().flatten().chain(mixed);
+        let mut all = all.chain(of_s.by_input.iter().flatten());
+        all.all(|value| value.is_finite())
+    });
+    if all.all(|value| value.is_finite()) && of_s && result.first.finite() {
         Ok(result)
     } else {
         Err(outside_domain(at))

@@ -195,14 +195,17 @@ where
     }
 
     /// Chooses the vector instructions with which a Monte Carlo run solves several samples, and a sweep several values, side
-    /// by side where the mechanism allows it (the best of the processor unless set); `None` solves each alone.
+    /// by side where the mechanism allows it (the best of the processor unless set); `None` solves each alone. The two differ in
+    /// the last bits, which instructions are taken does not matter; a run says which it was
+    /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
         self.vectors = vectors;
         self
     }
 
-    /// Sets the number of threads of a Monte Carlo run; 0 takes what the machine has.
+    /// Sets the number of threads of a Monte Carlo run; 0 takes what the machine has, more than 256 count as 256 or as what the
+    /// machine has if that is more.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;

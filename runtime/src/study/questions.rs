@@ -4,8 +4,8 @@ use super::Study;
 use crate::equilibrium::{self, Assembly, Equilibrium, Problem, Search};
 use crate::modes::{Family, PerMode, Whirl};
 use crate::sensitivity::{
-    self, EquilibriumShift, Method, ModeCurvature, OutputSensitivities, Quantity, Sensitivities,
-    ShapeSensitivity,
+    self, DirectionalDerivatives, EquilibriumShift, Method, ModeCurvature, OutputSensitivities,
+    Quantity, Sensitivities, ShapeSensitivity,
 };
 use crate::tolerance::{
     self, Band, ClusterTolerance, FirstOrder, ModeMargin, MonteCarlo, OutputTolerances, Sampling,
@@ -77,7 +77,7 @@ where
 
     fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
         state.regular()?;
-        modes::modes_of(&state.linear, self.family_of(state), state.description)
+        modes::modes_at(state, self.family_of(state))
     }
 
     fn family_of(&self, state: &Equilibrium<N, U, P>) -> Family {
@@ -130,7 +130,7 @@ where
             .map_err(|failure| failure.explain(problem.description()))?;
         state.regular()?;
         let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
-        let solved = found.solve(&state.linear);
+        let solved = found.solve(&state.linear, state.rounding);
         solved.map_err(|failure| failure.explain(state.description))?;
         let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
         sensitivity::sensitivities_into(&self.mechanism, state, &found, &mut slopes)?;
@@ -180,6 +180,20 @@ where
             progress,
         };
         tolerance::monte_carlo(&self.mechanism, &state, &found, &tolerances, &sampling)
+    }
+
+    /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
+    /// design variables ([`sensitivity::directional_derivatives`]).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes and the function.
+    pub fn directional_derivatives(
+        &self,
+        mode: usize,
+        direction: (&[f64; U], &[f64; P]),
+    ) -> Result<DirectionalDerivatives, Error> {
+        let (state, found) = self.solved()?;
+        sensitivity::directional_derivatives(&self.mechanism, &state, &found, mode, direction)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).

@@ -51,6 +51,29 @@ impl Band {
         })
     }
 
+    /// Refuses a band about something infinite; what is between two values is checked where it is used.
+    fn check(self, (low, high): (f64, f64)) -> Result<(), Error> {
+        let Self::Around {
+            order, fraction, ..
+        } = self
+        else {
+            return Ok(());
+        };
+        let reason = if !(fraction > 0.0 && fraction.is_finite()) {
+            format!("its fraction {fraction} must be positive")
+        } else if !order.is_finite() {
+            format!("its order {order} must be finite")
+        } else if !(low.is_finite() && high.is_finite()) {
+            format!("order {order} and fraction {fraction} take it beyond the range of a double")
+        } else {
+            return Ok(());
+        };
+        Err(Error::Setting {
+            setting: "band",
+            reason,
+        })
+    }
+
     /// How the ends move with an input.
     fn slopes(self, inputs: &[f64], input: usize) -> (f64, f64) {
         match self {
@@ -114,15 +137,7 @@ where
             count: U,
         });
     };
-    if let Band::Around { fraction, .. } = band
-        && !(fraction > 0.0 && fraction.is_finite())
-    {
-        let reason = format!("its fraction {fraction} must be positive");
-        return Err(Error::Setting {
-            setting: "band",
-            reason,
-        });
-    }
+    band.check(ends)?;
     let curvature = mode_curvature(mechanism, at, modes, mode)?;
     let lambda = modes.modes[mode].lambda;
     let silent = Error::NotOscillating { mode, lambda };

@@ -2,12 +2,12 @@
 //! them has.
 
 use super::distribution::diagonalise;
-use super::eigenvalues::eigenvalues;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
 use crate::modes::Family;
-use crate::sensitivity::ModalCouplings;
+use crate::rounding::{Sign, of_elements, sign};
+use crate::sensitivity::{ModalCouplings, eigenvalues};
 use crate::{Complex, Error, Quantity};
 
 /// How to sample a cluster.
@@ -44,7 +44,7 @@ pub struct ClusterSpread {
     pub growth: Option<SortedSpread>,
     /// Damping ratio; `None` for undamped modes.
     pub damping_ratio: Option<SortedSpread>,
-    /// Samples in which a member grows: `lambda < 0`, or `Re s` positive beyond rounding.
+    /// Samples in which a member grows: `lambda` negative, or `Re s` positive, beyond rounding.
     pub unstable: usize,
     /// Samples whose eigenvalues were not found; they count in nothing else.
     pub unsolved: usize,
@@ -101,6 +101,8 @@ pub fn sample_cluster<const P: usize>(
     let mut draw = Draw::from((sampling.seed, sampling.stream), 0, &[0.0; P], tolerances);
     for _ in 0..sampling.samples {
         work.fill(couplings, &draw.next());
+        let size = |most: f64, value: &Complex| most.max(value.l1_norm());
+        let size = work.matrix.iter().fold(0.0, size);
         if !work.matrix.iter().all(|value| value.l1_norm() < LARGEST) {
             return Err(refuse("a sample exceeds the range of a double".to_owned()));
         }
@@ -109,7 +111,11 @@ pub fn sample_cluster<const P: usize>(
             continue;
         }
         let values = work.values.as_slice();
-        unstable += usize::from(values.iter().any(|&value| grows(family, value)));
+        unstable += usize::from(
+            values
+                .iter()
+                .any(|&value| grows(family, value, of_elements(m) * size)),
+        );
         frequency.add(values, |value| frequency_of(family, value));
         let [first, second] = &mut parts;
         first.add(values, |value| Some(value.re));
@@ -139,10 +145,11 @@ const LARGEST: f64 = 1e150;
 /// `Re s` of an oscillation that keeps its amplitude comes out below this, relative to `|s|`.
 const ROUNDING: f64 = 1e-9;
 
-fn grows(family: Family, value: Complex) -> bool {
+/// Whether a member grows beyond rounding, `rounding` that of `lambda`.
+fn grows(family: Family, value: Complex, rounding: f64) -> bool {
     match family {
-        Family::Undamped => value.re < 0.0,
-        Family::General => value.re > ROUNDING * value.norm(),
+        Family::Undamped => sign(value.re, rounding) == Sign::Negative,
+        Family::General => sign(value.re, ROUNDING * value.norm()) == Sign::Positive,
     }
 }
 

@@ -65,17 +65,18 @@ pub struct ModeTolerance<const P: usize> {
     /// The growth `Re s`, 1/s; `None` where the eigenvalue has no derivative.
     pub growth: Option<Spread<P>>,
     /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda / lambda_sigma`, with
-    /// `|s|^2` for `lambda` of a general mode; not positive when the mode diverges, infinite when nothing moves it or when
+    /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
     /// it has no derivative that would tell.
     pub distance_to_critical: f64,
-    /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it keeps its
-    /// amplitude though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
+    /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it neither grows nor
+    /// decays within rounding though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
     /// modes.
     pub distance_to_instability: f64,
     /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
     pub distance_to_neighbour: f64,
-    /// The mode shares a cluster of nearly equal eigenvalues: first order does not apply to it. That tolerances mix modes
+    /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
+    /// and the numbers here belong to the computed basis of the cluster. That tolerances mix modes
     /// farther apart is told by [`clusters`](super::clusters) and [`summary`](super::summary).
     pub clustered: bool,
 }
@@ -228,7 +229,10 @@ fn undamped<const N: usize, const U: usize, const P: usize>(
         natural_frequency: frequency,
         damping_ratio: frequency.map(|_| still(0.0)),
         growth,
-        distance_to_critical: in_sigmas(mode.lambda, lambda_sigma),
+        distance_to_critical: match mode.behaviour {
+            Behaviour::Neutral => 0.0,
+            _ => in_sigmas(mode.lambda, lambda_sigma),
+        },
         distance_to_instability: f64::INFINITY,
         distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,
@@ -268,8 +272,9 @@ fn general<const N: usize, const U: usize, const P: usize>(
         distance_to_critical: distance_to_zero(mode, natural_frequency, growth),
         distance_to_instability: growth
             .filter(|spread| !keeps_amplitude(mode, spread))
-            .map_or(f64::INFINITY, |spread| {
-                in_sigmas(-spread.mean, spread.sigma)
+            .map_or(f64::INFINITY, |spread| match mode.behaviour {
+                Behaviour::Oscillating(_) => 0.0,
+                _ => in_sigmas(-spread.mean, spread.sigma),
             }),
         distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,

@@ -6,7 +6,6 @@ mod cluster_sampling;
 mod clusters;
 mod declared;
 mod distribution;
-mod eigenvalues;
 mod events;
 mod first_order;
 mod margin;

@@ -25,13 +25,15 @@ pub struct Sampling<'a> {
     pub seed: u64,
     /// Which of the independent sequences of the seed: points of a sweep that must not share samples take one each.
     pub stream: u64,
-    /// Number of threads; 0 takes what the machine has. Threads that were started wait for the next run.
+    /// Number of threads; 0 takes what the machine has. More than 256 count as 256, or as what the machine has if that is more.
+    /// Threads that were started wait for the next run.
     pub threads: usize,
     /// Return every sample, not only the statistics.
     pub keep_samples: bool,
     /// Solve several samples side by side with these vector instructions where the mechanism allows it: generated code, no
     /// constraints, undamped modes, at most eight coordinates. Statistics are those of the samples one by one up to
-    /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one.
+    /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one. The result says
+    /// which it was ([`MonteCarlo::side_by_side`]).
     pub vectors: Option<Instructions>,
     /// Called with a number of samples whenever that many more are done, from any thread.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
@@ -163,6 +165,9 @@ pub struct MonteCarlo<const N: usize, const P: usize> {
     pub modes: PerMode<Option<Statistics>, N>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: PerMode<Option<Statistics>, N>,
+    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), but for those that need a solver of their own. One by
+    /// one the statistics differ in the last bits.
+    pub side_by_side: bool,
     /// Some nominal modes have equal eigenvalues: which of them a mode of a sample is taken for is arbitrary, and only
     /// statistics of all of them together mean something ([`clusters`](crate::tolerance::clusters)).
     pub clustered: bool,
@@ -196,6 +201,7 @@ where
         }
         _ => None,
     };
+    let side_by_side = prepared.is_some();
     let run = Run {
         mechanism,
         nominal,
@@ -237,6 +243,7 @@ where
         left_nominal_branch,
         modes: frequencies.map(Moments::statistics),
         damping_ratios: damping_ratios.map(Moments::statistics),
+        side_by_side,
         clustered: clusters(modes, CLUSTER_GAP).contains(&true),
         all,
         family: modes.family,
@@ -413,7 +420,12 @@ where
         Stability::Undecided => Outcome::Undecided,
         _ => Outcome::Stable,
     };
-    let Ok(found) = solve_modes(&state.linear, modes.family, state.description) else {
+    let Ok(found) = solve_modes(
+        &state.linear,
+        modes.family,
+        state.description,
+        state.rounding,
+    ) else {
         return (sample(Outcome::NoModes, Some(state.coordinates)), false);
     };
     let order = match_modes(modes, &found, &state.linear);

@@ -10,6 +10,10 @@ use crate::sensitivity::{Quantity, sensitivities};
 use crate::{Behaviour, Description, Equilibrium, Error, Mechanism, Mode, Modes};
 
 /// A first-order standard deviation that misses that of the second-order model by more than this is not to be believed.
+///
+/// Nor is the second-order one then: it tells that a quantity bends, not by how much. For the rotating bar at 5 rad/s with a
+/// tolerance of 45 %, against quadrature of the exact distribution, first order misses the standard deviation by -29 % and second
+/// order, 6 % above it, by -24 %. Sampling tells.
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// What tolerances do to the modes, with a verdict for each.
@@ -71,14 +75,14 @@ pub enum Doubt {
         /// They have merged into one defective eigenvalue.
         defective: bool,
     },
-    /// The critical state, beyond which the equilibrium changes branch, is this many standard deviations away; not
-    /// positive beyond it.
+    /// The critical state, beyond which the equilibrium changes branch, is this many standard deviations away; zero within
+    /// rounding of it, negative beyond it.
     NearCritical {
         /// Standard deviations.
         distance: f64,
     },
-    /// The mode begins to grow this many standard deviations away; zero when it keeps its amplitude, negative when it
-    /// grows.
+    /// The mode begins to grow this many standard deviations away; zero when it neither grows nor decays within rounding,
+    /// negative when it grows.
     NearInstability {
         /// Standard deviations.
         distance: f64,
@@ -88,7 +92,8 @@ pub enum Doubt {
         /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
         distance: f64,
     },
-    /// First order misses the standard deviation of the second-order model.
+    /// First order misses the standard deviation of the second-order model. Looked at where the series may converge only: not
+    /// near to a critical state or to critical damping.
     Nonlinear {
         /// Of what.
         quantity: Quantity,
@@ -178,10 +183,18 @@ impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
         {
             doubts.push(Doubt::NearCriticalDamping { distance });
         }
-        if cluster.is_none() && own.frequency().is_some() {
+        if cluster.is_none() && own.frequency().is_some() && !expanded_near_a_root(&doubts) {
             self.check_by_second_order(mode, own, &mut doubts);
         }
         doubts
+    }
+
+    /// The standard deviation of a frequency to second order, rad/s; `None` where there is none, or where it means nothing
+    /// because the series does not converge.
+    pub(crate) fn second_order_sigma(&self, mode: usize) -> Option<f64> {
+        let second = self.second.modes[mode].as_ref().ok()?;
+        let converges = !expanded_near_a_root(&self.trust[mode].doubts);
+        converges.then_some(second.frequency.moments.sigma)
     }
 
     /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
@@ -215,6 +228,17 @@ impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
             }
         }
     }
+}
+
+/// Whether a frequency is the root of something that vanishes nearby: its Taylor series does not converge within the
+/// tolerances, and one term more is no check of the first.
+fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
+    doubts.iter().any(|doubt| {
+        matches!(
+            doubt,
+            Doubt::NearCritical { .. } | Doubt::NearCriticalDamping { .. }
+        )
+    })
 }
 
 /// Standard deviations below this, relative to the quantity, are rounding.

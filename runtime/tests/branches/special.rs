@@ -66,6 +66,15 @@ fn branches_exchange_their_stability() {
             let off = (q - d) * (q - e - s * (point.value - d));
             near(off, 0.0, 1e-15);
         }
+        // Straight lines, also where they cross: there the second order of the equations tells the directions.
+        let level = branch
+            .points
+            .iter()
+            .all(|point| (point.equilibrium.coordinates[0] - d).abs() < 1e-9);
+        for point in &branch.points {
+            let slope = point.tangent[0] / point.input_tangent;
+            near(slope, if level { 0.0 } else { s }, 1e-9);
+        }
     }
 }
 

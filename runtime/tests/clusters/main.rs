@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod directional;
 mod general;
 mod small;
 mod summary;

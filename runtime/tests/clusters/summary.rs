@@ -4,6 +4,7 @@ use eigentol::tolerance::{Doubt, Summary};
 use eigentol::{Coordinate, DesignVariable, Family, Input, Study};
 
 use super::close;
+use super::common::GRAVITY;
 use super::common::derived::Derived;
 use super::common::models::{Pair, Plate};
 use super::common::pendulum::Pendulum;
@@ -69,6 +70,51 @@ fn near_the_critical_speed_nothing_is_believed() {
     );
 }
 
+/// At 1.000004 of the critical speed no term of the series says anything: against the exact distribution, by quadrature over
+/// both branches, `lambda = w - u^2` below `u^2 = w = 3 g / (2 L)` and `u^2 - w^2 / u^2` beyond.
+#[test]
+fn at_the_critical_speed_sampling_is_what_to_believe() {
+    let speed = 3.836;
+    let frequency = |length: f64| {
+        let (w, square) = (1.5 * GRAVITY / length, speed * speed);
+        f64::sqrt(if w > square {
+            w - square
+        } else {
+            square - w * w / square
+        })
+    };
+    let moment = |power: i32| {
+        let steps = (-80_000..=80_000).map(|k| f64::from(k) * 1e-4);
+        let density = |z: f64| (-0.5 * z * z).exp() * 1e-4 / std::f64::consts::TAU.sqrt();
+        steps
+            .map(|z| density(z) * frequency(1.0 + 0.01 * z).powi(power))
+            .sum::<f64>()
+    };
+    let exact = (moment(2) - moment(1).powi(2)).sqrt();
+    close(exact, 0.1745, 1e-3);
+    let study = Study::new(Pendulum)
+        .input(OMEGA, speed)
+        .start(Coordinate(0), 1.0)
+        .tolerance(LENGTH, 0.03);
+    let sampled = study.clone().samples(40_000).monte_carlo().unwrap();
+    let sigma = sampled.modes[0].unwrap().standard_deviation.unwrap();
+    close(sigma, exact, 0.02);
+    let summary = study.summary().unwrap();
+    let second = summary.second.modes[0].as_ref().unwrap().frequency;
+    assert!(second.moments.sigma > 3000.0);
+    let [Doubt::NearCritical { .. }] = summary.trust[0].doubts[..] else {
+        panic!("{:?}", summary.trust)
+    };
+    let text = summary.to_string();
+    says(&text, &["believe Monte Carlo", " no\n"]);
+    assert!(!text.contains("believe second"), "{text}");
+    let row = text
+        .lines()
+        .find(|line| line.trim_start().starts_with("1 "))
+        .unwrap();
+    assert_eq!(row.matches(" -").count(), 1, "no second order: {row}");
+}
+
 #[test]
 fn wide_tolerances_bend() {
     let summary = pendulum(7.0, 0.6);
@@ -87,7 +133,11 @@ fn wide_tolerances_bend() {
     );
     says(
         &summary.to_string(),
-        &["% below that of second order", " no\n"],
+        &[
+            "% below that of second order",
+            "believe Monte Carlo",
+            " no\n",
+        ],
     );
 }
 
@@ -193,4 +243,54 @@ fn an_oscillation_about_to_cease_says_so() {
         &beyond.to_string(),
         &["no oscillation", "a member has no frequency"],
     );
+}
+
+/// On both sides of each threshold, from closed forms.
+#[test]
+fn thresholds_are_where_they_are_said_to_be() {
+    let w = 1.5 * GRAVITY;
+    // Hanging, lambda = w / l - u^2: (w - u^2) / (w sigma) standard deviations.
+    let near = |distance: f64, speed: f64| 3.0 * (w - speed * speed) / (w * distance);
+    for (distance, doubted) in [(4.45, true), (4.55, false)] {
+        let summary = pendulum(3.0, near(distance, 3.0));
+        close(summary.first.distance_to_critical, distance, 1e-9);
+        let critical = |doubt: &Doubt| matches!(doubt, Doubt::NearCritical { .. });
+        assert_eq!(summary.trust[0].doubts.iter().any(critical), doubted);
+        assert_eq!(summary.first.trusted(), !doubted);
+        // k1 alone moves lambda = k1 against lambda = k2.
+        let pair = Study::new(Derived(Pair))
+            .sigma_level(1.0)
+            .design(DesignVariable(1), 100.0 + distance)
+            .tolerance(DesignVariable(0), 1.0)
+            .tolerance(DesignVariable(2), 0.0);
+        assert_eq!(pair.clusters().unwrap().len(), usize::from(doubted));
+        assert_eq!(pair.first_order().unwrap().trusted(), !doubted);
+        // Growth -c / (2 m) of a damped mode by c alone: c / sigma(c).
+        let plate = (0..3).fold(Study::new(Derived(Plate)), |study, k| {
+            study.tolerance(DesignVariable(k), 0.0)
+        });
+        let plate = plate.design(DesignVariable(3), 0.02).sigma_level(1.0);
+        let plate = plate
+            .tolerance(DesignVariable(3), 0.02 / distance)
+            .summary()
+            .unwrap();
+        let growing = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
+        assert_eq!(plate.trust[0].doubts.iter().any(growing), doubted);
+    }
+    // Beyond, omega = sqrt(u^2 - w^2 / (u l)^2), which bends: with r = omega'' sigma / (sqrt(2) omega') first order misses
+    // second by 1 - 1 / sqrt(1 + r^2).
+    let speed = 5.0_f64;
+    let rest = (w / speed).powi(2);
+    let omega = (speed * speed - rest).sqrt();
+    let slope = rest / omega;
+    let bend = -(3.0 * rest + slope * slope) / omega;
+    for (error, doubted) in [(0.0495, false), (0.0505, true)] {
+        let ratio = ((1.0_f64 / (1.0 - error)).powi(2) - 1.0).sqrt();
+        let sigma = ratio * 2.0_f64.sqrt() * slope / bend.abs();
+        let summary = pendulum(speed, 3.0 * sigma);
+        assert!(summary.first.distance_to_critical > 4.6);
+        let second = summary.second.modes[0].as_ref().unwrap().frequency;
+        close(second.nonlinearity.sigma_error(), error, 1e-9);
+        assert_eq!(summary.trusted(), !doubted, "{error}");
+    }
 }

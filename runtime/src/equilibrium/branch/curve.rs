@@ -8,6 +8,7 @@ use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
 use crate::array::all_finite;
 use crate::constraints::{ConstraintState, Structure, redundant_rows};
+use crate::rounding;
 use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
 /// A mechanism of which one input varies.
@@ -205,16 +206,23 @@ where
         }
         let constraints =
             ConstraintState::new(self.mechanism, (&at.q, &inputs, self.design), &linear);
-        let stability = if constraints.singular {
-            Stability::Undecided
+        let (stability, rounding) = if constraints.singular {
+            (Stability::Undecided, 0.0)
         } else {
-            judge(&M::DESCRIPTION, &linear).map_err(Trouble::Refused)?
+            let place = rounding::Place {
+                coordinates: &at.q,
+                inputs: &inputs,
+                design: self.design,
+                residual: &residual,
+            };
+            judge(self.mechanism, &place, &linear).map_err(Trouble::Refused)?
         };
         Ok(Equilibrium {
             coordinates: at.q,
             inputs,
             design: *self.design,
             stability,
+            rounding,
             constraints,
             linear,
             residual,

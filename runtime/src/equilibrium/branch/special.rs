@@ -6,7 +6,7 @@ use super::frame::{Frame, Place};
 use super::station::symmetric_to_rounding;
 use crate::array::{dot, form, largest, times};
 use crate::modes::free_pairs;
-use crate::{DampingKind, Description, Input, Linear, Mechanism};
+use crate::{DampingKind, Input, Linear, Mechanism};
 
 /// What happens where `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,12 +86,7 @@ where
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
         let (v, w) = normalised(&equilibrium.linear, Self::MOTIONS, v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
-        equilibrium.stability = at_critical(
-            equilibrium.stability,
-            &equilibrium.linear,
-            Self::DESCRIPTION,
-            zero,
-        );
+        make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
             kind,
             input: self.settings.input,
@@ -153,33 +148,32 @@ fn normalised<const N: usize>(
     finite.then_some((v, w))
 }
 
-/// Stability where `zero` modes are critical, whatever sign rounding gives them.
-pub(crate) fn at_critical<const N: usize>(
-    judged: Stability,
-    linear: &Linear<f64, N>,
-    description: &Description,
+/// Makes `zero` modes of an equilibrium critical, whatever sign rounding gives them.
+pub(crate) fn make_critical<const N: usize, const U: usize, const P: usize>(
+    at: &mut Equilibrium<N, U, P>,
     zero: usize,
-) -> Stability {
+) {
+    let (judged, description) = (at.stability, at.description);
     let flutters = matches!(judged, Stability::Flutter { .. });
-    if flutters || !symmetric_to_rounding(linear, description) {
-        return judged;
+    if flutters || !symmetric_to_rounding(&at.linear, description) {
+        return;
     }
-    let Ok(pairs) = free_pairs(linear, description) else {
-        return judged;
+    let Ok(pairs) = free_pairs(&at.linear, description) else {
+        return;
     };
     let mut all = [0.0; N];
     let lambda = &mut all[..pairs.lambda().len()];
     lambda.copy_from_slice(pairs.lambda());
     lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let negative = lambda
+    let (critical, others) = lambda.split_at(zero.min(lambda.len()));
+    at.rounding = critical
         .iter()
-        .skip(zero)
-        .filter(|&&value| value < 0.0)
-        .count();
+        .fold(at.rounding, |most, value| most.max(value.abs()));
+    let negative = others.iter().filter(|&&value| value < 0.0).count();
     let damped = description.damping != DampingKind::Zero;
-    match negative {
+    at.stability = match negative {
         0 => Stability::Neutral { zero },
         _ if negative % 2 == 0 && damped => judged,
         _ => Stability::Divergent { negative },
-    }
+    };
 }

@@ -3,7 +3,7 @@
 use super::curve::{Corrected, Curve, Trouble};
 use super::ends::STRAY;
 use super::frame::Place;
-use super::special::{Junction, Located, SpecialPoint, at_critical};
+use super::special::{Junction, Located, SpecialPoint, make_critical};
 use super::station::Station;
 use super::{BranchEnd, BranchPoint};
 use crate::Mechanism;
@@ -132,9 +132,7 @@ where
         let mut equilibrium = station.equilibrium;
         if station.signs.vertical {
             // Equilibria side by side at one input: the mode along them is neutral.
-            let linear = equilibrium.linear;
-            equilibrium.stability =
-                at_critical(equilibrium.stability, &linear, Self::DESCRIPTION, 1);
+            make_critical(&mut equilibrium, 1);
         }
         BranchPoint {
             value: station.place.p,

@@ -8,8 +8,8 @@ use super::quadratic::tangent_trouble;
 use super::{measure, projected};
 use crate::array::{dot, largest_element, times};
 use crate::constraints::{Structure, Tangent};
-use crate::modes::neutral_threshold;
 use crate::modes::symmetric::{self, Trouble};
+use crate::rounding::of_form;
 use crate::{Description, Linear};
 
 /// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that constraints leave free, ascending.
@@ -18,8 +18,7 @@ pub(crate) struct FreePairs<const N: usize> {
     lambda: [f64; N],
     shapes: [[f64; N]; N],
     residuals: [f64; N],
-    /// Eigenvalues of no greater size cannot be told from zero.
-    pub(crate) threshold: f64,
+    errors: [f64; N],
 }
 
 impl<const N: usize> FreePairs<N> {
@@ -36,6 +35,11 @@ impl<const N: usize> FreePairs<N> {
     /// Relative residuals on the bordered pencil.
     pub(crate) fn residuals(&self) -> &[f64] {
         &self.residuals[..self.count]
+    }
+
+    /// How far each eigenvalue may be off by rounding.
+    pub(crate) fn errors(&self) -> &[f64] {
+        &self.errors[..self.count]
     }
 
     /// Number of eigenvalues below zero.
@@ -57,10 +61,10 @@ pub(crate) fn free_pairs<const N: usize>(
         let pairs = symmetric::solve(&linear.stiffness, &linear.mass)?;
         return Ok(FreePairs {
             count: N,
-            threshold: neutral_threshold(&pairs.lambda),
             lambda: pairs.lambda,
             shapes: pairs.shapes,
             residuals: pairs.residuals,
+            errors: pairs.errors,
         });
     }
     if !structure.holonomic() {
@@ -92,17 +96,16 @@ fn reduced_pairs<const N: usize>(
         lambda: [0.0; N],
         shapes: [[0.0; N]; N],
         residuals: [0.0; N],
-        threshold: 0.0,
+        errors: [0.0; N],
     };
     symmetric::solve_on(
         f,
         (stiffness, mass),
         &mut pairs.lambda[..f],
         reduced,
-        &mut pairs.residuals[..f],
+        (&mut pairs.residuals[..f], &mut pairs.errors[..f]),
     )
     .map_err(|trouble| tangent_trouble(trouble, tangent))?;
-    pairs.threshold = neutral_threshold(&pairs.lambda[..f]);
     for r in 0..f {
         let mut y = [0.0; N];
         y[..f].copy_from_slice(&reduced[r * f..(r + 1) * f]);
@@ -113,7 +116,7 @@ fn reduced_pairs<const N: usize>(
         let complete = with_reactions(linear, tangent, *lambda, &x);
         let (numerator, rounding) = quotient(linear, *lambda, &complete);
         *lambda += numerator;
-        pairs.threshold = pairs.threshold.max(rounding);
+        pairs.errors[r] = pairs.errors[r].max(rounding);
         pairs.shapes[r] = with_reactions(linear, tangent, *lambda, &x);
         pairs.residuals[r] = residual(linear, tangent, *lambda, &pairs.shapes[r]);
         let residual = pairs.residuals[r];
@@ -154,14 +157,8 @@ fn quotient<const N: usize>(linear: &Linear<f64, N>, lambda: f64, phi: &[f64; N]
     let (k, m) = (times(&linear.stiffness, phi), times(&linear.mass, phi));
     let size = dot(phi, &m);
     let numerator = dot(phi, &k) - lambda * size;
-    let mut terms = 0.0;
-    for i in 0..N {
-        for j in 0..N {
-            let element = linear.stiffness[i][j].abs() + (lambda * linear.mass[i][j]).abs();
-            terms += phi[i].abs() * element * phi[j].abs();
-        }
-    }
-    (numerator / size, f64::EPSILON * terms / size)
+    let rounding = of_form(&linear.stiffness, phi) + lambda.abs() * of_form(&linear.mass, phi);
+    (numerator / size, rounding / size)
 }
 
 /// Greatest component of `(K - lambda M) phi` relative to the sums of absolute terms: of the equations of motion, and of

@@ -1,0 +1,110 @@
+//! What is zero but for rounding. Stability, modes, tolerances and reports all decide here whether a number is negative, zero
+//! or positive: against the error that it may have.
+
+use crate::array::{Lu, Square, dot, transpose};
+use crate::{Linear, Mechanism};
+
+/// A value that may be off by an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sign {
+    Negative,
+    /// Within the error.
+    Zero,
+    Positive,
+}
+
+/// The sign of `value`, as far as `error` lets it be seen.
+#[inline]
+pub(crate) fn sign(value: f64, error: f64) -> Sign {
+    if value > error {
+        Sign::Positive
+    } else if value < -error {
+        Sign::Negative
+    } else {
+        Sign::Zero
+    }
+}
+
+/// Rounding of the elements of `n` by `n` matrices, relative to each element. Relative to each, not to the greatest: a soft
+/// mode beside a stiff one is as well determined as if it were alone (J. Barlow and J. Demmel, "Computing accurate
+/// eigensystems of scaled diagonally dominant matrices", 1990).
+#[inline]
+pub(crate) const fn of_elements(n: usize) -> f64 {
+    4.0 * n as f64 * f64::EPSILON
+}
+
+/// What rounding of the elements of a matrix changes in `phi^T matrix phi`.
+pub(crate) fn of_form<const N: usize>(matrix: &Square<N>, phi: &[f64; N]) -> f64 {
+    let mut terms = 0.0;
+    for (row, left) in matrix.iter().zip(phi) {
+        for (element, right) in row.iter().zip(phi) {
+            terms += (left * element * right).abs();
+        }
+    }
+    of_elements(N) * terms
+}
+
+/// Rounding of an input, a design variable or a coordinate, relative to it, with that of the operations in which it takes part.
+const OF_DATA: f64 = 8.0 * f64::EPSILON;
+
+/// A state and what remains of its residual.
+pub(crate) struct Place<'a, const N: usize, const U: usize, const P: usize> {
+    pub(crate) coordinates: &'a [f64; N],
+    pub(crate) inputs: &'a [f64; U],
+    pub(crate) design: &'a [f64; P],
+    pub(crate) residual: &'a [f64; N],
+}
+
+/// What rounding of the data changes in an eigenvalue `lambda` of `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`, the shift
+/// of the equilibrium included. An element of `Khat` may be the small rest of great terms that cancel, as where weight and
+/// centrifugal forces do at a critical speed: its own size says nothing of its error, its derivatives do.
+#[cold]
+#[inline(never)]
+pub(crate) fn of_data<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    mechanism: &M,
+    at: &Place<'_, N, U, P>,
+    linear: &Linear<f64, N>,
+    (lambda, phi): (f64, &[f64; N]),
+) -> f64
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let (q, u, b) = (at.coordinates, at.inputs, at.design);
+    let mut slopes = mechanism.mode_gradient(q, u, b, phi, lambda);
+    let mut rest = 0.0;
+    let direct = terms(&slopes.coordinates, q);
+    if let Some(factors) = Lu::new(&transpose(&linear.stiffness)) {
+        let adjoint = factors.solve(&slopes.coordinates);
+        let shift = mechanism.residual_gradient(q, u, b, &adjoint);
+        for (slope, shift) in slopes.inputs.iter_mut().zip(shift.inputs) {
+            *slope -= shift;
+        }
+        for (slope, shift) in slopes.design.iter_mut().zip(shift.design) {
+            *slope -= shift;
+        }
+        rest = dot(&adjoint, at.residual).abs();
+    }
+    OF_DATA * (direct + terms(&slopes.inputs, u) + terms(&slopes.design, b)) + rest
+}
+
+/// Sum of the absolute products.
+fn terms<const K: usize>(slopes: &[f64; K], values: &[f64; K]) -> f64 {
+    let products = slopes.iter().zip(values);
+    products.fold(0.0, |sum, (slope, value)| sum + (slope * value).abs())
+}
+
+/// Whether `Khat` is so clearly positive definite that no rounding matters, by its pivots `D` in `L D L^T` beside its own
+/// diagonal and that of `Mhat`: no pivot is a small rest of its element, and no stiffness so small that its element could be
+/// the rest of greater terms.
+#[inline]
+pub(crate) fn clear<const N: usize>(pivots: &[f64; N], linear: &Linear<f64, N>) -> bool {
+    (0..N).all(|i| {
+        pivots[i] > CANCELLED * linear.stiffness[i][i] && pivots[i] > SLOW * linear.mass[i][i]
+    })
+}
+
+/// Share of its element below which a pivot may be rounding.
+const CANCELLED: f64 = 1e-6;
+/// Least eigenvalue, 1/s^2, that is not looked at closely: the rounding of terms up to 1e12 1/s^2 stays below it. It spares
+/// ordinary states the derivatives that tell.
+pub(crate) const SLOW: f64 = 1e-3;
