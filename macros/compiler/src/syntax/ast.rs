@@ -15,6 +15,28 @@ pub struct Ast {
     pub name: Ident,
     /// Items in order.
     pub items: Vec<Item>,
+    /// Items with a syntax error, in order.
+    pub unread: Vec<Unread>,
+}
+
+/// What is known of an item that could not be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unread {
+    /// The word it starts with.
+    pub keyword: Option<Ident>,
+    /// The names it would have declared, as far as they could be read.
+    pub names: Vec<Ident>,
+}
+
+impl Unread {
+    /// Unless its keyword says otherwise, it may be a body, a joint or a constraint.
+    pub fn may_connect(&self) -> bool {
+        const OTHERS: [&str; 7] = [
+            "input", "design", "let", "gravity", "point", "force", "output",
+        ];
+        let keyword = self.keyword.as_ref();
+        !keyword.is_some_and(|keyword| OTHERS.iter().any(|other| keyword == other))
+    }
 }
 
 /// An item with its documentation.

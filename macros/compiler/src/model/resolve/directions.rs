@@ -14,7 +14,7 @@ impl Resolver<'_> {
             return Some(axis);
         }
         if let ValueKind::Name(name) = &value.bare().kind
-            && self.scope.find(&name.to_string()).is_none()
+            && self.scope.find_or_unread(&name.to_string()).is_none()
         {
             self.diagnostics.error_with_help(
                 name,

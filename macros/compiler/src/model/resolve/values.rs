@@ -68,11 +68,11 @@ impl Resolver<'_> {
         {
             return self.tension_word(word, name);
         }
-        let Some(meaning) = self.scope.find(&text) else {
+        let Some(meaning) = self.scope.find_or_unread(&text) else {
             self.unknown_value(name, place);
             return None;
         };
-        if place == Place::Nominal {
+        if place == Place::Nominal && meaning != Meaning::Unread {
             self.diagnostics.error_with_help(
                 name,
                 format!(
@@ -117,6 +117,8 @@ impl Resolver<'_> {
                 );
                 None
             }
+            // Reported where it is declared.
+            Meaning::Unread => None,
             Meaning::Body(_) | Meaning::Point(_) | Meaning::Force | Meaning::Constraint(_) => {
                 let kind = meaning.describe();
                 self.diagnostics

@@ -1,5 +1,7 @@
 //! Rules about the mechanism as a whole.
 
-mod composite;
+pub(super) mod composite;
+mod moments;
 pub(super) mod physical;
 pub(super) mod presence;
+pub(super) mod tensor;

@@ -4,7 +4,7 @@ use super::super::typed::Place;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
-use crate::model::rules::physical::Demand;
+use crate::model::rules::composite::GivenInertia;
 use crate::model::simplify::{add, componentwise, multiply, power_integer, subtract};
 use crate::syntax::ast::{Value, ValueKind};
 
@@ -30,7 +30,14 @@ impl Quantities<'_, '_, '_> {
             },
         };
         if let Some(central) = central {
-            self.require("inertia", central.to_vec(), Demand::Inertia, value);
+            let what = format!("the inertia of `{}`", self.body);
+            self.resolver.require_finite(&central, &what, value.extent);
+            self.resolver.given_inertias.push(GivenInertia {
+                body: self.body.clone(),
+                tensor: tensor.clone(),
+                central,
+                extent: value.extent,
+            });
         }
         Some(tensor)
     }
