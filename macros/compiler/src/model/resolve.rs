@@ -34,7 +34,7 @@ use super::expression::Expr;
 use super::mechanism::{Constant, Coordinate, Mechanism, Part};
 use super::rules::composite::GivenInertia;
 use super::rules::physical::{self, Demand, Requirement};
-use super::rules::presence;
+use super::rules::{attributes, presence};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -75,6 +75,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let forces = resolver.forces();
     let constraints = resolver.constraints();
     let outputs = resolver.outputs();
+    attributes::check(ast, &mut resolver.diagnostics);
     presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
     physical::check(
         &resolver.requirements,

@@ -401,6 +401,25 @@ impl Value {
         }
     }
 
+    /// Every name in it that stands for a value, in order.
+    pub fn names(&self) -> Vec<&Ident> {
+        let mut names = Vec::new();
+        let mut rest = vec![self];
+        while let Some(value) = rest.pop() {
+            match &value.kind {
+                ValueKind::Number(..) => {}
+                ValueKind::Name(name) => names.push(name),
+                ValueKind::Vector(values, _) | ValueKind::Call(_, values) => {
+                    rest.extend(values.iter().rev());
+                }
+                ValueKind::Negate(of) | ValueKind::Component(of, _) => rest.push(of),
+                ValueKind::Parenthesised(of) => rest.push(of),
+                ValueKind::Binary(binary) => rest.extend([&binary.right, &binary.left]),
+            }
+        }
+        names
+    }
+
     /// The value inside any number of parentheses.
     pub fn bare(&self) -> &Value {
         match &self.kind {

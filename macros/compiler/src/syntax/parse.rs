@@ -123,6 +123,9 @@ fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> (Vec<Item>, Vec<
     (items, unread)
 }
 
+/// What to write instead of `3,5`.
+const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
+
 fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> {
     let kind = item::item(tokens)?;
     if tokens.sign(';').is_none() {
@@ -131,6 +134,7 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> 
             diagnostics.error(tokens.last, "expected `;` after this");
         } else {
             return tokens.expected("`;`").map_err(|error| match kind {
+                _ if tokens.peek_decimal_comma() => Box::new(error.with_help(DECIMAL_POINT)),
                 ItemKind::Design(_) if tokens.peek_sign('%') => {
                     Box::new(error.with_help("a tolerance is written `+/- 3%`"))
                 }

@@ -186,6 +186,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// A comma and a number are next: where no list goes on, it is a decimal comma.
+    pub(super) fn peek_decimal_comma(&self) -> bool {
+        let mut ahead = *self;
+        ahead.sign(',').is_some() && ahead.literal().is_some()
+    }
+
     /// A name that can be declared or referred to.
     pub(super) fn name(&mut self, what: &str) -> Parsed<Ident> {
         let Some(ident) = self.peek_ident() else {

@@ -28,8 +28,8 @@ pub(super) enum Meaning {
     Force,
     Constraint(ConstraintId),
     Output,
-    /// Something that could not be read: all that is known of it is that it was meant.
-    Unread,
+    /// Of something that could not be read, or of several things: uses of the name are not judged.
+    Unclear,
 }
 
 impl Meaning {
@@ -51,7 +51,7 @@ impl Meaning {
             Meaning::Force => "a force",
             Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
-            Meaning::Unread => "an item that could not be read",
+            Meaning::Unclear => "something",
         }
     }
 }
@@ -105,7 +105,7 @@ impl Scope {
             scope.is_incomplete |= unread.names.is_empty();
             for name in unread.names.iter().map(Ident::to_string) {
                 if scope.find(&name).is_none() && reserved(&name).is_none() {
-                    scope.enter(name, Meaning::Unread);
+                    scope.enter(name, Meaning::Unclear);
                 }
             }
         }
@@ -147,8 +147,15 @@ impl Scope {
             diagnostics.error(name, format!("`{text}` cannot be declared: it is {reason}"));
             self.is_ambiguous = true;
         } else if let Some(&first) = self.by_name.get(&text) {
-            let kind = self.order[first].1.describe();
-            let message = format!("`{text}` is declared twice: it is {kind} already");
+            let first = &mut self.order[first].1;
+            let message = match *first {
+                Meaning::Unclear => format!("`{text}` is declared more than once"),
+                first => format!(
+                    "`{text}` is declared twice: it is {} already",
+                    first.describe()
+                ),
+            };
+            *first = Meaning::Unclear;
             diagnostics.error_with_help(name, message, "all kinds of names share one namespace");
             self.is_ambiguous = true;
         } else {
@@ -162,9 +169,9 @@ impl Scope {
     }
 
     /// What the name stands for. A name that is not declared may be the one that could not be read.
-    pub(super) fn find_or_unread(&self, name: &str) -> Option<Meaning> {
+    pub(super) fn find_or_unclear(&self, name: &str) -> Option<Meaning> {
         self.find(name)
-            .or(self.is_incomplete.then_some(Meaning::Unread))
+            .or(self.is_incomplete.then_some(Meaning::Unclear))
     }
 
     pub(super) fn find(&self, name: &str) -> Option<Meaning> {

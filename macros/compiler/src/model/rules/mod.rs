@@ -1,5 +1,6 @@
 //! Rules about the mechanism as a whole.
 
+pub(super) mod attributes;
 pub(super) mod composite;
 mod moments;
 pub(super) mod physical;

@@ -1,6 +1,7 @@
 //! The inertia of a rigid body of any shape.
 
 use super::super::typed::Place;
+use super::super::values::is_matrix;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
@@ -46,6 +47,14 @@ impl Quantities<'_, '_, '_> {
         let ValueKind::Vector(entries, unit) = &value.bare().kind else {
             return self.wrong_inertia(value);
         };
+        if is_matrix(entries) {
+            self.resolver.diagnostics.error_with_help(
+                value.extent,
+                "an inertia is a list of 3 or 6 entries, not a matrix",
+                "write `[Jxx, Jyy, Jzz, Jxy, Jyz, Jxz] kg*m^2`, every entry with the sign it has in the matrix",
+            );
+            return None;
+        }
         if entries.len() != 3 && entries.len() != 6 {
             return self.wrong_inertia(value);
         }
