@@ -65,7 +65,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let scope = Scope::new(ast, &coordinates, &mut diagnostics);
     let mut resolver = Resolver::new(ast, coordinates, scope, diagnostics);
     let inputs = resolver.inputs();
-    let design = resolver.design_variables();
+    let mut design = resolver.design_variables();
     resolver.named_constants();
     let gravity = resolver.gravity();
     let bodies = resolver.bodies();
@@ -84,6 +84,9 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         inputs.len(),
         &mut resolver.diagnostics,
     );
+    for (variable, is_used) in design.iter_mut().zip(&resolver.used_design) {
+        variable.is_used = *is_used;
+    }
     let mechanism = Mechanism {
         name: ast.name.clone(),
         visibility: ast.visibility.clone(),
@@ -147,6 +150,7 @@ struct Resolver<'a> {
     scope: Scope,
     inputs: Vec<Option<Dimension>>,
     design: Vec<Option<Nominal>>,
+    used_design: Vec<bool>,
     lets: Vec<Option<Typed>>,
     constants: Vec<Constant>,
     coordinates: Vec<Declared<'a>>,
@@ -170,6 +174,7 @@ impl<'a> Resolver<'a> {
             scope,
             inputs: Vec::new(),
             design: Vec::new(),
+            used_design: Vec::new(),
             lets: Vec::new(),
             constants: Vec::new(),
             coordinates,
@@ -214,5 +219,30 @@ impl<'a> Resolver<'a> {
         self.coordinates.iter().any(moves)
             || coordinates::joints(self.ast).any(unknown)
             || self.ast.unread.iter().any(Unread::may_connect)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::arguments::Signature;
+    use super::{bodies, constraints, forces, joints::kinds::Kind};
+    use crate::syntax::parse::INSIDE;
+
+    /// The parser tells a misplaced word from an unknown one; `point` starts an item too.
+    #[test]
+    fn the_parser_knows_the_words_inside_items() {
+        let words = |table: &[Signature]| {
+            let words = table.iter().map(|row| row.word);
+            words.filter(|word| *word != "point").collect::<Vec<_>>()
+        };
+        let known = [
+            ("body", words(bodies::SHAPES)),
+            ("joint", Kind::words().collect()),
+            ("force", words(forces::LAWS)),
+            ("constraint", words(constraints::KINDS)),
+        ];
+        for ((keyword, inside), (expected, words)) in INSIDE.iter().zip(known) {
+            assert_eq!((*keyword, inside.to_vec()), (expected, words));
+        }
     }
 }

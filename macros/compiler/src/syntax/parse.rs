@@ -8,6 +8,9 @@ mod placement;
 mod unit;
 mod value;
 
+#[cfg(test)]
+pub(crate) use self::item::INSIDE;
+
 use proc_macro2::{Delimiter, Ident, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;

@@ -9,7 +9,8 @@ use std::rc::Rc;
 use proc_macro2::Ident;
 
 use self::quantities::Quantities;
-use self::shapes::{SHAPES, SYNONYMS};
+pub(super) use self::shapes::SHAPES;
+use self::shapes::SYNONYMS;
 use super::Resolver;
 use super::coordinates;
 use super::joints::kinds::Kind;

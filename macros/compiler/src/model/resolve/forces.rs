@@ -18,7 +18,7 @@ use crate::syntax::ast::{self, ItemKind, ValueKind};
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
-const LAWS: &[Signature] = &[
+pub(super) const LAWS: &[Signature] = &[
     Signature::new(
         "spring",
         &["on", "stiffness"],

@@ -89,6 +89,7 @@ impl Resolver<'_> {
                 Some(Typed::Scalar(Expr::Input(id), Quantity::Of(dimension)))
             }
             Meaning::Design(id) => {
+                *self.used_design.get_mut(id.index())? = true;
                 let dimension = self.design.get(id.index())?.as_ref()?.dimension;
                 Some(Typed::Scalar(Expr::Design(id), Quantity::Of(dimension)))
             }

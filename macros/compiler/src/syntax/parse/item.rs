@@ -31,7 +31,7 @@ pub(super) const KEYWORDS: [&str; 10] = [
 ];
 
 /// What other tools and languages call an item.
-const SYNONYMS: [(&str, &str); 18] = [
+const SYNONYMS: [(&str, &str); 17] = [
     ("motor", "force"),
     ("param", "design"),
     ("parameter", "design"),
@@ -45,7 +45,6 @@ const SYNONYMS: [(&str, &str); 18] = [
     ("site", "point"),
     ("loop", "constraint"),
     ("closure", "constraint"),
-    ("coupling", "constraint"),
     ("equality", "constraint"),
     ("contact", "constraint"),
     ("element", "force"),
@@ -91,7 +90,14 @@ pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
     ),
     (
         "constraint",
-        &["coincident", "aligned", "distance", "equation", "rolling"],
+        &[
+            "coincident",
+            "aligned",
+            "distance",
+            "coupling",
+            "equation",
+            "rolling",
+        ],
     ),
 ];
 
