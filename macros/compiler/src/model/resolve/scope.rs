@@ -102,7 +102,11 @@ impl Scope {
             }
         }
         for unread in &ast.unread {
-            scope.is_incomplete |= unread.names.is_empty();
+            let is_gravity = unread
+                .keyword
+                .as_ref()
+                .is_some_and(|word| word == "gravity");
+            scope.is_incomplete |= unread.names.is_empty() && !is_gravity;
             for name in unread.names.iter().map(Ident::to_string) {
                 if scope.find(&name).is_none() && reserved(&name).is_none() {
                     scope.enter(name, Meaning::Unclear);
