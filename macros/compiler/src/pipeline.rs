@@ -9,10 +9,10 @@ use crate::base::diagnostics::Diagnostics;
 use crate::emit::emit;
 use crate::mechanics::{Functions, Limits, derive};
 use crate::model::mechanism::Mechanism;
-use crate::model::resolve::resolve;
+use crate::model::resolve::resolve_what_is_right;
 use crate::program::{Program, lower};
 use crate::syntax::ast::Ast;
-use crate::syntax::parse::parse;
+use crate::syntax::parse::parse_what_can_be_read;
 use crate::syntax::print::print;
 use crate::topology::Topology;
 use crate::topology::build::build;
@@ -32,12 +32,10 @@ pub struct Compilation {
     pub program: Program,
 }
 
-/// Runs every stage up to the program. The mistakes of one stage are reported together; a later stage runs only on
-/// what the earlier ones accepted.
+/// Runs every stage up to the program. Mistakes of syntax, of names and values, and of what hangs on what are reported
+/// together; the equations are derived only where there are none.
 pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, Diagnostics> {
-    let ast = parse(declaration)?;
-    let mechanism = resolve(&ast)?;
-    let topology = build(&mechanism)?;
+    let (ast, mechanism, topology) = accepted(declaration)?;
     let mut functions = derive(&mechanism, &topology, limits)?;
     let kernels = regrouped_kernels(&mut functions);
     let program = lower(&functions.graph, &kernels);
@@ -48,6 +46,27 @@ pub fn compile(declaration: TokenStream, limits: Limits) -> Result<Compilation, 
         functions,
         program,
     })
+}
+
+/// The stages that look for mistakes: each goes on with what the one before could make sense of.
+fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diagnostics> {
+    let mut mistakes = Diagnostics::new();
+    let Some(ast) = parse_what_can_be_read(declaration, &mut mistakes) else {
+        return Err(mistakes);
+    };
+    let resolution = resolve_what_is_right(&ast);
+    mistakes.append(resolution.mistakes);
+    if !resolution.is_connected {
+        return Err(mistakes);
+    }
+    let mechanism = resolution.mechanism;
+    match build(&mechanism) {
+        Ok(topology) => mistakes.into_result((ast, mechanism, topology)),
+        Err(more) => {
+            mistakes.append(more);
+            Err(mistakes)
+        }
+    }
 }
 
 /// Kernels whose residual a solver compares: it has to be the same number in each.

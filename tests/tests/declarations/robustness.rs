@@ -1,6 +1,8 @@
 //! No input whatever panics, and none is refused without a reason.
 
 use eigentol_compiler::base::diagnostics::Diagnostics;
+use eigentol_compiler::compile;
+use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::resolve::resolve;
 use eigentol_compiler::syntax::parse::parse;
 use eigentol_compiler::syntax::print::print;
@@ -23,9 +25,16 @@ const FUZZED: [&str; 4] = [
 /// Runs the front half; counts what got how far.
 fn survive(tokens: TokenStream, stages: &mut [usize; 3]) {
     let report = |errors: Diagnostics| assert!(!errors.into_compile_errors().is_empty());
-    let ast = match parse(tokens) {
+    let ast = match parse(tokens.clone()) {
         Ok(ast) => ast,
-        Err(errors) => return report(errors),
+        Err(errors) => {
+            let syntax = errors.len();
+            report(errors);
+            // The later stages look at what could be read.
+            let all = compile(tokens, Limits::default()).expect_err("a syntax error");
+            assert!(all.len() >= syntax);
+            return survived(all);
+        }
     };
     stages[0] += 1;
     let text = print(&ast);

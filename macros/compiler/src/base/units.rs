@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::dimension::Dimension;
+use super::nearest::nearest;
 
 /// A unit name with its meaning: a value in SI is the value in this unit times `scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,8 +77,76 @@ fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
+/// What others write for a unit, and what to write here.
+const WORDS: [(&str, &str); 50] = [
+    ("metre", "m"),
+    ("meter", "m"),
+    ("millimetre", "mm"),
+    ("millimeter", "mm"),
+    ("centimetre", "cm"),
+    ("centimeter", "cm"),
+    ("kilometre", "km"),
+    ("kilometer", "km"),
+    ("in", "inch"),
+    ("inches", "inch"),
+    ("foot", "ft"),
+    ("feet", "ft"),
+    ("gram", "g"),
+    ("kilogram", "kg"),
+    ("kilo", "kg"),
+    ("kgs", "kg"),
+    ("tonne", "t"),
+    ("ton", "t"),
+    ("lbs", "lb"),
+    ("pound", "lb"),
+    ("second", "s"),
+    ("sec", "s"),
+    ("millisecond", "ms"),
+    ("minute", "min"),
+    ("hour", "h"),
+    ("hr", "h"),
+    ("newton", "N"),
+    ("kilonewton", "kN"),
+    ("pascal", "Pa"),
+    ("megapascal", "MPa"),
+    ("joule", "J"),
+    ("watt", "W"),
+    ("kilowatt", "kW"),
+    ("hertz", "Hz"),
+    ("radian", "rad"),
+    ("degree", "deg"),
+    ("revolution", "rev"),
+    ("turn", "rev"),
+    ("rps", "Hz"),
+    ("mps", "m/s"),
+    ("kmh", "km/h"),
+    ("kph", "km/h"),
+    ("Nm", "N*m"),
+    ("kNm", "kN*m"),
+    ("mNm", "mN*m"),
+    ("Nmm", "N*mm"),
+    ("Nms", "N*m*s"),
+    ("kgm", "kg*m"),
+    ("kgm2", "kg*m^2"),
+    ("mm2", "mm^2"),
+];
+
+/// What is probably meant by an unknown unit: the symbol for a word, in singular or plural, else the nearest symbol.
+pub fn suggestion(name: &str) -> Option<&'static str> {
+    let singular = name.strip_suffix('s').unwrap_or(name);
+    let word = |name: &str| {
+        WORDS
+            .iter()
+            .find(|(word, _)| word.eq_ignore_ascii_case(name))
+    };
+    match word(name).or_else(|| word(singular)) {
+        Some((_, symbol)) => Some(symbol),
+        None => nearest(name, names()),
+    }
+}
+
 /// Names to suggest for a misspelt unit, the usual ones first.
-pub fn names() -> impl Iterator<Item = &'static str> {
+fn names() -> impl Iterator<Item = &'static str> {
     const PREFIXED_IN_USE: [&str; 22] = [
         "kg", "mm", "cm", "um", "km", "mg", "ms", "us", "kN", "mN", "MN", "kPa", "MPa", "GPa",
         "mJ", "kJ", "mW", "kW", "kHz", "mrad", "dm", "ns",
@@ -124,6 +193,28 @@ mod tests {
     #[test]
     fn pound_force_is_a_pound_in_standard_gravity() {
         assert!((scale("lbf") - scale("lb") * 9.80665).abs() < 1e-15);
+    }
+
+    #[test]
+    fn words_stand_for_symbols() {
+        for (name, symbol) in [
+            ("metre", "m"),
+            ("Seconds", "s"),
+            ("Nm", "N*m"),
+            ("kgg", "kg"),
+        ] {
+            assert_eq!(suggestion(name), Some(symbol));
+        }
+        assert_eq!(suggestion("celsius"), None);
+        for (_, symbol) in WORDS {
+            let parts = symbol.split(['*', '/', '^']);
+            assert!(
+                parts
+                    .filter(|part| *part != "2")
+                    .all(|part| find(part).is_some()),
+                "{symbol}"
+            );
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::algebra::Unary;
 use crate::program::{Kernel, Operand, Operation};
 
 use super::expression::Text;
-use super::names::{Names, wanted};
+use super::names::{Names, local, wanted};
 use super::sines::{Group, groups};
 
 /// Statements in one block. A long chain of plain `let`s nests one scope per statement, which rustc cannot take beyond a
@@ -17,8 +17,8 @@ const BLOCK: usize = 256;
 const INLINE: usize = 6;
 
 /// Names that the emitter writes itself around the statements.
-const RESERVED: [&str; 10] = [
-    "T", "self", "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
+const RESERVED: [&str; 8] = [
+    "zero", "result", "value", "volume", "margin", "smaller", "least", "known",
 ];
 
 /// A method body: statements, and the text of every operand that results refer to.
@@ -107,7 +107,7 @@ impl<'a> Body<'a> {
             let mut entries = Vec::new();
             for (entry, wanted) in parameter.entries.iter().enumerate() {
                 if parameter.scalar {
-                    entries.push(parameter.name.to_owned());
+                    entries.push(local(parameter.name));
                     continue;
                 }
                 if !used[entry] {
@@ -115,7 +115,7 @@ impl<'a> Body<'a> {
                     continue;
                 }
                 let name = names.unique(wanted);
-                let value = format!("{}[{entry}]", parameter.name);
+                let value = format!("{}[{entry}]", local(parameter.name));
                 self.let_one(&name, value);
                 entries.push(name);
             }
@@ -273,8 +273,8 @@ impl<'a> Body<'a> {
             return None;
         }
         let text = self.text(operand).text;
-        text.bytes()
-            .all(|b| b.is_ascii_alphanumeric() || b == b'_')
-            .then_some(text)
+        let is_word = text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+        let name = text.strip_suffix('_').filter(|_| is_word)?;
+        Some(name.to_owned())
     }
 }

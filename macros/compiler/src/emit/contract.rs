@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::algebra::Stage;
 use crate::program::Kernel;
 
+use super::names::local;
 use super::results::Results;
 
 /// Numbers of free coordinates, inputs, design variables and outputs.
@@ -79,9 +80,9 @@ pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
     text += &inlined(&head(kernel, &hidden, "", &kind, ""), &results.body());
     if let Some(stores) = results.stores() {
         let (into, hidden) = (format!("{name}_into"), format!("{name}_into_inlined"));
-        let head = |name: &str| head(kernel, name, &format!("result: &mut {kind}"), "()", "");
+        let head = |name: &str| head(kernel, name, &format!("result_: &mut {kind}"), "()", "");
         text += &head(&into);
-        text += &run(kernel, &call(kernel, &hidden, "result"));
+        text += &run(kernel, &call(kernel, &hidden, "result_"));
         text += &inlined(&head(&hidden), &stores);
     }
     text
@@ -89,8 +90,9 @@ pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
 
 /// A call of a variant of the kernel's method, with one more argument or none.
 pub(super) fn call(kernel: &Kernel, method: &str, last: &str) -> String {
-    let names = kernel.parameters.iter().map(|p| p.name);
-    let arguments: Vec<&str> = names.chain((!last.is_empty()).then_some(last)).collect();
+    let names = kernel.parameters.iter().map(|p| local(p.name));
+    let last = (!last.is_empty()).then(|| last.to_owned());
+    let arguments: Vec<String> = names.chain(last).collect();
     format!("self.{method}({})", arguments.join(", "))
 }
 
@@ -122,7 +124,7 @@ fn head(kernel: &Kernel, name: &str, last: &str, returned: &str, bound: &str) ->
             true => "T".to_owned(),
             false => format!("&[T; {}]", parameter.entries.len()),
         };
-        let _ = write!(parameters, ", {}: {kind}", parameter.name);
+        let _ = write!(parameters, ", {}: {kind}", local(parameter.name));
     }
     if !last.is_empty() {
         let _ = write!(parameters, ", {last}");

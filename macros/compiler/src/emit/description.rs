@@ -1,6 +1,6 @@
 //! Names, units and nominal values for the runtime, and handles for the user's code.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::mechanics::{Damping, Functions, Role, Unknown};
@@ -76,8 +76,8 @@ pub(super) fn description(
 /// to it.
 pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStream {
     let visibility = &mechanism.visibility;
-    let handle = |name: &proc_macro2::Ident, kind: &str, index: usize, doc: String| {
-        let kind = proc_macro2::Ident::new(kind, proc_macro2::Span::call_site());
+    let handle = |name: &Ident, kind: &str, index: usize, doc: String| {
+        let kind = Ident::new(kind, Span::call_site());
         quote_spanned! { name.span() =>
             #[doc = #doc]
             #visibility const #name: ::eigentol::#kind = ::eigentol::#kind(#index);
@@ -141,4 +141,32 @@ fn shown(unit: &Unit) -> &str {
 fn unit(unit: &Unit) -> TokenStream {
     let Unit { symbol, scale } = unit;
     quote! { ::eigentol::Unit { symbol: #symbol, scale: #scale } }
+}
+
+/// A variable that nothing reads for every design variable that nothing refers to: rustc warns where that is declared, and can
+/// be told not to, as of its own variables. The functions hide constants of the same names, which `let` would mean.
+pub(super) fn unused(mechanism: &Mechanism) -> TokenStream {
+    let unused = mechanism.design.iter().filter(|variable| !variable.is_used);
+    let names: Vec<_> = unused.map(|variable| &variable.name).collect();
+    if names.is_empty() {
+        return TokenStream::new();
+    }
+    let hidden = names
+        .iter()
+        .map(|name| Ident::new(&name.to_string(), Span::call_site()));
+    let levels = ["allow", "warn", "deny", "forbid"];
+    let is_level = |a: &&syn::Attribute| levels.iter().any(|level| a.path().is_ident(level));
+    let levels = mechanism.attributes.iter().filter(is_level);
+    let conditions = mechanism
+        .attributes
+        .iter()
+        .filter(|a| a.path().is_ident("cfg"));
+    quote! {
+        #(#conditions)*
+        #(#levels)*
+        const _: () = {
+            #(#[allow(dead_code, non_snake_case)] fn #hidden() {})*
+            #(#[allow(non_snake_case)] let #names = 0;)*
+        };
+    }
 }

@@ -3,12 +3,14 @@
 //! ```text
 //! pub struct Pendulum;
 //! impl Pendulum { pub const theta: Coordinate = Coordinate(0); pub const omega: Input = Input(0); .. }
+//! const _: () = {
+//! fn Pendulum() {} // so that a variable may have this name
 //! impl Mechanism<1, 1, 2, 0> for Pendulum {
 //!     const DESCRIPTION: Description = ..;
-//!     fn residual<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> [T; 1] {
-//!         let l = b[0];
-//!         let theta = q[0];
-//!         let (sin_theta, cos_theta) = theta.sin_cos();
+//!     fn residual<T: Real>(&self, q_: &[T; 1], u_: &[T; 1], b_: &[T; 2]) -> [T; 1] {
+//!         let l_ = b_[0];
+//!         let theta_ = q_[0];
+//!         let (sin_theta_, cos_theta_) = theta_.sin_cos();
 //!         ..
 //!     }
 //! }
@@ -69,6 +71,7 @@ pub fn emit<E: Debug>(
     } = mechanism;
     let handles = description::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
+    let unused = description::unused(mechanism);
     let contract::Sizes {
         coordinates,
         inputs,
@@ -90,11 +93,18 @@ pub fn emit<E: Debug>(
             #handles
         }
 
+        #unused
+
         #(#conditions)*
-        #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
-        impl ::eigentol::Mechanism<#coordinates, #inputs, #design, #outputs> for #name {
-            #description
-            #methods
-        }
+        const _: () = {
+            #[allow(dead_code, non_snake_case)]
+            fn #name() {}
+
+            #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
+            impl ::eigentol::Mechanism<#coordinates, #inputs, #design, #outputs> for #name {
+                #description
+                #methods
+            }
+        };
     }
 }

@@ -8,16 +8,13 @@ use crate::program::{Instruction, Operand, Operation};
 /// Longest name that is built from the names of two operands.
 const COMPOUND: usize = 28;
 
-/// Words in lower case that are no names.
-const KEYWORDS: [&str; 52] = [
-    "_", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
-    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
-    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
-    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-];
+/// The local variable of a name. Rust takes a variable spelt like a constant, a static or a unit struct of the user's module
+/// for that item, which may have any name that a person writes: nobody's ends like this. No keyword does either.
+pub(super) fn local(name: &str) -> String {
+    format!("{name}_")
+}
 
-/// Hands out names, each once.
+/// Hands out names of local variables, each once.
 pub(super) struct Names {
     taken: BTreeMap<String, usize>,
 }
@@ -32,19 +29,13 @@ impl Names {
         Self { taken }
     }
 
-    /// `wanted`, with a number behind it when it is taken already. In lower case: a local spelt like a constant or a unit
-    /// struct of the user's module would be a pattern that means that item.
+    /// The local variable of the name wanted, in lower case and with a number behind it when it is taken already.
     pub(super) fn unique(&mut self, wanted: &str) -> String {
-        let wanted = wanted.trim_start_matches("r#").to_lowercase();
-        let base = if KEYWORDS.contains(&wanted.as_str()) {
-            format!("{wanted}_value")
-        } else {
-            wanted
-        };
+        let base = wanted.to_lowercase();
         let count = self.taken.entry(base.clone()).or_insert(0);
         *count += 1;
         if *count == 1 {
-            return base;
+            return local(&base);
         }
         let mut number = *count;
         loop {
@@ -52,7 +43,7 @@ impl Names {
             if !self.taken.contains_key(&name) {
                 self.taken.insert(base, number);
                 self.taken.insert(name.clone(), 1);
-                return name;
+                return local(&name);
             }
             number += 1;
         }
@@ -116,32 +107,13 @@ fn function_name(operator: Unary) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{KEYWORDS, Names};
-
-    /// Of the words of Rust only `gen`, of edition 2024, is an identifier to syn.
-    #[test]
-    fn keywords_are_what_syn_refuses() {
-        let refused = |word: &str| syn::parse_str::<syn::Ident>(word).is_err();
-        for word in KEYWORDS {
-            assert!(refused(word) || word == "gen", "{word}");
-        }
-        for word in ["theta", "union", "default", "raw", "auto", "sum"] {
-            assert!(!refused(word) && !KEYWORDS.contains(&word), "{word}");
-        }
-    }
+    use super::Names;
 
     #[test]
     fn names_are_given_once() {
         let mut names = Names::new(["q"]);
-        let given = ["q", "sum", "Sum", "r#type", "type", "sum_2"].map(|name| names.unique(name));
-        let expected = [
-            "q_2",
-            "sum",
-            "sum_2",
-            "type_value",
-            "type_value_2",
-            "sum_2_2",
-        ];
+        let given = ["q", "sum", "Sum", "type", "sum_2"].map(|name| names.unique(name));
+        let expected = ["q_2_", "sum_", "sum_2_", "type_", "sum_2_2_"];
         assert_eq!(given, expected);
     }
 }

@@ -19,26 +19,26 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
     let _ = writeln!(text, "{{\n{}", body.statements());
     let _ = writeln!(
         text,
-        "let mut least: ::core::option::Option<::eigentol::PoseMargin<T>> = ::core::option::Option::None;"
+        "let mut least_: ::core::option::Option<::eigentol::PoseMargin<T>> = ::core::option::Option::None;"
     );
     for (pose, &volume) in poses.iter().zip(&kernel.results[0].values) {
         let _ = writeln!(
             text,
             "{{
-                let volume = {};
-                let margin = if volume < T::constant(0.0) {{ -volume }} else {{ volume }};
-                let smaller = match least {{
-                    ::core::option::Option::Some(known) => margin < known.margin,
+                let volume_ = {};
+                let margin_ = if volume_ < T::constant(0.0) {{ -volume_ }} else {{ volume_ }};
+                let smaller_ = match least_ {{
+                    ::core::option::Option::Some(known_) => margin_ < known_.margin,
                     ::core::option::Option::None => true,
                 }};
-                if smaller {{
-                    least = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: {:?}, margin }});
+                if smaller_ {{
+                    least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: {:?}, margin: margin_ }});
                 }}
             }}",
             body.text(volume).text,
             pose.joint,
         );
     }
-    let _ = writeln!(text, "least\n}}");
+    let _ = writeln!(text, "least_\n}}");
     text
 }

@@ -65,9 +65,9 @@ impl<'a> Results<'a> {
         }
         let into = format!("{}_into_inlined", self.kernel.name);
         format!(
-            "let zero = T::constant(0.0);\nlet mut result = {};\n{};\nresult",
+            "let zero_ = T::constant(0.0);\nlet mut result_ = {};\n{};\nresult_",
             self.zero(),
-            call(self.kernel, &into, "&mut result")
+            call(self.kernel, &into, "&mut result_")
         )
     }
 
@@ -99,9 +99,9 @@ impl<'a> Results<'a> {
 
     /// The whole result set to `zero`.
     fn zero(&self) -> String {
-        let array = |array: &Array| filled("zero", &array.shape);
+        let array = |array: &Array| filled("zero_", &array.shape);
         self.put_together(array, |arrays| {
-            let matrix = fields(arrays, |array| filled("zero", &array.shape[1..]));
+            let matrix = fields(arrays, |array| filled("zero_", &array.shape[1..]));
             format!("[::eigentol::Linear {matrix}; {}]", arrays[0].shape[0])
         })
     }
@@ -168,7 +168,7 @@ impl<'a> Results<'a> {
         let result = &self.kernel.results[array];
         let mut indices = indices(&result.shape, entry).into_iter();
         let which = indices.next().unwrap_or(0);
-        let mut place = format!("result.{}[{which}].{}", BY[array / 3], result.name);
+        let mut place = format!("result_.{}[{which}].{}", BY[array / 3], result.name);
         for index in indices {
             let _ = write!(place, "[{index}]");
         }

@@ -21,10 +21,10 @@ pub(super) fn method(kernel: &Kernel, requirements: &[Requirement]) -> String {
         let _ = writeln!(
             text,
             "{{
-                let value = {};
-                if !(value > T::constant(0.0)) {{
+                let value_ = {};
+                if !(value_ > T::constant(0.0)) {{
                     return ::core::option::Option::Some(::eigentol::Violation {{
-                        quantity: {:?}, requirement: {:?}, value,
+                        quantity: {:?}, requirement: {:?}, value: value_,
                     }});
                 }}
             }}",

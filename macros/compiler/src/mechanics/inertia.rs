@@ -192,7 +192,7 @@ impl MassDistribution {
 
     /// The distribution seen from a frame in which its own frame is placed: arms turn, and the offset `o` becomes one
     /// more arm, because `rho = o + R rho'`.
-    fn placed(mut self, g: &mut Graph, values: &Values, placement: &Placement) -> Self {
+    pub(super) fn placed(mut self, g: &mut Graph, values: &Values, placement: &Placement) -> Self {
         let (offset, rotation) = values.placement(g, placement);
         if let Some(rotation) = rotation {
             for arm in &mut self.arms {

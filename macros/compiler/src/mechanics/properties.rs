@@ -56,16 +56,36 @@ pub(super) fn check(
         let id = coordinates.copied().nth(k).expect("it moves");
         &problem.mechanism.coordinates[id.index()].name
     };
-    let without_inertia = coordinate_without_inertia(g, problem, jacobians);
-    if let Some(k) = without_inertia {
-        diagnostics.error_with_help(
-            name(k).span(),
-            format!(
-                "no mass moves when only `{}` changes, so its motion is undetermined",
-                name(k)
+    let massless = massless_motion(g, problem, jacobians);
+    let mut without_inertia = None;
+    if let Some(motion) = &massless {
+        let last = motion.last().map_or(0, |&(k, _)| k);
+        let named = |&(k, _): &(usize, _)| format!("`{}`", name(k));
+        let names: Vec<String> = motion.iter().map(named).collect();
+        let shares: Option<Vec<String>> = motion
+            .iter()
+            .map(|&(k, share)| Some(format!("`{}` by {}", name(k), share?)))
+            .collect();
+        let (message, help) = match (names.as_slice(), shares) {
+            ([only], _) => {
+                without_inertia = Some(last);
+                (
+                    format!(
+                        "no mass moves when only {only} changes, so its motion is undetermined"
+                    ),
+                    "give a mass to a body that this joint carries, or drive or fix the joint",
+                )
+            }
+            (names, shares) => (
+                format!(
+                    "no mass moves when {} change together{}, so this motion is undetermined",
+                    listed(names),
+                    shares.map_or(String::new(), |shares| format!(", {}", listed(&shares)))
+                ),
+                "give a mass or an inertia to a body between these joints, or drive or fix one of them",
             ),
-            "give a mass to a body that this joint carries, or drive or fix the joint",
-        );
+        };
+        diagnostics.error_with_help(name(last).span(), message, help);
     }
     for (k, column) in jacobians.stiffness.iter().enumerate() {
         let idle = vanish(g, problem, column).into_iter().all(|zero| zero);
@@ -128,14 +148,23 @@ pub(super) fn establish(g: &mut Graph, problem: &Problem, jacobians: &Jacobians)
     }
 }
 
-/// The first coordinate, free or coasting, that leaves the mass matrix singular at every probed state. Where constraints
-/// hold, only motions that they admit must move mass: along all others `A^T A` stands for it, `A` the derivatives of the
-/// constraints by the speeds.
-fn coordinate_without_inertia(
+/// `a`, `b` and `c`.
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => only.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// A motion of free and coasting coordinates that moves no mass at any probed state: which of them change, and by how much
+/// where that is the same everywhere. Where constraints hold, only motions that they admit must move mass: along all others
+/// `A^T A` stands for it, `A` the derivatives of the constraints by the speeds.
+fn massless_motion(
     g: &Graph,
     problem: &Problem,
     jacobians: &Jacobians,
-) -> Option<usize> {
+) -> Option<Vec<(usize, Option<f64>)>> {
     let (free, n) = problem.moving();
     let by_rate = |matrix: &[Vec<ExprId>], next: &[Vec<ExprId>], row: usize| -> Vec<ExprId> {
         let coordinates = matrix[..free].iter();
@@ -156,16 +185,23 @@ fn coordinate_without_inertia(
         };
         roots.extend(by_rate(demands, &jacobians.stiffness, n + k));
     }
-    let singular: Vec<Option<usize>> = probe(g, problem, &roots)
+    let motions: Option<Vec<Vec<f64>>> = probe(g, problem, &roots)
         .iter()
         .map(|values| {
             let values: Vec<f64> = values.iter().map(|v| v.value).collect();
             let (mass, constraints) = values.split_at(n * n);
-            first_zero_pivot(n, &with_constraints(n, mass, constraints))
+            null_vector(n, &with_constraints(n, mass, constraints))
         })
         .collect();
-    let first = singular.first().copied().flatten()?;
-    singular.iter().all(Option::is_some).then_some(first)
+    let motions = motions.filter(|motions| !motions.is_empty())?;
+    let is_zero = |share: f64| share.abs() < 1e-7;
+    let moving = (0..n).filter(|&k| motions.iter().any(|motion| !is_zero(motion[k])));
+    let share = |k: usize| {
+        let first = motions[0][k];
+        let constant = motions.iter().all(|motion| is_zero(motion[k] - first));
+        constant.then(|| format!("{first:.4}").parse().unwrap_or(first))
+    };
+    Some(moving.map(|k| (k, share(k))).collect())
 }
 
 /// `M + m sum a a^T / |a|^2`, `m` the greatest mass.
@@ -183,12 +219,19 @@ fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
     sum
 }
 
-/// Position of the first pivot of a symmetric matrix that vanishes against its diagonal entry.
-fn first_zero_pivot(n: usize, matrix: &[f64]) -> Option<usize> {
+/// A vector that a singular symmetric matrix takes to zero, its last component one: the pivot of that row vanishes against
+/// its diagonal entry.
+fn null_vector(n: usize, matrix: &[f64]) -> Option<Vec<f64>> {
     let mut a = matrix.to_vec();
     for k in 0..n {
         if a[k * n + k] <= 1e-10 * matrix[k * n + k].abs() {
-            return Some(k);
+            let mut vector = vec![0.0; n];
+            vector[k] = 1.0;
+            for i in (0..k).rev() {
+                let sum: f64 = (i + 1..=k).map(|j| a[i * n + j] * vector[j]).sum();
+                vector[i] = -sum / a[i * n + i];
+            }
+            return Some(vector);
         }
         for i in k + 1..n {
             let factor = a[i * n + k] / a[k * n + k];

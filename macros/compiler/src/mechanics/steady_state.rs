@@ -13,6 +13,8 @@ use super::problem::Problem;
 use super::properties::vanish;
 use super::sources::{Selection, Sources};
 
+const GRAVITY: &str = "gravity is not parallel to its axis";
+
 /// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
 pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics> {
     let mut diagnostics = Diagnostics::new();
@@ -46,7 +48,12 @@ pub(super) fn check(g: &mut Graph, problem: &Problem) -> Result<(), Diagnostics>
                     "the equations of motion depend on the {motion} coordinate `{name}`, so there is no steady state: {}",
                     causes.join("; ")
                 ),
-                format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it"),
+                match causes.as_slice() {
+                    [only] if only == GRAVITY => format!(
+                        "let gravity act along the axis of the {drive}, for example `gravity 9.81 m/s^2 along -z;`, or hold the axis upright"
+                    ),
+                    _ => format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it"),
+                },
             );
         }
         for (&value, output) in outputs.iter().zip(&problem.mechanism.outputs) {
@@ -89,7 +96,7 @@ fn causes(
             gravity: true,
             ..none
         },
-        "gravity is not parallel to its axis".to_owned(),
+        GRAVITY.to_owned(),
     )];
     for (index, force) in problem.mechanism.forces.iter().enumerate() {
         candidates.push((

@@ -83,16 +83,20 @@ pub fn evaluate(mechanism: &Mechanism, expr: &Expr, u: &[f64], b: &[f64]) -> f64
     Values::new(&mechanism.constants, u, b).of(expr)
 }
 
-/// Which inputs an expression depends on cannot be told from its value: this marks constants that depend on any.
-#[derive(Clone, Debug, Default)]
-pub struct InputDependence {
+/// Constants of a kind that their values do not tell, and what depends on them.
+#[derive(Clone, Debug)]
+pub struct Dependence {
+    on_inputs: bool,
     constants: Vec<bool>,
 }
 
-impl InputDependence {
-    /// Marks the constants.
-    pub fn new(constants: &[Constant]) -> Self {
-        let mut dependence = Self::default();
+impl Dependence {
+    /// Dependence on an input, directly or through a constant.
+    pub fn on_inputs(constants: &[Constant]) -> Self {
+        let mut dependence = Self {
+            on_inputs: true,
+            constants: Vec::new(),
+        };
         for constant in constants {
             let depends = dependence.of(&constant.value);
             dependence.constants.push(depends);
@@ -100,7 +104,15 @@ impl InputDependence {
         dependence
     }
 
-    /// The expression depends on an input, directly or through a constant.
+    /// Dependence on a constant that is not finite.
+    pub fn on_constants_without_value(values: &Values) -> Self {
+        Self {
+            on_inputs: false,
+            constants: values.constants.iter().map(|c| !c.is_finite()).collect(),
+        }
+    }
+
+    /// The expression depends on one of them.
     pub fn of(&self, expr: &Expr) -> bool {
         self.shared(expr, &mut FxHashSet::default())
     }
@@ -111,7 +123,7 @@ impl InputDependence {
             return false;
         }
         match expr {
-            Expr::Input(_) => true,
+            Expr::Input(_) => self.on_inputs,
             Expr::Constant(id) => self.constants.get(id.index()).copied().unwrap_or(false),
             Expr::Negate(a) | Expr::PowerInteger(a, _) | Expr::Call(_, a) => {
                 self.shared(a, visited)

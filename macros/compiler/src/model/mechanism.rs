@@ -81,6 +81,8 @@ pub struct DesignVariable {
     pub nominal: f64,
     /// Half-width of the tolerance, SI; zero when none is declared.
     pub tolerance: f64,
+    /// Something refers to it.
+    pub is_used: bool,
 }
 
 /// A named constant: an expression of numbers, design variables, inputs and earlier constants.

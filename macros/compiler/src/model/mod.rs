@@ -8,3 +8,6 @@ mod print;
 pub mod resolve;
 mod rules;
 mod simplify;
+pub mod welded;
+
+pub(crate) use rules::tensor::is_inertia_of_a_body;

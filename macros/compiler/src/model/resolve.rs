@@ -31,30 +31,51 @@ use self::parameters::Nominal;
 use self::scope::Scope;
 use self::typed::Typed;
 use super::expression::Expr;
-use super::mechanism::{Constant, Coordinate, Mechanism};
+use super::mechanism::{Constant, Coordinate, Mechanism, Part};
+use super::rules::composite::GivenInertia;
 use super::rules::physical::{self, Demand, Requirement};
-use super::rules::presence;
+use super::rules::{attributes, presence};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
-use crate::syntax::ast::{Ast, ItemKind, Joint};
+use crate::syntax::ast::{Ast, ItemKind, Joint, Unread};
+
+/// What became of a declaration.
+#[derive(Debug)]
+pub struct Resolution {
+    /// What could be resolved.
+    pub mechanism: Mechanism,
+    /// What could not.
+    pub mistakes: Diagnostics,
+    /// Every body, joint and constraint is there, and none is meant by the name of another: it can be told what hangs on
+    /// what.
+    pub is_connected: bool,
+}
 
 /// Resolves and checks a declaration.
 pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
+    let resolution = resolve_what_is_right(ast);
+    resolution.mistakes.into_result(resolution.mechanism)
+}
+
+/// Resolves what is right of a declaration, and checks that.
+pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let mut diagnostics = Diagnostics::new();
     let coordinates = coordinates::declared(ast);
     let scope = Scope::new(ast, &coordinates, &mut diagnostics);
     let mut resolver = Resolver::new(ast, coordinates, scope, diagnostics);
     let inputs = resolver.inputs();
-    let design = resolver.design_variables();
+    let mut design = resolver.design_variables();
     resolver.named_constants();
     let gravity = resolver.gravity();
     let bodies = resolver.bodies();
     let joints = resolver.joints();
+    resolver.require_inertias(&joints);
     let points = resolver.points();
     let forces = resolver.forces();
     let constraints = resolver.constraints();
     let outputs = resolver.outputs();
+    attributes::check(ast, &mut resolver.diagnostics);
     presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
     physical::check(
         &resolver.requirements,
@@ -63,6 +84,9 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
         inputs.len(),
         &mut resolver.diagnostics,
     );
+    for (variable, is_used) in design.iter_mut().zip(&resolver.used_design) {
+        variable.is_used = *is_used;
+    }
     let mechanism = Mechanism {
         name: ast.name.clone(),
         visibility: ast.visibility.clone(),
@@ -79,7 +103,8 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
         constraints,
         outputs,
     };
-    if resolver.diagnostics.is_empty() && !is_complete(ast, &mechanism) {
+    let is_whole = ast.unread.is_empty();
+    if resolver.diagnostics.is_empty() && is_whole && !is_complete(ast, &mechanism) {
         // A value was given up without a message.
         let message = "this declaration cannot be compiled, and eigentol does not know why";
         let help = "this is a bug of eigentol: please report it with the declaration";
@@ -87,22 +112,35 @@ pub fn resolve(ast: &Ast) -> Result<Mechanism, Diagnostics> {
             .diagnostics
             .error_with_help(&ast.name, message, help);
     }
-    resolver.diagnostics.into_result(mechanism)
+    Resolution {
+        is_connected: !resolver.scope.is_ambiguous && is_connected(ast, &mechanism),
+        mechanism,
+        mistakes: resolver.diagnostics,
+    }
 }
 
 /// Every declared item has become an entry.
 fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
-    let count = |is: fn(&ItemKind) -> bool| ast.items.iter().filter(|item| is(&item.kind)).count();
-    mechanism.inputs.len() == count(|kind| matches!(kind, ItemKind::Input(_)))
-        && mechanism.design.len() == count(|kind| matches!(kind, ItemKind::Design(_)))
-        && mechanism.constants.len() >= count(|kind| matches!(kind, ItemKind::Let(_)))
-        && mechanism.bodies.len() == count(|kind| matches!(kind, ItemKind::Body(_)))
-        && mechanism.joints.len() == count(|kind| matches!(kind, ItemKind::Joint(_)))
+    mechanism.inputs.len() == count(ast, |kind| matches!(kind, ItemKind::Input(_)))
+        && mechanism.design.len() == count(ast, |kind| matches!(kind, ItemKind::Design(_)))
+        && mechanism.constants.len() >= count(ast, |kind| matches!(kind, ItemKind::Let(_)))
+        && mechanism.points.len() == count(ast, |kind| matches!(kind, ItemKind::Point(_)))
+        && mechanism.forces.len() == count(ast, |kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))
+        && is_connected(ast, mechanism)
+}
+
+/// Every declared body, joint and constraint has become an entry.
+fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
+    !ast.unread.iter().any(Unread::may_connect)
+        && mechanism.bodies.len() == count(ast, |kind| matches!(kind, ItemKind::Body(_)))
+        && mechanism.joints.len() == count(ast, |kind| matches!(kind, ItemKind::Joint(_)))
         && mechanism.coordinates.len() == coordinates::declared(ast).len()
-        && mechanism.points.len() == count(|kind| matches!(kind, ItemKind::Point(_)))
-        && mechanism.forces.len() == count(|kind| matches!(kind, ItemKind::Force(_)))
-        && mechanism.constraints.len() == count(|kind| matches!(kind, ItemKind::Constraint(_)))
-        && mechanism.outputs.len() == count(|kind| matches!(kind, ItemKind::Output(_)))
+        && mechanism.constraints.len() == count(ast, |kind| matches!(kind, ItemKind::Constraint(_)))
+}
+
+fn count(ast: &Ast, is: fn(&ItemKind) -> bool) -> usize {
+    ast.items.iter().filter(|item| is(&item.kind)).count()
 }
 
 /// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
@@ -112,11 +150,14 @@ struct Resolver<'a> {
     scope: Scope,
     inputs: Vec<Option<Dimension>>,
     design: Vec<Option<Nominal>>,
+    used_design: Vec<bool>,
     lets: Vec<Option<Typed>>,
     constants: Vec<Constant>,
     coordinates: Vec<Declared<'a>>,
     declared_coordinates: Vec<Coordinate>,
     exerted: Vec<Option<Exerted>>,
+    parts: Vec<Option<Vec<Part>>>,
+    given_inertias: Vec<GivenInertia>,
     requirements: Vec<Requirement>,
 }
 
@@ -133,11 +174,14 @@ impl<'a> Resolver<'a> {
             scope,
             inputs: Vec::new(),
             design: Vec::new(),
+            used_design: Vec::new(),
             lets: Vec::new(),
             constants: Vec::new(),
             coordinates,
             declared_coordinates: Vec::new(),
             exerted: Vec::new(),
+            parts: Vec::new(),
+            given_inertias: Vec::new(),
             requirements: Vec::new(),
         }
     }
@@ -166,11 +210,39 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Some coordinate is free or coasting. A joint of an unknown kind gets the benefit of the doubt.
+    /// Some coordinate is free or coasting. A joint of an unknown kind, or one that could not be read, gets the benefit of the
+    /// doubt.
     fn can_move(&self) -> bool {
         let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
         let moves =
             |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
-        self.coordinates.iter().any(moves) || coordinates::joints(self.ast).any(unknown)
+        self.coordinates.iter().any(moves)
+            || coordinates::joints(self.ast).any(unknown)
+            || self.ast.unread.iter().any(Unread::may_connect)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::arguments::Signature;
+    use super::{bodies, constraints, forces, joints::kinds::Kind};
+    use crate::syntax::parse::INSIDE;
+
+    /// The parser tells a misplaced word from an unknown one; `point` starts an item too.
+    #[test]
+    fn the_parser_knows_the_words_inside_items() {
+        let words = |table: &[Signature]| {
+            let words = table.iter().map(|row| row.word);
+            words.filter(|word| *word != "point").collect::<Vec<_>>()
+        };
+        let known = [
+            ("body", words(bodies::SHAPES)),
+            ("joint", Kind::words().collect()),
+            ("force", words(forces::LAWS)),
+            ("constraint", words(constraints::KINDS)),
+        ];
+        for ((keyword, inside), (expected, words)) in INSIDE.iter().zip(known) {
+            assert_eq!((*keyword, inside.to_vec()), (expected, words));
+        }
     }
 }

@@ -15,6 +15,28 @@ pub struct Ast {
     pub name: Ident,
     /// Items in order.
     pub items: Vec<Item>,
+    /// Items with a syntax error, in order.
+    pub unread: Vec<Unread>,
+}
+
+/// What is known of an item that could not be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unread {
+    /// The word it starts with.
+    pub keyword: Option<Ident>,
+    /// The names it would have declared, as far as they could be read.
+    pub names: Vec<Ident>,
+}
+
+impl Unread {
+    /// Unless its keyword says otherwise, it may be a body, a joint or a constraint.
+    pub fn may_connect(&self) -> bool {
+        const OTHERS: [&str; 7] = [
+            "input", "design", "let", "gravity", "point", "force", "output",
+        ];
+        let keyword = self.keyword.as_ref();
+        !keyword.is_some_and(|keyword| OTHERS.iter().any(|other| keyword == other))
+    }
 }
 
 /// An item with its documentation.
@@ -377,6 +399,25 @@ impl Value {
             extent: extent.into(),
             height: below.map_or(0, |height| height.saturating_add(1)),
         }
+    }
+
+    /// Every name in it that stands for a value, in order.
+    pub fn names(&self) -> Vec<&Ident> {
+        let mut names = Vec::new();
+        let mut rest = vec![self];
+        while let Some(value) = rest.pop() {
+            match &value.kind {
+                ValueKind::Number(..) => {}
+                ValueKind::Name(name) => names.push(name),
+                ValueKind::Vector(values, _) | ValueKind::Call(_, values) => {
+                    rest.extend(values.iter().rev());
+                }
+                ValueKind::Negate(of) | ValueKind::Component(of, _) => rest.push(of),
+                ValueKind::Parenthesised(of) => rest.push(of),
+                ValueKind::Binary(binary) => rest.extend([&binary.right, &binary.left]),
+            }
+        }
+        names
     }
 
     /// The value inside any number of parentheses.

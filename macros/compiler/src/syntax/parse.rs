@@ -1,4 +1,5 @@
-//! Tokens to tree. A syntax error ends its item, not the declaration: reading goes on after the next semicolon.
+//! Tokens to tree. A syntax error ends its item, not the declaration: reading goes on after the next semicolon, and of the
+//! item its names are kept.
 
 mod body;
 mod item;
@@ -7,25 +8,36 @@ mod placement;
 mod unit;
 mod value;
 
-use proc_macro2::{Delimiter, TokenStream};
+#[cfg(test)]
+pub(crate) use self::item::INSIDE;
+
+use proc_macro2::{Delimiter, Ident, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
-use super::ast::{Ast, Item, ItemKind};
+use super::ast::{Ast, Item, ItemKind, Unread};
 use super::tokens::{Parsed, Tokens};
-use crate::base::diagnostics::{Diagnostic, Diagnostics};
+use crate::base::diagnostics::Diagnostics;
 use crate::base::span::Extent;
 
-/// Reads a declaration.
+/// Reads a declaration without syntax errors.
 pub fn parse(tokens: TokenStream) -> Result<Ast, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    match parse_what_can_be_read(tokens, &mut diagnostics) {
+        Some(ast) => diagnostics.into_result(ast),
+        None => Err(diagnostics),
+    }
+}
+
+/// Reads what can be read of a declaration; nothing when there is no mechanism.
+pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics) -> Option<Ast> {
     let buffer = TokenBuffer::new2(tokens);
     let mut tokens = Tokens::top(buffer.begin());
-    let mut diagnostics = Diagnostics::new();
-    match declaration(&mut tokens, &mut diagnostics) {
-        Ok(ast) => diagnostics.into_result(ast),
+    match declaration(&mut tokens, diagnostics) {
+        Ok(ast) => Some(ast),
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
-            Err(diagnostics)
+            None
         }
     }
 }
@@ -49,10 +61,25 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
             ok => ok,
         };
     }
-    let (attributes, visibility) = attributes_and_visibility
-        .parse2(head)
-        .map_err(|error| Box::new(Diagnostic::new(error.span(), error.to_string())))?;
-    let name = tokens.name("the mechanism's name")?;
+    let (attributes, visibility) = match attributes_and_visibility.parse2(head) {
+        Ok(read) => read,
+        Err(error) => {
+            diagnostics.error(error.span(), error.to_string());
+            (Vec::new(), syn::Visibility::Inherited)
+        }
+    };
+    let keyword = tokens.last;
+    let name = match tokens.name("the mechanism's name") {
+        Ok(name) => name,
+        // What stands in braces can be read all the same.
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            if tokens.peek_ident().is_some() {
+                tokens.skip();
+            }
+            Ident::new("mechanism", keyword)
+        }
+    };
     let Some((_, mut content, _)) = tokens.group(Delimiter::Brace) else {
         return tokens.expected("`{`");
     };
@@ -62,12 +89,13 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
             diagnostic.with_help("declare every mechanism in a `mechanism!` of its own")
         }));
     }
-    let items = items(&mut content, diagnostics);
+    let (items, unread) = items(&mut content, diagnostics);
     Ok(Ast {
         attributes,
         visibility,
         name,
         items,
+        unread,
     })
 }
 
@@ -77,26 +105,31 @@ fn attributes_and_visibility(
     Ok((input.call(syn::Attribute::parse_outer)?, input.parse()?))
 }
 
-fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<Item> {
-    let mut items = Vec::new();
+fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> (Vec<Item>, Vec<Unread>) {
+    let (mut items, mut unread) = (Vec::new(), Vec::new());
     while !tokens.is_empty() {
         // A stray semicolon does no harm.
         if tokens.sign(';').is_some() {
             continue;
         }
+        let docs = docs(tokens, diagnostics);
+        let start = *tokens;
         match item(tokens, diagnostics) {
-            Ok(item) => items.push(item),
+            Ok(kind) => items.push(Item { docs, kind }),
             Err(diagnostic) => {
                 diagnostics.push(*diagnostic);
                 skip_item(tokens);
+                unread.push(what_is_known(start));
             }
         }
     }
-    items
+    (items, unread)
 }
 
-fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Item> {
-    let docs = docs(tokens)?;
+/// What to write instead of `3,5`.
+const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
+
+fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> {
     let kind = item::item(tokens)?;
     if tokens.sign(';').is_none() {
         if tokens.is_empty() || starts_item(tokens) {
@@ -104,6 +137,7 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Item> {
             diagnostics.error(tokens.last, "expected `;` after this");
         } else {
             return tokens.expected("`;`").map_err(|error| match kind {
+                _ if tokens.peek_decimal_comma() => Box::new(error.with_help(DECIMAL_POINT)),
                 ItemKind::Design(_) if tokens.peek_sign('%') => {
                     Box::new(error.with_help("a tolerance is written `+/- 3%`"))
                 }
@@ -114,15 +148,17 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Item> {
             });
         }
     }
-    Ok(Item { docs, kind })
+    Ok(kind)
 }
 
 /// Doc comments; other attributes mean nothing inside a declaration.
-fn docs(tokens: &mut Tokens) -> Parsed<Vec<String>> {
+fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
     let mut docs = Vec::new();
     while let Some(sign) = tokens.sign('#') {
         let Some((_, mut content, close)) = tokens.group(Delimiter::Bracket) else {
-            return tokens.expected("a doc comment");
+            let error = tokens.expected::<()>("a doc comment");
+            diagnostics.extend(error.err().map(|diagnostic| *diagnostic));
+            continue;
         };
         let text = content
             .word("doc")
@@ -134,15 +170,34 @@ fn docs(tokens: &mut Tokens) -> Parsed<Vec<String>> {
             });
         match text {
             Some(text) => docs.push(text),
-            None => {
-                return Err(Box::new(Diagnostic::new(
-                    sign.to(Extent::from(close)),
-                    "only doc comments may stand before an item",
-                )));
-            }
+            None => diagnostics.error(
+                sign.to(Extent::from(close)),
+                "only doc comments may stand before an item",
+            ),
         }
     }
-    Ok(docs)
+    docs
+}
+
+/// The keyword of an item and the names it declares: its own, and the named coordinates of a joint.
+fn what_is_known(mut tokens: Tokens) -> Unread {
+    let keyword = tokens.ident();
+    let mut names = Vec::new();
+    while let Some(name) = tokens.ident() {
+        names.push(name);
+        if tokens.sign('-').is_none() {
+            break;
+        }
+    }
+    let is_joint = keyword.as_ref().is_some_and(|word| word == "joint");
+    if is_joint && tokens.sign(':').is_some() && tokens.ident().is_some() {
+        let mut arguments = tokens.group(Delimiter::Parenthesis);
+        while let Some((_, content, _)) = arguments.as_mut().filter(|group| !group.1.is_empty()) {
+            names.extend(content.peek_ident().filter(|_| content.peek_named()));
+            content.skip();
+        }
+    }
+    Unread { keyword, names }
 }
 
 /// Skips the rest of a wrong item: past the next semicolon, or to what is clearly the next item.

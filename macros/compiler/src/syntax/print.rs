@@ -190,7 +190,7 @@ fn list(values: &[Value]) -> String {
 }
 
 /// A value; parentheses are nodes of the tree, so none are added.
-fn value(tree: &Value) -> String {
+pub fn value(tree: &Value) -> String {
     match &tree.kind {
         ValueKind::Number(number, None) => format!("{number:?}"),
         ValueKind::Number(number, Some(of)) => format!("{number:?} {}", unit(of)),

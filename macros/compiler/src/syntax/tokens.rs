@@ -186,6 +186,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// A comma and a number are next: where no list goes on, it is a decimal comma.
+    pub(super) fn peek_decimal_comma(&self) -> bool {
+        let mut ahead = *self;
+        ahead.sign(',').is_some() && ahead.literal().is_some()
+    }
+
     /// A name that can be declared or referred to.
     pub(super) fn name(&mut self, what: &str) -> Parsed<Ident> {
         let Some(ident) = self.peek_ident() else {
@@ -193,7 +199,8 @@ impl<'a> Tokens<'a> {
         };
         let text = ident.to_string();
         let is_free = syn::parse2::<Ident>(ident.to_token_stream()).is_ok();
-        if !is_free || text.starts_with("r#") {
+        // The word of edition 2024 that syn still takes for a name.
+        if !is_free || text.starts_with("r#") || text == "gen" {
             let message = format!("`{text}` cannot be a name: Rust reserves it");
             return Err(Box::new(Diagnostic::new(&ident, message)));
         }

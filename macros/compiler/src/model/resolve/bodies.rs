@@ -6,27 +6,88 @@ mod shapes;
 
 use std::rc::Rc;
 
+use proc_macro2::Ident;
+
 use self::quantities::Quantities;
-use self::shapes::{SHAPES, SYNONYMS};
+pub(super) use self::shapes::SHAPES;
+use self::shapes::SYNONYMS;
 use super::Resolver;
-use crate::model::mechanism::{Body, Part};
+use super::coordinates;
+use super::joints::kinds::Kind;
+use crate::model::mechanism::{Body, Joint, Part};
+use crate::model::rules::composite::{GivenInertia, Welded};
 use crate::model::rules::physical::{Demand, Requirement};
-use crate::syntax::ast::{self, ItemKind, Term};
+use crate::model::welded::groups;
+use crate::syntax::ast::{self, ItemKind, Term, Unread};
 
 impl Resolver<'_> {
     pub(super) fn bodies(&mut self) -> Vec<Body> {
         let mut bodies = Vec::new();
         for item in &self.ast.items {
-            if let ItemKind::Body(body) = &item.kind
-                && let Some(parts) = self.parts(body)
-            {
-                bodies.push(Body {
-                    name: body.name.clone(),
-                    parts,
-                });
-            }
+            let ItemKind::Body(body) = &item.kind else {
+                continue;
+            };
+            let parts = self.parts(body);
+            self.parts.push(parts.clone());
+            bodies.extend(parts.map(|parts| Body {
+                name: body.name.clone(),
+                parts,
+            }));
         }
         bodies
+    }
+
+    /// What is welded together needs an inertia that a body can have, not each link of it: robot files are full of links
+    /// that carry no more than a frame. Nothing is said while it is not known what is welded to what.
+    pub(super) fn require_inertias(&mut self, joints: &[Joint]) {
+        let may_weld = |joint: &&ast::Joint| {
+            Kind::find(&joint.kind.to_string()).is_none_or(|kind| kind.motions.is_empty())
+        };
+        let welds = coordinates::joints(self.ast).filter(may_weld).count();
+        let known = joints.iter().filter(|joint| joint.steps.is_empty()).count();
+        if welds != known
+            || self.scope.is_ambiguous
+            || self.ast.unread.iter().any(Unread::may_connect)
+        {
+            return;
+        }
+        let names: Vec<String> = self
+            .ast
+            .items
+            .iter()
+            .filter(|item| matches!(item.kind, ItemKind::Body(_)))
+            .filter_map(|item| item.kind.name().map(Ident::to_string))
+            .collect();
+        for group in groups(names.len(), joints) {
+            let bodies = group.into_iter().map(|member| {
+                let index = member.body.index();
+                let parts = self.parts[index].clone()?;
+                Some((names[index].clone(), parts, member.placements))
+            });
+            let Some(bodies) = bodies.collect::<Option<Vec<_>>>() else {
+                continue;
+            };
+            let in_group =
+                |given: &&GivenInertia| bodies.iter().any(|(name, ..)| *name == given.body);
+            let given: Vec<GivenInertia> = self
+                .given_inertias
+                .iter()
+                .filter(in_group)
+                .cloned()
+                .collect();
+            let Some(first) = given.first() else {
+                continue;
+            };
+            self.requirements.push(Requirement {
+                what: format!("the inertia of `{}`", first.body),
+                values: given
+                    .iter()
+                    .flat_map(|given| given.central.clone())
+                    .collect(),
+                extent: first.extent,
+                demand: Demand::Inertia(Rc::new(Welded { bodies, given })),
+            });
+        }
     }
 
     fn parts(&mut self, body: &ast::Body) -> Option<Vec<Part>> {

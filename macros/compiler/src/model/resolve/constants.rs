@@ -10,7 +10,7 @@ use super::typed::{Place, Quantity, Typed};
 use crate::base::ids::ConstantId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::Constant;
-use crate::syntax::ast::{ItemKind, Named, ValueKind};
+use crate::syntax::ast::{ItemKind, Named};
 
 /// How far a `let` has come.
 #[derive(Clone, Copy, PartialEq)]
@@ -96,23 +96,12 @@ impl Resolver<'_> {
 
     /// The lets that a value names, each once.
     fn used_lets(&self, named: &Named) -> Vec<usize> {
-        let mut uses = BTreeSet::new();
-        let mut rest = vec![&named.value];
-        while let Some(value) = rest.pop() {
-            match &value.kind {
-                ValueKind::Number(..) => {}
-                ValueKind::Name(name) => {
-                    if let Some(Meaning::Let(index)) = self.scope.find(&name.to_string()) {
-                        uses.insert(index);
-                    }
-                }
-                ValueKind::Vector(values, _) | ValueKind::Call(_, values) => rest.extend(values),
-                ValueKind::Negate(of) | ValueKind::Component(of, _) => rest.push(of),
-                ValueKind::Parenthesised(of) => rest.push(of),
-                ValueKind::Binary(binary) => rest.extend([&binary.left, &binary.right]),
-            }
-        }
-        uses.into_iter().collect()
+        let names = named.value.names().into_iter();
+        let lets = names.filter_map(|name| match self.scope.find(&name.to_string()) {
+            Some(Meaning::Let(index)) => Some(index),
+            _ => None,
+        });
+        lets.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
     fn constant(&mut self, named: &Named) -> Option<Typed> {

@@ -17,7 +17,7 @@ use crate::syntax::ast::{self, ItemKind};
 
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
-const KINDS: &[Signature] = &[
+pub(super) const KINDS: &[Signature] = &[
     Signature::new("coincident", &["from", "to"], "coincident(from: p, to: q)")
         .optional(&["along"]),
     Signature::new("aligned", &["from", "to"], "aligned(from: p, to: q)").optional(&["axis"]),

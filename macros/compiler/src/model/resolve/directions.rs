@@ -14,13 +14,15 @@ impl Resolver<'_> {
             return Some(axis);
         }
         if let ValueKind::Name(name) = &value.bare().kind
-            && self.scope.find(&name.to_string()).is_none()
+            && self.scope.find_or_unclear(&name.to_string()).is_none()
         {
-            self.diagnostics.error_with_help(
-                name,
-                format!("unknown direction `{name}`"),
-                "a direction is x, y, z, -x, -y, -z or a vector such as `[1, 0, 1]`",
-            );
+            let help = match name.to_string().as_str() {
+                "down" | "downward" | "downwards" => "where the z axis points up, down is `-z`",
+                "up" | "upward" | "upwards" => "where the z axis points up, up is `z`",
+                _ => "a direction is x, y, z, -x, -y, -z or a vector such as `[1, 0, 1]`",
+            };
+            let message = format!("unknown direction `{name}`");
+            self.diagnostics.error_with_help(name, message, help);
             return None;
         }
         let (vector, _) = self.vector(value, place)?;
@@ -53,7 +55,8 @@ impl Resolver<'_> {
     }
 }
 
-fn axis(value: &Value) -> Option<Vector> {
+/// An axis by its name.
+pub(super) fn axis(value: &Value) -> Option<Vector> {
     let (sign, name) = match &value.bare().kind {
         ValueKind::Name(name) => (1.0, name),
         ValueKind::Negate(operand) => match &operand.bare().kind {

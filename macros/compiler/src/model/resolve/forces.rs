@@ -10,14 +10,15 @@ use super::arguments::{Arguments, Signature};
 use super::expected::Expected;
 use super::placements::zero;
 use super::typed::Place;
+use super::values::is_matrix;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
-use crate::syntax::ast::{self, ItemKind};
+use crate::syntax::ast::{self, ItemKind, ValueKind};
 
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
-const LAWS: &[Signature] = &[
+pub(super) const LAWS: &[Signature] = &[
     Signature::new(
         "spring",
         &["on", "stiffness"],
@@ -176,7 +177,17 @@ impl Resolver<'_> {
         expected: impl Into<Expected>,
     ) -> Option<Vector> {
         match arguments.get(name) {
-            Some(value) => self.vector_of(value, expected, &format!("`{name}`")),
+            Some(value) => match &value.bare().kind {
+                ValueKind::Vector(rows, _) if is_matrix(rows) => {
+                    self.diagnostics.error_with_help(
+                        value.extent,
+                        format!("`{name}` is a vector of three values along the axes of a point, not a matrix"),
+                        "turn the axes of the point with `rotated`, or write what couples them as a `potential`",
+                    );
+                    None
+                }
+                _ => self.vector_of(value, expected, &format!("`{name}`")),
+            },
             None => Some(zero()),
         }
     }

@@ -7,6 +7,7 @@ use proc_macro2::Ident;
 
 use super::Resolver;
 use super::typed::{Place, Quantity, Typed};
+use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::dimension::Dimension;
 use crate::base::nearest::suggestion;
 use crate::model::expression::{Expr, Function};
@@ -99,7 +100,10 @@ impl Resolver<'_> {
                 count(parameters.len()),
                 arguments.len()
             );
-            let help = format!("write `{name}({})`", parameters.join(", "));
+            let mut help = format!("write `{name}({})`", parameters.join(", "));
+            if arguments.len() > parameters.len() && decimal_commas(arguments) {
+                help = format!("{help}; {DECIMAL_POINT}");
+            }
             self.diagnostics.error_with_help(function, message, help);
             return None;
         }

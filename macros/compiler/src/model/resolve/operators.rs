@@ -61,11 +61,19 @@ impl Resolver<'_> {
                 bare_number(value)
                     .map(|text| format!("give the number a unit: `{text} {}`", unit.si_symbol()))
             };
+            let unitless_name = |value: &Value, dimension: Dimension| {
+                let (name, number) = self.declared_without_unit(value)?;
+                dimension
+                    .is_none()
+                    .then(|| format!("`{name}` is declared without a unit: `{number}`"))
+            };
             let help = self
                 .swallowed(&binary.left, a, b)
                 .or_else(|| self.swallowed(&binary.right, b, a))
                 .or_else(|| unitless(&binary.right, a))
-                .or_else(|| unitless(&binary.left, b));
+                .or_else(|| unitless(&binary.left, b))
+                .or_else(|| unitless_name(&binary.right, b))
+                .or_else(|| unitless_name(&binary.left, a));
             self.report(binary.sign, message, help);
         }
         unified

@@ -49,6 +49,7 @@ impl Resolver<'_> {
             };
             let nominal = self.nominal(design);
             self.design.push(nominal);
+            self.used_design.push(false);
             if let Some(nominal) = nominal {
                 variables.push(DesignVariable {
                     name: design.name.clone(),
@@ -56,6 +57,7 @@ impl Resolver<'_> {
                     unit: self.display_unit(&design.nominal, nominal.dimension),
                     nominal: nominal.value,
                     tolerance: nominal.tolerance,
+                    is_used: false,
                 });
             }
         }

@@ -1,11 +1,13 @@
 //! Placements: where a frame is in another, for joints, points and the shapes of a body.
 
 use super::Resolver;
+use super::directions::axis;
 use super::expected::Expected;
 use super::typed::Place;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Placement;
-use crate::syntax::ast;
+use crate::syntax::ast::{self, ValueKind};
+use crate::syntax::print;
 
 /// The zero vector.
 pub(super) fn zero() -> Vector {
@@ -38,6 +40,15 @@ impl Resolver<'_> {
             .rotations
             .iter()
             .map(|(axis, angle)| {
+                if is_direction(angle) && !is_direction(axis) {
+                    let (axis, angle) = (print::value(angle), print::value(axis));
+                    self.diagnostics.error_with_help(
+                        placement.keyword,
+                        "`rotated` takes the direction first, then the angle",
+                        format!("write `rotated({axis}, {angle})`"),
+                    );
+                    return None;
+                }
                 let direction = self.direction(axis, Place::Parameter);
                 let turn = self.scalar_of(angle, Expected::angle(), "this");
                 if let Some(turn) = &turn {
@@ -51,4 +62,9 @@ impl Resolver<'_> {
             rotations: rotations.into_iter().collect::<Option<_>>()?,
         })
     }
+}
+
+/// Written as an axis or as a vector.
+fn is_direction(value: &ast::Value) -> bool {
+    axis(value).is_some() || matches!(value.bare().kind, ValueKind::Vector(..))
 }

@@ -15,7 +15,7 @@ impl Resolver<'_> {
         if text == "ground" {
             return Some(Frame::Ground);
         }
-        match self.scope.find(&text) {
+        match self.scope.find_or_unclear(&text) {
             Some(Meaning::Body(id)) => Some(Frame::Body(id)),
             found => {
                 let is_body = |meaning| matches!(meaning, Meaning::Body(_));
@@ -27,7 +27,7 @@ impl Resolver<'_> {
 
     /// A declared point.
     pub(super) fn point_named(&mut self, name: &Ident) -> Option<PointId> {
-        match self.scope.find(&name.to_string()) {
+        match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Point(id)) => Some(id),
             found => {
                 let is_point = |meaning| matches!(meaning, Meaning::Point(_));
@@ -39,7 +39,7 @@ impl Resolver<'_> {
 
     /// A joint; `kind` says in messages what is expected.
     pub(super) fn joint_named(&mut self, name: &Ident, kind: &str) -> Option<JointId> {
-        match self.scope.find(&name.to_string()) {
+        match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Joint(id)) => Some(id),
             Some(Meaning::OnlyCoordinate(id)) => Some(self.coordinates.get(id.index())?.joint),
             found => {
@@ -60,7 +60,7 @@ impl Resolver<'_> {
         &mut self,
         name: &Ident,
     ) -> Option<(CoordinateId, CoordinateQuantity)> {
-        match self.scope.find(&name.to_string()) {
+        match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::OnlyCoordinate(id) | Meaning::Coordinate(id)) => {
                 let declared = self.coordinates.get(id.index())?;
                 let quantity = declared.quantity?;
@@ -125,6 +125,9 @@ impl Resolver<'_> {
         found: Option<Meaning>,
         right: impl Fn(Meaning) -> bool,
     ) {
+        if found == Some(Meaning::Unclear) {
+            return;
+        }
         if let Some(meaning) = found {
             let is = meaning.describe();
             let message = format!("`{name}` is {is}; a {kind} is expected here");

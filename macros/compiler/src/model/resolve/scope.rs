@@ -28,6 +28,8 @@ pub(super) enum Meaning {
     Force,
     Constraint(ConstraintId),
     Output,
+    /// Of something that could not be read, or of several things: uses of the name are not judged.
+    Unclear,
 }
 
 impl Meaning {
@@ -49,6 +51,7 @@ impl Meaning {
             Meaning::Force => "a force",
             Meaning::Constraint(_) => "a constraint",
             Meaning::Output => "an output",
+            Meaning::Unclear => "something",
         }
     }
 }
@@ -58,6 +61,10 @@ impl Meaning {
 pub(super) struct Scope {
     order: Vec<(String, Meaning)>,
     by_name: BTreeMap<String, usize>,
+    /// Some item's name could not be read.
+    is_incomplete: bool,
+    /// Some name means more than one thing.
+    pub(super) is_ambiguous: bool,
 }
 
 impl Scope {
@@ -92,6 +99,18 @@ impl Scope {
             };
             if let Some(name) = item.kind.name() {
                 scope.declare(name, meaning, diagnostics);
+            }
+        }
+        for unread in &ast.unread {
+            let is_gravity = unread
+                .keyword
+                .as_ref()
+                .is_some_and(|word| word == "gravity");
+            scope.is_incomplete |= unread.names.is_empty() && !is_gravity;
+            for name in unread.names.iter().map(Ident::to_string) {
+                if scope.find(&name).is_none() && reserved(&name).is_none() {
+                    scope.enter(name, Meaning::Unclear);
+                }
             }
         }
         scope
@@ -130,14 +149,33 @@ impl Scope {
         let text = name.to_string();
         if let Some(reason) = reserved(&text) {
             diagnostics.error(name, format!("`{text}` cannot be declared: it is {reason}"));
+            self.is_ambiguous = true;
         } else if let Some(&first) = self.by_name.get(&text) {
-            let kind = self.order[first].1.describe();
-            let message = format!("`{text}` is declared twice: it is {kind} already");
+            let first = &mut self.order[first].1;
+            let message = match *first {
+                Meaning::Unclear => format!("`{text}` is declared more than once"),
+                first => format!(
+                    "`{text}` is declared twice: it is {} already",
+                    first.describe()
+                ),
+            };
+            *first = Meaning::Unclear;
             diagnostics.error_with_help(name, message, "all kinds of names share one namespace");
+            self.is_ambiguous = true;
         } else {
-            self.by_name.insert(text.clone(), self.order.len());
-            self.order.push((text, meaning));
+            self.enter(text, meaning);
         }
+    }
+
+    fn enter(&mut self, name: String, meaning: Meaning) {
+        self.by_name.insert(name.clone(), self.order.len());
+        self.order.push((name, meaning));
+    }
+
+    /// What the name stands for. A name that is not declared may be the one that could not be read.
+    pub(super) fn find_or_unclear(&self, name: &str) -> Option<Meaning> {
+        self.find(name)
+            .or(self.is_incomplete.then_some(Meaning::Unclear))
     }
 
     pub(super) fn find(&self, name: &str) -> Option<Meaning> {

@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 
 use super::Resolver;
+use super::scope::Meaning;
 use super::typed::{Quantity, Typed};
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;
@@ -44,6 +45,9 @@ impl Resolver<'_> {
     /// A word of tension laws must not be a guess when something else has that name.
     pub(super) fn tension_word(&mut self, word: Word, name: &Ident) -> Option<Typed> {
         if let Some(meaning) = self.scope.find(word.name) {
+            if meaning == Meaning::Unclear {
+                return None;
+            }
             let message = format!(
                 "`{name}` is ambiguous here: {}, or {} of that name",
                 word.meaning,

@@ -4,7 +4,6 @@ use super::Resolver;
 use super::scope::Meaning;
 use super::typed::Typed;
 use crate::base::dimension::Dimension;
-use crate::base::nearest::nearest;
 use crate::base::units;
 use crate::syntax::ast::{Unit, UnitFactor, Value, ValueKind};
 use crate::syntax::print;
@@ -22,7 +21,7 @@ impl Resolver<'_> {
                         "a word after a number is a unit; to multiply by the declared `{name}` write `*`"
                     ))
                 } else {
-                    nearest(name, units::names()).map(|near| format!("did you mean `{near}`?"))
+                    units::suggestion(name).map(|near| format!("did you mean `{near}`?"))
                 };
                 self.report(factor.extent, format!("unknown unit `{name}`"), help);
                 known = false;

@@ -14,7 +14,7 @@ use crate::base::nearest::nearest;
 use crate::base::span::Extent;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
-use crate::syntax::ast::{Unit, Value, ValueKind};
+use crate::syntax::ast::{ItemKind, Unit, Value, ValueKind};
 
 /// In all functions below, nothing means: wrong, and reported.
 impl Resolver<'_> {
@@ -68,11 +68,11 @@ impl Resolver<'_> {
         {
             return self.tension_word(word, name);
         }
-        let Some(meaning) = self.scope.find(&text) else {
+        let Some(meaning) = self.scope.find_or_unclear(&text) else {
             self.unknown_value(name, place);
             return None;
         };
-        if place == Place::Nominal {
+        if place == Place::Nominal && meaning != Meaning::Unclear {
             self.diagnostics.error_with_help(
                 name,
                 format!(
@@ -89,6 +89,7 @@ impl Resolver<'_> {
                 Some(Typed::Scalar(Expr::Input(id), Quantity::Of(dimension)))
             }
             Meaning::Design(id) => {
+                *self.used_design.get_mut(id.index())? = true;
                 let dimension = self.design.get(id.index())?.as_ref()?.dimension;
                 Some(Typed::Scalar(Expr::Design(id), Quantity::Of(dimension)))
             }
@@ -117,10 +118,29 @@ impl Resolver<'_> {
                 );
                 None
             }
+            // Reported where it is declared.
+            Meaning::Unclear => None,
             Meaning::Body(_) | Meaning::Point(_) | Meaning::Force | Meaning::Constraint(_) => {
-                let kind = meaning.describe();
-                self.diagnostics
-                    .error(name, format!("`{text}` is {kind}, not a value"));
+                let help = match meaning {
+                    Meaning::Constraint(_) => {
+                        format!(
+                            "what it exerts is an output: `reaction({text})` or `reaction_force({text})`"
+                        )
+                    }
+                    Meaning::Force => {
+                        "repeat its expression, or name the shared part with `let`".to_string()
+                    }
+                    Meaning::Point(_) => {
+                        format!(
+                            "where it is, `position({text})`, is known in outputs and forces only"
+                        )
+                    }
+                    _ => format!(
+                        "for a place in it declare `point p: {text};` and use `position(p)`; give a mass or a length a name by `design` or `let`"
+                    ),
+                };
+                let message = format!("`{text}` is {}, not a value", meaning.describe());
+                self.diagnostics.error_with_help(name, message, help);
                 None
             }
         }
@@ -169,6 +189,10 @@ impl Resolver<'_> {
             _ => near,
         };
         let help = match near {
+            _ if ["t", "time"].contains(&text.as_str()) => Some(
+                "there is no time here: equations hold in steady motion, where nothing changes, and for small vibrations about it"
+                    .to_string(),
+            ),
             Some(near) => Some(format!("did you mean `{near}`?")),
             None if ["x", "y", "z"].contains(&text.as_str()) => Some(format!(
                 "an axis can only stand where a direction is expected; as a vector write `{}`",
@@ -190,6 +214,14 @@ impl Resolver<'_> {
         extent: Extent,
         place: Place,
     ) -> Option<Typed> {
+        if is_matrix(components) {
+            self.diagnostics.error_with_help(
+                extent,
+                "this is a matrix; a vector of three numbers is expected here",
+                "give the three values along the axes, `[a, b, c]`",
+            );
+            return None;
+        }
         let (unit_dimension, scale) = match unit {
             Some(unit) => self.unit(unit).map(|(d, scale)| (Some(d), scale)),
             None => Some((None, 1.0)),
@@ -202,7 +234,8 @@ impl Resolver<'_> {
         if components.len() != 3 {
             let count = components.len();
             let message = format!("a vector has 3 components, this one has {count}");
-            self.diagnostics.error(extent, message);
+            let help = (count > 3 && decimal_commas(components)).then(|| DECIMAL_POINT.to_string());
+            self.report(extent, message, help);
             return None;
         }
         let resolved: Vec<(Expr, Quantity)> = resolved.into_iter().collect::<Option<_>>()?;
@@ -341,10 +374,55 @@ impl Resolver<'_> {
             expected.describe(),
             found.dimension().describe()
         );
-        let help = self.swallowed(value, found.dimension(), expected.dimension);
+        let help = self
+            .swallowed(value, found.dimension(), expected.dimension)
+            .or_else(|| {
+                let (name, number) = self.declared_without_unit(value)?;
+                Some(match value.bare().kind {
+                    ValueKind::Name(_) => format!(
+                        "`{name}` is declared without a unit: write `{number} {}` there",
+                        expected.unit
+                    ),
+                    _ => format!("`{name}` is declared without a unit: `{number}`"),
+                })
+            });
         self.report(value.extent, message, help);
         None
     }
+
+    /// The first name in a value that is declared as a number without a unit, and that number.
+    pub(super) fn declared_without_unit(&self, value: &Value) -> Option<(String, String)> {
+        value.names().into_iter().find_map(|name| {
+            let mut items = self.ast.items.iter();
+            let declared = items.find_map(|item| match &item.kind {
+                ItemKind::Design(design) if design.name == *name => Some(&design.nominal),
+                ItemKind::Let(named) if named.name == *name => Some(&named.value),
+                _ => None,
+            })?;
+            Some((name.to_string(), bare_number(declared)?))
+        })
+    }
+}
+
+/// What to write instead of `3,5`.
+pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
+
+/// Too many values in a list, two of which may be one number with a decimal comma.
+pub(super) fn decimal_commas(values: &[Value]) -> bool {
+    let is_whole = |value: &Value| match value.kind {
+        ValueKind::Number(number, None) => number.fract() == 0.0,
+        _ => false,
+    };
+    let is_number = |value: &Value| matches!(value.kind, ValueKind::Number(..));
+    values
+        .windows(2)
+        .any(|pair| is_whole(&pair[0]) && is_number(&pair[1]))
+}
+
+/// Rows in brackets.
+pub(super) fn is_matrix(components: &[Value]) -> bool {
+    let is_row = |row: &Value| matches!(row.bare().kind, ValueKind::Vector(..));
+    components.len() > 1 && components.iter().all(is_row)
 }
 
 /// The text of a number without a unit, or of a vector of such.

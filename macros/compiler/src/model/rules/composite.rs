@@ -1,26 +1,52 @@
-//! Sums of shapes in numbers: what holes leave of a body.
+//! What several masses together must be: what holes leave of a body, and what is welded together.
 
-use super::physical::positive_semidefinite;
+use super::moments::Moments;
+use super::physical::Violation;
+use super::tensor::{
+    Matrix, Vector, inertia, is_inertia_of_a_body, matrix, nearest_of_a_body, principal, trace,
+};
+use crate::base::span::Extent;
 use crate::model::evaluate::Values;
-use crate::model::mechanism::{Part, Placement, Shape};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Part, Placement};
 
-type Vector = [f64; 3];
-type Matrix = [Vector; 3];
+/// Bodies welded together, at least one of which has an inertia given as numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct Welded {
+    /// Name, parts, and the placements that lead into the frame of the first, the innermost first.
+    pub(crate) bodies: Vec<(String, Vec<Part>, Vec<Placement>)>,
+    /// The given inertias.
+    pub(crate) given: Vec<GivenInertia>,
+}
 
-/// What is wrong with the holes of a body, as the end of a sentence. Values that are not known, and masses that are
-/// reported themselves, are no matter of the holes.
+/// An inertia tensor as declared.
+#[derive(Clone, Debug)]
+pub(crate) struct GivenInertia {
+    /// Name of the body.
+    pub(crate) body: String,
+    /// Entries as given: xx, yy, zz, xy, yz, xz.
+    pub(crate) tensor: [Expr; 6],
+    /// The same about the centre of mass.
+    pub(crate) central: [Expr; 6],
+    /// Where it was declared.
+    pub(crate) extent: Extent,
+}
+
+/// What is wrong with the holes of a body, as the end of a sentence. Values that are not known, and masses and inertias that
+/// are reported themselves, are no matter of the holes.
 pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
-    let moments: Vec<(f64, Moments)> = parts
-        .iter()
-        .map(|part| (if part.hole { -1.0 } else { 1.0 }, Moments::of(part, at)))
-        .collect();
-    if moments.iter().any(|(_, part)| !part.is_real()) {
-        return None;
-    }
     let [mut solid, mut holes] = [Moments::default(), Moments::default()];
-    for (sign, part) in &moments {
-        let sum = if *sign < 0.0 { &mut holes } else { &mut solid };
-        sum.add(part, 1.0);
+    for part in parts {
+        let moments = Moments::of(part, at);
+        if !moments.is_real() {
+            return None;
+        }
+        let sum = if part.hole { &mut holes } else { &mut solid };
+        sum.add(&moments, 1.0);
+    }
+    let scale = trace(&solid.second);
+    if !is_body(&solid.second_about_center(), scale) {
+        return None;
     }
     let mut whole = solid.clone();
     whole.add(&holes, -1.0);
@@ -28,173 +54,134 @@ pub(super) fn holes(parts: &[Part], at: &Values) -> Option<String> {
     if whole.mass <= 1e-12 * solid.mass {
         return Some("are as heavy as the rest of it, or heavier: nothing is left".to_string());
     }
-    let central = whole.second_about_center();
-    let scale = (0..3).map(|axis| solid.second[axis][axis]).sum();
-    let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = central;
-    (!positive_semidefinite([xx, yy, zz, xy, yz, xz], scale)).then(|| {
+    (!is_body(&whole.second_about_center(), scale)).then(|| {
         "leave an inertia that no body has: a hole must lie inside the shapes it is cut from"
             .to_string()
     })
 }
 
-/// Mass, first and second moment (the integrals of 1, `r` and `r r^T`) about the origin of the body frame.
-#[derive(Clone, Debug, Default)]
-struct Moments {
-    mass: f64,
-    first: Vector,
-    second: Matrix,
-}
-
-impl Moments {
-    fn of(part: &Part, at: &Values) -> Self {
-        let (mass, center, central) = central_moments(&part.shape, at);
-        let turn = rotation(&part.placement, at);
-        let offset = at.vector(&part.placement.offset);
-        let turned = product_with_vector(&turn, center);
-        let place = [0, 1, 2].map(|i: usize| offset[i] + turned[i]);
-        let central = product(&product(&turn, &central), &transposed(&turn));
-        Self {
-            mass,
-            first: place.map(|component| mass * component),
-            second: matrix(|i, j| central[i][j] + mass * place[i] * place[j]),
+/// The first given inertia that no body can have, where the bodies welded to it do not make up for it.
+pub(super) fn impossible(welded: &Welded, at: &Values) -> Option<Violation> {
+    let mut whole = Moments::default();
+    for (_, parts, placements) in &welded.bodies {
+        let mut body = Moments::default();
+        for part in parts {
+            body.add(&Moments::of(part, at), if part.hole { -1.0 } else { 1.0 });
         }
-    }
-
-    fn is_real(&self) -> bool {
-        let entries = self.first.iter().chain(self.second.iter().flatten());
-        self.mass > 0.0 && self.mass.is_finite() && entries.copied().all(f64::is_finite)
-    }
-
-    fn add(&mut self, other: &Self, factor: f64) {
-        self.mass += factor * other.mass;
-        for i in 0..3 {
-            self.first[i] += factor * other.first[i];
-            for j in 0..3 {
-                self.second[i][j] += factor * other.second[i][j];
-            }
+        for placement in placements {
+            body = body.placed(placement, at);
         }
+        whole.add(&body, 1.0);
     }
-
-    fn second_about_center(&self) -> Matrix {
-        let Self {
-            mass,
-            first,
-            second,
-        } = self;
-        matrix(|i, j| second[i][j] - first[i] * first[j] / mass)
+    let together = whole.second_about_center();
+    let scale = trace(&together).abs() + 1e-5 * trace(&whole.second).abs();
+    if !whole.is_real() || is_body(&together, scale) {
+        return None;
     }
-}
-
-/// Mass, centre of mass, and second moment about it, in the frame of the shape.
-fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
-    // A solid of revolution: `across` m^2 in each direction across the axis, `along` along it.
-    let round = |axis: &super::super::expression::Vector, across: f64, along: f64| {
-        let a = at.vector(axis);
-        matrix(|i, j| across * identity(i, j) + (along - across) * a[i] * a[j])
+    // Where every given inertia is possible a hole is to blame, and reported itself.
+    let wrong = |given: &&GivenInertia| {
+        let central = tensor(&given.central, at);
+        !is_inertia_of_a_body(&central)
     };
-    let square = |expr| at.of(expr).powi(2);
-    let (mass, center, per_mass) = match shape {
-        Shape::Point { mass, center } => (mass, center, Matrix::default()),
-        Shape::Rod {
-            mass,
-            length,
-            along,
-            center,
-        } => (mass, center, round(along, 0.0, square(length) / 12.0)),
-        Shape::Disk {
-            mass,
-            radius,
-            axis,
-            center,
-        } => (mass, center, round(axis, square(radius) / 4.0, 0.0)),
-        Shape::Cylinder {
-            mass,
-            radius,
-            length,
-            axis,
-            center,
-        } => {
-            let (across, along) = (square(radius) / 4.0, square(length) / 12.0);
-            (mass, center, round(axis, across, along))
-        }
-        Shape::Tube {
-            mass,
-            inner,
-            outer,
-            length,
-            axis,
-            center,
-        } => {
-            let across = (square(inner) + square(outer)) / 4.0;
-            (mass, center, round(axis, across, square(length) / 12.0))
-        }
-        Shape::Cuboid { mass, size, center } => {
-            let edges = at.vector(size);
-            let entries = matrix(|i, j| identity(i, j) * edges[i] * edges[j] / 12.0);
-            (mass, center, entries)
-        }
-        Shape::Sphere {
-            mass,
-            radius,
-            center,
-        } => {
-            let along = square(radius) / 5.0;
-            (mass, center, matrix(|i, j| along * identity(i, j)))
-        }
-        Shape::Rigid {
-            mass,
-            center,
-            inertia,
-            about,
-        } => {
-            let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k: usize| at.of(&inertia[k]));
-            let inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-            let half = (xx + yy + zz) / 2.0;
-            let (mass, c) = (at.of(mass), at.vector(center));
-            let reference = about.as_ref().map_or(c, |about| at.vector(about));
-            let arm = [0, 1, 2].map(|i: usize| c[i] - reference[i]);
-            let central =
-                matrix(|i, j| half * identity(i, j) - inertia[i][j] - mass * arm[i] * arm[j]);
-            return (mass, c, central);
-        }
+    let given = welded.given.iter().find(wrong)?;
+    let others: Vec<String> = welded
+        .bodies
+        .iter()
+        .filter(|(name, ..)| *name != given.body)
+        .map(|(name, ..)| format!("`{name}`"))
+        .collect();
+    let welded_to = match others.as_slice() {
+        [] => String::new(),
+        others => format!(
+            "; together with {}, welded to it, the principal moments are {}",
+            others.join(", "),
+            moments(principal(&inertia(&together)).0)
+        ),
     };
-    let mass = at.of(mass);
-    let central = matrix(|i, j| mass * per_mass[i][j]);
-    (mass, at.vector(center), central)
+    Some(Violation {
+        extent: given.extent,
+        what: format!("the inertia of `{}`", given.body),
+        problem: format!("belongs to no body: {}{welded_to}", given.problem(at)),
+        help: Some(given.nearest(at)),
+    })
 }
 
-/// The axes of a placement, column by column, in the frame that it is in.
-fn rotation(placement: &Placement, at: &Values) -> Matrix {
-    let mut turned = matrix(identity);
-    for (axis, angle) in &placement.rotations {
-        let n = at.vector(axis);
-        let (sin, cos) = at.of(angle).sin_cos();
-        let [x, y, z] = n;
-        let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
-        // Rodrigues.
-        let one =
-            matrix(|i, j| cos * identity(i, j) + sin * cross[i][j] + (1.0 - cos) * n[i] * n[j]);
-        turned = product(&turned, &one);
+/// A second moment about the centre of mass is positive semidefinite, but for rounding errors of entries of size `scale`.
+fn is_body(second: &Matrix, scale: f64) -> bool {
+    principal(second).0[0] >= -1e-9 * scale.max(f64::MIN_POSITIVE)
+}
+
+impl GivenInertia {
+    /// Which moments do not go together.
+    fn problem(&self, at: &Values) -> String {
+        const NAMES: [&str; 3] = ["Jxx", "Jyy", "Jzz"];
+        let central = tensor(&self.central, at);
+        let about = match self.central == self.tensor {
+            true => "",
+            false => "about its centre of mass, ",
+        };
+        let diagonal = [0, 1, 2].map(|k: usize| central[k][k]);
+        if let Some(k) = diagonal.iter().position(|&moment| moment < 0.0) {
+            let (name, value) = (NAMES[k], digits(diagonal[k], 6));
+            return format!("{about}{name} = {value} kg*m^2 is negative");
+        }
+        let is_diagonal = (0..3).all(|i| (0..i).all(|j| central[i][j] == 0.0));
+        let (values, _) = principal(&central);
+        if !is_diagonal {
+            let which = match values[0] < 0.0 {
+                true => "the first is negative",
+                false => "the first two sum to less than the third",
+            };
+            return format!(
+                "{about}of its principal moments {}, {which}",
+                moments(values)
+            );
+        }
+        let (mut order, [a, b, c]) = ([0, 1, 2], values);
+        order.sort_by(|&i, &j| diagonal[i].total_cmp(&diagonal[j]));
+        let [mut first, mut second, greatest] = order.map(|k| NAMES[k]);
+        if first > second {
+            std::mem::swap(&mut first, &mut second);
+        }
+        let apart = (6..17)
+            .find(|&n| digits(a + b, n) != digits(c, n))
+            .unwrap_or(17);
+        let (sum, greatest_value) = (digits(a + b, apart), digits(c, apart));
+        format!(
+            "{about}{first} + {second} = {sum} kg*m^2 is less than {greatest} = {greatest_value} kg*m^2"
+        )
     }
-    turned
+
+    /// What to write instead.
+    fn nearest(&self, at: &Values) -> String {
+        let (given, central) = (tensor(&self.tensor, at), tensor(&self.central, at));
+        let nearest = nearest_of_a_body(&central);
+        let [x, y, z] = matrix(|i, j| given[i][j] + nearest[i][j] - central[i][j]);
+        let mut entries = vec![x[0], y[1], z[2]];
+        if [x[1], y[2], x[2]].iter().any(|&entry| entry != 0.0) {
+            entries.extend([x[1], y[2], x[2]]);
+        }
+        // As many digits as keep a flat body flat.
+        let entries: Vec<String> = entries
+            .into_iter()
+            .map(|entry| digits(entry, 10).to_string())
+            .collect();
+        let entries = entries.join(", ");
+        format!("the nearest inertia that a body can have is `[{entries}] kg*m^2`")
+    }
 }
 
-fn identity(i: usize, j: usize) -> f64 {
-    if i == j { 1.0 } else { 0.0 }
+fn tensor(entries: &[Expr; 6], at: &Values) -> Matrix {
+    let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k: usize| at.of(&entries[k]));
+    [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
 }
 
-fn matrix(entry: impl Fn(usize, usize) -> f64) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
+fn moments(values: Vector) -> String {
+    let [a, b, c] = values.map(|value| digits(value, 6));
+    format!("{a}, {b} and {c} kg*m^2")
 }
 
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    matrix(|i, j| (0..3).map(|k| a[i][k] * b[k][j]).sum())
-}
-
-fn product_with_vector(a: &Matrix, v: Vector) -> Vector {
-    [0, 1, 2].map(|i: usize| (0..3).map(|k| a[i][k] * v[k]).sum())
-}
-
-fn transposed(a: &Matrix) -> Matrix {
-    matrix(|i, j| a[j][i])
+/// A number with so many significant digits.
+pub(super) fn digits(value: f64, count: usize) -> f64 {
+    format!("{value:.*e}", count - 1).parse().unwrap_or(value)
 }

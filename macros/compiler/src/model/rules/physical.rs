@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use super::composite;
-use crate::base::diagnostics::Diagnostics;
+use super::composite::{self, Welded, digits};
+use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
-use crate::model::evaluate::{InputDependence, Values};
+use crate::model::evaluate::{Dependence, Values};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Constant, Part};
 
@@ -32,8 +32,8 @@ pub(crate) enum Demand {
     Positive(Dimension),
     /// A vector longer than zero.
     Direction,
-    /// Six tensor entries about the centre of mass that a body can have: xx, yy, zz, xy, yz, xz.
-    Inertia,
+    /// Given inertias that the bodies welded together can have; the values are those about the centres of mass.
+    Inertia(Rc<Welded>),
     /// Two radii, the first below the second.
     BelowOuter,
     /// The travel of a screw per turn.
@@ -71,18 +71,25 @@ pub(crate) fn check(
 ) {
     let unknown = vec![f64::NAN; inputs];
     let nominal: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
-    let dependence = InputDependence::new(constants);
     let values = Values::new(constants, &unknown, &nominal);
+    let on_inputs = Dependence::on_inputs(constants);
+    // A constant without a value is reported once, not wherever it is used.
+    let on_mistakes = Dependence::on_constants_without_value(&values);
     let mut met = Vec::new();
     for requirement in requirements {
-        if requirement.values.iter().any(|expr| dependence.of(expr)) {
+        let depends = |expr: &Expr| on_inputs.of(expr) || on_mistakes.of(expr);
+        if requirement.values.iter().any(depends) {
             continue;
         }
         match violation(requirement, &values) {
             None => met.push(requirement),
-            Some(problem) => {
-                let message = format!("{} {problem}", requirement.what);
-                diagnostics.error(requirement.extent, message);
+            Some(violation) => {
+                let message = format!("{} {}", violation.what, violation.problem);
+                diagnostics.push(Diagnostic {
+                    span: violation.extent,
+                    message,
+                    help: violation.help,
+                });
             }
         }
     }
@@ -112,8 +119,7 @@ fn check_tolerance(
         shifted[index] += sign * variable.tolerance;
         let values = Values::new(constants, inputs, &shifted);
         for requirement in requirements {
-            if let Some(problem) = violation(requirement, &values) {
-                let Requirement { what, .. } = requirement;
+            if let Some(Violation { what, problem, .. }) = violation(requirement, &values) {
                 let name = &variable.name;
                 let message = format!("within the tolerance of `{name}`, {what} {problem}");
                 let help = "narrow the tolerance, or change the nominal value";
@@ -124,8 +130,28 @@ fn check_tolerance(
     }
 }
 
+/// A requirement that is not met: "the mass of `bar`" "is -3 kg; it must be positive".
+pub(super) struct Violation {
+    pub(super) what: String,
+    pub(super) problem: String,
+    pub(super) extent: Extent,
+    pub(super) help: Option<String>,
+}
+
+fn violation(requirement: &Requirement, at: &Values) -> Option<Violation> {
+    if let Demand::Inertia(welded) = &requirement.demand {
+        return composite::impossible(welded, at);
+    }
+    Some(Violation {
+        problem: problem(requirement, at)?,
+        what: requirement.what.clone(),
+        extent: requirement.extent,
+        help: None,
+    })
+}
+
 /// What is wrong with the values, as the end of a sentence.
-fn violation(requirement: &Requirement, at: &Values) -> Option<String> {
+fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
     let values: Vec<f64> = requirement.values.iter().map(|expr| at.of(expr)).collect();
     if values.iter().any(|value| !value.is_finite()) {
         return Some("is not a finite real number".to_string());
@@ -139,7 +165,6 @@ fn violation(requirement: &Requirement, at: &Values) -> Option<String> {
         (Demand::Direction, vector) if vector.iter().all(|&value| value == 0.0) => {
             Some("has no length".to_string())
         }
-        (Demand::Inertia, &[xx, yy, zz, xy, yz, xz]) => inertia([xx, yy, zz, xy, yz, xz]),
         (Demand::BelowOuter, &[inner, outer]) if inner >= outer => Some(format!(
             "is {} m; it must be smaller than the outer, {} m",
             rounded(inner),
@@ -187,66 +212,5 @@ fn in_one_plane(axes: &[f64]) -> bool {
 
 /// Six digits tell enough in a message.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
-}
-
-/// `D = tr(J)/2 I - J` is the integral of `r r^T dm` about the centre of mass. Mass is nowhere negative, so `D` is
-/// positive semidefinite; that is the triangle inequality of the principal moments, and makes `J` so too.
-fn inertia([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Option<String> {
-    if xx < 0.0 || yy < 0.0 || zz < 0.0 {
-        return Some("has a negative moment".to_string());
-    }
-    let half = (xx + yy + zz) / 2.0;
-    let moments = [half - xx, half - yy, half - zz, -xy, -yz, -xz];
-    (!positive_semidefinite(moments, half)).then(|| {
-        "belongs to no body: each principal moment is at most the sum of the other two".to_string()
-    })
-}
-
-/// The symmetric matrix xx, yy, zz, xy, yz, xz has no negative eigenvalue, up to rounding errors of entries of size
-/// `scale`: all its principal minors are positive or zero.
-pub(super) fn positive_semidefinite([a, b, c, d, e, f]: [f64; 6], scale: f64) -> bool {
-    // Rounding may leave a flat body a little below zero.
-    let scale = scale.max(f64::MIN_POSITIVE);
-    let slack = -1e-9;
-    let first = [a, b, c].map(|entry| entry / scale);
-    let second = [a * b - d * d, b * c - e * e, a * c - f * f].map(|minor| minor / scale / scale);
-    let determinant = a * (b * c - e * e) - d * (d * c - e * f) + f * (d * e - b * f);
-    let third = determinant / scale / scale / scale;
-    let mut minors = first.into_iter().chain(second).chain([third]);
-    minors.all(|minor| minor >= slack)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn inertias_of_bodies() {
-        assert_eq!(inertia([1.0, 1.0, 2.0, 0.0, 0.0, 0.0]), None);
-        assert_eq!(inertia([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]), None);
-        assert_eq!(inertia([0.0; 6]), None);
-        // A slender bar along (1, 1, 1): J = I - n n^T.
-        let third = 1.0 / 3.0;
-        assert_eq!(
-            inertia([
-                1.0 - third,
-                1.0 - third,
-                1.0 - third,
-                -third,
-                -third,
-                -third
-            ]),
-            None
-        );
-    }
-
-    #[test]
-    fn inertias_of_no_body() {
-        assert!(inertia([1.0, 1.0, 2.1, 0.0, 0.0, 0.0]).is_some());
-        assert!(inertia([-1.0, 1.0, 1.0, 0.0, 0.0, 0.0]).is_some());
-        assert!(inertia([1.0, 1.0, 1.0, 0.6, 0.6, 0.6]).is_some());
-        assert!(inertia([1.0, 1.0, 1.0, 0.0, 0.0, 0.9]).is_some());
-        assert!(inertia([0.0, 0.0, 0.0, 0.1, 0.0, 0.0]).is_some());
-    }
+    digits(value, 6)
 }

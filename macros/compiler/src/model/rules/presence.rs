@@ -1,7 +1,7 @@
 //! What every mechanism must have.
 
 use crate::base::diagnostics::Diagnostics;
-use crate::syntax::ast::{Ast, ItemKind};
+use crate::syntax::ast::{Ast, ItemKind, Unread};
 
 /// Checks that there is something to move and a way for it to move.
 pub(crate) fn check(ast: &Ast, can_move: bool, diagnostics: &mut Diagnostics) {
@@ -29,4 +29,5 @@ fn has_body(ast: &Ast) -> bool {
     ast.items
         .iter()
         .any(|item| matches!(item.kind, ItemKind::Body(_)))
+        || ast.unread.iter().any(Unread::may_connect)
 }

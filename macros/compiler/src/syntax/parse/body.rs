@@ -4,6 +4,7 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term};
 use super::super::tokens::{Parsed, Tokens};
+use super::DECIMAL_POINT;
 use super::item::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
@@ -56,6 +57,10 @@ pub(super) fn named_call(tokens: &mut Tokens, what: &str) -> Parsed<NamedCall> {
         colon(&mut content)?;
         let value = value(&mut content)?;
         arguments.push(Argument { name, value });
+        if content.peek_decimal_comma() {
+            let error = content.expected("a named argument");
+            return error.map_err(|error| Box::new(error.with_help(DECIMAL_POINT)));
+        }
         if !content.is_empty() {
             content.expect_sign(',', "`,` or an operator")?;
         }

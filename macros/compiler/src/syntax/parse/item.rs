@@ -5,6 +5,7 @@ use proc_macro2::Ident;
 use super::super::ast::{
     Constraint, Design, Force, Gravity, Input, ItemKind, Named, Point, Tolerance, ToleranceKind,
 };
+use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
 use super::joint::joint;
@@ -31,6 +32,7 @@ pub(super) const KEYWORDS: [&str; 10] = [
 
 /// What other tools and languages call an item.
 const SYNONYMS: [(&str, &str); 17] = [
+    ("motor", "force"),
     ("param", "design"),
     ("parameter", "design"),
     ("variable", "design"),
@@ -43,12 +45,73 @@ const SYNONYMS: [(&str, &str); 17] = [
     ("site", "point"),
     ("loop", "constraint"),
     ("closure", "constraint"),
-    ("coupling", "constraint"),
     ("equality", "constraint"),
     ("contact", "constraint"),
     ("element", "force"),
     ("result", "output"),
 ];
+
+/// Words that stand behind the name of an item, not before it.
+pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
+    (
+        "body",
+        &[
+            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid",
+        ],
+    ),
+    (
+        "joint",
+        &[
+            "fixed",
+            "revolute",
+            "prismatic",
+            "screw",
+            "cylindrical",
+            "universal",
+            "planar",
+            "spherical",
+            "free",
+        ],
+    ),
+    (
+        "force",
+        &[
+            "spring",
+            "damper",
+            "spring_damper",
+            "tension",
+            "generalized",
+            "potential",
+            "bushing",
+            "load",
+            "follower",
+            "drag",
+        ],
+    ),
+    (
+        "constraint",
+        &[
+            "coincident",
+            "aligned",
+            "distance",
+            "coupling",
+            "equation",
+            "rolling",
+        ],
+    ),
+];
+
+/// What to write for an item that starts with an unknown word.
+fn instead_of(unknown: &str) -> String {
+    let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
+    match (inside, suggestion(unknown, KEYWORDS, &SYNONYMS)) {
+        (Some((keyword, _)), _) => {
+            format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
+        }
+        (None, Some(known)) => format!("did you mean `{known}`?"),
+        (None, None) => format!("an item starts with one of {}", KEYWORDS.join(", ")),
+    }
+}
 
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -68,12 +131,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "output" => |tokens| named(tokens).map(ItemKind::Output),
         unknown => {
             let message = format!("unknown item `{unknown}`");
-            let diagnostic = Diagnostic::new(&keyword, message).with_help(
-                match suggestion(unknown, KEYWORDS, &SYNONYMS) {
-                    Some(known) => format!("did you mean `{known}`?"),
-                    None => format!("an item starts with one of {}", KEYWORDS.join(", ")),
-                },
-            );
+            let diagnostic = Diagnostic::new(&keyword, message).with_help(instead_of(unknown));
             return Err(Box::new(diagnostic));
         }
     };
@@ -88,7 +146,17 @@ pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
         let message = format!("`{keyword}` cannot be a name: it starts an item");
         return Err(Box::new(Diagnostic::new(&keyword, message)));
     }
-    tokens.name("a name")
+    let name = tokens.name("a name")?;
+    let mut ahead = *tokens;
+    if ahead.sign('-').is_some()
+        && let Some(rest) = ahead.ident()
+    {
+        let message = "a name cannot contain `-`";
+        let diagnostic = Diagnostic::new(Extent::from(&name).to(&rest), message)
+            .with_help(format!("write `{name}_{rest}`"));
+        return Err(Box::new(diagnostic));
+    }
+    Ok(name)
 }
 
 pub(super) fn colon(tokens: &mut Tokens) -> Parsed<Extent> {
@@ -97,9 +165,25 @@ pub(super) fn colon(tokens: &mut Tokens) -> Parsed<Extent> {
 
 fn input(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
+    has_no_value(tokens, &name, "rad/s")?;
     colon(tokens)?;
     let unit = unit::declared(tokens)?;
+    has_no_value(tokens, &name, &print::unit(&unit))?;
     Ok(ItemKind::Input(Input { name, unit }))
+}
+
+/// An operating point belongs to a study, not to the mechanism.
+fn has_no_value(tokens: &Tokens, name: &Ident, unit: &str) -> Parsed<()> {
+    if !tokens.peek_sign('=') {
+        return Ok(());
+    }
+    let message = format!("`{name}` is an input: its value is chosen at run time");
+    let help = format!(
+        "write `input {name}: {unit};` and give the value to the study with `.input(...)`, or declare a `design` variable"
+    );
+    Err(Box::new(
+        Diagnostic::new(tokens.span(), message).with_help(help),
+    ))
 }
 
 fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -152,9 +236,21 @@ fn named(tokens: &mut Tokens) -> Parsed<Named> {
     Ok(Named { name, value })
 }
 
+const GRAVITY: &str = "write `gravity 9.81 m/s^2 along -z;`";
+
 fn gravity(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let keyword = tokens.expect_word("gravity")?;
+    if tokens.peek_sign('=') {
+        return tokens
+            .expected("a value")
+            .map_err(|error| Box::new(error.with_help(GRAVITY)));
+    }
     let magnitude = value(tokens)?;
+    if tokens.peek_sign(',') {
+        return tokens
+            .expected("`along`")
+            .map_err(|error| Box::new(error.with_help(GRAVITY)));
+    }
     let along = match tokens.word("along") {
         Some(_) => Some(value(tokens)?),
         None => None,

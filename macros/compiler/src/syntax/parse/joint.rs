@@ -4,6 +4,7 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause};
 use super::super::tokens::{Parsed, Tokens};
+use super::DECIMAL_POINT;
 use super::item::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
@@ -23,11 +24,16 @@ pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let to = tokens.name("a body or `ground`")?;
     let mut clauses = Vec::new();
     loop {
+        let decimal = tokens.peek_decimal_comma();
         let comma = tokens.sign(',').is_some();
         match clause(tokens)? {
             Some(clause) => clauses.push(clause),
             None if comma => {
-                return tokens.expected("`at`, `rotated`, `driven`, `coasting` or `cut`");
+                let error = tokens.expected("`at`, `rotated`, `driven`, `coasting` or `cut`");
+                return error.map_err(|error| match decimal {
+                    true => Box::new(error.with_help(DECIMAL_POINT)),
+                    false => error,
+                });
             }
             None => break,
         }
@@ -90,6 +96,10 @@ fn clause(tokens: &mut Tokens) -> Parsed<Option<JointClause>> {
     let Some(keyword) = tokens.word("driven") else {
         return Ok(None);
     };
+    if !tokens.peek_word("at") {
+        let error = tokens.expected("`at`");
+        return error.map_err(|error| Box::new(error.with_help("write `driven at omega`")));
+    }
     tokens.expect_word("at")?;
     let speed = value(tokens)?;
     Ok(Some(JointClause::Drive(Drive {

@@ -3,6 +3,7 @@
 use proc_macro2::{Delimiter, Span};
 
 use super::super::ast::{Unit, UnitFactor};
+use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
@@ -32,7 +33,9 @@ pub(super) fn declared(tokens: &mut Tokens) -> Parsed<Unit> {
         return tokens.expected("a unit such as `rad/s`");
     }
     rest(tokens, Names::Any, &mut factors)?;
-    Ok(unit(factors, start, tokens))
+    let unit = unit(factors, start, tokens);
+    ends(tokens, &unit)?;
+    Ok(unit)
 }
 
 /// The unit after a number, if there is one. `suffix` is the unit's first name when it is glued to the number.
@@ -59,7 +62,26 @@ pub(super) fn after_number(tokens: &mut Tokens, suffix: &str) -> Parsed<Option<U
         });
     }
     rest(tokens, Names::Known, &mut factors)?;
-    Ok(Some(unit(factors, start, tokens)))
+    let unit = unit(factors, start, tokens);
+    ends(tokens, &unit)?;
+    Ok(Some(unit))
+}
+
+/// A unit beside a unit lacks its multiplication sign; the name of a coordinate may follow where a drive ends.
+fn ends(tokens: &Tokens, unit: &Unit) -> Parsed<()> {
+    let mut ahead = *tokens;
+    let Some(name) = ahead.ident() else {
+        return Ok(());
+    };
+    let is_coordinate = ["driven", "coasting"]
+        .iter()
+        .any(|word| ahead.peek_word(word));
+    if is_coordinate || units::find(&name.to_string()).is_none() {
+        return Ok(());
+    }
+    let diagnostic = Diagnostic::new(&name, "units are multiplied by `*`")
+        .with_help(format!("write `{}*{name}`", print::unit(unit)));
+    Err(Box::new(diagnostic))
 }
 
 fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {

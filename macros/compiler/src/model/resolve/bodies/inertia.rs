@@ -1,10 +1,11 @@
 //! The inertia of a rigid body of any shape.
 
 use super::super::typed::Place;
+use super::super::values::is_matrix;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
-use crate::model::rules::physical::Demand;
+use crate::model::rules::composite::GivenInertia;
 use crate::model::simplify::{add, componentwise, multiply, power_integer, subtract};
 use crate::syntax::ast::{Value, ValueKind};
 
@@ -30,7 +31,14 @@ impl Quantities<'_, '_, '_> {
             },
         };
         if let Some(central) = central {
-            self.require("inertia", central.to_vec(), Demand::Inertia, value);
+            let what = format!("the inertia of `{}`", self.body);
+            self.resolver.require_finite(&central, &what, value.extent);
+            self.resolver.given_inertias.push(GivenInertia {
+                body: self.body.clone(),
+                tensor: tensor.clone(),
+                central,
+                extent: value.extent,
+            });
         }
         Some(tensor)
     }
@@ -39,6 +47,14 @@ impl Quantities<'_, '_, '_> {
         let ValueKind::Vector(entries, unit) = &value.bare().kind else {
             return self.wrong_inertia(value);
         };
+        if is_matrix(entries) {
+            self.resolver.diagnostics.error_with_help(
+                value.extent,
+                "an inertia is a list of 3 or 6 entries, not a matrix",
+                "write `[Jxx, Jyy, Jzz, Jxy, Jyz, Jxz] kg*m^2`, every entry with the sign it has in the matrix",
+            );
+            return None;
+        }
         if entries.len() != 3 && entries.len() != 6 {
             return self.wrong_inertia(value);
         }

@@ -13,7 +13,7 @@ use crate::syntax::ast::Value;
 pub(super) struct Quantities<'a, 'b, 'c> {
     pub(super) resolver: &'a mut Resolver<'b>,
     pub(super) arguments: Arguments<'c>,
-    body: String,
+    pub(super) body: String,
 }
 
 impl<'a, 'b, 'c> Quantities<'a, 'b, 'c> {

@@ -13,7 +13,7 @@ use crate::model::simplify::{multiply, power_integer, subtract};
 const MASS: &[&str] = &["mass", "density"];
 const CENTER: &[&str] = &["center"];
 
-pub(super) const SHAPES: &[Signature] = &[
+pub(in crate::model::resolve) const SHAPES: &[Signature] = &[
     Signature::new("massless", &[], "massless"),
     Signature::new("point", &["mass"], "point(mass: 1 kg)")
         .optional(CENTER)

@@ -7,6 +7,8 @@ use super::super::expected::Expected;
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::model::mechanism::{CoordinateQuantity, ForceLaw};
+use crate::syntax::ast::ValueKind;
+use crate::syntax::print;
 
 impl Resolver<'_> {
     pub(super) fn spring(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
@@ -48,7 +50,23 @@ impl Resolver<'_> {
         word: &str,
         arguments: &Arguments,
     ) -> Option<(CoordinateId, CoordinateQuantity)> {
-        let name = self.name_of(arguments.get("on")?, "coordinate")?;
+        let on = arguments.get("on")?;
+        if !matches!(on.bare().kind, ValueKind::Name(_)) {
+            let help = match word {
+                "spring" => {
+                    let on = print::value(on);
+                    format!("a spring on an expression is a potential: `potential(energy: stiffness * ({on})^2 / 2)`")
+                }
+                _ => "write one `generalized` force on each coordinate, with `rate` of the others in its `value`".to_string(),
+            };
+            self.diagnostics.error_with_help(
+                on.extent,
+                format!("a {word} acts on one coordinate, given by its name"),
+                help,
+            );
+            return None;
+        }
+        let name = self.name_of(on, "coordinate")?;
         let found = self.coordinate(name)?;
         match self.coordinates.get(found.0.index())?.motion {
             DeclaredMotion::Driven => {

@@ -23,7 +23,7 @@ impl Resolver<'_> {
             false => (3, Dimension::MOMENT),
         };
         let components = [0, 1, 2].map(|axis| first + axis);
-        let vector = match self.scope.find(&name.to_string()) {
+        let vector = match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Constraint(id)) => {
                 let exerted = self.exerted_by(id)?;
                 let right = match exerted {
@@ -48,7 +48,7 @@ impl Resolver<'_> {
     /// `reaction` of a constraint that is one equation.
     pub(super) fn reaction_number(&mut self, of: &Value) -> Option<Typed> {
         let name = self.name_of(of, "constraint")?;
-        match self.scope.find(&name.to_string()) {
+        match self.scope.find_or_unclear(&name.to_string()) {
             Some(Meaning::Constraint(id)) => {
                 let exerted = self.exerted_by(id)?;
                 let Exerted::Number(dimension) = exerted else {

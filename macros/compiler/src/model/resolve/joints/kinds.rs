@@ -135,7 +135,7 @@ impl Kind {
     }
 
     /// Every word.
-    pub(super) fn words() -> impl Iterator<Item = &'static str> + Clone {
+    pub(in crate::model::resolve) fn words() -> impl Iterator<Item = &'static str> + Clone {
         KINDS.iter().map(|kind| kind.word)
     }
 

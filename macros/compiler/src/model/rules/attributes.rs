@@ -1,0 +1,33 @@
+//! What may stand on a mechanism: attributes go to the generated type, which derives some traits already.
+
+use syn::punctuated::Punctuated;
+
+use crate::base::diagnostics::Diagnostics;
+use crate::base::span::Extent;
+use crate::syntax::ast::Ast;
+
+const DERIVED: [&str; 6] = ["Clone", "Copy", "Debug", "Default", "PartialEq", "Eq"];
+
+/// A trait derived a second time would be a conflict in generated code.
+pub(crate) fn check(ast: &Ast, diagnostics: &mut Diagnostics) {
+    let derives = ast
+        .attributes
+        .iter()
+        .filter(|attribute| attribute.path().is_ident("derive"));
+    for derive in derives {
+        let list =
+            derive.parse_args_with(Punctuated::<syn::Path, syn::Token![,]>::parse_terminated);
+        for path in list.into_iter().flatten() {
+            let Some(last) = path.segments.last() else {
+                continue;
+            };
+            if DERIVED.iter().any(|name| last.ident == name) {
+                let name = &last.ident;
+                let message = format!("a mechanism implements `{name}` already");
+                let all = DERIVED.map(|name| format!("`{name}`")).join(", ");
+                let help = format!("remove it; derived are {all}");
+                diagnostics.error_with_help(Extent::from(name), message, help);
+            }
+        }
+    }
+}
