@@ -33,7 +33,7 @@ fn kernels_of_every_machine_are_consistent() {
         let subject = Subject::new(declaration, Limits::default())
             .unwrap_or_else(|mistakes| panic!("{name}: {mistakes:?}"));
         for seed in 1..4 {
-            let outcome = check(&subject.program, &subject.state(seed));
+            let outcome = check(&subject, &subject.state(seed));
             assert!(
                 outcome.differences.is_empty(),
                 "{name}: {:#?}",

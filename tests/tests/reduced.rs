@@ -118,7 +118,7 @@ fn reduced_cases_are_consistent() {
         let subject =
             Subject::new(&text(name), Limits::NONE).unwrap_or_else(|all| panic!("{all:?}"));
         for seed in 0..20 {
-            let outcome = check(&subject.program, &subject.state(seed));
+            let outcome = check(&subject, &subject.state(seed));
             assert!(
                 outcome.differences.is_empty(),
                 "{name}: {:#?}",

@@ -244,7 +244,7 @@ fn compiled_robots_are_those_of_pinocchio() {
 fn kernels_of_robots_are_consistent() {
     for name in ROBOTS {
         let robot = Robot::load(name);
-        let outcome = check(&robot.subject.program, &robot.subject.state(1));
+        let outcome = check(&robot.subject, &robot.subject.state(1));
         assert!(
             outcome.differences.is_empty(),
             "{name}: {:#?}",

@@ -4,11 +4,13 @@
 //! random direction, in which a wrong entry shows with probability one.
 
 use eigentol::{Dual, Real};
+use eigentol_compiler::mechanics::Role;
 use eigentol_compiler::program::{Kernel, Program};
 
 use crate::bounded::Bounded;
 use crate::interpreter::interpret;
 use crate::state::State;
+use crate::subject::Subject;
 
 /// Below this nothing is compared: products of constants that are nearly zero may have been folded to zero.
 const FLOOR: f64 = 1e-15;
@@ -42,16 +44,17 @@ pub struct Outcome {
     pub worst: f64,
 }
 
-/// Compares every kernel of a program at a state.
+/// Compares every kernel at a state, and what constraints exert with what they demand.
 ///
 /// # Panics
 /// When a kernel of the runtime's contract is missing.
-pub fn check(program: &Program, state: &State) -> Outcome {
+pub fn check(subject: &Subject, state: &State) -> Outcome {
     let mut this = Check {
-        program,
+        program: &subject.program,
         state,
         outcome: Outcome::default(),
     };
+    this.reactions(&subject.roles);
     this.residuals();
     this.linear();
     this.motion();
@@ -261,6 +264,31 @@ impl Check<'_> {
             .map(|&h| -h)
             .collect();
         self.compare("motion.force", &found[1], &force);
+    }
+
+    /// A constraint exerts along a coordinate what one unit of that coordinate, or of its speed, changes in its demand. With
+    /// coasting coordinates the speeds are unknowns themselves, and these are their columns.
+    fn reactions(&mut self, roles: &[Role]) {
+        let n = self.n();
+        let [damping, stiffness] = [By::Velocity, By::Position].map(|by| self.matrix(by, true));
+        for (row, role) in roles.iter().enumerate() {
+            let by_speed = match role {
+                Role::PositionReaction => false,
+                Role::VelocityReaction => true,
+                _ => continue,
+            };
+            let (mut exerted, mut demanded) = (Vec::new(), Vec::new());
+            for (k, other) in roles.iter().enumerate() {
+                let own = match other {
+                    Role::Position(_) if by_speed => &damping,
+                    Role::Position(_) | Role::Speed(_) => &stiffness,
+                    _ => continue,
+                };
+                exerted.push(stiffness[k * n + row]);
+                demanded.push(own[row * n + k]);
+            }
+            self.compare("reaction", &exerted, &demanded);
+        }
     }
 
     fn residual_partials(&mut self) {

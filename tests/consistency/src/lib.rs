@@ -7,6 +7,7 @@
 
 pub mod bounded;
 pub mod check;
+pub mod closing;
 pub mod interpreter;
 pub mod state;
 pub mod subject;

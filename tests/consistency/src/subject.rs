@@ -8,11 +8,14 @@ use eigentol_oracle::random::Random;
 use crate::state::State;
 
 /// Kernels, and what is needed to choose a state.
+#[derive(Clone)]
 pub struct Subject {
     /// The kernels.
     pub program: Program,
     /// Names of the unknowns, in the order of `q`.
     pub unknowns: Vec<String>,
+    /// What they are.
+    pub roles: Vec<Role>,
     /// Names of the design variables.
     pub design: Vec<String>,
     positions: usize,
@@ -43,6 +46,7 @@ impl Subject {
         let is_position = |role: &Role| matches!(role, Role::Position(_));
         Self {
             unknowns: unknowns.iter().map(|one| one.name.clone()).collect(),
+            roles: unknowns.iter().map(|one| one.role).collect(),
             design: mechanism
                 .design
                 .iter()

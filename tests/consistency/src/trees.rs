@@ -10,6 +10,7 @@ use eigentol_oracle::random::{Plan, Random, Setting};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 
 use crate::check::{Outcome, check};
+use crate::closing;
 use crate::subject::Subject;
 
 /// Most free coordinates: what goes wrong shows in a few, and larger trees take most of the time.
@@ -82,9 +83,13 @@ pub fn text(number: u64) -> String {
         Setting::Conveyed,
         Setting::Climbing,
     ];
-    let all_forces = random.chance(0.2);
+    let (all_forces, closes) = (random.chance(0.2), random.chance(0.25));
     let plan = Plan {
-        setting: random.of(&settings),
+        setting: match closes && random.chance(0.6) {
+            // a loop around a drive has no steady state
+            true => Setting::Still,
+            false => random.of(&settings),
+        },
         bodies: 2 + random.below(3),
         rotor: random.chance(0.2),
         special: random.chance(0.95),
@@ -107,7 +112,13 @@ pub fn text(number: u64) -> String {
         });
         model.forces = springs.collect();
     }
-    declaration(&model)
+    let text = declaration(&model);
+    if !closes {
+        return text;
+    }
+    let end = text.rfind('}').expect("a closing brace");
+    let items = closing::items(&model, &mut random);
+    format!("{}    {items}\n}}\n", &text[..end])
 }
 
 /// Compiles tree `number` and compares its kernels.
@@ -120,7 +131,7 @@ pub fn tree(number: u64) -> Tree {
     match Subject::new(&text(number), limits) {
         Ok(subject) => {
             let taken = census::take();
-            Tree::Compared(check(&subject.program, &subject.state(number)), taken)
+            Tree::Compared(check(&subject, &subject.state(number)), taken)
         }
         Err(messages) => Tree::Refused(messages),
     }

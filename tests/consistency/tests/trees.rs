@@ -72,16 +72,16 @@ fn kernels_of_ten_thousand_trees_are_consistent() {
 }
 
 /// Reverses one subtraction or addition.
-fn spoilt(program: &Program, kernel: usize, instruction: usize) -> Option<Program> {
+fn spoilt(subject: &Subject, kernel: usize, instruction: usize) -> Option<Subject> {
     use eigentol_compiler::algebra::Operator::{Add, Subtract};
-    let mut program = program.clone();
-    let operation = &mut program.kernels[kernel].instructions[instruction].operation;
+    let mut subject = subject.clone();
+    let operation = &mut subject.program.kernels[kernel].instructions[instruction].operation;
     *operation = match *operation {
         Operation::Binary(Add, a, b) => Operation::Binary(Subtract, a, b),
         Operation::Binary(Subtract, a, b) => Operation::Binary(Add, a, b),
         _ => return None,
     };
-    Some(program)
+    Some(subject)
 }
 
 /// Whether a kernel returns the same after all, because what changed its sign is zero.
@@ -135,7 +135,7 @@ fn every_wrong_sign_is_found() {
     let subject =
         Subject::new(text, Limits::NONE).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
     let state = subject.state(3);
-    assert!(check(&subject.program, &state).differences.is_empty());
+    assert!(check(&subject, &state).differences.is_empty());
     let mut seen_spoils = 0;
     for (place, kernel) in subject.program.kernels.iter().enumerate() {
         let reference = [
@@ -156,13 +156,13 @@ fn every_wrong_sign_is_found() {
                 .all(|array| array.values.iter().all(is_zero))
         );
         for instruction in 0..kernel.instructions.len() {
-            let Some(program) = spoilt(&subject.program, place, instruction) else {
+            let Some(wrong) = spoilt(&subject, place, instruction) else {
                 continue;
             };
-            let seen = !check(&program, &state).differences.is_empty();
+            let seen = !check(&wrong, &state).differences.is_empty();
             let name = kernel.name;
             assert!(
-                seen || same_results(&subject.program, &program, name, &state),
+                seen || same_results(&subject.program, &wrong.program, name, &state),
                 "{name}: the sign of instruction {instruction}"
             );
             seen_spoils += u32::from(seen);

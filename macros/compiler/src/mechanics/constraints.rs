@@ -6,6 +6,7 @@
 use proc_macro2::Ident;
 
 use crate::algebra::{Graph, Vector3, gradient, substitute};
+use crate::base::census::taken;
 use crate::base::ids::{ConstraintId, ExprId, JointId};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Constraint, ConstraintLaw, Mechanism, Unit};
@@ -54,6 +55,7 @@ pub(super) fn rows(g: &mut Graph, problem: &Problem) -> Vec<Row> {
         let name = source.name(problem.mechanism);
         let Some(pair) = geometric(g, &setting, source) else {
             let (zero, unit) = problem.equation(source);
+            taken(|| "closing: equation".into());
             rows.push(Row {
                 source,
                 component: 0,
@@ -65,8 +67,10 @@ pub(super) fn rows(g: &mut Graph, problem: &Problem) -> Vec<Row> {
         };
         for (component, demand) in pair.demands.iter().enumerate() {
             if vanish(g, problem, &[demand.value])[0] {
+                taken(|| "closing: holds whatever moves".into());
                 continue;
             }
+            taken(|| format!("closing: demand `{}`", demand.label));
             rows.push(Row {
                 source,
                 component,
