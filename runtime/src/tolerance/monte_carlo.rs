@@ -400,7 +400,9 @@ where
     let settled = settle(&problem, &nominal.coordinates, Policy::Stable);
     let state = match settled {
         Ok(state) => state,
-        Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),
+        Err(Failure::NotFound { .. } | Failure::Unbalanced { .. }) => {
+            return (sample(Outcome::NoEquilibrium, None), false);
+        }
         Err(Failure::NotAssembled { .. }) => return (sample(Outcome::NotAssembled, None), false),
         Err(Failure::OutsideDomain { .. } | Failure::SingularMass(_)) => {
             return (sample(Outcome::Unphysical, None), false);
@@ -413,6 +415,9 @@ where
         Stability::Undecided => Outcome::Undecided,
         _ => Outcome::Stable,
     };
+    if state.regular().is_err() {
+        return (sample(outcome, Some(state.coordinates)), false);
+    }
     let Ok(found) = solve_modes(&state.linear, modes.family, state.description) else {
         return (sample(Outcome::NoModes, Some(state.coordinates)), false);
     };
