@@ -85,7 +85,8 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
     }
 }
 
-/// Coordinates, speeds and reactions, each with its own heading, and one more value of each.
+/// Coordinates, speeds and reactions, each with its own heading, and one more value of each. A reaction is what `from` exerts on
+/// `to`, its gap what is left to go in that direction.
 fn unknowns<const N: usize>(
     description: &Description,
     values: &[f64; N],
