@@ -89,6 +89,8 @@ mod pencil;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
+mod room;
+#[cfg(feature = "std")]
 pub mod sensitivity;
 #[cfg(feature = "std")]
 mod study;

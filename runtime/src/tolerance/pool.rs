@@ -7,21 +7,28 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::Error;
 
-static POOLS: Mutex<BTreeMap<usize, Arc<ThreadPool>>> = Mutex::new(BTreeMap::new());
+/// By number of threads, and by stack size where it is not the usual one.
+type Pools = BTreeMap<(usize, Option<usize>), Arc<ThreadPool>>;
 
-/// The pool of this many threads; started when first asked for, then idle between runs until the program ends.
-pub(super) fn of(threads: usize) -> Result<Arc<ThreadPool>, Error> {
+static POOLS: Mutex<Pools> = Mutex::new(BTreeMap::new());
+
+/// The pool of this many threads, as many as the machine has for 0, each with this stack or the usual one; started when first
+/// asked for, then idle between runs until the program ends.
+pub(super) fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     // Nothing that can panic changes the map, so a poisoned one is as good as any.
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(pool) = pools.get(&threads) {
+    if let Some(pool) = pools.get(&(threads, stack)) {
         return Ok(Arc::clone(pool));
     }
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads)
+    let mut builder = ThreadPoolBuilder::new().num_threads(threads);
+    if let Some(size) = stack {
+        builder = builder.stack_size(size);
+    }
+    let pool = builder
         .build()
         .map_err(|error| Error::Threads(error.to_string()))?;
     let pool = Arc::new(pool);
-    pools.insert(threads, Arc::clone(&pool));
+    pools.insert((threads, stack), Arc::clone(&pool));
     Ok(pool)
 }
 
@@ -31,8 +38,9 @@ mod tests {
 
     #[test]
     fn pools_are_reused_by_size() -> Result<(), Error> {
-        let (two, again, three) = (of(2)?, of(2)?, of(3)?);
+        let (two, again, three) = (of(2, None)?, of(2, None)?, of(3, None)?);
         assert!(Arc::ptr_eq(&two, &again) && !Arc::ptr_eq(&two, &three));
+        assert!(!Arc::ptr_eq(&two, &of(2, Some(1 << 22))?));
         assert_eq!(
             (two.current_num_threads(), three.current_num_threads()),
             (2, 3)
