@@ -14,8 +14,8 @@ pub struct ConstraintState<const N: usize> {
     pub redundant: usize,
     /// The rows that take part: of these, so many can go.
     pub dependent: [bool; N],
-    /// Rows lose their independence here and nowhere near: a flat parallelogram, a chain stretched to its limit. The
-    /// linearised mechanism does not say how it can move.
+    /// Rows lose their independence here, or so near that rounding takes the state there, and nowhere else: a flat
+    /// parallelogram, a chain stretched to its limit. The linearised mechanism does not say how it can move.
     pub singular: bool,
 }
 

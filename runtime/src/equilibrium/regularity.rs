@@ -76,8 +76,23 @@ where
     M: Mechanism<N, U, P, O>,
 {
     let linear = problem.linear(q).ok()?;
-    let failure = constraint_state(problem, q, &problem.residual(q), &linear).err()?;
-    matches!(failure, Failure::Unbalanced { .. }).then_some(failure)
+    let residual = problem.residual(q);
+    let state = match constraint_state(problem, q, &residual, &linear) {
+        Err(failure) => return Some(failure),
+        Ok(state) => state,
+    };
+    if !state.singular {
+        return None;
+    }
+    // In the singular configuration itself all its directions are free.
+    let tangent = Tangent::new(&linear, Problem::<M, N, U, P, O>::STRUCTURE);
+    let uphill = tangent.lift(&tangent.project(&residual));
+    let steepest = largest(&uphill);
+    (steepest > 0.0).then(|| Failure::Unbalanced {
+        coordinates: *q,
+        downhill: uphill.map(|value| -value / steepest),
+        dependent: state.dependent,
+    })
 }
 
 /// The direction of motion that constraints hold least.

@@ -124,7 +124,7 @@ where
         })
         .and_then(|found| finish(problem, found))
         .map_err(|failure| match failure {
-            Failure::NotFound { coordinates, .. } => {
+            Failure::NotFound { coordinates, .. } if !structure.open() => {
                 unbalanced(problem, &coordinates).unwrap_or(failure)
             }
             _ => failure,

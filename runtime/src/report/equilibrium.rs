@@ -51,7 +51,12 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
 impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibrium<N, U, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = self.description;
-        write!(f, "{}: equilibrium, {}", d.name, self.stability)?;
+        write!(f, "{}: equilibrium, ", d.name)?;
+        if self.constraints.singular {
+            write!(f, "stability not decided in a singular configuration")?;
+        } else {
+            write!(f, "{}", self.stability)?;
+        }
         for (info, &value) in d.inputs.iter().zip(&self.inputs) {
             let unit = info.unit;
             write!(

@@ -273,6 +273,26 @@ fn single_starts_end_at_the_one_stable_place_beside_the_straight_toggles() {
 }
 
 #[test]
+fn starts_in_and_beside_the_singular_configuration_leave_it() {
+    let straight = UPPER + LOWER;
+    let angle = (OFFSET / straight).asin();
+    for bend in [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
+        for side in [1.0, -1.0] {
+            let turn = LOWER / straight * bend;
+            let study = Study::new(Toggles)
+                .guess(Toggles::th_a, angle - turn)
+                .guess(Toggles::th_b, angle - side * turn)
+                .guess(Toggles::elbow_a, bend)
+                .guess(Toggles::elbow_b, side * bend)
+                .guess(Toggles::h, straight * angle.cos());
+            let state = study.equilibrium().expect("an equilibrium");
+            check(&state, OFFSET);
+            assert!(state.coordinates[2] < -8e-3, "{bend} {side}");
+        }
+    }
+}
+
+#[test]
 fn equilibria_near_a_singular_configuration_are_kept_until_rounding_hides_them() {
     for offset in [1e-2, 1e-3, 1e-4, 1e-5] {
         let circle = Circle {
@@ -342,4 +362,50 @@ fn branches_are_found_once_each_and_stay_on_the_circles() {
     }
     assert_eq!(counts[0], counts[1]);
     assert_eq!(counts[0].1, 12);
+}
+
+mechanism! {
+    /// A weight between two rods that are nearly in line.
+    mechanism Taut {
+        gravity 9.81 m/s^2 along -z;
+        design length = 0.6 m;
+        body carriage: massless;
+        body weight: point(mass: 2 kg);
+        joint x: prismatic(x) from ground to carriage;
+        joint z: prismatic(z) from carriage to weight;
+        point left: ground at [-0.5, 0, 0] m;
+        point right: ground at [0.5, 0, 0] m;
+        point ring: weight;
+        constraint rod_1: distance(from: left, to: ring, length: length);
+        constraint rod_2: distance(from: right, to: ring, length: length);
+    }
+}
+
+/// Statics by hand: tension `m g l / (2 s)` at a sag `s`, which is the distance from the singular configuration.
+#[test]
+fn reactions_that_a_load_explains_may_be_great() {
+    let weight = 2.0 * GRAVITY;
+    for sag in [1e-1, 1e-3, 1e-4, 1e-5] {
+        let length = 0.5_f64.hypot(sag);
+        let study = Study::new(Taut)
+            .design(Taut::length, length)
+            .guess(Taut::z, -0.1);
+        let state = study.equilibrium().expect("an equilibrium");
+        assert!(!state.constraints.singular && state.stability == Stability::Stable);
+        let expected = 0.5 * weight * length / sag;
+        // As far as the length as a number determines the sag.
+        let rounding = 1e-12 + 1e-15 / (sag * sag);
+        for found in &state.coordinates[2..] {
+            let off = (found - expected).abs() / expected;
+            assert!(off < rounding, "{sag}: {found}, not {expected}");
+        }
+    }
+    // Lengths that reach, to rounding, hold no weight.
+    let study = Study::new(Taut)
+        .design(Taut::length, 0.5)
+        .guess(Taut::z, -0.1);
+    match study.equilibrium() {
+        Err(Error::UnboundedReactions { .. } | Error::NoEquilibrium { .. }) => {}
+        other => panic!("{other:?}"),
+    }
 }
