@@ -26,8 +26,8 @@ const MOST_STARTS: usize = 2000;
 
 /// Finds distinct equilibria from random starts in a box and from `start`, in the order of discovery.
 ///
-/// After [`Search::starts`] the search goes on until fewer than half an equilibrium more is to be expected: `w` found from `n`
-/// starts let expect `w (w + 1) / (n - w - 2)` others, if none is much harder to meet (Boender and Rinnooy Kan 1987); but no
+/// After [`Search::starts`] the search goes on until fewer than half an equilibrium more is to be expected: `w` met `n`
+/// times let expect `w (w + 1) / (n - w - 2)` others, if none is much harder to meet (Boender and Rinnooy Kan 1987); but no
 /// more than 2000 further starts. None at all follow on zero starts.
 ///
 /// States that differ by full turns of an angle count as one where forces and stiffnesses are the same after them: not where
