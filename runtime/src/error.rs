@@ -86,6 +86,19 @@ pub enum Error {
         /// The rows.
         constraints: Vec<&'static str>,
     },
+    /// The search ended beside a singular configuration of the constraints in which the forces do not balance: towards it
+    /// they do by reactions that grow without bound.
+    #[error(
+        "no equilibrium: {} lose their independence at q = {coordinates:?}, where no finite reactions balance the forces: \
+         start farther away, on the side to which the mechanism is to move",
+        names(.constraints)
+    )]
+    UnboundedReactions {
+        /// The rows.
+        constraints: Vec<&'static str>,
+        /// Last state.
+        coordinates: Vec<f64>,
+    },
     /// The mass matrix is not positive definite: a coordinate moves no mass.
     #[error(
         "the mass matrix is singular: coordinate `{coordinate}` moves no mass of its own, so it has no \

@@ -90,6 +90,8 @@ mod pencil;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
+mod room;
+#[cfg(feature = "std")]
 mod rounding;
 #[cfg(feature = "std")]
 pub mod sensitivity;

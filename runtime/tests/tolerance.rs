@@ -94,7 +94,7 @@ fn near_modes_are_not_trusted() {
 #[test]
 fn correlation_changes_the_spread() {
     let base = Double::new(DOUBLE).input(OMEGA, 3.0).start(THETA, 1.0);
-    let independent: eigentol::FirstOrder<2, 4> = base.clone().first_order().unwrap();
+    let independent: eigentol::FirstOrder<2, 4> = *base.clone().first_order().unwrap();
     let mut matrix = [[0.0; 4]; 4];
     (0..4).for_each(|j| matrix[j][j] = 1.0);
     matrix[0][1] = 1.0;

@@ -10,7 +10,11 @@ mod common;
 mod gear_train;
 #[path = "loops/kernels.rs"]
 mod kernels;
+#[path = "loops/signs.rs"]
+mod signs;
 #[path = "loops/spreads.rs"]
 mod spreads;
 #[path = "loops/study.rs"]
 mod study;
+#[path = "loops/toggles.rs"]
+mod toggles;

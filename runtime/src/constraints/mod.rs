@@ -5,7 +5,7 @@ mod state;
 mod structure;
 mod tangent;
 
-pub(crate) use rows::Rows;
+pub(crate) use rows::{NEARLY, Rows};
 pub use state::ConstraintState;
 pub(crate) use structure::Structure;
 pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, reduce, redundant_rows};

@@ -11,7 +11,7 @@ use crate::array::{Cholesky, Square, add_scaled, dot, largest};
 /// of some 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this have no use as two.
 const DEPENDENT: f64 = 1e-10;
 /// The same for rows that may become dependent nearby.
-const NEARLY: f64 = 1e-2;
+pub(crate) const NEARLY: f64 = 1e-2;
 /// A row this much smaller than the greatest is zero but for rounding.
 const VANISHING: f64 = 1e-13;
 /// Least share of a column in the balanced metric: what is fainter is not blown up, lest its rounding count as independence.
@@ -168,6 +168,18 @@ impl<const N: usize> Rows<N> {
     /// metric, to the null space.
     pub(crate) fn normal(&self, i: usize) -> [f64; N] {
         over(&self.unit[i], &self.scale)
+    }
+
+    /// The direction `x` of the row space that the rows hold least, and how: `w` by row with `sum_k w_k h_k = ` the covector
+    /// of `x`, so that `sum_k w_k h_k . x = 1`. Both are zero without rows.
+    pub(crate) fn weakest(&self) -> ([f64; N], [f64; N]) {
+        match self.rank.checked_sub(1) {
+            Some(last) => (
+                self.normal(last),
+                core::array::from_fn(|k| self.combination[last][k] / self.size[k]),
+            ),
+            None => ([0.0; N], [0.0; N]),
+        }
     }
 
     /// A vector in the units of the metric: its norm is the length in the metric.

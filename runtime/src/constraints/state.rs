@@ -1,8 +1,8 @@
 //! What constraints are at one state: how much freedom they leave, which say the same, whether the state is singular.
 
-use super::{Structure, Tangent};
+use super::Tangent;
+use crate::Mechanism;
 use crate::array::{Square, form, largest_element};
-use crate::{Linear, Mechanism};
 
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +14,8 @@ pub struct ConstraintState<const N: usize> {
     pub redundant: usize,
     /// The rows that take part: of these, so many can go.
     pub dependent: [bool; N],
-    /// Rows lose their independence here and nowhere near: a flat parallelogram, a chain stretched to its limit. The
-    /// linearised mechanism does not say how it can move.
+    /// Rows lose their independence here, or so near that rounding takes the state there, and nowhere else: a flat
+    /// parallelogram, a chain stretched to its limit. The linearised mechanism does not say how it can move.
     pub singular: bool,
 }
 
@@ -35,19 +35,16 @@ impl<const N: usize> ConstraintState<N> {
         }
     }
 
+    /// Of a mechanism that is not open.
     pub(crate) fn new<M, const U: usize, const P: usize, const O: usize>(
         mechanism: &M,
         (q, u, b): (&[f64; N], &[f64; U], &[f64; P]),
-        linear: &Linear<f64, N>,
+        tangent: &Tangent<N>,
     ) -> Self
     where
         M: Mechanism<N, U, P, O>,
     {
-        let structure = const { Structure::of(&M::DESCRIPTION) };
-        if structure.open() {
-            return Self::open();
-        }
-        let tangent = Tangent::new(linear, structure);
+        let structure = tangent.structure;
         let mut found = Self {
             freedom: tangent.freedom,
             redundant: tangent.redundant(),
@@ -60,7 +57,7 @@ impl<const N: usize> ConstraintState<N> {
                 found.dependent[first + i] |= value.abs() > TAKES_PART * tangent.all.size[i];
             }
         }
-        found.singular = singular(mechanism, (q, u, b), &tangent);
+        found.singular = singular(mechanism, (q, u, b), tangent);
         found
     }
 }

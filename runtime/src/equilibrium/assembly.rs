@@ -3,7 +3,7 @@
 use super::closing::{close, close_speeds, free, gaps};
 use super::problem::{Failure, Problem};
 use crate::array::{Lu, Square};
-use crate::constraints::{ConstraintState, Rows, Structure, all_rows, placed};
+use crate::constraints::{ConstraintState, Rows, Structure, Tangent, all_rows, placed};
 use crate::{Coordinate, Description, Error, Mechanism};
 
 /// On which side of the dead centres a mechanism is assembled: the sign of the determinant of `Phi_q` by the coordinates
@@ -28,7 +28,8 @@ pub struct Assembly<const N: usize> {
     pub held: [bool; N],
     /// How far each coordinate and speed moved from its start value; zero in the places of reactions.
     pub moved: [f64; N],
-    /// What each constraint stays open by, in the places of their reactions, m or rad (on velocities m/s or rad/s): rounding.
+    /// What each constraint stays open by, in the direction of its reaction and in its place, m or rad (on velocities m/s or
+    /// rad/s): rounding.
     pub gaps: [f64; N],
     /// Iterations spent.
     pub iterations: usize,
@@ -120,7 +121,11 @@ where
     let all = Rows::balanced(structure.position_constraints, |k| at.rows[k]);
     let linear = problem.linear(&x)?;
     let place = (&x, problem.inputs, problem.design);
-    let constraints = ConstraintState::new(problem.mechanism, place, &linear);
+    let constraints = if structure.open() {
+        ConstraintState::open()
+    } else {
+        ConstraintState::new(problem.mechanism, place, &Tangent::new(&linear, structure))
+    };
     let margin = if free_rows.rank < all.rank {
         0.0
     } else {

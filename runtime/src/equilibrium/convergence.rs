@@ -12,7 +12,7 @@ pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Relative residual that a result may have; beyond it, it is no equilibrium.
 pub(super) const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small changes nothing.
-const FLOOR: f64 = 2.0 * f64::EPSILON;
+pub(super) const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// A displacement this small may be the rounding of the residual.
 pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.

@@ -13,13 +13,13 @@ use crate::modes::symmetric;
 use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
-const MAX_DEPARTURES: usize = 8;
+pub(super) const MAX_DEPARTURES: usize = 8;
 /// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well.
 const FIRST_RADIUS: f64 = 1.0;
 /// By how much it grows at a time.
 pub(super) const GROWTH: f64 = 4.0;
-/// Displacement (rad or m) by which an unstable equilibrium is left.
-const DEPARTURE: f64 = 1e-3;
+/// Displacement (rad or m) by which an unstable equilibrium, or a singular configuration, is left.
+pub(super) const DEPARTURE: f64 = 1e-3;
 
 /// Where a search has come to.
 #[derive(Clone, Copy)]

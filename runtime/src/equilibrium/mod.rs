@@ -15,12 +15,14 @@ pub(crate) mod prediction;
 mod problem;
 mod quick;
 mod range;
+mod regularity;
 mod root;
 mod settle;
 mod space;
 mod stability;
 mod sweep;
 mod track;
+mod turns;
 mod weights;
 
 pub use assembly::{Assembly, AssemblyMode, assemble};
@@ -63,8 +65,8 @@ pub enum Policy {
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
-    /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints
-    /// ([`Role`](crate::Role)), SI.
+    /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints, SI: what `from`
+    /// exerts on `to`, of a distance the tension; with the sign that outputs have ([`Role`](crate::Role)).
     pub coordinates: [f64; N],
     /// The inputs it belongs to, SI.
     pub inputs: [f64; U],
@@ -78,7 +80,8 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
     pub linear: Linear<f64, N>,
-    /// Remaining residual, N or N m; in the places of reactions what their constraints are open by.
+    /// Remaining residual, N or N m; in the places of reactions what their constraints are open by, in the direction of the
+    /// reaction.
     pub residual: [f64; N],
     /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
     /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.

@@ -3,8 +3,9 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Policy, Problem, settle};
-use crate::{Description, Equilibrium, Error, Mechanism};
+use crate::{Equilibrium, Error, Mechanism, Stability};
 
 /// Where to start from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,15 +14,24 @@ pub struct Search<const N: usize> {
     pub lower: [f64; N],
     /// Greatest start value of each coordinate, rad or m.
     pub upper: [f64; N],
-    /// Number of random starts; each is followed to a stable and to the nearest equilibrium.
+    /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until what was
+    /// found says that no other is to be expected.
     pub starts: usize,
     /// The same seed gives the same starts.
     pub seed: u64,
 }
 
+/// Most starts beyond those asked for.
+const MOST_STARTS: usize = 2000;
+
 /// Finds distinct equilibria from random starts in a box and from `start`, in the order of discovery.
 ///
-/// States that differ by full turns of an angle and have equal stiffness count as one. An empty list means that no
+/// After [`Search::starts`] the search goes on until fewer than half an equilibrium more is to be expected: `w` met `n`
+/// times let expect `w (w + 1) / (n - w - 2)` others, if none is much harder to meet (Boender and Rinnooy Kan 1987); but no
+/// more than 2000 further starts. None at all follow on zero starts.
+///
+/// States that differ by full turns of an angle count as one where forces and stiffnesses are the same after them: not where
+/// a spring or a screw counts the turns. An empty list means that no
 /// start led to an equilibrium; completeness is not promised.
 ///
 /// # Errors
@@ -43,13 +53,20 @@ where
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let mut found: Vec<Equilibrium<N, U, P>> = Vec::new();
     let mut from = *start;
-    for _ in 0..=search.starts {
+    let (mut isolated, mut met) = (0, 0);
+    for done in 0.. {
+        let further = search.starts > 0 && done <= search.starts + MOST_STARTS;
+        if done > search.starts && !(further && more_expected(isolated, met)) {
+            break;
+        }
         for policy in [Policy::Stable, Policy::Nearest] {
-            if let Ok(state) = settle(&problem, &from, policy)
-                && !found
-                    .iter()
-                    .any(|known| same(known, &state, problem.description()))
-            {
+            let Ok(state) = settle(&problem, &from, policy) else {
+                continue;
+            };
+            met += 1;
+            let known = |known| same(&problem, known, &state);
+            if !found.iter().any(known) {
+                isolated += usize::from(!matches!(state.stability, Stability::Neutral { .. }));
                 found.push(state);
             }
         }
@@ -61,48 +78,24 @@ where
     Ok(found)
 }
 
-const CLOSE: f64 = 1e-6;
-
-fn same<const N: usize, const U: usize, const P: usize>(
-    a: &Equilibrium<N, U, P>,
-    b: &Equilibrium<N, U, P>,
-    description: &Description,
-) -> bool {
-    let Some(turned) = turned(&a.coordinates, &b.coordinates, description) else {
-        return false;
-    };
-    let (k_a, k_b) = (&a.linear.stiffness, &b.linear.stiffness);
-    let scale = CLOSE * crate::array::largest_element(k_a);
-    !turned
-        || k_a
-            .iter()
-            .flatten()
-            .zip(k_b.iter().flatten())
-            .all(|(x, y)| (x - y).abs() <= scale)
+/// Whether half an equilibrium or more is to be expected beside these, which were met so often.
+fn more_expected(found: usize, met: usize) -> bool {
+    2 * found * (found + 1) >= met.saturating_sub(found + 2)
 }
 
-/// Whether full turns of angles lie between two states; `None` when something else does.
-pub(super) fn turned<const N: usize>(
-    a: &[f64; N],
-    b: &[f64; N],
-    description: &Description,
-) -> Option<bool> {
-    let mut turned = false;
-    for i in 0..N {
-        let difference = (a[i] - b[i]).abs();
-        let scale = CLOSE * (1.0 + a[i].abs());
-        if difference <= scale {
-            continue;
-        }
-        let angle = description
-            .coordinates
-            .get(i)
-            .is_some_and(|info| info.unit.symbol == "rad");
-        let turns = difference / core::f64::consts::TAU;
-        if !angle || (turns - turns.round()).abs() > scale {
-            return None;
-        }
-        turned = true;
-    }
-    Some(turned)
+/// Whether two equilibria are one place.
+fn same<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    known: &Equilibrium<N, U, P>,
+    state: &Equilibrium<N, U, P>,
+) -> bool
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let description = problem.description();
+    let (q, other) = (&known.coordinates, &state.coordinates);
+    let turned = turned_towards(q, other, description);
+    let singular = known.constraints.singular && state.constraints.singular;
+    coincide(&turned, other, singular, description)
+        && (turned == *q || turns_do_not_count(problem, q, &turned))
 }

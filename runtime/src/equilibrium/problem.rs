@@ -1,5 +1,6 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
+use super::dependent_names;
 use crate::array::{Square, all_finite, all_finite_square};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::modes::symmetric::Trouble;
@@ -252,6 +253,14 @@ pub(crate) enum Failure<const N: usize> {
         worst: usize,
         iterations: usize,
     },
+    /// Beside a singular configuration, in which the forces do not balance.
+    Unbalanced {
+        coordinates: [f64; N],
+        /// The direction that constraints do not hold there, down the applied forces; its greatest component is one.
+        downhill: [f64; N],
+        /// The constraints that lose their independence.
+        dependent: [bool; N],
+    },
     SingularMass(usize),
     Mode {
         mode: usize,
@@ -305,6 +314,14 @@ impl<const N: usize> Failure<N> {
                     .collect(),
                 coordinates: coordinates.to_vec(),
                 iterations,
+            },
+            Self::Unbalanced {
+                coordinates,
+                dependent,
+                ..
+            } => Error::UnboundedReactions {
+                constraints: dependent_names(description, dependent).collect(),
+                coordinates: coordinates.to_vec(),
             },
             Self::SingularMass(row) => Error::SingularMass {
                 coordinate: name(description, row),

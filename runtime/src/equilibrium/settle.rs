@@ -5,9 +5,10 @@ use super::descent;
 use super::end::{Found, Measured};
 use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
+use super::regularity::{constraint_state, unbalanced};
 use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
 use crate::array::{Cholesky, add_scaled, dot};
-use crate::constraints::{ConstraintState, Structure, Tangent, all_rows, placed};
+use crate::constraints::{Structure, Tangent, all_rows, placed};
 use crate::rounding::Place;
 use crate::{DampingKind, Description, Linear, Mechanism, Stability};
 
@@ -38,7 +39,38 @@ where
             Err(place) => from_afar(problem, start, &place),
         };
     }
-    from_afar(problem, start, &descent::Place::first(start))
+    let mut found = from_afar(problem, start, &descent::Place::first(start));
+    for _ in 0..descent::MAX_DEPARTURES {
+        let Err(Failure::Unbalanced {
+            coordinates,
+            downhill,
+            ..
+        }) = found
+        else {
+            return found;
+        };
+        let start = departed(problem, &coordinates, &downhill)?;
+        found =
+            from_afar(problem, &start, &descent::Place::first(&start)).map(|state| Equilibrium {
+                left_unstable_region: true,
+                ..state
+            });
+    }
+    found
+}
+
+/// Beside a singular configuration, on the way that the forces take there.
+#[cold]
+fn departed<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    problem: &Problem<'_, M, N, U, P, O>,
+    from: &[f64; N],
+    downhill: &[f64; N],
+) -> Result<[f64; N], Failure<N>>
+where
+    M: Mechanism<N, U, P, O>,
+{
+    let beside = add_scaled(from, descent::DEPARTURE, downhill);
+    assembly::closed(problem, &beside, &[false; N]).map(|(start, _)| start)
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
@@ -93,6 +125,12 @@ where
             _ => nearest(problem, start).map_err(|_| failure),
         })
         .and_then(|found| finish(problem, found))
+        .map_err(|failure| match failure {
+            Failure::NotFound { coordinates, .. } if !structure.open() => {
+                unbalanced(problem, &coordinates).unwrap_or(failure)
+            }
+            _ => failure,
+        })
 }
 
 /// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
@@ -174,8 +212,6 @@ where
         Some(measured) => measured,
         None => measure(problem, &mut found)?,
     };
-    let place = (&found.coordinates, problem.inputs, problem.design);
-    let constraints = ConstraintState::new(problem.mechanism, place, &linear);
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: "the residual stays larger than rounding explains",
@@ -184,6 +220,7 @@ where
             relative,
         });
     }
+    let constraints = constraint_state(problem, &found.coordinates, &found.residual, &linear)?;
     let (stability, rounding) = if constraints.singular {
         (Stability::Undecided, 0.0)
     } else if const { at_rest_by_stiffness(&M::DESCRIPTION) }

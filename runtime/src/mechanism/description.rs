@@ -88,6 +88,12 @@ pub struct CoordinateInfo {
 /// A_q(q) qdot + A_v(q) v + a(q)                              by constraint on velocities
 /// ```
 ///
+/// so that constraints exert `-Phi_q^T mu_1` and `-A_q^T mu_2` on the coordinates. Their equations have the sign that makes a
+/// reaction what the `from` side exerts on the `to` side: `Phi` of a displacement of `to` from `from` is its negative, that of a
+/// distance its excess, so that the reaction is a tension, that of a coupling or an equation the negative of what is to be
+/// zero, so that the reaction acts in the direction in which that grows. What outputs call a reaction is the same number, or, of
+/// a constraint with several equations, the force or moment that these sum up to.
+///
 /// In the arguments `velocity` and `acceleration` of [`Mechanism::motion_residual`](crate::Mechanism::motion_residual) the place of a speed `v` holds `vdot`
 /// and nothing, that of a reaction nothing; so `Mhat`, `Chat`, `Khat` are the derivatives of the whole by the second, first
 /// and no time derivative of all unknowns. Without speeds and constraints on velocities

@@ -54,7 +54,12 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
 impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibrium<N, U, P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = self.description;
-        write!(f, "{}: equilibrium, {}", d.name, self.stability)?;
+        write!(f, "{}: equilibrium, ", d.name)?;
+        if self.constraints.singular {
+            write!(f, "stability not decided in a singular configuration")?;
+        } else {
+            write!(f, "{}", self.stability)?;
+        }
         for (info, &value) in d.inputs.iter().zip(&self.inputs) {
             let unit = info.unit;
             write!(
@@ -88,7 +93,8 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
     }
 }
 
-/// Coordinates, speeds and reactions, each with its own heading, and one more value of each.
+/// Coordinates, speeds and reactions, each with its own heading, and one more value of each. A reaction is what `from` exerts on
+/// `to`, its gap what is left to go in that direction.
 fn unknowns<const N: usize>(
     description: &Description,
     values: &[f64; N],

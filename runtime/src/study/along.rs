@@ -18,15 +18,17 @@ where
     /// # Errors
     /// [`Error::UnknownHandle`]; a point that fails carries its own error.
     pub fn sweep(&self, input: Input, values: &[f64]) -> Result<Sweep<N, U, P>, Error> {
-        equilibrium::sweep(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.following(),
-            input,
-            values,
-        )
+        self.ask(|study| {
+            equilibrium::sweep(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                study.following(),
+                input,
+                values,
+            )
+        })
     }
 
     /// Shows equilibrium, modes and their total derivatives at each value of one input to `each`, in order
@@ -38,16 +40,18 @@ where
         &self,
         input: Input,
         values: &[f64],
-        each: impl FnMut(&SweepPoint<N, U, P>, &Result<Sensitivities<N, U, P>, Error>),
+        each: impl FnMut(&SweepPoint<N, U, P>, &Result<Sensitivities<N, U, P>, Error>) + Send,
     ) -> Result<(), Error> {
-        sensitivity::sensitivity_sweep(
-            &self.mechanism,
-            (&self.inputs, &self.design),
-            &self.assembled_start()?,
-            self.following(),
-            (input, values),
-            each,
-        )
+        self.ask(|study| {
+            sensitivity::sensitivity_sweep(
+                &study.mechanism,
+                (&study.inputs, &study.design),
+                &study.assembled_start()?,
+                study.following(),
+                (input, values),
+                each,
+            )
+        })
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their place and their label
@@ -60,15 +64,19 @@ where
         input: Input,
         values: &[f64],
     ) -> Result<Vec<Result<FirstOrder<N, P>, Error>>, Error> {
-        let tolerances = self.tolerances()?;
-        let mut found = Vec::with_capacity(values.len());
-        self.sensitivity_sweep(input, values, |point, slopes| {
-            found.push(match (&point.modes, slopes) {
-                (Ok(modes), Ok(slopes)) => Ok(tolerance::first_order(modes, slopes, &tolerances)),
-                (Err(error), _) | (_, Err(error)) => Err(error.clone()),
-            });
-        })?;
-        Ok(found)
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let mut found = Vec::with_capacity(values.len());
+            study.sensitivity_sweep(input, values, |point, slopes| {
+                found.push(match (&point.modes, slopes) {
+                    (Ok(modes), Ok(slopes)) => {
+                        Ok(tolerance::first_order(modes, slopes, &tolerances))
+                    }
+                    (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+                });
+            })?;
+            Ok(found)
+        })
     }
 
     /// Campbell diagram along one input, with the crossings of lines: engine orders as numbers, or
@@ -83,19 +91,21 @@ where
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell<N, U, P>, Error> {
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        campbell::campbell(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.following(),
-            &Axes {
-                input,
-                values,
-                orders: &orders,
-            },
-            &self.tolerances()?,
-        )
+        self.ask(|study| {
+            campbell::campbell(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                study.following(),
+                &Axes {
+                    input,
+                    values,
+                    orders: &orders,
+                },
+                &study.tolerances()?,
+            )
+        })
     }
 
     /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
@@ -115,14 +125,16 @@ where
         settings: &Continuation,
         search: Option<&Search<N>>,
     ) -> Result<Branches<N, U, P>, Error> {
-        equilibrium::branches(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            settings,
-            search,
-        )
+        self.ask(|study| {
+            equilibrium::branches(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                settings,
+                search,
+            )
+        })
     }
 
     /// First critical value of an input between `low` and `high`, SI ([`equilibrium::critical_state`]).
@@ -135,13 +147,15 @@ where
         low: f64,
         high: f64,
     ) -> Result<CriticalState<N, U, P>, Error> {
-        equilibrium::critical_state(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.range(input, low, high),
-        )
+        self.ask(|study| {
+            equilibrium::critical_state(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                study.range(input, low, high),
+            )
+        })
     }
 
     /// As [`Study::critical_state`], with its sensitivity and spread ([`tolerance::critical_tolerance`]).
@@ -154,13 +168,15 @@ where
         low: f64,
         high: f64,
     ) -> Result<EventTolerance<P>, Error> {
-        let tolerances = self.tolerances()?;
-        let state = self.critical_state(input, low, high)?;
-        Ok(tolerance::critical_tolerance(
-            &self.mechanism,
-            &state,
-            &tolerances,
-        ))
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let state = study.critical_state(input, low, high)?;
+            Ok(tolerance::critical_tolerance(
+                &study.mechanism,
+                &state,
+                &tolerances,
+            ))
+        })
     }
 
     /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
@@ -176,15 +192,18 @@ where
         high: f64,
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing<N, U, P>>, Error> {
-        equilibrium::crossings(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.following(),
-            self.range(input, low, high),
-            line,
-        )
+        let line = line.into();
+        self.ask(|study| {
+            equilibrium::crossings(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                study.following(),
+                study.range(input, low, high),
+                line,
+            )
+        })
     }
 
     /// As [`Study::crossings`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
@@ -198,11 +217,14 @@ where
         high: f64,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance<P>>, Error> {
-        let tolerances = self.tolerances()?;
-        let found = self.crossings(input, low, high, line)?;
-        let spread =
-            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
-        Ok(found.iter().map(spread).collect())
+        let line = line.into();
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let found = study.crossings(input, low, high, line)?;
+            let spread =
+                |crossing| tolerance::crossing_tolerance(&study.mechanism, crossing, &tolerances);
+            Ok(found.iter().map(spread).collect())
+        })
     }
 
     /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
@@ -216,14 +238,16 @@ where
         low: f64,
         high: f64,
     ) -> Result<Vec<Crossing<N, U, P>>, Error> {
-        equilibrium::flutter_onsets(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.following(),
-            self.range(input, low, high),
-        )
+        self.ask(|study| {
+            equilibrium::flutter_onsets(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                study.following(),
+                study.range(input, low, high),
+            )
+        })
     }
 
     /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
@@ -236,11 +260,13 @@ where
         low: f64,
         high: f64,
     ) -> Result<Vec<EventTolerance<P>>, Error> {
-        let tolerances = self.tolerances()?;
-        let found = self.flutter_onsets(input, low, high)?;
-        let spread =
-            |crossing| tolerance::crossing_tolerance(&self.mechanism, crossing, &tolerances);
-        Ok(found.iter().map(spread).collect())
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let found = study.flutter_onsets(input, low, high)?;
+            let spread =
+                |crossing| tolerance::crossing_tolerance(&study.mechanism, crossing, &tolerances);
+            Ok(found.iter().map(spread).collect())
+        })
     }
 
     fn range(&self, input: Input, low: f64, high: f64) -> Range {

@@ -7,6 +7,7 @@ use crate::constraints::Structure;
 use crate::equilibrium::{Following, Policy};
 use crate::lanes::Instructions;
 use crate::modes::Family;
+use crate::room;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, DesignVariable, Error, Input, Mechanism};
 
@@ -22,7 +23,9 @@ enum Width {
 /// A mechanism at one operating point, with tolerances and settings.
 ///
 /// Starts from the declared nominal values and tolerances, inputs and start values zero, a stable equilibrium wanted.
-/// Values are SI. Every question solves what it needs; use the functions of the modules to reuse results.
+/// Values are SI. Every question solves what it needs; use the functions of the modules to reuse results. Questions about a large
+/// mechanism (more than 256 coordinates times coordinates and design variables) run on a thread with a stack of their own; the
+/// functions of the modules need one of up to 32 MiB for 64 coordinates without optimisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usize> {
     mechanism: M,
@@ -35,7 +38,7 @@ pub struct Study<M, const N: usize, const U: usize, const P: usize, const O: usi
     family: Option<Family>,
     half_widths: [Width; P],
     sigma_level: f64,
-    correlation: Option<[[f64; P]; P]>,
+    correlation: Option<Box<[[f64; P]; P]>>,
     samples: usize,
     seed: u64,
     stream: u64,
@@ -153,7 +156,7 @@ where
     /// Couples the design variables by a correlation matrix (independent unless set).
     #[must_use]
     pub fn correlation(mut self, matrix: [[f64; P]; P]) -> Self {
-        self.correlation = Some(matrix);
+        self.correlation = Some(Box::new(matrix));
         self
     }
 
@@ -252,6 +255,18 @@ where
         }
     }
 
+    /// Answers a question, of a large mechanism on a thread with stack enough.
+    #[inline]
+    fn ask<T: Send>(
+        &self,
+        question: impl FnOnce(&Self) -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
+        match const { room::stack(N, P) } {
+            None => question(self),
+            Some(size) => room::with_stack(size, || question(self)),
+        }
+    }
+
     /// Where solvers start: the start values, assembled where coordinates are held.
     fn assembled_start(&self) -> Result<[f64; N], Error> {
         self.ready()?;
@@ -293,6 +308,10 @@ where
             Width::Absolute(half_width) => half_width,
             Width::Relative(fraction) => fraction * self.design[j].abs(),
         });
-        Tolerances::new(half_widths, self.sigma_level, self.correlation)
+        Tolerances::new(
+            half_widths,
+            self.sigma_level,
+            self.correlation.as_deref().copied(),
+        )
     }
 }

@@ -22,6 +22,53 @@ where
     /// # Errors
     /// Those of the function, and [`Error::UnknownHandle`] when a builder method was given a foreign handle.
     pub fn equilibrium(&self) -> Result<Equilibrium<N, U, P>, Error> {
+        self.ask(Self::settled)
+    }
+
+    /// The mechanism put together, coordinates with a [`Study::start`] held ([`equilibrium::assemble`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn assembly(&self) -> Result<Assembly<N>, Error> {
+        self.ask(|study| {
+            study.ready()?;
+            let held: Vec<_> = (0..N).filter(|&j| study.held[j]).map(Coordinate).collect();
+            equilibrium::assemble(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.start,
+                &held,
+            )
+        })
+    }
+
+    /// Distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn equilibria(&self, search: &Search<N>) -> Result<Vec<Equilibrium<N, U, P>>, Error> {
+        self.ask(|study| {
+            equilibrium::find_equilibria(
+                &study.mechanism,
+                &study.inputs,
+                &study.design,
+                &study.assembled_start()?,
+                search,
+            )
+        })
+    }
+
+    /// The natural modes ([`modes::modes`]).
+    ///
+    /// # Errors
+    /// Those of the equilibrium and of the function.
+    pub fn modes(&self) -> Result<Modes<N>, Error> {
+        self.ask(|study| study.modes_at(&study.settled()?))
+    }
+
+    /// As [`Self::equilibrium`], on this stack.
+    fn settled(&self) -> Result<Equilibrium<N, U, P>, Error> {
         equilibrium::equilibrium(
             &self.mechanism,
             &self.inputs,
@@ -31,46 +78,8 @@ where
         )
     }
 
-    /// The mechanism put together, coordinates with a [`Study::start`] held ([`equilibrium::assemble`]).
-    ///
-    /// # Errors
-    /// Those of the function.
-    pub fn assembly(&self) -> Result<Assembly<N>, Error> {
-        self.ready()?;
-        let held: Vec<_> = (0..N).filter(|&j| self.held[j]).map(Coordinate).collect();
-        equilibrium::assemble(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.start,
-            &held,
-        )
-    }
-
-    /// Distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
-    ///
-    /// # Errors
-    /// Those of the function.
-    pub fn equilibria(&self, search: &Search<N>) -> Result<Vec<Equilibrium<N, U, P>>, Error> {
-        equilibrium::find_equilibria(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            search,
-        )
-    }
-
-    /// The natural modes ([`modes::modes`]).
-    ///
-    /// # Errors
-    /// Those of the equilibrium and of the function.
-    pub fn modes(&self) -> Result<Modes<N>, Error> {
-        self.modes_at(&self.equilibrium()?)
-    }
-
     fn solved(&self) -> Result<(Equilibrium<N, U, P>, Modes<N>), Error> {
-        let state = self.equilibrium()?;
+        let state = self.settled()?;
         let found = self.modes_at(&state)?;
         Ok((state, found))
     }
@@ -89,18 +98,23 @@ where
     /// # Errors
     /// Those of the equilibrium and of the function.
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift<N, U, P>, Error> {
-        let state = self.equilibrium()?;
-        state.regular()?;
-        sensitivity::equilibrium_shift(&self.mechanism, &state)
+        self.ask(|study| {
+            let state = study.settled()?;
+            state.regular()?;
+            sensitivity::equilibrium_shift(&study.mechanism, &state)
+        })
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
     ///
     /// # Errors
     /// Those of the equilibrium, the modes and the function.
-    pub fn sensitivities(&self) -> Result<Sensitivities<N, U, P>, Error> {
-        let state = self.equilibrium()?;
-        sensitivity::sensitivities(&self.mechanism, &state, &self.modes_at(&state)?)
+    pub fn sensitivities(&self) -> Result<Box<Sensitivities<N, U, P>>, Error> {
+        self.ask(|study| {
+            let state = study.settled()?;
+            let found = study.modes_at(&state)?;
+            sensitivity::sensitivities(&study.mechanism, &state, &found).map(Box::new)
+        })
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
@@ -108,33 +122,39 @@ where
     /// # Errors
     /// Those of the equilibrium and of the function.
     pub fn outputs(&self) -> Result<OutputSensitivities<U, P, O>, Error> {
-        let state = self.equilibrium()?;
-        state.regular()?;
-        sensitivity::output_sensitivities(&self.mechanism, &state)
+        self.ask(|study| {
+            let state = study.settled()?;
+            state.regular()?;
+            sensitivity::output_sensitivities(&study.mechanism, &state)
+        })
     }
 
     /// First-order spread of the frequencies ([`tolerance::first_order`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes, sensitivities and tolerances.
-    pub fn first_order(&self) -> Result<FirstOrder<N, P>, Error> {
-        // Borrowed: to move them would take a noticeable part of the time.
-        let tolerances = self.tolerances();
-        let tolerances = borrowed(&tolerances)?;
-        let problem = Problem::new(&self.mechanism, &self.inputs, &self.design)?;
-        let start = self.assembled_start()?;
-        problem.check_start(&start)?;
-        let state = equilibrium::settle(&problem, &start, self.policy);
-        let state = state
-            .as_ref()
-            .map_err(|failure| failure.explain(problem.description()))?;
-        state.regular()?;
-        let mut found = Modes::empty(&state.linear, self.family_of(state), state.description);
-        let solved = found.solve(&state.linear, state.rounding);
-        solved.map_err(|failure| failure.explain(state.description))?;
-        let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
-        sensitivity::sensitivities_into(&self.mechanism, state, &found, &mut slopes)?;
-        Ok(tolerance::first_order(&found, &slopes, tolerances))
+    pub fn first_order(&self) -> Result<Box<FirstOrder<N, P>>, Error> {
+        self.ask(|study| {
+            // Borrowed: to move them would take a noticeable part of the time.
+            let tolerances = study.tolerances();
+            let tolerances = borrowed(&tolerances)?;
+            let problem = Problem::new(&study.mechanism, &study.inputs, &study.design)?;
+            let start = study.assembled_start()?;
+            problem.check_start(&start)?;
+            let state = equilibrium::settle(&problem, &start, study.policy);
+            let state = state
+                .as_ref()
+                .map_err(|failure| failure.explain(problem.description()))?;
+            state.regular()?;
+            let mut found = Modes::empty(&state.linear, study.family_of(state), state.description);
+            let solved = found.solve(&state.linear, state.rounding);
+            solved.map_err(|failure| failure.explain(state.description))?;
+            let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
+            sensitivity::sensitivities_into(&study.mechanism, state, &found, &mut slopes)?;
+            Ok(Box::new(tolerance::first_order(
+                &found, &slopes, tolerances,
+            )))
+        })
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
@@ -142,10 +162,12 @@ where
     /// # Errors
     /// Those of equilibrium, output sensitivities and tolerances.
     pub fn output_tolerances(&self) -> Result<OutputTolerances<P, O>, Error> {
-        Ok(tolerance::output_tolerances(
-            &self.outputs()?,
-            &self.tolerances()?,
-        ))
+        self.ask(|study| {
+            Ok(tolerance::output_tolerances(
+                &study.outputs()?,
+                &study.tolerances()?,
+            ))
+        })
     }
 
     /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
@@ -168,18 +190,20 @@ where
     }
 
     fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo<N, P>, Error> {
-        let tolerances = self.tolerances()?;
-        let (state, found) = self.solved()?;
-        let sampling = Sampling {
-            samples: self.samples,
-            seed: self.seed,
-            stream: self.stream,
-            threads: self.threads,
-            keep_samples: self.keep_samples,
-            vectors: self.vectors,
-            progress,
-        };
-        tolerance::monte_carlo(&self.mechanism, &state, &found, &tolerances, &sampling)
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let (state, found) = study.solved()?;
+            let sampling = Sampling {
+                samples: study.samples,
+                seed: study.seed,
+                stream: study.stream,
+                threads: study.threads,
+                keep_samples: study.keep_samples,
+                vectors: study.vectors,
+                progress,
+            };
+            tolerance::monte_carlo(&study.mechanism, &state, &found, &tolerances, &sampling)
+        })
     }
 
     /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
@@ -192,8 +216,10 @@ where
         mode: usize,
         direction: (&[f64; U], &[f64; P]),
     ) -> Result<DirectionalDerivatives, Error> {
-        let (state, found) = self.solved()?;
-        sensitivity::directional_derivatives(&self.mechanism, &state, &found, mode, direction)
+        self.ask(|study| {
+            let (state, found) = study.solved()?;
+            sensitivity::directional_derivatives(&study.mechanism, &state, &found, mode, direction)
+        })
     }
 
     /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).
@@ -201,17 +227,21 @@ where
     /// # Errors
     /// Those of equilibrium, modes and the function.
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity<N, U, P>, Error> {
-        let (state, found) = self.solved()?;
-        sensitivity::shape_sensitivity(&self.mechanism, &state, &found, mode)
+        self.ask(|study| {
+            let (state, found) = study.solved()?;
+            sensitivity::shape_sensitivity(&study.mechanism, &state, &found, mode)
+        })
     }
 
     /// First and second derivatives of one mode, counted from 0 ([`sensitivity::mode_curvature`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes and the function.
-    pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature<U, P>, Error> {
-        let (state, found) = self.solved()?;
-        sensitivity::mode_curvature(&self.mechanism, &state, &found, mode)
+    pub fn mode_curvature(&self, mode: usize) -> Result<Box<ModeCurvature<U, P>>, Error> {
+        self.ask(|study| {
+            let (state, found) = study.solved()?;
+            sensitivity::mode_curvature(&study.mechanism, &state, &found, mode).map(Box::new)
+        })
     }
 
     /// Spread of every mode to second order ([`tolerance::second_order`]).
@@ -219,14 +249,16 @@ where
     /// # Errors
     /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
     pub fn second_order(&self) -> Result<SecondOrder<P>, Error> {
-        let tolerances = self.tolerances()?;
-        let (state, found) = self.solved()?;
-        Ok(tolerance::second_order(
-            &self.mechanism,
-            &state,
-            &found,
-            &tolerances,
-        ))
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let (state, found) = study.solved()?;
+            Ok(tolerance::second_order(
+                &study.mechanism,
+                &state,
+                &found,
+                &tolerances,
+            ))
+        })
     }
 
     /// The modes that tolerances bring together, and their spread ([`tolerance::clusters`]).
@@ -234,9 +266,11 @@ where
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance<U, P>>, Error> {
-        let tolerances = self.tolerances()?;
-        let (state, found) = self.solved()?;
-        tolerance::clusters(&self.mechanism, &state, &found, &tolerances)
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let (state, found) = study.solved()?;
+            tolerance::clusters(&study.mechanism, &state, &found, &tolerances)
+        })
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
@@ -244,10 +278,12 @@ where
     ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
-    pub fn summary(&self) -> Result<Summary<N, U, P>, Error> {
-        let tolerances = Box::new(self.tolerances()?);
-        let solved = self.solved().map(Box::new)?;
-        tolerance::summary(&self.mechanism, &solved.0, &solved.1, &tolerances)
+    pub fn summary(&self) -> Result<Box<Summary<N, U, P>>, Error> {
+        self.ask(|study| {
+            let tolerances = Box::new(study.tolerances()?);
+            let solved = study.solved().map(Box::new)?;
+            tolerance::summary(&study.mechanism, &solved.0, &solved.1, &tolerances).map(Box::new)
+        })
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
@@ -270,16 +306,18 @@ where
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin<U, P>, Error> {
-        let tolerances = self.tolerances()?;
-        let (state, found) = self.solved()?;
-        tolerance::mode_margin(
-            &self.mechanism,
-            &state,
-            &found,
-            (mode, quantity),
-            &tolerances,
-            band,
-        )
+        self.ask(|study| {
+            let tolerances = study.tolerances()?;
+            let (state, found) = study.solved()?;
+            tolerance::mode_margin(
+                &study.mechanism,
+                &state,
+                &found,
+                (mode, quantity),
+                &tolerances,
+                band,
+            )
+        })
     }
 
     /// How each mode whirls ([`modes::whirls`]).
@@ -287,8 +325,10 @@ where
     /// # Errors
     /// Those of equilibrium and modes.
     pub fn whirls(&self) -> Result<PerMode<Option<Whirl>, N>, Error> {
-        let (state, found) = self.solved()?;
-        Ok(modes::whirls(&self.mechanism, &state, &found))
+        self.ask(|study| {
+            let (state, found) = study.solved()?;
+            Ok(modes::whirls(&study.mechanism, &state, &found))
+        })
     }
 }
 

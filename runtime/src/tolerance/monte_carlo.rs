@@ -10,6 +10,7 @@ use super::{Statistics, Tolerances};
 use crate::equilibrium::{Failure, Problem, settle};
 use crate::lanes::{Instructions, WIDTH};
 use crate::modes::{Family, PerMode, clusters, match_modes, solve_modes};
+use crate::room::stack;
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes, Policy, Stability};
 
@@ -212,10 +213,12 @@ where
     };
     let chunk = |index: usize| run.chunk(index);
     let chunks = 0..sampling.samples.div_ceil(CHUNK);
-    let pieces: Vec<Piece<N, P>> = match sampling.threads {
-        1 => chunks.map(chunk).collect(),
-        0 => chunks.into_par_iter().map(chunk).collect(),
-        threads => pool::of(threads)?.install(|| chunks.into_par_iter().map(chunk).collect()),
+    let pieces: Vec<Piece<N, P>> = match (sampling.threads, const { stack(N, P) }) {
+        (1, _) => chunks.map(chunk).collect(),
+        (0, None) => chunks.into_par_iter().map(chunk).collect(),
+        (threads, stack) => {
+            pool::of(threads, stack)?.install(|| chunks.into_par_iter().map(chunk).collect())
+        }
     };
     let mut counts = Counts::default();
     let empty = modes.modes.map(|_| Moments::EMPTY);
@@ -407,7 +410,9 @@ where
     let settled = settle(&problem, &nominal.coordinates, Policy::Stable);
     let state = match settled {
         Ok(state) => state,
-        Err(Failure::NotFound { .. }) => return (sample(Outcome::NoEquilibrium, None), false),
+        Err(Failure::NotFound { .. } | Failure::Unbalanced { .. }) => {
+            return (sample(Outcome::NoEquilibrium, None), false);
+        }
         Err(Failure::NotAssembled { .. }) => return (sample(Outcome::NotAssembled, None), false),
         Err(Failure::OutsideDomain { .. } | Failure::SingularMass(_)) => {
             return (sample(Outcome::Unphysical, None), false);
@@ -420,6 +425,9 @@ where
         Stability::Undecided => Outcome::Undecided,
         _ => Outcome::Stable,
     };
+    if state.regular().is_err() {
+        return (sample(outcome, Some(state.coordinates)), false);
+    }
     let Ok(found) = solve_modes(
         &state.linear,
         modes.family,

@@ -7,27 +7,33 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::Error;
 
-static POOLS: Mutex<BTreeMap<usize, Arc<ThreadPool>>> = Mutex::new(BTreeMap::new());
+/// By number of threads, and by stack size where it is not the usual one.
+type Pools = BTreeMap<(usize, Option<usize>), Arc<ThreadPool>>;
 
 /// Most threads of a run, unless the machine has more: beyond the processors they only cost.
 const MOST: usize = 256;
 
-/// The pool of this many threads, of [`MOST`] where more are asked for; started when first asked for, then idle between runs until
-/// the program ends.
-pub(super) fn of(threads: usize) -> Result<Arc<ThreadPool>, Error> {
+static POOLS: Mutex<Pools> = Mutex::new(BTreeMap::new());
+
+/// The pool of this many threads, as many as the machine has for 0 and [`MOST`] where more are asked for, each with this stack or
+/// the usual one; started when first asked for, then idle between runs until the program ends.
+pub(super) fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.min(MOST.max(processors));
     // Nothing that can panic changes the map, so a poisoned one is as good as any.
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(pool) = pools.get(&threads) {
+    if let Some(pool) = pools.get(&(threads, stack)) {
         return Ok(Arc::clone(pool));
     }
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads)
+    let mut builder = ThreadPoolBuilder::new().num_threads(threads);
+    if let Some(size) = stack {
+        builder = builder.stack_size(size);
+    }
+    let pool = builder
         .build()
         .map_err(|error| Error::Threads(error.to_string()))?;
     let pool = Arc::new(pool);
-    pools.insert(threads, Arc::clone(&pool));
+    pools.insert((threads, stack), Arc::clone(&pool));
     Ok(pool)
 }
 
@@ -38,7 +44,7 @@ mod tests {
     #[test]
     fn more_threads_than_processors_are_capped() -> Result<(), Error> {
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
-        let (many, more) = (of(1_000_000)?, of(usize::MAX)?);
+        let (many, more) = (of(1_000_000, None)?, of(usize::MAX, None)?);
         assert!(Arc::ptr_eq(&many, &more));
         assert_eq!(many.current_num_threads(), processors.max(256));
         Ok(())
@@ -46,8 +52,9 @@ mod tests {
 
     #[test]
     fn pools_are_reused_by_size() -> Result<(), Error> {
-        let (two, again, three) = (of(2)?, of(2)?, of(3)?);
+        let (two, again, three) = (of(2, None)?, of(2, None)?, of(3, None)?);
         assert!(Arc::ptr_eq(&two, &again) && !Arc::ptr_eq(&two, &three));
+        assert!(!Arc::ptr_eq(&two, &of(2, Some(1 << 22))?));
         assert_eq!(
             (two.current_num_threads(), three.current_num_threads()),
             (2, 3)

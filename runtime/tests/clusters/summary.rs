@@ -17,7 +17,7 @@ fn pendulum(speed: f64, tolerance: f64) -> Summary<1, 1, 2> {
         .input(OMEGA, speed)
         .start(Coordinate(0), 1.0)
         .tolerance(LENGTH, tolerance);
-    study.summary().unwrap()
+    *study.summary().unwrap()
 }
 
 fn plate(speed: f64, damping: f64, sigma: f64) -> Summary<2, 1, 4> {
@@ -30,7 +30,7 @@ fn plate(speed: f64, damping: f64, sigma: f64) -> Summary<2, 1, 4> {
         .tolerance(DesignVariable(1), 0.1)
         .tolerance(DesignVariable(2), 0.1)
         .tolerance(DesignVariable(3), sigma);
-    study.summary().unwrap()
+    *study.summary().unwrap()
 }
 
 fn says(text: &str, parts: &[&str]) {

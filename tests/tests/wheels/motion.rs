@@ -64,9 +64,9 @@ fn a_coin_rolls_as_its_equations_say() {
             -r * (lean * c - rate * rate * s),
             swung,
             turned - swung * s - yaw * c * rate,
-            -(s * force[1] + c * force[2]),
-            -force[0],
-            -(c * force[1] - s * force[2]),
+            s * force[1] + c * force[2],
+            force[0],
+            c * force[1] - s * force[2],
         ];
 
         let q = [r * c, phi, r * n, -r * rate * c, yaw, spin, 0.0, 0.0, 0.0];

@@ -171,7 +171,7 @@ pub(super) fn perpendiculars(g: &mut Graph, axis: Vector3) -> [Vector3; 2] {
     [first, axis.cross(g, first)]
 }
 
-/// Two places keep a distance.
+/// Two places keep a distance. The demand is on what the distance lacks, so that its reaction is a tension.
 pub(super) fn distance(
     g: &mut Graph,
     setting: &Setting,
@@ -186,8 +186,8 @@ pub(super) fn distance(
     let inverse = g.div(one, distance);
     let demand = Demand {
         label: "",
-        value: g.sub(distance, length),
-        force: gap.scale(g, inverse),
+        value: g.sub(length, distance),
+        force: gap.scale(g, inverse).neg(g),
         moment: Vector3::zero(g),
         of_velocities: false,
     };

@@ -1,7 +1,9 @@
 //! Constraints: their equations, and what holds them on bodies and coordinates.
 //!
 //! Every equation has a multiplier `mu`. The generalised forces that hold it are `-mu` times the derivative of the equation
-//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments.
+//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. Equations are what a demand
+//! lacks, `Phi = -value`: then `mu` is what the `from` side exerts on the `to` side, as the reaction of a joint is. What an
+//! equation leaves open is the way to go in the direction of its reaction.
 
 use proc_macro2::Ident;
 
@@ -184,7 +186,7 @@ pub(super) fn constraints(
                     let Some(row) = problem.row(source, component) else {
                         continue;
                     };
-                    values[row] = demand.value;
+                    values[row] = g.neg(demand.value);
                     let held = demand.held_by(g, problem.multiplier(row));
                     load = load.add(g, held);
                 }
@@ -267,15 +269,16 @@ fn equation(
     for (&slope, id) in slopes.iter().zip(&coordinates) {
         let load = g.mul(multiplier, slope);
         let slot = &mut forces.on_coordinates[id.index()];
-        *slot = g.sub(*slot, load);
+        *slot = g.add(*slot, load);
         let share = g.mul(slope, kinematics.coordinates[id.index()].velocity);
         rate = g.add(rate, share);
     }
-    if has_running(problem, zero) {
+    let value = if has_running(problem, zero) {
         rate
     } else {
         value
-    }
+    };
+    g.neg(value)
 }
 
 /// What the `from` side of a constraint or of a cut joint exerts on the `to` side, seen from the point of `from` along its
@@ -301,10 +304,9 @@ pub(super) fn held(g: &mut Graph, setting: &Setting, source: Source) -> Option<W
 impl Demand {
     /// What a multiplier exerts on the `to` side.
     fn held_by(&self, g: &mut Graph, multiplier: ExprId) -> Wrench {
-        let factor = g.neg(multiplier);
         Wrench {
-            force: self.force.scale(g, factor),
-            moment: self.moment.scale(g, factor),
+            force: self.force.scale(g, multiplier),
+            moment: self.moment.scale(g, multiplier),
         }
     }
 }

@@ -147,13 +147,11 @@ fn constraint_reactions(
             row.map_or(zero, |row| problem.multiplier(row))
         };
         match law {
-            ConstraintLaw::Distance { .. } => [multiplier(0), zero, zero, zero, zero, zero],
-            ConstraintLaw::Equation { .. } => {
-                let force = g.neg(multiplier(0));
-                [force, zero, zero, zero, zero, zero]
+            ConstraintLaw::Distance { .. } | ConstraintLaw::Equation { .. } => {
+                [multiplier(0), zero, zero, zero, zero, zero]
             }
             ConstraintLaw::Rolling { .. } => {
-                let [normal, forward, lateral] = [0, 1, 2].map(multiplier).map(|mu| g.neg(mu));
+                let [normal, forward, lateral] = [0, 1, 2].map(multiplier);
                 [forward, lateral, normal, zero, zero, zero]
             }
             ConstraintLaw::Coincident { .. } | ConstraintLaw::Aligned { .. } => {

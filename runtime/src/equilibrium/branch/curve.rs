@@ -1,13 +1,14 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
 use super::super::convergence::{ACCEPTED, relative_residual};
+use super::super::regularity::constraint_state;
 use super::super::stability::{Stability, judge};
 use super::super::{Failure, Problem};
 use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
 use crate::array::all_finite;
-use crate::constraints::{ConstraintState, Structure, redundant_rows};
+use crate::constraints::{Structure, redundant_rows};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Linear, Mechanism};
 
@@ -205,7 +206,7 @@ where
             }));
         }
         let constraints =
-            ConstraintState::new(self.mechanism, (&at.q, &inputs, self.design), &linear);
+            constraint_state(&problem, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
         let (stability, rounding) = if constraints.singular {
             (Stability::Undecided, 0.0)
         } else {

@@ -1,10 +1,11 @@
 //! Whether an equilibrium lies on a branch that is already known.
 
+use super::super::Problem;
+use super::super::turns::{turned_towards, turns_do_not_count};
 use super::Branch;
 use super::curve::Curve;
 use super::frame::{Frame, Place};
 use crate::Mechanism;
-use crate::array::largest_element;
 
 /// Local distance from a branch below which a place is on it.
 const CLOSE: f64 = 1e-6;
@@ -25,7 +26,10 @@ where
         };
         (1..branch.points.len()).any(|k| {
             let (from, to) = (at(k - 1), at(k));
-            let turned = turned_towards(place, &from, Self::DESCRIPTION.coordinates);
+            let turned = Place {
+                q: turned_towards(&place.q, &from.q, Self::DESCRIPTION),
+                p: place.p,
+            };
             self.near(&from, &to, &turned) && (turned == *place || self.same(place, &turned))
         })
     }
@@ -54,35 +58,9 @@ where
     }
 
     /// Whether two places that differ by full turns are the same state.
-    fn same(&self, a: &Place<N>, b: &Place<N>) -> bool {
-        let (Ok(a), Ok(b)) = (self.system(a), self.system(b)) else {
-            return false;
-        };
-        let scale = CLOSE * largest_element(&a.stiffness);
-        let stiffness = a.stiffness.iter().flatten();
-        stiffness
-            .zip(b.stiffness.iter().flatten())
-            .chain(a.residual.iter().zip(&b.residual))
-            .all(|(x, y)| (x - y).abs() <= scale)
+    fn same(&self, place: &Place<N>, turned: &Place<N>) -> bool {
+        let inputs = self.inputs_at(place.p);
+        let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
+        turns_do_not_count(&problem, &place.q, &turned.q)
     }
-}
-
-/// The place with its angles turned to the side of another one by full turns.
-fn turned_towards<const N: usize>(
-    place: &Place<N>,
-    other: &Place<N>,
-    coordinates: &[crate::CoordinateInfo],
-) -> Place<N> {
-    let q = core::array::from_fn(|i| {
-        let angle = coordinates
-            .get(i)
-            .is_some_and(|info| info.unit.symbol == "rad");
-        let turns = ((place.q[i] - other.q[i]) / core::f64::consts::TAU).round();
-        if angle && turns != 0.0 {
-            place.q[i] - turns * core::f64::consts::TAU
-        } else {
-            place.q[i]
-        }
-    });
-    Place { q, p: place.p }
 }

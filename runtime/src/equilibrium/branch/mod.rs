@@ -25,7 +25,7 @@ pub use settings::Continuation;
 pub use special::{SpecialKind, SpecialPoint};
 pub(crate) use station::Station;
 
-use super::multistart::turned;
+use super::turns::{coincide, turned_towards};
 use super::{Equilibrium, Stability};
 use crate::{Description, Error, Input};
 
@@ -158,9 +158,10 @@ impl<const N: usize, const U: usize, const P: usize> Branches<N, U, P> {
         for special in self.branches.iter().flat_map(|branch| &branch.special) {
             let at = &special.equilibrium;
             let known = |other: &&SpecialPoint<N, U, P>| {
-                let there = &other.equilibrium.coordinates;
+                let there = &other.equilibrium;
+                let turned = turned_towards(&there.coordinates, &at.coordinates, at.description);
                 (other.value - special.value).abs() <= 1e-10 * size
-                    && turned(there, &at.coordinates, at.description).is_some()
+                    && coincide(&turned, &at.coordinates, false, at.description)
             };
             if !all.iter().any(known) {
                 all.push(special);
