@@ -71,7 +71,7 @@ fn a_cut_loop_is_the_open_chain() {
 #[test]
 fn faults_are_found() {
     let found = RefCell::new([0; 3]);
-    on_plans(12, |plan| {
+    on_plans(24, |plan| {
         let spoilt = |spoil: fn(&mut Embedding)| {
             let mut pair = Pair::new(plan, CLOSINGS[0])?;
             spoil(&mut pair.embedding);

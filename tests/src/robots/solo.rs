@@ -3,6 +3,7 @@
 use crate::corpus::machine;
 
 machine! {
+    /// A walking robot: twelve hinges and a floating base.
     pub mechanism Solo12Free {
         design servo = 50.0 N*m/rad +/- 5%;
         let brake = 0.5 N*m*s/rad;

@@ -3,6 +3,7 @@
 use crate::corpus::machine;
 
 machine! {
+    /// An arm of six hinges.
     pub mechanism Ur5 {
         design servo = 50.0 N*m/rad +/- 5%;
         let brake = 0.5 N*m*s/rad;

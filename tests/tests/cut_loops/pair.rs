@@ -1,5 +1,6 @@
 //! A tree and the same with one joint cut.
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Display};
 
 use eigentol_compiler::compile;
@@ -94,10 +95,18 @@ impl Pair {
         let places: Vec<usize> = (0..tree.joints.len())
             .filter(|&place| can_be_cut(&tree.joints[place]))
             .collect();
-        if places.is_empty() {
+        // a kind first, because most joints are hinges
+        let kinds: BTreeSet<Word> = places.iter().map(|&k| tree.joints[k].word).collect();
+        let kinds: Vec<Word> = kinds.into_iter().collect();
+        if kinds.is_empty() {
             return None;
         }
-        let joint = places[random.below(places.len())];
+        let kind = random.of(&kinds);
+        let of_kind: Vec<usize> = places
+            .into_iter()
+            .filter(|&k| tree.joints[k].word == kind)
+            .collect();
+        let joint = random.of(&of_kind);
         let model = without_forces_on(tree, joint);
         if model.free().is_empty() {
             return None;
