@@ -11,8 +11,20 @@ use eigentol_consistency::trees::{Summary, summary};
 const TREES: u64 = 10_000;
 
 /// Special cases of the derivation, and in how many of the trees each is taken at least.
-const TAKEN: [(&str, u64); 22] = [
+const TAKEN: [(&str, u64); 34] = [
     ("augmented: rides on its seat", 3000),
+    ("closing: demand ``", 50),
+    ("closing: demand `about_x`", 50),
+    ("closing: demand `across_1`", 50),
+    ("closing: demand `cross`", 50),
+    ("closing: demand `forward`", 50),
+    ("closing: demand `lateral`", 50),
+    ("closing: demand `normal`", 80),
+    ("closing: demand `tilt_1`", 200),
+    ("closing: demand `tilt_2`", 200),
+    ("closing: demand `x`", 200),
+    ("closing: equation", 50),
+    ("closing: holds whatever moves", 50),
     ("composite: mass in a run that rides on no seat", 200),
     ("composite: moment of what goes on in a run", 400),
     ("frame: arm with 1 components", 3000),
@@ -25,7 +37,7 @@ const TAKEN: [(&str, u64); 22] = [
     ("layout: a body continues a run", 1000),
     ("layout: no run, another axis", 1000),
     ("layout: no run, moved after the joint", 150),
-    ("layout: no run, turned after the joint before", 40),
+    ("layout: no run, turned after the joint before", 20),
     ("layout: no run, turned before the joint", 300),
     ("linearise: along a motion by variation", 2000),
     ("linearise: stiffness and damping by variation", 2000),
@@ -44,6 +56,7 @@ fn count(found: &Summary, case: &str) -> u64 {
 fn kernels_of_ten_thousand_trees_are_consistent() {
     let found = summary(0, TREES);
     assert_eq!(found.wrong, [0; 0], "trees with differences");
+    assert_eq!(found.odd, [0; 0], "trees refused");
     assert!(
         found.compared > TREES * 3 / 4,
         "{} compared",
@@ -65,7 +78,7 @@ fn kernels_of_ten_thousand_trees_are_consistent() {
                 let case =
                     format!("turn_symmetric: row {row}, column {column}, mirrored {mirrored}");
                 let count = count(&found, &case);
-                assert!(count >= 40, "{case}: {count} of {TREES}");
+                assert!(count >= 30, "{case}: {count} of {TREES}");
             }
         }
     }

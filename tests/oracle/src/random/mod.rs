@@ -140,15 +140,19 @@ pub fn position(model: &Model, random: &mut Random) -> Vec<f64> {
     q
 }
 
-/// The mass matrix, scaled to ones on the diagonal, is well away from singular at three states.
+/// At three states the mass matrix, scaled to ones on the diagonal, is well away from singular, and no two points that pull each
+/// other are at one place.
 fn is_regular(model: &Model) -> bool {
     let oracle = Oracle::new(model);
     (0..3).all(|seed| {
         let [q, u, b] = Case::random(model, seed).at;
-        let mass = oracle.motion(&State::at_rest(&q, &u, &b)).mass;
+        let motion = oracle.motion(&State::at_rest(&q, &u, &b));
+        let mass = motion.mass;
         let scaled = |i: usize, j: usize| mass[i][j] / (mass[i][i] * mass[j][j]).sqrt();
         let heavy = (0..q.len()).all(|i| mass[i][i] > 1e-6);
-        heavy
+        let apart = motion.applied.iter().all(|force| force.is_finite());
+        apart
+            && heavy
             && DMatrix::from_fn(q.len(), q.len(), scaled)
                 .symmetric_eigenvalues()
                 .min()
