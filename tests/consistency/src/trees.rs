@@ -39,7 +39,7 @@ pub struct Summary {
     pub compared: u64,
     /// See [`Tree::Refused`].
     pub refused: u64,
-    /// Numbers of trees refused for another reason than those of [`REASONS`].
+    /// Numbers of trees refused for another reason than that it has no steady motion or that a coordinate is loose.
     pub odd: Vec<u64>,
     /// Numbers of trees with differences.
     pub wrong: Vec<u64>,
