@@ -30,8 +30,15 @@ pub(super) enum Frames {
     Mixed,
 }
 
-/// Angles of frames: right ones, one that was typed with twelve digits, one whose cosine rounds to one.
-const ANGLES: [f64; 6] = [FRAC_PI_2, -FRAC_PI_2, PI, FRAC_PI_2, 1.57079632679, 1e-8];
+/// Angles of frames: right ones, one as typed with twelve digits, one whose cosine rounds to one.
+const ANGLES: [f64; 6] = [
+    FRAC_PI_2,
+    -FRAC_PI_2,
+    PI,
+    FRAC_PI_2,
+    FRAC_PI_2 - 4.9e-12,
+    1e-8,
+];
 
 /// Axes that lie in a plane, and one that nearly lies on a frame's.
 const LEANING: [[f64; 3]; 4] = [
