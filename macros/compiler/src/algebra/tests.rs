@@ -325,3 +325,25 @@ fn regrouping_keeps_values_and_saves_operations() {
     }
     assert!(saved > 20, "{saved}");
 }
+
+/// What rounding leaves of constants that cancel is not told from a number by its value alone.
+#[test]
+fn folded_constants_keep_their_rounding() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 1);
+    let [a, b, c] = [0.1, 0.2, -0.3].map(|value| g.constant(value));
+    // as numbers, and as factors of the same
+    let sum = g.sum([a, b, c]);
+    let [p, q, r] = [a, b, c].map(|factor| g.mul(factor, x[0]));
+    let product = g.sum([p, q, r]);
+    let small = g.constant(5.0e-17);
+    for (id, is_negligible) in [(sum, true), (product, true), (small, false), (a, false)] {
+        let found = evaluate_with_error(g, &[id], |_| 0.7)[0];
+        assert!(found.value != 0.0);
+        assert_eq!(found.is_negligible(), is_negligible, "{found:?}");
+    }
+    // the same number, but declared
+    let declared = g.constant_value(sum).expect("a number");
+    g.constant(declared);
+    assert!(!evaluate_with_error(g, &[sum], |_| 0.7)[0].is_negligible());
+}
