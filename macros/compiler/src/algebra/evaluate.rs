@@ -115,7 +115,7 @@ fn unary(operator: Unary, a: Evaluation) -> Evaluation {
 }
 
 /// `a operator b`.
-pub(crate) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
+pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
     let value = apply_binary(operator, a.value, b.value);
     let (x, y) = (a.value.abs(), b.value.abs());
     let inherited = match operator {

@@ -15,7 +15,7 @@ mod vector;
 
 pub use count::{Cost, cost, reachable};
 pub use evaluate::{Evaluation, evaluate, evaluate_with_error};
-pub(crate) use evaluate::{apply_binary, apply_unary, combined};
+pub(crate) use evaluate::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};

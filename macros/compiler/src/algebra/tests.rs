@@ -81,11 +81,19 @@ fn every_rule_fires_and_keeps_the_value() {
                     expression(&mut g, &mut random, &leaves, depth),
                     expression(&mut g, &mut random, &leaves, depth),
                 );
-                match random.below(6) {
+                match random.below(7) {
                     0 => a = g.unary(Unary::Sqrt, b),
                     1 => b = g.unary(Unary::Sqrt, a),
                     2 => a = g.div(leaves[0], b),
                     3 => _ = g.sub(b, a),
+                    // of the same angle or not
+                    4 => {
+                        let angles = [0, 1].map(|_| leaves[random.below(2)]);
+                        a = g.unary(Unary::Sin, angles[0]);
+                        a = g.mul(a, a);
+                        b = g.unary(Unary::Cos, angles[1]);
+                        b = g.mul(b, b);
+                    }
                     _ => {}
                 }
                 if !matches!(table.operator, TableOperator::Binary(_)) {

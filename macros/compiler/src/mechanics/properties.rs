@@ -1,7 +1,7 @@
 //! What holds for a mechanism at every state: established structurally where the graph shows it, and otherwise by
 //! evaluation at random states, where a value must vanish up to rounding each time.
 
-use crate::algebra::{Evaluation, Graph, Operator, combined, evaluate_with_error};
+use crate::algebra::{Evaluation, Graph, evaluate_with_error};
 use crate::base::diagnostics::Diagnostics;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::model::mechanism::CoordinateQuantity;
@@ -187,9 +187,17 @@ fn massless_motion(
     }
     let motions: Option<Vec<Vec<f64>>> = probe(g, problem, &roots)
         .iter()
-        .map(|values| {
+        .map(|entries| {
+            let values: Vec<f64> = entries.iter().map(|v| v.value).collect();
             let (mass, constraints) = values.split_at(n * n);
-            null_vector(n, &with_constraints(n, mass, constraints))
+            let is_rounding = |pivot: f64, k: usize| {
+                let pivot = Evaluation {
+                    value: pivot,
+                    ..entries[k * n + k]
+                };
+                pivot.is_negligible()
+            };
+            null_vector(n, &with_constraints(n, mass, constraints), is_rounding)
         })
         .collect();
     let motions = motions.filter(|motions| !motions.is_empty())?;
@@ -204,47 +212,43 @@ fn massless_motion(
 }
 
 /// `M + m sum a a^T / |a|^2`, `m` the greatest mass.
-fn with_constraints(n: usize, mass: &[Evaluation], constraints: &[Evaluation]) -> Vec<Evaluation> {
+fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
     let mut sum = mass.to_vec();
-    let most = (0..n).fold(0.0_f64, |most, i| most.max(mass[i * n + i].value));
+    let most = (0..n).fold(0.0_f64, |most, i| most.max(mass[i * n + i]));
     for a in constraints.chunks_exact(n.max(1)) {
-        let square: f64 = a.iter().map(|x| x.value * x.value).sum();
+        let square: f64 = a.iter().map(|x| x * x).sum();
         if square > 0.0 {
-            let weight = (most / square).sqrt();
-            let weighted = a.iter().map(|x| Evaluation {
-                value: weight * x.value,
-                error: weight * x.error,
-            });
-            let a: Vec<Evaluation> = weighted.collect();
             for (k, entry) in sum.iter_mut().enumerate() {
-                let share = combined(Operator::Multiply, a[k / n], a[k % n]);
-                *entry = combined(Operator::Add, *entry, share);
+                *entry += most * a[k / n] * a[k % n] / square;
             }
         }
     }
     sum
 }
 
-/// A vector that a singular symmetric matrix takes to zero, its last component one: nothing but rounding keeps the pivot of that
-/// row from zero.
-fn null_vector(n: usize, matrix: &[Evaluation]) -> Option<Vec<f64>> {
+/// A vector that a singular symmetric matrix takes to zero, its last component one: the pivot of that row vanishes against
+/// its diagonal entry, or against the rounding of that entry.
+fn null_vector(
+    n: usize,
+    matrix: &[f64],
+    is_rounding: impl Fn(f64, usize) -> bool,
+) -> Option<Vec<f64>> {
     let mut a = matrix.to_vec();
     for k in 0..n {
         let pivot = a[k * n + k];
-        if pivot.value <= 0.0 || pivot.is_negligible() {
+        if pivot <= 1e-10 * matrix[k * n + k].abs() || is_rounding(pivot, k) {
             let mut vector = vec![0.0; n];
             vector[k] = 1.0;
             for i in (0..k).rev() {
-                let terms = (i + 1..=k).map(|j| a[i * n + j].value * vector[j]);
-                vector[i] = -terms.sum::<f64>() / a[i * n + i].value;
+                let sum: f64 = (i + 1..=k).map(|j| a[i * n + j] * vector[j]).sum();
+                vector[i] = -sum / a[i * n + i];
             }
             return Some(vector);
         }
         for i in k + 1..n {
-            let factor = combined(Operator::Divide, a[i * n + k], pivot);
+            let factor = a[i * n + k] / a[k * n + k];
             for j in k..n {
-                let share = combined(Operator::Multiply, factor, a[k * n + j]);
-                a[i * n + j] = combined(Operator::Subtract, a[i * n + j], share);
+                a[i * n + j] -= factor * a[k * n + j];
             }
         }
     }
