@@ -244,3 +244,108 @@ fn a_reversed_joint_transmits_the_opposite() {
     assert!(on_arm.iter().all(|x| x.abs() > 0.1), "{on_arm:?}");
     assert_equal(&[on_ground], &[seen.collect()]);
 }
+
+/// What holds a loop together is the derivative of its equations, also where they do not hold: with springs and weights only,
+/// `Khat` is symmetric everywhere.
+#[test]
+fn loops_of_every_kind_have_a_symmetric_stiffness() {
+    let kinds = [
+        "fixed",
+        "revolute([1, 2, 2])",
+        "prismatic([1, 2, 2])",
+        "cylindrical(s: [1, 2, 2], t: [1, 2, 2])",
+        "universal(s: x, t: [1, 2, 2])",
+        "planar(s: x, t: y, r: z)",
+        "spherical(s: x, t: y, r: z)",
+    ];
+    let joints = kinds.map(|kind| {
+        format!(
+            "joint c: {kind} from left to right at [0, 0, -l], at [0.1, 0.2, -0.3] m on right, cut;"
+        )
+    });
+    let constraints = [
+        "coincident(from: eye, to: bolt, along: [x, z])",
+        "aligned(from: eye, to: bolt)",
+        "aligned(from: eye, to: bolt, axis: [1, 2, 2])",
+        "distance(from: eye, to: bolt, length: 0.4 m)",
+    ];
+    let constraints = constraints.map(|law| format!("constraint c: {law};"));
+    for closing in joints.into_iter().chain(constraints) {
+        let text = closed(&closing);
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{closing}: {mistakes}"));
+        let properties = compiled.functions.properties;
+        assert!(properties.symmetric_stiffness, "{closing}");
+    }
+}
+
+/// A direction that has turned by an angle about one across it has left itself by that angle: also by nearly half a turn.
+#[test]
+fn a_tilt_is_an_angle() {
+    let text = "mechanism Tilt {
+        body arm: box(mass: 2 kg, size: [0.1, 0.2, 0.7] m);
+        joint turn: revolute([2, -1, 0]) from ground to arm;
+        force hold: spring(on: turn, stiffness: 1 N*m/rad);
+        point eye: ground;
+        point bolt: arm;
+        constraint c: aligned(from: eye, to: bolt, axis: [1, 2, 2]);
+    }";
+    for angle in [0.1_f64, 0.8, -1.4, 2.0, 3.0] {
+        let found = at_nominal(text, "residual", &[&[angle, 0.0, 0.0], &[]]).concat();
+        let tangents = found[1..].iter().map(|tilt| tilt.tan().powi(2));
+        let square = angle.tan().powi(2);
+        let difference = tangents.sum::<f64>() - square;
+        assert!(difference.abs() < 1e-12 * square, "{found:?}");
+        let is_obtuse = |tilt: &f64| tilt.cos() < 0.0;
+        assert_eq!(found[1..].iter().all(is_obtuse), angle.cos() < 0.0);
+    }
+}
+
+/// Newton's and Euler's equations along axes that turn: `a = dv/dt + omega x v`.
+#[test]
+fn a_gliding_body_turns_its_velocity() {
+    let text = "mechanism Car {
+        body car: box(mass: 3 kg, size: [0.7, 0.4, 0.2] m);
+        joint drive: planar(forward: x, side: y, yaw: z) from ground to car, coasting;
+        force a: damper(on: forward, damping: 2 N*s/m);
+        force b: damper(on: side, damping: 3 N*s/m);
+        force c: damper(on: yaw, damping: 5 N*m*s/rad);
+    }";
+    let ([forward, side, yaw], [to_forward, to_side, to_yaw]) =
+        ([1.2, 0.7, -0.5], [0.4, -0.3, 0.9]);
+    let state: [&[f64]; 4] = [
+        &[0.0; 3],
+        &[to_forward, to_side, to_yaw],
+        &[forward, side, yaw],
+        &[],
+    ];
+    let found = at_nominal(text, "motion_residual", &state);
+    let expected = [
+        3.0 * (to_forward - yaw * side) + 2.0 * forward,
+        3.0 * (to_side + yaw * forward) + 3.0 * side,
+        3.0 * (0.49 + 0.16) / 12.0 * to_yaw + 5.0 * yaw,
+    ];
+    assert_equal(&found, &[expected.to_vec()]);
+}
+
+/// Half the moment of inertia about the shaft times the square of its speed, of a body whose origin goes round.
+#[test]
+fn a_body_off_the_shaft_has_its_kinetic_energy() {
+    let text = "mechanism Turntable {
+        input speed: rad/s;
+        body table: massless;
+        body load: box(mass: 3 kg, size: [0.7, 0.4, 0.2] m, center: [0.4, 0.1, 0] m)
+            + sphere(mass: 2 kg, radius: 0.3 m);
+        joint turn: revolute(z) from ground to table, driven at speed;
+        joint slide: prismatic(x) from table to load at [0.3, 0, 0] m;
+        force hold: spring(on: slide, stiffness: 1 kN/m);
+        output energy = kinetic_energy();
+    }";
+    let (slide, speed) = (0.25_f64, 1.7_f64);
+    let found = at_nominal(text, "outputs", &[&[slide], &[speed]]);
+    let (ball, centre) = (0.3 + slide, 0.7 + slide);
+    let of_box = 3.0 * (centre * centre + 0.01 + (0.49 + 0.16) / 12.0);
+    let of_sphere = 2.0 * (ball * ball + 0.4 * 0.09);
+    let energy = 0.5 * (of_box + of_sphere) * speed * speed;
+    assert_equal(&found, &[vec![energy]]);
+}
