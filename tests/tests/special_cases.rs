@@ -349,3 +349,157 @@ fn a_body_off_the_shaft_has_its_kinetic_energy() {
     let energy = 0.5 * (of_box + of_sphere) * speed * speed;
     assert_equal(&found, &[vec![energy]]);
 }
+
+/// A weight on a lever, seen from the hinge: neither from the origin of the body nor from its centre.
+#[test]
+fn a_reaction_moment_is_about_the_joint() {
+    let text = "mechanism Lever {
+        gravity 10 m/s^2 along -z;
+        body arm: box(mass: 3 kg, size: [0.7, 0.2, 0.4] m, center: [1, 0.3, 0.2] m);
+        joint hinge: revolute(y) from ground to arm at [0, 0, 0], at [0.2, -0.1, 0.5] m on arm;
+        output mx = reaction_moment(hinge).x;
+        output my = reaction_moment(hinge).y;
+        output mz = reaction_moment(hinge).z;
+    }";
+    let found = at_nominal(text, "outputs", &[&[0.0], &[]]);
+    assert_equal(&found, &[vec![0.4 * 30.0, -0.8 * 30.0, 0.0]]);
+}
+
+/// Two halves of a box are the box.
+#[test]
+fn a_body_of_two_pieces_whirls_as_one() {
+    let rotor = |shapes: &str| {
+        format!(
+            "mechanism Rotor {{
+                input speed: rad/s;
+                body outer: massless;
+                body inner: massless;
+                body wheel: {shapes};
+                joint alpha: revolute(x) from ground to outer;
+                joint beta: revolute(y) from outer to inner;
+                joint spin: revolute(z) from inner to wheel, driven at speed;
+                force hold_alpha: spring(on: alpha, stiffness: 40 N*m/rad);
+                force hold_beta: spring(on: beta, stiffness: 40 N*m/rad);
+            }}"
+        )
+    };
+    let whole = rotor("box(mass: 2 kg, size: [0.6, 0.6, 0.4] m, center: [0, 0, 0.3] m)");
+    let halves = rotor(
+        "box(mass: 1 kg, size: [0.6, 0.6, 0.2] m, center: [0, 0, 0.2] m)
+            + box(mass: 1 kg, size: [0.6, 0.6, 0.2] m, center: [0, 0, 0.4] m)",
+    );
+    let whirl = |text: &str| {
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let arguments: [&[f64]; 5] = [&[0.0; 2], &[3.0], &[], &[1.0, 0.2], &[0.1, -0.7]];
+        let found = compiled.program.evaluate("whirl", &arguments);
+        found.expect("it turns")
+    };
+    let found = whirl(&halves);
+    assert!(found.concat().iter().all(|x| x.abs() > 0.1), "{found:?}");
+    assert_equal(&found, &whirl(&whole));
+}
+
+/// The height of a ball above a sloping plane, and what the plane exerts on it: what moves its centre.
+#[test]
+fn a_ball_on_a_slope_is_held_by_the_slope() {
+    let slope = |placed: &str| {
+        format!(
+            "mechanism Ball {{
+                body ball: sphere(mass: 2 kg, radius: 0.1 m);
+                joint loose: free(x: x, y: y, z: z, a: z, b: y, c: x) from ground to ball;
+                force hold_x: spring(on: x, stiffness: 1 N/m);
+                force hold_y: spring(on: y, stiffness: 1 N/m);
+                force hold_a: spring(on: a, stiffness: 1 N*m/rad);
+                force hold_b: spring(on: b, stiffness: 1 N*m/rad);
+                force hold_c: spring(on: c, stiffness: 1 N*m/rad);
+                point road: ground at [0.1, 0.2, 0.3] m {placed};
+                point centre: ball;
+                constraint contact: rolling(wheel: centre, radius: 0.1 m, on: road);
+                output fx = reaction_force(contact).x;
+                output fy = reaction_force(contact).y;
+                output fz = reaction_force(contact).z;
+            }}"
+        )
+    };
+    let state: [&[f64]; 2] = [&[0.5, 0.9, 0.7, 0.0, 0.0, 0.0, 1.1, -0.6, 0.8], &[]];
+    let found = at_nominal(&slope("rotated(x, 30 deg)"), "residual", &state);
+    let height = 0.7 * -0.5 + 0.4 * 0.75_f64.sqrt() - 0.1;
+    assert_equal(&[vec![found[0][6]]], &[vec![height]]);
+
+    let force = at_nominal(&slope(""), "outputs", &state);
+    let residual = &at_nominal(&slope(""), "residual", &state)[0];
+    let expected = vec![0.5 - residual[0], 0.9 - residual[1], -residual[2]];
+    assert_equal(&force, &[expected]);
+}
+
+/// A force that follows makes the stiffness asymmetric, however stiff the springs beside it are.
+#[test]
+fn a_small_asymmetry_is_none_of_rounding() {
+    let column = |thrust: &str| {
+        let text = format!(
+            "mechanism Column {{
+                body lower: rod(mass: 1 kg, length: 1 m, along: z);
+                body upper: rod(mass: 1 kg, length: 1 m, along: z);
+                joint a: revolute(y) from ground to lower;
+                joint b: revolute(y) from lower to upper at [0, 0, 1] m;
+                force stiff: potential(energy: 5e10 N*m * (a - b) ^ 2);
+                force soft: spring(on: a, stiffness: 1 N*m/rad);
+                point tip: upper at [0, 0, 1 m];
+                force thrust: follower(at: tip, force: [0, 0, {thrust}] N);
+            }}"
+        );
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        compiled.functions.properties.symmetric_stiffness
+    };
+    assert!(column("0"));
+    assert!(!column("-1"));
+}
+
+/// Principal minors of `tr(J)/2 1 - J` about the centre of mass, wherever that is.
+#[test]
+fn requirements_of_an_inertia_are_its_minors() {
+    let text = "mechanism Rigid {
+        design j = 1 kg*m^2;
+        body one: rigid(mass: 3 kg, center: [0.4, -0.7, 0.5] m,
+            inertia: [4 * j, 5 * j, 6 * j, 0.3 * j, 0.7 * j, -0.9 * j]);
+        joint turn: revolute(x) from ground to one;
+        force hold: spring(on: turn, stiffness: 1 N*m/rad);
+    }";
+    let found = at_nominal(text, "violation", &[&[]]).concat();
+    let (a, b, c): (f64, f64, f64) = (3.5, 2.5, 1.5);
+    let (xy, yz, xz): (f64, f64, f64) = (-0.3, -0.7, 0.9);
+    let determinant = a * b * c + 2.0 * xy * yz * xz - a * yz * yz - b * xz * xz - c * xy * xy;
+    let minors = [a * b - xy * xy, b * c - yz * yz, a * c - xz * xz];
+    let expected = [&[a, b, c][..], &minors, &[determinant]].concat();
+    assert_eq!(found.len(), expected.len());
+    for (one, other) in found.iter().zip(expected) {
+        assert!((one - other).abs() < 1e-6, "{found:?}");
+    }
+}
+
+/// Only joints of three turns have singular poses.
+#[test]
+fn slides_have_no_singular_pose() {
+    let poses = |kind: &str, slides: &[&str], turns: &[&str]| {
+        let spring = |unit: &'static str| {
+            move |name: &&str| format!("force on_{name}: spring(on: {name}, stiffness: 1 {unit});")
+        };
+        let slides = slides.iter().map(spring("N/m"));
+        let springs: String = slides.chain(turns.iter().map(spring("N*m/rad"))).collect();
+        let text = format!(
+            "mechanism Loose {{
+                body one: box(mass: 1 kg, size: [0.1, 0.2, 0.3] m);
+                joint hold: {kind} from ground to one;
+                {springs}
+            }}"
+        );
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        compiled.functions.poses.len()
+    };
+    assert_eq!(poses("planar(s: x, t: y, a: z)", &["s", "t"], &["a"]), 0);
+    let free = "free(s: x, t: y, r: z, a: z, b: y, c: x)";
+    assert_eq!(poses(free, &["s", "t", "r"], &["a", "b", "c"]), 1);
+}
