@@ -355,3 +355,14 @@ fn folded_constants_keep_their_rounding() {
     g.constant(declared);
     assert!(!evaluate_with_error(g, &[sum], |_| 0.7)[0].is_negligible());
 }
+
+#[test]
+fn what_vanishes_by_underflow_proves_nothing() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 1);
+    let exp = g.unary(Unary::Exp, x[0]);
+    let power = g.unary(Unary::PowerInteger(7), x[0]);
+    assert!(!evaluate_with_error(g, &[exp], |_| -1e3)[0].is_negligible());
+    assert!(!evaluate_with_error(g, &[power], |_| 1e-60)[0].is_negligible());
+    assert!(evaluate_with_error(g, &[power], |_| 0.0)[0].is_negligible());
+}
