@@ -8,7 +8,8 @@ use crate::base::ids::{ExprId, SymbolId};
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
-/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, they stand for rounded numbers.
+/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, they stand for rounded numbers, or were computed from
+/// such.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The value.
@@ -21,6 +22,17 @@ impl Evaluation {
     /// Whether nothing but rounding keeps the value from zero.
     pub fn is_negligible(self) -> bool {
         self.value.abs() <= 16.0 * self.error
+    }
+
+    /// One.
+    pub(super) const ONE: Self = Self {
+        value: 1.0,
+        error: 0.0,
+    };
+
+    /// A number rounded once.
+    pub(super) fn nearest(value: f64) -> Self {
+        Self::rounded(value, 0.0)
     }
 
     fn rounded(value: f64, inherited: f64) -> Self {
@@ -54,13 +66,16 @@ pub fn evaluate_with_error(
     ];
     for id in reachable(graph, roots) {
         done[id.index()] = match graph.node(id) {
-            Node::Constant(bits) => Evaluation::rounded(f64::from_bits(bits), 0.0),
+            Node::Constant(bits) => {
+                let number = graph.number(id);
+                number.unwrap_or(Evaluation::nearest(f64::from_bits(bits)))
+            }
             Node::Symbol(s) => Evaluation {
                 value: symbol(s),
                 error: 0.0,
             },
             Node::Unary(operator, a) => unary(operator, done[a.index()]),
-            Node::Binary(operator, a, b) => binary(operator, done[a.index()], done[b.index()]),
+            Node::Binary(operator, a, b) => combined(operator, done[a.index()], done[b.index()]),
         };
     }
     roots.iter().map(|root| done[root.index()]).collect()
@@ -99,7 +114,8 @@ fn unary(operator: Unary, a: Evaluation) -> Evaluation {
     Evaluation::rounded(value, inherited)
 }
 
-fn binary(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
+/// `a operator b`.
+pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
     let value = apply_binary(operator, a.value, b.value);
     let (x, y) = (a.value.abs(), b.value.abs());
     let inherited = match operator {
@@ -128,13 +144,17 @@ pub(crate) fn apply_unary(operator: Unary, a: f64) -> f64 {
     }
 }
 
-/// [`apply_unary`] for a number known to the compiler: sine and cosine are exact at the doubles nearest to quarter turns,
+/// `operator a` for a number known to the compiler: sine and cosine are exact at the doubles nearest to quarter turns,
 /// so that a frame declared as turned by 90 degrees has axes with zeros.
-pub(crate) fn fold_unary(operator: Unary, a: f64) -> f64 {
-    let value = apply_unary(operator, a);
-    let nearly_quarter = (value.abs() <= 2.0 * f64::EPSILON * a.abs())
+pub(super) fn folded(operator: Unary, a: Evaluation) -> Evaluation {
+    let result = unary(operator, a);
+    let nearly_quarter = (result.value.abs() <= 2.0 * f64::EPSILON * a.value.abs())
         && matches!(operator, Unary::Sin | Unary::Cos);
-    if nearly_quarter { 0.0 } else { value }
+    if nearly_quarter {
+        Evaluation::nearest(0.0)
+    } else {
+        result
+    }
 }
 
 /// `a operator b`.

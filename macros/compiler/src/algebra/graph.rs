@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::evaluate::Evaluation;
 use super::rules;
 use crate::base::ids::{ExprId, SymbolId};
 
@@ -93,6 +94,9 @@ pub struct Graph {
     interned: FxHashMap<Node, ExprId>,
     symbols: Vec<Symbol>,
     names: FxHashMap<ExprId, String>,
+    /// How far rounding may have moved a constant that was computed from others. What is left of larger ones that should cancel
+    /// looks like any other number.
+    rounding: FxHashMap<ExprId, f64>,
 }
 
 impl Graph {
@@ -180,9 +184,32 @@ impl Graph {
         self.constant_value(id) == Some(value)
     }
 
+    /// A constant node with the bound on its rounding error.
+    pub(super) fn number(&self, id: ExprId) -> Option<Evaluation> {
+        let number = Evaluation::nearest(self.constant_value(id)?);
+        Some(match self.rounding.get(&id) {
+            Some(&error) => Evaluation { error, ..number },
+            None => number,
+        })
+    }
+
     /// A number; negative zero becomes zero.
     pub fn constant(&mut self, value: f64) -> ExprId {
-        self.intern(Node::Constant((value + 0.0).to_bits()))
+        let id = self.intern(Node::Constant((value + 0.0).to_bits()));
+        self.rounding.remove(&id);
+        id
+    }
+
+    /// A number computed from others. Of several ways to the same number the best counts.
+    pub(super) fn computed(&mut self, number: Evaluation) -> ExprId {
+        let known = self.len();
+        let id = self.intern(Node::Constant((number.value + 0.0).to_bits()));
+        if id.index() == known {
+            self.rounding.insert(id, number.error);
+        } else if let Some(error) = self.rounding.get_mut(&id) {
+            *error = error.min(number.error);
+        }
+        id
     }
 
     /// Zero.

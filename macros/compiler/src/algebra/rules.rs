@@ -3,7 +3,7 @@
 //! A rule sees the operands of a node about to be built and may answer with something simpler. Every rule is sampled
 //! numerically by a test that also checks that it fires.
 
-use super::evaluate::{apply_binary, fold_unary};
+use super::evaluate::{Evaluation, combined, folded};
 use super::graph::{Graph, Node, Operator, Unary};
 use crate::base::ids::ExprId;
 
@@ -118,7 +118,8 @@ const ADD: &[Rule] = &[
         "c + d is finite",
         |g, a, b| {
             let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            (x == y && (c + d).is_finite()).then(|| g.scale(c + d, x))
+            let sum = combined(Operator::Add, c, d);
+            (x == y && sum.value.is_finite()).then(|| times(g, sum, x))
         },
     ),
     rule("sin(x)^2 + cos(x)^2 = 1", "", |g, a, b| {
@@ -163,7 +164,8 @@ const SUBTRACT: &[Rule] = &[
         "c - d is finite",
         |g, a, b| {
             let ((c, x), (d, y)) = (scaled(g, a), scaled(g, b));
-            (x == y && (c - d).is_finite()).then(|| g.scale(c - d, x))
+            let difference = combined(Operator::Subtract, c, d);
+            (x == y && difference.value.is_finite()).then(|| times(g, difference, x))
         },
     ),
     rule("a - b = -(b - a) where b - a is known", "", |g, a, b| {
@@ -203,15 +205,14 @@ const MULTIPLY: &[Rule] = &[
         "c (d a) = (c d) a for constants c, d",
         "c d is finite",
         |g, a, b| {
-            let (c, other) = match (g.constant_value(a), g.constant_value(b)) {
+            let (c, other) = match (g.number(a), g.number(b)) {
                 (Some(c), None) => (c, b),
                 (None, Some(c)) => (c, a),
                 _ => return None,
             };
-            match scaled(g, other) {
-                (d, x) if x != other && (c * d).is_normal() => Some(g.scale(c * d, x)),
-                _ => None,
-            }
+            let (d, x) = scaled(g, other);
+            let product = combined(Operator::Multiply, c, d);
+            (x != other && product.value.is_normal()).then(|| times(g, product, x))
         },
     ),
     rule(
@@ -245,8 +246,9 @@ const DIVIDE: &[Rule] = &[
         "a / c = (1 / c) a for a constant c",
         "1 / c is finite",
         |g, a, b| {
-            let reciprocal = 1.0 / g.constant_value(b)?;
-            reciprocal.is_normal().then(|| g.scale(reciprocal, a))
+            let reciprocal = combined(Operator::Divide, Evaluation::ONE, g.number(b)?);
+            let is_normal = reciprocal.value.is_normal();
+            is_normal.then(|| times(g, reciprocal, a))
         },
     ),
     rule("(-a) / b = -(a / b)", "", |g, a, b| {
@@ -303,10 +305,10 @@ pub(super) fn simplify_binary(
     a: ExprId,
     b: ExprId,
 ) -> Option<ExprId> {
-    if let (Some(x), Some(y)) = (g.constant_value(a), g.constant_value(b)) {
-        let value = apply_binary(operator, x, y);
-        if value.is_finite() {
-            return Some(g.constant(value));
+    if let (Some(x), Some(y)) = (g.number(a), g.number(b)) {
+        let number = combined(operator, x, y);
+        if number.value.is_finite() {
+            return Some(g.computed(number));
         }
     }
     let rules = match operator {
@@ -321,10 +323,10 @@ pub(super) fn simplify_binary(
 
 /// Simplifies an operator of one operand, if a rule applies.
 pub(super) fn simplify_unary(g: &mut Graph, operator: Unary, a: ExprId) -> Option<ExprId> {
-    if let Some(x) = g.constant_value(a) {
-        let value = fold_unary(operator, x);
-        if value.is_finite() {
-            return Some(g.constant(value));
+    if let Some(x) = g.number(a) {
+        let number = folded(operator, x);
+        if number.value.is_finite() {
+            return Some(g.computed(number));
         }
     }
     let rules = match operator {
@@ -364,10 +366,11 @@ fn small_power(g: &mut Graph, a: ExprId, exponent: i32) -> Option<ExprId> {
 fn negated(g: &mut Graph, a: ExprId) -> Option<ExprId> {
     match g.node(a) {
         Node::Unary(Unary::Negate, x) => Some(x),
-        Node::Constant(bits) if f64::from_bits(bits) < 0.0 => {
-            Some(g.constant(-f64::from_bits(bits)))
+        _ => {
+            let number = g.number(a).filter(|number| number.value < 0.0)?;
+            let positive = folded(Unary::Negate, number);
+            Some(g.computed(positive))
         }
-        _ => None,
     }
 }
 
@@ -395,15 +398,20 @@ fn operands(g: &Graph, a: ExprId, wanted: Operator) -> Option<(ExprId, ExprId)> 
 }
 
 /// The node as a constant times a node: `(c, x)` of `c x`, or `(1, a)`.
-fn scaled(g: &Graph, a: ExprId) -> (f64, ExprId) {
+fn scaled(g: &Graph, a: ExprId) -> (Evaluation, ExprId) {
     match product(g, a) {
-        Some((x, y)) => match (g.constant_value(x), g.constant_value(y)) {
+        Some((x, y)) => match (g.number(x), g.number(y)) {
             (Some(c), _) => (c, y),
             (_, Some(c)) => (c, x),
-            _ => (1.0, a),
+            _ => (Evaluation::ONE, a),
         },
-        None => (1.0, a),
+        None => (Evaluation::ONE, a),
     }
+}
+
+fn times(g: &mut Graph, factor: Evaluation, a: ExprId) -> ExprId {
+    let factor = g.computed(factor);
+    g.mul(factor, a)
 }
 
 /// The node that `a` is the square of.

@@ -81,11 +81,19 @@ fn every_rule_fires_and_keeps_the_value() {
                     expression(&mut g, &mut random, &leaves, depth),
                     expression(&mut g, &mut random, &leaves, depth),
                 );
-                match random.below(6) {
+                match random.below(7) {
                     0 => a = g.unary(Unary::Sqrt, b),
                     1 => b = g.unary(Unary::Sqrt, a),
                     2 => a = g.div(leaves[0], b),
                     3 => _ = g.sub(b, a),
+                    // of the same angle or not
+                    4 => {
+                        let angles = [0, 1].map(|_| leaves[random.below(2)]);
+                        a = g.unary(Unary::Sin, angles[0]);
+                        a = g.mul(a, a);
+                        b = g.unary(Unary::Cos, angles[1]);
+                        b = g.mul(b, b);
+                    }
                     _ => {}
                 }
                 if !matches!(table.operator, TableOperator::Binary(_)) {
@@ -324,4 +332,37 @@ fn regrouping_keeps_values_and_saves_operations() {
         saved += before - after;
     }
     assert!(saved > 20, "{saved}");
+}
+
+/// What rounding leaves of constants that cancel is not told from a number by its value alone.
+#[test]
+fn folded_constants_keep_their_rounding() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 1);
+    let [a, b, c] = [0.1, 0.2, -0.3].map(|value| g.constant(value));
+    // as numbers, and as factors of the same
+    let sum = g.sum([a, b, c]);
+    let [p, q, r] = [a, b, c].map(|factor| g.mul(factor, x[0]));
+    let product = g.sum([p, q, r]);
+    let small = g.constant(5.0e-17);
+    for (id, is_negligible) in [(sum, true), (product, true), (small, false), (a, false)] {
+        let found = evaluate_with_error(g, &[id], |_| 0.7)[0];
+        assert!(found.value != 0.0);
+        assert_eq!(found.is_negligible(), is_negligible, "{found:?}");
+    }
+    // the same number, but declared
+    let declared = g.constant_value(sum).expect("a number");
+    g.constant(declared);
+    assert!(!evaluate_with_error(g, &[sum], |_| 0.7)[0].is_negligible());
+}
+
+#[test]
+fn what_vanishes_by_underflow_proves_nothing() {
+    let g = &mut Graph::new();
+    let (_, x) = symbols(g, 1);
+    let exp = g.unary(Unary::Exp, x[0]);
+    let power = g.unary(Unary::PowerInteger(7), x[0]);
+    assert!(!evaluate_with_error(g, &[exp], |_| -1e3)[0].is_negligible());
+    assert!(!evaluate_with_error(g, &[power], |_| 1e-60)[0].is_negligible());
+    assert!(evaluate_with_error(g, &[power], |_| 0.0)[0].is_negligible());
 }

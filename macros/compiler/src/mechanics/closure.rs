@@ -6,6 +6,7 @@ use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Frame, Joint};
 
 use super::kinematics::PointMotion;
+use super::problem::Problem;
 use super::setting::Setting;
 
 /// A place fixed in a frame.
@@ -93,7 +94,7 @@ pub(super) fn aligned(
     let demands = match axis {
         Some(axis) => {
             let axis = setting.problem.values.vector(g, axis);
-            tilts(g, from.at.axes, to.at.axes, axis)
+            tilts(g, setting.problem, [from.at.axes, to.at.axes], axis)
         }
         None => turns(g, from.at.axes, to.at.axes),
     };
@@ -109,8 +110,8 @@ fn turns(g: &mut Graph, from: Matrix3, to: Matrix3) -> Vec<Demand> {
 }
 
 /// The two small rotations that tilt a direction.
-fn tilts(g: &mut Graph, from: Matrix3, to: Matrix3, axis: Vector3) -> Vec<Demand> {
-    let across = perpendiculars(g, axis);
+fn tilts(g: &mut Graph, problem: &Problem, [from, to]: [Matrix3; 2], axis: Vector3) -> Vec<Demand> {
+    let across = perpendiculars(g, problem, axis);
     let [own, other] = [from, to].map(|axes| axes.apply(g, axis));
     ["tilt_1", "tilt_2"]
         .into_iter()
@@ -144,14 +145,15 @@ fn angle(g: &mut Graph, label: &'static str, across: Vector3, a: Vector3, b: Vec
     }
 }
 
-/// Two unit vectors that form a right-handed set with a unit vector, itself the third.
-pub(super) fn perpendiculars(g: &mut Graph, axis: Vector3) -> [Vector3; 2] {
-    let leaning = |g: &Graph, k: usize| match g.constant_value(axis.0[k]) {
-        Some(value) => value.abs(),
-        None => 0.5,
-    };
-    let least = (0..3).fold(0, |least, k| {
-        if leaning(g, k) < leaning(g, least) {
+/// Two unit vectors that form a right-handed set with a unit vector, itself the third. The first leans towards the axis of the
+/// frame that is farthest from it at the nominal design: towards one along it there would be no direction.
+pub(super) fn perpendiculars(g: &mut Graph, problem: &Problem, axis: Vector3) -> [Vector3; 2] {
+    let leaning = axis.0.map(|component| {
+        let is_variable = g.constant_value(component).is_none();
+        (problem.nominal(g, component).abs(), is_variable)
+    });
+    let least = (1..3).fold(0, |least, k| {
+        if leaning[k] < leaning[least] {
             k
         } else {
             least
@@ -211,7 +213,7 @@ pub(super) fn joint_demands(g: &mut Graph, setting: &Setting, joint: &Joint) -> 
     ];
     let directions: Vec<(&'static str, Vector3)> = match joint.word {
         "prismatic" | "cylindrical" => {
-            let across = perpendiculars(g, axes[0]);
+            let across = perpendiculars(g, setting.problem, axes[0]);
             ["across_1", "across_2"]
                 .into_iter()
                 .zip(across.map(|direction| from.at.axes.apply(g, direction)))
@@ -226,9 +228,9 @@ pub(super) fn joint_demands(g: &mut Graph, setting: &Setting, joint: &Joint) -> 
     let (own, other) = (from.at.axes, to.at.axes);
     demands.extend(match joint.word {
         "fixed" | "prismatic" => turns(g, own, other),
-        "revolute" => tilts(g, own, other, axes[0]),
-        "cylindrical" => tilts(g, own, other, axes[1]),
-        "planar" => tilts(g, own, other, axes[2]),
+        "revolute" => tilts(g, setting.problem, [own, other], axes[0]),
+        "cylindrical" => tilts(g, setting.problem, [own, other], axes[1]),
+        "planar" => tilts(g, setting.problem, [own, other], axes[2]),
         "universal" => vec![between(g, own, other, axes[0], axes[1])],
         _ => Vec::new(),
     });

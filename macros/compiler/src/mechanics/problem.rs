@@ -1,6 +1,6 @@
 //! What every step of the derivation reads, and the residual in its parts.
 
-use crate::algebra::{Graph, Vector3, substitute};
+use crate::algebra::{Graph, Vector3, evaluate, substitute};
 use crate::base::ids::{CoordinateId, ExprId};
 use crate::model::mechanism::{Mechanism, Motion};
 use crate::topology::Topology;
@@ -36,6 +36,17 @@ impl Problem<'_> {
     /// The multiplier of an equation of a constraint.
     pub(super) fn multiplier(&self, row: usize) -> ExprId {
         self.symbols.q.values[self.moving().1 + row]
+    }
+
+    /// What an expression of inputs and design variables comes to at the nominal design; inputs, which have no nominal values,
+    /// are one.
+    pub(super) fn nominal(&self, g: &Graph, value: ExprId) -> f64 {
+        let value = evaluate(g, &[value], |symbol| {
+            let design = self.symbols.b.ids.iter().zip(&self.mechanism.design);
+            let mut nominal = design.filter(|(id, _)| **id == symbol);
+            nominal.next().map_or(1.0, |(_, variable)| variable.nominal)
+        });
+        value[0]
     }
 
     /// Motion of every frame while the running coordinates stand at zero.

@@ -187,10 +187,17 @@ fn massless_motion(
     }
     let motions: Option<Vec<Vec<f64>>> = probe(g, problem, &roots)
         .iter()
-        .map(|values| {
-            let values: Vec<f64> = values.iter().map(|v| v.value).collect();
+        .map(|entries| {
+            let values: Vec<f64> = entries.iter().map(|v| v.value).collect();
             let (mass, constraints) = values.split_at(n * n);
-            null_vector(n, &with_constraints(n, mass, constraints))
+            let is_rounding = |pivot: f64, k: usize| {
+                let pivot = Evaluation {
+                    value: pivot,
+                    ..entries[k * n + k]
+                };
+                pivot.is_negligible()
+            };
+            null_vector(n, &with_constraints(n, mass, constraints), is_rounding)
         })
         .collect();
     let motions = motions.filter(|motions| !motions.is_empty())?;
@@ -220,11 +227,16 @@ fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
 }
 
 /// A vector that a singular symmetric matrix takes to zero, its last component one: the pivot of that row vanishes against
-/// its diagonal entry.
-fn null_vector(n: usize, matrix: &[f64]) -> Option<Vec<f64>> {
+/// its diagonal entry, or against the rounding of that entry.
+fn null_vector(
+    n: usize,
+    matrix: &[f64],
+    is_rounding: impl Fn(f64, usize) -> bool,
+) -> Option<Vec<f64>> {
     let mut a = matrix.to_vec();
     for k in 0..n {
-        if a[k * n + k] <= 1e-10 * matrix[k * n + k].abs() {
+        let pivot = a[k * n + k];
+        if pivot <= 1e-10 * matrix[k * n + k].abs() || is_rounding(pivot, k) {
             let mut vector = vec![0.0; n];
             vector[k] = 1.0;
             for i in (0..k).rev() {

@@ -39,7 +39,7 @@ pub(super) fn rolling(
             (up.scale(g, inverse), ahead.scale(g, inverse))
         }
         None => {
-            let [first, _] = perpendiculars(g, local);
+            let [first, _] = perpendiculars(g, setting.problem, local);
             (normal, plane.at.axes.apply(g, first))
         }
     };
