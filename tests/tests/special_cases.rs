@@ -554,3 +554,39 @@ fn hinges_on_a_turned_body_are_no_run() {
     let [one, other] = [turned, along].map(|text| at_nominal(&text, "motion_residual", &state));
     assert_equal(&one, &other);
 }
+
+/// What a cut joint exerts on a body that is free otherwise is all that moves it; reported at the joint, along its axes.
+#[test]
+fn a_cut_joint_exerts_what_moves_the_body() {
+    let outputs: String = ["force", "moment"]
+        .iter()
+        .flat_map(|kind| ["x", "y", "z"].map(|axis| (kind, axis)))
+        .map(|(kind, axis)| format!("output {kind}_{axis} = reaction_{kind}(hold).{axis};"))
+        .collect();
+    let text = format!(
+        "mechanism Held {{
+            body one: box(mass: 2 kg, size: [0.1, 0.2, 0.3] m);
+            joint loose: free(x: x, y: y, z: z, a: z, b: y, c: x) from ground to one;
+            joint hold: fixed from ground to one at [0.1, 0.2, 0.3] m rotated(x, 30 deg), cut;
+            {outputs}
+        }}"
+    );
+    let place = [0.5, 0.9, 0.7];
+    let reactions = [1.1, -0.6, 0.8, 0.3, -0.7, 0.4];
+    let q = [&place[..], &[0.0; 3], &reactions].concat();
+    let found = at_nominal(&text, "outputs", &[&q, &[]]).concat();
+    let residual = &at_nominal(&text, "residual", &[&q, &[]])[0];
+    // about the origin of the body; its angles are about z, y, x
+    let force = [0, 1, 2].map(|k| -residual[k]);
+    let [x, y, z] = [0.4, 0.7, 0.4];
+    let moment = [
+        y * force[2] - z * force[1] - residual[5],
+        z * force[0] - x * force[2] - residual[4],
+        x * force[1] - y * force[0] - residual[3],
+    ];
+    let (sine, cosine) = (0.5, 0.75_f64.sqrt());
+    let along = |[x, y, z]: [f64; 3]| [x, cosine * y + sine * z, cosine * z - sine * y];
+    let expected = [along(force), along(moment)].concat();
+    assert!(expected.iter().all(|x| x.abs() > 0.01), "{expected:?}");
+    assert_equal(&[found], &[expected]);
+}
