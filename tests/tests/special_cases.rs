@@ -1,7 +1,7 @@
 //! Special cases of the compiler into which a wrong line was put on purpose and not seen: each meets a number found otherwise.
 
 use eigentol_compiler::compile;
-use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::mechanics::{Damping, Limits};
 
 /// A kernel of a declaration at its nominal design.
 fn at_nominal(declaration: &str, kernel: &str, before: &[&[f64]]) -> Vec<Vec<f64>> {
@@ -430,7 +430,10 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
     let force = at_nominal(&slope(""), "outputs", &state);
     let residual = &at_nominal(&slope(""), "residual", &state)[0];
     let expected = vec![0.5 - residual[0], 0.9 - residual[1], -residual[2]];
-    assert_equal(&force, &[expected]);
+    assert_equal(&force, std::slice::from_ref(&expected));
+    // about z, y, x: it acts where the ball touches the plane
+    let moment = vec![0.0, 0.1 * expected[0], -0.1 * expected[1]];
+    assert_equal(&[residual[3..6].to_vec()], &[moment]);
 }
 
 /// A force that follows makes the stiffness asymmetric, however stiff the springs beside it are.
@@ -589,4 +592,32 @@ fn a_cut_joint_exerts_what_moves_the_body() {
     let expected = [along(force), along(moment)].concat();
     assert!(expected.iter().all(|x| x.abs() > 0.01), "{expected:?}");
     assert_equal(&[found], &[expected]);
+}
+
+/// A pendulum without speeds, one that a rotor makes gyroscopic, one with a damper.
+#[test]
+fn damping_is_of_three_kinds() {
+    let damping = |speed: &str, damper: &str| {
+        let text = format!(
+            "mechanism Rotor {{
+                input speed: rad/s;
+                body outer: massless;
+                body inner: massless;
+                body wheel: disk(mass: 2 kg, radius: 0.3 m, axis: z, center: [0, 0, 0.2 m]);
+                joint alpha: revolute(x) from ground to outer;
+                joint beta: revolute(y) from outer to inner;
+                joint spin: revolute(z) from inner to wheel, driven at {speed};
+                force hold_alpha: spring(on: alpha, stiffness: 40 N*m/rad);
+                force hold_beta: spring(on: beta, stiffness: 40 N*m/rad);
+                {damper}
+            }}"
+        );
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        compiled.functions.properties.damping
+    };
+    assert_eq!(damping("0 * speed", ""), Damping::Zero);
+    assert_eq!(damping("speed", ""), Damping::Gyroscopic);
+    let damper = "force slow: damper(on: beta, damping: 1e-9 N*m*s/rad);";
+    assert_eq!(damping("speed", damper), Damping::General);
 }
