@@ -1,7 +1,7 @@
 //! Special cases of the compiler into which a wrong line was put on purpose and not seen: each meets a number found otherwise.
 
 use eigentol_compiler::compile;
-use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::mechanics::{Damping, Limits};
 
 /// A kernel of a declaration at its nominal design.
 fn at_nominal(declaration: &str, kernel: &str, before: &[&[f64]]) -> Vec<Vec<f64>> {
@@ -430,7 +430,10 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
     let force = at_nominal(&slope(""), "outputs", &state);
     let residual = &at_nominal(&slope(""), "residual", &state)[0];
     let expected = vec![0.5 - residual[0], 0.9 - residual[1], -residual[2]];
-    assert_equal(&force, &[expected]);
+    assert_equal(&force, std::slice::from_ref(&expected));
+    // about z, y, x: it acts where the ball touches the plane
+    let moment = vec![0.0, 0.1 * expected[0], -0.1 * expected[1]];
+    assert_equal(&[residual[3..6].to_vec()], &[moment]);
 }
 
 /// A force that follows makes the stiffness asymmetric, however stiff the springs beside it are.
@@ -553,4 +556,68 @@ fn hinges_on_a_turned_body_are_no_run() {
     let state: [&[f64]; 4] = [&[0.9, -0.4], &[0.5, 1.3], &[0.3, 0.8], &[]];
     let [one, other] = [turned, along].map(|text| at_nominal(&text, "motion_residual", &state));
     assert_equal(&one, &other);
+}
+
+/// What a cut joint exerts on a body that is free otherwise is all that moves it; reported at the joint, along its axes.
+#[test]
+fn a_cut_joint_exerts_what_moves_the_body() {
+    let outputs: String = ["force", "moment"]
+        .iter()
+        .flat_map(|kind| ["x", "y", "z"].map(|axis| (kind, axis)))
+        .map(|(kind, axis)| format!("output {kind}_{axis} = reaction_{kind}(hold).{axis};"))
+        .collect();
+    let text = format!(
+        "mechanism Held {{
+            body one: box(mass: 2 kg, size: [0.1, 0.2, 0.3] m);
+            joint loose: free(x: x, y: y, z: z, a: z, b: y, c: x) from ground to one;
+            joint hold: fixed from ground to one at [0.1, 0.2, 0.3] m rotated(x, 30 deg), cut;
+            {outputs}
+        }}"
+    );
+    let place = [0.5, 0.9, 0.7];
+    let reactions = [1.1, -0.6, 0.8, 0.3, -0.7, 0.4];
+    let q = [&place[..], &[0.0; 3], &reactions].concat();
+    let found = at_nominal(&text, "outputs", &[&q, &[]]).concat();
+    let residual = &at_nominal(&text, "residual", &[&q, &[]])[0];
+    // about the origin of the body; its angles are about z, y, x
+    let force = [0, 1, 2].map(|k| -residual[k]);
+    let [x, y, z] = [0.4, 0.7, 0.4];
+    let moment = [
+        y * force[2] - z * force[1] - residual[5],
+        z * force[0] - x * force[2] - residual[4],
+        x * force[1] - y * force[0] - residual[3],
+    ];
+    let (sine, cosine) = (0.5, 0.75_f64.sqrt());
+    let along = |[x, y, z]: [f64; 3]| [x, cosine * y + sine * z, cosine * z - sine * y];
+    let expected = [along(force), along(moment)].concat();
+    assert!(expected.iter().all(|x| x.abs() > 0.01), "{expected:?}");
+    assert_equal(&[found], &[expected]);
+}
+
+/// A pendulum without speeds, one that a rotor makes gyroscopic, one with a damper.
+#[test]
+fn damping_is_of_three_kinds() {
+    let damping = |speed: &str, damper: &str| {
+        let text = format!(
+            "mechanism Rotor {{
+                input speed: rad/s;
+                body outer: massless;
+                body inner: massless;
+                body wheel: disk(mass: 2 kg, radius: 0.3 m, axis: z, center: [0, 0, 0.2 m]);
+                joint alpha: revolute(x) from ground to outer;
+                joint beta: revolute(y) from outer to inner;
+                joint spin: revolute(z) from inner to wheel, driven at {speed};
+                force hold_alpha: spring(on: alpha, stiffness: 40 N*m/rad);
+                force hold_beta: spring(on: beta, stiffness: 40 N*m/rad);
+                {damper}
+            }}"
+        );
+        let compiled = compile(text.parse().expect("tokens"), Limits::NONE)
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        compiled.functions.properties.damping
+    };
+    assert_eq!(damping("0 * speed", ""), Damping::Zero);
+    assert_eq!(damping("speed", ""), Damping::Gyroscopic);
+    let damper = "force slow: damper(on: beta, damping: 1e-9 N*m*s/rad);";
+    assert_eq!(damping("speed", damper), Damping::General);
 }
