@@ -17,9 +17,10 @@ use crate::subject::Subject;
 const MOST: usize = 4;
 
 /// Why a tree may be refused: the beginnings of the messages.
-const REASONS: [&str; 4] = [
+const REASONS: [&str; 5] = [
     "no coordinate changes what",
     "no mass moves when",
+    "nothing in `Tree` is free to move",
     "nothing resists",
     "the equations of motion depend on the driven coordinate",
 ];
