@@ -67,6 +67,16 @@ impl Compiled {
     }
 }
 
+/// `None` where nothing resists a coordinate.
+fn resisted(text: &str) -> Option<Compiled> {
+    Compiled::new(text)
+        .inspect_err(|mistakes| {
+            let unresisted = |mistake: &String| mistake.starts_with("nothing resists");
+            assert!(mistakes.iter().all(unresisted), "{mistakes:?}\n{text}");
+        })
+        .ok()
+}
+
 /// A tree, the joint that is cut in its double, and both compiled.
 pub(crate) struct Pair {
     model: Model,
@@ -111,14 +121,7 @@ impl Pair {
         if model.free().is_empty() {
             return None;
         }
-        let open = match Compiled::new(&declaration(&model)) {
-            Ok(open) => open,
-            Err(mistakes) => {
-                let unresisted = |mistake: &String| mistake.starts_with("nothing resists");
-                assert!(mistakes.iter().all(unresisted), "{mistakes:?}");
-                return None;
-            }
-        };
+        let open = resisted(&declaration(&model))?;
 
         let case = Case::random(&model, plan.seed);
         let free = model.free();
@@ -130,7 +133,8 @@ impl Pair {
             .collect();
         let embedding = embedding(&model.joints[joint], &own, &case.at[2], closing.placed);
         let text = cut_text(&model, joint, &embedding, closing);
-        let cut = Compiled::new(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}\n{text}"));
+        // A body on a ball that turns freely about the vertical: no coordinate of the ball is that turn, one of the double is.
+        let cut = resisted(&text)?;
         Some(Self {
             model,
             joint,
