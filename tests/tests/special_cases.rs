@@ -424,8 +424,9 @@ fn a_ball_on_a_slope_is_held_by_the_slope() {
     };
     let state: [&[f64]; 2] = [&[0.5, 0.9, 0.7, 0.0, 0.0, 0.0, 1.1, -0.6, 0.8], &[]];
     let found = at_nominal(&slope("rotated(x, 30 deg)"), "residual", &state);
+    // the gap is how far the ball has sunk into the plane
     let height = 0.7 * -0.5 + 0.4 * 0.75_f64.sqrt() - 0.1;
-    assert_equal(&[vec![found[0][6]]], &[vec![height]]);
+    assert_equal(&[vec![found[0][6]]], &[vec![-height]]);
 
     let force = at_nominal(&slope(""), "outputs", &state);
     let residual = &at_nominal(&slope(""), "residual", &state)[0];
