@@ -77,7 +77,8 @@ impl Neg for Bounded {
 }
 
 impl Real for Bounded {
-    /// The compiler has folded constants: one that is no simple number may be a sum of larger ones, as the sine of a half turn.
+    /// The compiler has folded constants: one that is no simple number may be what some operations left of larger ones, as the
+    /// sine of a half turn.
     fn constant(value: f64) -> Self {
         let simple = (2.0 * value).fract() == 0.0;
         Self {
@@ -85,7 +86,7 @@ impl Real for Bounded {
             error: if simple {
                 0.0
             } else {
-                UNIT * value.abs().max(1.0)
+                4.0 * UNIT * value.abs().max(1.0)
             },
         }
     }
