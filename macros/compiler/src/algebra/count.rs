@@ -1,6 +1,7 @@
 //! What an evaluation costs.
 
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
+use super::operators::{Operator, Unary};
 use crate::base::ids::ExprId;
 
 /// Operations of a straight line of code.

@@ -1,7 +1,8 @@
 //! Forward differentiation: the derivative of many expressions along one direction.
 
 use super::count::dependent;
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
+use super::operators::{Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
 
 /// A direction in the space of symbols: each listed symbol moves at the given rate, the others stand still.

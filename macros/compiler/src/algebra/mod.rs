@@ -2,11 +2,14 @@
 //!
 //! Architecture invariant: this wing knows no mechanics and imports only `base`.
 
+mod build;
 mod count;
 mod evaluate;
+mod evaluation;
 mod forward;
 mod function;
 mod graph;
+mod operators;
 mod regroup;
 mod reverse;
 mod rules;
@@ -14,11 +17,13 @@ mod substitute;
 mod vector;
 
 pub use count::{Cost, cost, reachable};
-pub use evaluate::{Evaluation, evaluate, evaluate_with_error};
-pub(crate) use evaluate::{apply_binary, apply_unary};
+pub use evaluate::{evaluate, evaluate_with_error};
+pub use evaluation::Evaluation;
+pub(crate) use evaluation::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
-pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};
+pub use graph::{Graph, Node, Stage, Symbol};
+pub use operators::{Operator, Unary};
 pub use regroup::{regroup, regrouped};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};

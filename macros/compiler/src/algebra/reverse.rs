@@ -2,7 +2,8 @@
 
 use super::count::dependent;
 use super::forward::{slope, slopes};
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
+use super::operators::{Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
 
 /// Derivatives of `root` by each of `symbols`.

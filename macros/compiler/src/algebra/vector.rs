@@ -1,6 +1,7 @@
 //! Vectors and matrices of expressions in three dimensions.
 
-use super::graph::{Graph, Unary};
+use super::graph::Graph;
+use super::operators::Unary;
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 

@@ -5,8 +5,10 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::super::graph::{Graph, Node, Operator};
-use super::{Uses, product, rebuild};
+use super::super::graph::{Graph, Node};
+use super::super::operators::Operator;
+use super::rebuild::{product, rebuild};
+use super::uses::Uses;
 use crate::base::ids::ExprId;
 
 /// A factor: a node, or a pair of factors.
