@@ -50,9 +50,10 @@ const WITHOUT_CIRCLES: [&str; 7] = [
 ];
 
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 7] = [
+const TYPE_FILES: [(&str, &[&str]); 8] = [
     ("syntax/ast.rs", &[]),
-    ("model/mechanism.rs", &["constraint", "expression"]),
+    ("model/mechanism.rs", &["constraint", "expression", "shape"]),
+    ("model/shape.rs", &["expression"]),
     ("model/constraint.rs", &["expression", "mechanism"]),
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),

@@ -6,9 +6,9 @@ use crate::base::ids::ExprId;
 use crate::mechanics::functions::Requirement;
 use crate::mechanics::inertia::MassDistribution;
 use crate::mechanics::setup::Values;
-use crate::model::expression::Expr;
 use crate::model::is_inertia_of_a_body;
-use crate::model::mechanism::{Body, ConstraintLaw, Mechanism, Shape};
+use crate::model::mechanism::{Body, ConstraintLaw, Mechanism};
+use crate::model::shape::{Reduced, Spread};
 use crate::model::welded::{Member, groups};
 
 /// Share of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
@@ -25,19 +25,13 @@ pub(crate) fn requirements(
     for body in &mechanism.bodies {
         let name = &body.name;
         for part in &body.parts {
-            for (quantity, value) in positive_quantities(&part.shape) {
+            let Reduced { mass, positive, .. } = part.shape.reduced();
+            let all = std::iter::once(("mass", mass.clone())).chain(positive);
+            for (quantity, value) in all {
                 list.push(Requirement {
                     quantity: format!("{quantity} of {name}"),
                     requirement: "positive",
-                    value: values.scalar(g, value),
-                });
-            }
-            if let Shape::Tube { inner, outer, .. } = &part.shape {
-                let (inner, outer) = (values.scalar(g, inner), values.scalar(g, outer));
-                list.push(Requirement {
-                    quantity: format!("wall thickness of {name}"),
-                    requirement: "positive",
-                    value: g.sub(outer, inner),
+                    value: values.scalar(g, &value),
                 });
             }
         }
@@ -61,7 +55,9 @@ pub(crate) fn requirements(
         let (quantity, value) = match &constraint.law {
             ConstraintLaw::Distance { length, .. } => ("length", length),
             ConstraintLaw::Rolling { radius, .. } => ("radius", radius),
-            _ => continue,
+            ConstraintLaw::Coincident { .. }
+            | ConstraintLaw::Aligned { .. }
+            | ConstraintLaw::Equation { .. } => continue,
         };
         list.push(Requirement {
             quantity: format!("{quantity} of {}", constraint.name),
@@ -73,47 +69,10 @@ pub(crate) fn requirements(
     list
 }
 
-/// The dimensions of a shape that have to be positive.
-fn positive_quantities(shape: &Shape) -> Vec<(&'static str, &Expr)> {
-    match shape {
-        Shape::Point { mass, .. } | Shape::Rigid { mass, .. } => vec![("mass", mass)],
-        Shape::Rod { mass, length, .. } => vec![("mass", mass), ("length", length)],
-        Shape::Disk { mass, radius, .. } | Shape::Sphere { mass, radius, .. } => {
-            vec![("mass", mass), ("radius", radius)]
-        }
-        Shape::Cylinder {
-            mass,
-            radius,
-            length,
-            ..
-        } => {
-            vec![("mass", mass), ("radius", radius), ("length", length)]
-        }
-        Shape::Tube {
-            mass,
-            inner,
-            length,
-            ..
-        } => {
-            vec![("mass", mass), ("inner radius", inner), ("length", length)]
-        }
-        Shape::Cuboid {
-            mass,
-            size: [x, y, z],
-            ..
-        } => vec![
-            ("mass", mass),
-            ("size along x", x),
-            ("size along y", y),
-            ("size along z", z),
-        ],
-    }
-}
-
 /// An inertia is given as numbers that depend on the design, or that no body can have.
 fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     body.parts.iter().any(|part| {
-        let Shape::Rigid { inertia, about, .. } = &part.shape else {
+        let Spread::Tensor { inertia, about } = part.shape.reduced().spread else {
             return false;
         };
         let entries: [ExprId; 6] = std::array::from_fn(|k| values.scalar(g, &inertia[k]));

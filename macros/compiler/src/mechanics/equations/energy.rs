@@ -83,7 +83,12 @@ pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematic
                 quadratic(g, stiffness, distance, length)
             }
             ForceLaw::Potential { energy } => values.scalar_at(g, energy, kinematics),
-            _ => continue,
+            ForceLaw::CoordinateDamper { .. }
+            | ForceLaw::Tension { .. }
+            | ForceLaw::Generalized { .. }
+            | ForceLaw::Bushing { .. }
+            | ForceLaw::Load { .. }
+            | ForceLaw::Drag { .. } => continue,
         };
         energy = g.add(energy, share);
     }

@@ -12,8 +12,9 @@ use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
 use crate::mechanics::setup::Values;
-use crate::model::expression::{Expr, Vector};
+use crate::model::expression::Vector;
 use crate::model::mechanism::{Body, Placement, Shape};
+use crate::model::shape::{MeanSquare, Reduced, Spread};
 
 /// A mass distribution over arms.
 #[derive(Clone, Debug)]
@@ -66,83 +67,42 @@ impl MassDistribution {
 
     /// The mass distribution of a shape about the origin of its frame.
     fn of_shape(g: &mut Graph, values: &Values, shape: &Shape) -> Self {
-        match shape {
-            Shape::Point { mass, center } => {
-                let mass = values.scalar(g, mass);
-                Self::point(g, values, mass, center)
-            }
-            Shape::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => {
-                let (mass, length) = (values.scalar(g, mass), values.scalar(g, length));
+        let Reduced {
+            mass,
+            center,
+            spread,
+            ..
+        } = shape.reduced();
+        let mass = values.scalar(g, mass);
+        match spread {
+            Spread::Point => Self::point(g, values, mass, center),
+            Spread::Line { length, along } => {
+                let length = values.scalar(g, length);
                 let along = values.vector(g, along);
-                Self::rod(g, values, mass, length, along, center)
+                Self::line(g, values, mass, length, along, center)
             }
-            Shape::Disk {
-                mass,
-                radius,
+            Spread::Round {
                 axis,
-                center,
+                across,
+                along,
             } => {
-                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
-                let across = quadratic(g, 0.25, mass, radius);
-                let minus = g.neg(across);
+                let across = second_moment(g, values, mass, &across);
+                let along = second_moment(g, values, mass, &along);
+                let excess = g.sub(along, across);
                 let axis = values.vector(g, axis);
-                Self::point(g, values, mass, center).with(g, across, &[(axis, minus)])
+                Self::point(g, values, mass, center).with(g, across, &[(axis, excess)])
             }
-            Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => {
-                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
-                let across = quadratic(g, 0.25, mass, radius);
-                Self::round(g, values, (mass, length, axis, center), across)
-            }
-            Shape::Tube {
-                mass,
-                inner,
-                outer,
-                length,
-                axis,
-                center,
-            } => {
-                let mass = values.scalar(g, mass);
-                let [inner, outer] = [inner, outer].map(|radius| {
-                    let radius = values.scalar(g, radius);
-                    quadratic(g, 0.25, mass, radius)
-                });
-                let across = g.add(inner, outer);
-                Self::round(g, values, (mass, length, axis, center), across)
-            }
-            Shape::Cuboid { mass, size, center } => {
-                let mass = values.scalar(g, mass);
+            Spread::Box { size } => {
                 let size = values.vector(g, size);
                 let second = size.0.map(|edge| quadratic(g, 1.0 / 12.0, mass, edge));
                 let zero = g.zero();
                 Self::point(g, values, mass, center).with_tensor(g, second, [zero; 3])
             }
-            Shape::Sphere {
-                mass,
-                radius,
-                center,
-            } => {
-                let (mass, radius) = (values.scalar(g, mass), values.scalar(g, radius));
-                let isotropic = quadratic(g, 0.2, mass, radius);
+            Spread::Ball(along) => {
+                let isotropic = second_moment(g, values, mass, &along);
                 Self::point(g, values, mass, center).with(g, isotropic, &[])
             }
-            Shape::Rigid {
-                mass,
-                center,
-                inertia,
-                about,
-            } => {
-                let mass = values.scalar(g, mass);
+            Spread::Tensor { inertia, about } => {
                 let [xx, yy, zz, xy, yz, xz] =
                     std::array::from_fn(|i| values.scalar(g, &inertia[i]));
                 let sum = g.sum([xx, yy, zz]);
@@ -160,20 +120,6 @@ impl MassDistribution {
                 body.with_tensor(g, diagonal, products)
             }
         }
-    }
-
-    /// A solid of revolution, uniform along its axis: `across` is its second moment along any diameter.
-    fn round(
-        g: &mut Graph,
-        values: &Values,
-        (mass, length, axis, center): (ExprId, &Expr, &Vector, &Vector),
-        across: ExprId,
-    ) -> Self {
-        let length = values.scalar(g, length);
-        let along = quadratic(g, 1.0 / 12.0, mass, length);
-        let excess = g.sub(along, across);
-        let axis = values.vector(g, axis);
-        Self::point(g, values, mass, center).with(g, across, &[(axis, excess)])
     }
 
     /// The negative of a mass distribution: a hole.
@@ -235,7 +181,7 @@ impl MassDistribution {
     }
 
     /// A bar whose centre lies on its own line through the origin needs one arm for all moments.
-    fn rod(
+    fn line(
         g: &mut Graph,
         values: &Values,
         mass: ExprId,
@@ -325,6 +271,17 @@ impl MassDistribution {
             second: row,
         });
     }
+}
+
+/// The sum of `factor mass length^2`.
+fn second_moment(g: &mut Graph, values: &Values, mass: ExprId, terms: &MeanSquare) -> ExprId {
+    let mut sum = g.zero();
+    for &(factor, length) in terms {
+        let length = values.scalar(g, length);
+        let term = quadratic(g, factor, mass, length);
+        sum = g.add(sum, term);
+    }
+    sum
 }
 
 /// `factor mass length^2`.

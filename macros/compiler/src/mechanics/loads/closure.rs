@@ -4,7 +4,7 @@ use crate::algebra::{Graph, Matrix3, Operator, Vector3};
 use crate::base::ids::PointId;
 use crate::mechanics::setup::Context;
 use crate::model::expression::{Expr, Vector};
-use crate::model::mechanism::Joint;
+use crate::model::mechanism::{Closing, Joint};
 
 use super::force_context::ForceContext;
 use super::pair::{Demand, Pair, Side};
@@ -124,43 +124,44 @@ pub(crate) fn distance(
     Pair::new(g, from, to, vec![demand])
 }
 
-/// What a joint allows its `to` side, as equations. Its kinds are those of [`crate::topology::cut::CLOSING`].
+/// What a joint demands of its `to` side, as equations.
 pub(crate) fn joint_demands(g: &mut Graph, force_context: &ForceContext, joint: &Joint) -> Pair {
+    let context = force_context.context;
     let from = force_context.placed(g, joint.from, &joint.from_placement);
     let to = force_context.placed(g, joint.to, &joint.to_placement);
     let axes: Vec<Vector3> = joint
         .steps
         .iter()
-        .map(|step| force_context.context.values.vector(g, &step.axis))
+        .map(|step| context.values.vector(g, &step.axis))
         .collect();
-    let mut demands = Vec::new();
-    let every = [
-        ("x", from.at.axes.0[0]),
-        ("y", from.at.axes.0[1]),
-        ("z", from.at.axes.0[2]),
-    ];
-    let directions: Vec<(&'static str, Vector3)> = match joint.word {
-        "prismatic" | "cylindrical" => {
-            let across = perpendiculars(g, force_context.context, axes[0]);
+    let Some(closing) = joint.closing else {
+        unreachable!("resolution and topology cut no {} joint", joint.word);
+    };
+    let (own, other) = (from.at.axes, to.at.axes);
+    let directions: Vec<(&'static str, Vector3)> = match closing {
+        Closing::Prismatic | Closing::Cylindrical => {
+            let across = perpendiculars(g, context, axes[0]);
             ["across_1", "across_2"]
                 .into_iter()
-                .zip(across.map(|direction| from.at.axes.apply(g, direction)))
+                .zip(across.map(|direction| own.apply(g, direction)))
                 .collect()
         }
-        "planar" => vec![("normal", from.at.axes.apply(g, axes[2]))],
-        _ => every.to_vec(),
+        Closing::Planar => vec![("normal", own.apply(g, axes[2]))],
+        Closing::Fixed | Closing::Revolute | Closing::Universal | Closing::Spherical => {
+            AXES.into_iter().zip(own.0).collect()
+        }
     };
-    for (label, direction) in directions {
-        demands.push(apart(g, from, to, direction, label));
-    }
-    let (own, other) = (from.at.axes, to.at.axes);
-    demands.extend(match joint.word {
-        "fixed" | "prismatic" => turns(g, own, other),
-        "revolute" => tilts(g, force_context.context, [own, other], axes[0]),
-        "cylindrical" => tilts(g, force_context.context, [own, other], axes[1]),
-        "planar" => tilts(g, force_context.context, [own, other], axes[2]),
-        "universal" => vec![between(g, own, other, axes[0], axes[1])],
-        _ => Vec::new(),
+    let mut demands: Vec<Demand> = directions
+        .into_iter()
+        .map(|(label, direction)| apart(g, from, to, direction, label))
+        .collect();
+    demands.extend(match closing {
+        Closing::Fixed | Closing::Prismatic => turns(g, own, other),
+        Closing::Revolute => tilts(g, context, [own, other], axes[0]),
+        Closing::Cylindrical => tilts(g, context, [own, other], axes[1]),
+        Closing::Planar => tilts(g, context, [own, other], axes[2]),
+        Closing::Universal => vec![between(g, own, other, axes[0], axes[1])],
+        Closing::Spherical => Vec::new(),
     });
     Pair::new(g, from, to, demands)
 }
