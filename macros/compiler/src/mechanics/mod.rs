@@ -8,6 +8,7 @@ mod derive;
 mod equations;
 mod functions;
 mod inertia;
+mod kernel_name;
 mod kernels;
 mod linear;
 mod loads;
@@ -19,3 +20,4 @@ pub use derive::derive;
 pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, Role, Unknown};
 #[cfg(test)]
 pub(crate) use inertia::compared;
+pub use kernel_name::KernelName;

@@ -3,6 +3,7 @@
 use crate::algebra::{Array, Function};
 use crate::base::ids::ExprId;
 use crate::mechanics::functions::{Pose, Requirement};
+use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::setup::Symbols;
 
 use super::parameters::parameter;
@@ -11,7 +12,7 @@ use super::parameters::parameter;
 pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Function {
     let values: Vec<ExprId> = requirements.iter().map(|r| r.value).collect();
     Function {
-        name: "violation",
+        name: KernelName::Violation.name(),
         parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
         results: vec![Array {
             name: "requirements",
@@ -25,7 +26,7 @@ pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Func
 pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
     let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
     Function {
-        name: "pose_margin",
+        name: KernelName::PoseMargin.name(),
         parameters: vec![
             parameter("q", &symbols.q),
             parameter("u", &symbols.u),

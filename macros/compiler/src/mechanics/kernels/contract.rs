@@ -4,6 +4,7 @@ use crate::algebra::{Array, Function, Graph, Parameter, cost, substitute};
 use crate::base::ids::ExprId;
 use crate::mechanics::equations::Equations;
 use crate::mechanics::functions::Limits;
+use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::linear::{Linear, linear_arrays};
 use crate::mechanics::setup::{Symbols, columns};
 
@@ -29,15 +30,16 @@ pub(crate) fn kernels(
         parameter("u", &s.u),
         parameter("b", &s.b),
     ];
-    let function = |name, before: Vec<Parameter>, after: Vec<Parameter>, results| Function {
-        name,
-        parameters: before
-            .into_iter()
-            .chain(state.clone())
-            .chain(after)
-            .collect(),
-        results,
-    };
+    let function =
+        |kernel: KernelName, before: Vec<Parameter>, after: Vec<Parameter>, results| Function {
+            name: kernel.name(),
+            parameters: before
+                .into_iter()
+                .chain(state.clone())
+                .chain(after)
+                .collect(),
+            results,
+        };
 
     let zeros = vec![g.zero(); n];
     let still: Vec<_> = s.acceleration.with(&zeros).collect();
@@ -67,13 +69,13 @@ pub(crate) fn kernels(
 
     let mut functions = vec![
         function(
-            "residual",
+            KernelName::Residual,
             vec![],
             vec![],
             vec![vector("residual", &e.rest)],
         ),
         function(
-            "residual_parts",
+            KernelName::ResidualParts,
             vec![],
             vec![],
             vec![
@@ -82,7 +84,7 @@ pub(crate) fn kernels(
             ],
         ),
         function(
-            "motion_residual",
+            KernelName::MotionResidual,
             vec![
                 parameter("acceleration", &s.acceleration),
                 parameter("velocity", &s.velocity),
@@ -91,20 +93,20 @@ pub(crate) fn kernels(
             vec![vector("residual", &e.motion)],
         ),
         function(
-            "motion",
+            KernelName::Motion,
             vec![parameter("velocity", &s.velocity)],
             vec![],
             vec![linear.arrays(n).swap_remove(0), vector("force", &force)],
         ),
         function(
-            "residual_and_stiffness",
+            KernelName::ResidualAndStiffness,
             vec![],
             vec![],
             vec![vector("residual", &e.rest), linear.arrays(n).swap_remove(2)],
         ),
-        function("linear", vec![], vec![], linear.arrays(n)),
+        function(KernelName::Linear, vec![], vec![], linear.arrays(n)),
         function(
-            "residual_partials",
+            KernelName::ResidualPartials,
             vec![],
             vec![],
             vec![
@@ -112,27 +114,27 @@ pub(crate) fn kernels(
                 rows("by_design", n, &by_design),
             ],
         ),
-        function("mode_gradient", vec![], mode(), mode_gradient),
+        function(KernelName::ModeGradient, vec![], mode(), mode_gradient),
         function(
-            "pencil_gradient",
+            KernelName::PencilGradient,
             vec![],
             vectors(&s.pencil),
             pencil_gradient,
         ),
         function(
-            "residual_gradient",
+            KernelName::ResidualGradient,
             vec![],
             vec![parameter("w", &s.w)],
             residual_gradient,
         ),
         function(
-            "outputs",
+            KernelName::Outputs,
             vec![],
             vec![],
             vec![vector("outputs", &e.outputs)],
         ),
         function(
-            "output_partials",
+            KernelName::OutputPartials,
             vec![],
             vec![],
             ["by_coordinate", "by_input", "by_design"]
@@ -151,13 +153,15 @@ pub(crate) fn kernels(
             parameter("velocity", &s.velocity),
         ];
         functions.push(function(
-            "motion_linear",
+            KernelName::MotionLinear,
             before,
             vec![],
             linear_arrays(&motion, n),
         ));
     }
-    functions.extend(partials.map(|arrays| function("linear_partials", vec![], vec![], arrays)));
+    functions.extend(
+        partials.map(|arrays| function(KernelName::LinearPartials, vec![], vec![], arrays)),
+    );
     functions
 }
 

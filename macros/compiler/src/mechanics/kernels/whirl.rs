@@ -13,6 +13,7 @@
 use crate::algebra::{Array, Direction, Function, Graph, Vector3, derivatives_along};
 use crate::base::ids::ExprId;
 use crate::mechanics::inertia::MassDistribution;
+use crate::mechanics::kernel_name::KernelName;
 use crate::mechanics::motion::in_common_frame_at_zero;
 use crate::mechanics::setup::{Context, SymbolList, Values, at_rest};
 use crate::model::mechanism::Body;
@@ -24,7 +25,7 @@ pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
     let symbols = context.symbols;
     let moment_and_size = moment_and_size(g, context)?;
     Some(Function {
-        name: "whirl",
+        name: KernelName::Whirl.name(),
         parameters: vec![
             parameter("q", &symbols.q),
             parameter("u", &symbols.u),
