@@ -1,9 +1,9 @@
 //! Building expressions: every new one is simplified by the rules.
 
 use super::graph::{Graph, Node};
-use super::operators::{Operator, Unary};
 use super::rules;
 use crate::base::ids::ExprId;
+use crate::base::operators::{Operator, Unary};
 
 impl Graph {
     /// `a + b`.

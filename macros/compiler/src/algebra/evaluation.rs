@@ -1,6 +1,6 @@
 //! Numbers with bounds on their rounding errors.
 
-use super::operators::{Operator, Unary};
+use crate::base::operators::{Operator, Unary};
 
 /// Largest relative rounding error of one operation.
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
@@ -43,7 +43,7 @@ impl Evaluation {
 
 /// `operator a`.
 pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
-    let value = apply_unary(operator, a.value);
+    let value = operator.apply(a.value);
     // What has vanished by underflow proves nothing.
     if value == 0.0 && matches!(operator, Unary::Exp | Unary::PowerInteger(_)) && a.value != 0.0 {
         return Evaluation {
@@ -77,7 +77,7 @@ pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
 
 /// `a operator b`.
 pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
-    let value = apply_binary(operator, a.value, b.value);
+    let value = operator.apply(a.value, b.value);
     let (x, y) = (a.value.abs(), b.value.abs());
     let inherited = match operator {
         Operator::Add | Operator::Subtract => a.error + b.error,
@@ -87,22 +87,6 @@ pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Eval
         Operator::Atan2 => (y * a.error + x * b.error) / (x * x + y * y),
     };
     Evaluation::rounded(value, inherited)
-}
-
-/// `operator a`.
-pub(crate) fn apply_unary(operator: Unary, a: f64) -> f64 {
-    match operator {
-        Unary::Negate => -a,
-        Unary::Sqrt => a.sqrt(),
-        Unary::Sin => a.sin(),
-        Unary::Cos => a.cos(),
-        Unary::Tan => a.tan(),
-        Unary::Asin => a.asin(),
-        Unary::Acos => a.acos(),
-        Unary::Exp => a.exp(),
-        Unary::Ln => a.ln(),
-        Unary::PowerInteger(n) => a.powi(n),
-    }
 }
 
 /// `operator a` for a number known to the compiler: sine and cosine are exact at the doubles nearest to quarter turns,
@@ -115,17 +99,5 @@ pub(super) fn folded(operator: Unary, a: Evaluation) -> Evaluation {
         Evaluation::nearest(0.0)
     } else {
         result
-    }
-}
-
-/// `a operator b`.
-pub(crate) fn apply_binary(operator: Operator, a: f64, b: f64) -> f64 {
-    match operator {
-        Operator::Add => a + b,
-        Operator::Subtract => a - b,
-        Operator::Multiply => a * b,
-        Operator::Divide => a / b,
-        Operator::Power => a.powf(b),
-        Operator::Atan2 => a.atan2(b),
     }
 }

@@ -2,8 +2,8 @@
 
 use super::count::dependent;
 use super::graph::{Graph, Node};
-use super::operators::{Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
+use crate::base::operators::{Operator, Unary};
 
 /// A direction in the space of symbols: each listed symbol moves at the given rate, the others stand still.
 #[derive(Clone, Debug, Default)]

@@ -3,8 +3,8 @@
 use rustc_hash::FxHashMap;
 
 use super::evaluation::Evaluation;
-use super::operators::{Operator, Unary};
 use crate::base::ids::{ExprId, SymbolId};
+use crate::base::operators::{Operator, Unary};
 
 /// When a symbol's value becomes known: an evaluation redoes only what comes after the stage that moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

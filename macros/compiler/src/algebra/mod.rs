@@ -9,7 +9,6 @@ mod evaluation;
 mod forward;
 mod function;
 mod graph;
-mod operators;
 mod regroup;
 mod reverse;
 mod rules;
@@ -19,16 +18,16 @@ mod vector;
 pub use count::{Cost, cost, reachable};
 pub use evaluate::{evaluate, evaluate_with_error};
 pub use evaluation::Evaluation;
-pub(crate) use evaluation::{apply_binary, apply_unary};
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
 pub use graph::{Graph, Node, Stage, Symbol};
-pub use operators::{Operator, Unary};
 pub use regroup::{regroup, regrouped};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};
 pub use substitute::substitute;
 pub use vector::{Matrix3, Vector3};
+
+pub use crate::base::operators::{Operator, Unary};
 
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,8 @@
 
 use super::evaluation::{Evaluation, combined, folded};
 use super::graph::{Graph, Node};
-use super::operators::{Operator, Unary};
 use crate::base::ids::ExprId;
+use crate::base::operators::{Operator, Unary};
 
 /// One rewrite rule for `a op b`; operators of one operand ignore `b`.
 pub struct Rule {

@@ -2,8 +2,8 @@
 
 use super::super::count::reachable;
 use super::super::graph::{Graph, Node};
-use super::super::operators::Operator;
 use crate::base::ids::ExprId;
+use crate::base::operators::Operator;
 
 /// How the nodes below some roots are used.
 pub(super) struct Uses {

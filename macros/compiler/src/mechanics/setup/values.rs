@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
 use crate::base::ids::{ConstantId, ExprId};
-use crate::model::expression::{Expr, Function, Vector};
+use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{Mechanism, Placement};
 
 use super::symbols::Symbols;
@@ -126,7 +126,7 @@ impl<'a> Values<'a> {
             }
             Expr::Call(function, a) => {
                 let a = part(g, a);
-                g.unary(operator(*function), a)
+                g.unary(*function, a)
             }
         };
         known.insert(address, id);
@@ -135,18 +135,5 @@ impl<'a> Values<'a> {
 
     fn constant(&self, id: ConstantId) -> ExprId {
         self.constants[id.index()]
-    }
-}
-
-fn operator(function: Function) -> Unary {
-    match function {
-        Function::Sqrt => Unary::Sqrt,
-        Function::Sin => Unary::Sin,
-        Function::Cos => Unary::Cos,
-        Function::Tan => Unary::Tan,
-        Function::Asin => Unary::Asin,
-        Function::Acos => Unary::Acos,
-        Function::Exp => Unary::Exp,
-        Function::Ln => Unary::Ln,
     }
 }
