@@ -56,9 +56,9 @@ kernel_names! {
     MotionLinear "motion_linear",
     /// Derivatives of the three matrices.
     LinearPartials "linear_partials",
-    /// The sense in which a vibration circles.
+    /// The direction in which a vibration whirls.
     Whirl "whirl",
-    /// The first physical requirement that is not met.
+    /// The first physical requirement that is violated.
     Violation "violation",
     /// How far joints are from their singular poses.
     PoseMargin "pose_margin",

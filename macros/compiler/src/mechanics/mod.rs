@@ -1,7 +1,7 @@
 //! From bodies and joints to equations: recursive kinematics and Newton-Euler on the expression graph, linearised by
 //! differentiating the graph.
 //!
-//! The only bridge between the wing that knows mechanisms and the wing that knows expressions.
+//! The only bridge between the part that knows mechanisms and the part that knows expressions.
 
 mod checks;
 mod derive;

@@ -1,4 +1,4 @@
-//! Whether the equations determine every motion: each moves mass, and something resists each.
+//! Whether the equations determine every motion: each must move some mass, and something must resist it.
 
 use crate::algebra::{Evaluation, Graph};
 use crate::base::diagnostics::Diagnostics;
@@ -6,8 +6,8 @@ use crate::base::ids::ExprId;
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
-/// Rejects a mechanism whose mass matrix is singular, in which nothing resists a coordinate, or with a constraint that
-/// nothing can meet.
+/// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that no
+/// coordinate affects.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
@@ -97,9 +97,9 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// A motion of free and coasting coordinates that moves no mass at any probed state: which of them change, and by how much
-/// where that is the same everywhere. Where constraints hold, only motions that they admit must move mass: along all others
-/// `A^T A` stands for it, `A` the derivatives of the constraints by the speeds.
+/// A motion of free and coasting coordinates that moves no mass at any probed state: the coordinates that change, each with
+/// its amount if that is the same at all states. With constraints, only the motions that they admit must move mass; along all
+/// others `A^T A` takes the place of the mass matrix, with `A` the derivatives of the constraints by the speeds.
 fn massless_motion(
     g: &Graph,
     context: &Context,
@@ -166,8 +166,8 @@ fn with_constraints(n: usize, mass: &[f64], constraints: &[f64]) -> Vec<f64> {
     sum
 }
 
-/// A vector that a singular symmetric matrix takes to zero, its last component one: the pivot of that row vanishes against
-/// its diagonal entry, or against the rounding of that entry.
+/// A null vector of a singular symmetric matrix, with its last component one. A pivot counts as zero if it is negligible
+/// compared with its diagonal entry or with the rounding error of that entry.
 fn null_vector(
     n: usize,
     matrix: &[f64],

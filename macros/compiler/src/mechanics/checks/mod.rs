@@ -1,4 +1,4 @@
-//! What the equations must satisfy, and what holds for them.
+//! Checks of the equations, and the properties they establish.
 
 mod determinacy;
 mod poses;

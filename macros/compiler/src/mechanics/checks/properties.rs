@@ -6,7 +6,7 @@ use crate::mechanics::functions::{Damping, Properties};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, vanish};
 
-/// What can be said of `Khat` and `Chat`.
+/// The properties of `Khat` and `Chat`.
 pub(crate) fn properties(g: &mut Graph, context: &Context, jacobians: &Jacobians) -> Properties {
     let Jacobians {
         stiffness, damping, ..

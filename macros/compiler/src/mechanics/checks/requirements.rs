@@ -69,7 +69,7 @@ pub(crate) fn requirements(
     list
 }
 
-/// An inertia is given as numbers that depend on the design, or that no body can have.
+/// Whether an inertia is declared with entries that depend on the design, or that no real body can have.
 fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     body.parts.iter().any(|part| {
         let Spread::Tensor { inertia, about } = part.shape.reduced().spread else {
@@ -85,7 +85,7 @@ fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
     })
 }
 
-/// What bodies welded together must satisfy: nothing where the inertia of each is that of a body, because their sum is too.
+/// The requirements on bodies welded together: none if each has the inertia of a real body, because then so has their sum.
 fn inertia_together(
     g: &mut Graph,
     mechanism: &Mechanism,

@@ -1,4 +1,4 @@
-//! A steady state exists only if the equations do not change while the running coordinates, driven or coasting, go on.
+//! A steady state exists only if the equations do not depend on the running coordinates, driven or coasting.
 
 use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
@@ -73,7 +73,7 @@ fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId)
     vanish(g, context, &change).into_iter().any(|zero| !zero)
 }
 
-/// The causes of force that alone make the equations depend on `symbol`.
+/// The causes of force, each by itself, that make the equations depend on `symbol`.
 fn causes(
     g: &mut Graph,
     context: &Context,

@@ -1,4 +1,4 @@
-//! Outputs: what they may refer to beyond coordinates and points.
+//! Outputs, with what they may refer to besides coordinates and points.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::{ConstraintId, ExprId, JointId};
@@ -32,7 +32,8 @@ pub(crate) fn outputs(
         .collect()
 }
 
-/// All that an output can be made of. What none asks for costs nothing: only what results reach is generated.
+/// Everything that an output can use. What no output uses costs nothing: code is generated only for nodes that a result
+/// depends on.
 struct Everything<'a> {
     kinematics: &'a Kinematics,
     /// By joint id: force and moment.
@@ -92,7 +93,7 @@ fn reactions(
     reactions
 }
 
-/// By body id: inertia less weight of a body and all it carries, about its origin, in the common frame.
+/// By body id: inertia minus weight of a body and everything it carries, about its origin, in the common frame.
 fn inertial_wrenches(
     g: &mut Graph,
     context: &Context,

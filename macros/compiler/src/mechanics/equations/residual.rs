@@ -7,9 +7,9 @@ use crate::mechanics::loads::transmitted;
 use crate::mechanics::motion::Kinematics;
 use crate::mechanics::setup::{Context, ForceSelection};
 
-/// The residual in two parts: their sum, once the first is summed along runs.
+/// The residual in two parts. It is their sum after the first has been transformed from absolute angles to the unknowns.
 pub(crate) struct Residual {
-    /// By unknown: inertia less weight, over the absolute angles.
+    /// By unknown: inertia minus weight, in terms of the absolute angles.
     pub(crate) inertial: Vec<ExprId>,
     /// By unknown: forces and constraints, with the sign of inertia.
     pub(crate) applied: Vec<ExprId>,
@@ -42,7 +42,7 @@ impl Residual {
         }
     }
 
-    /// The whole of the two parts.
+    /// The sum of both parts.
     pub(crate) fn total(&self, g: &mut Graph, context: &Context) -> Vec<ExprId> {
         let inertial = context.runs.forces(g, &self.inertial);
         let inertial = context.in_unknowns(g, &inertial);

@@ -9,12 +9,12 @@ use crate::mechanics::setup::{Context, ForceSelection, at_rest};
 use super::outputs::outputs;
 use super::residual::Residual;
 
-/// The equations with the running coordinates at zero, which a steady state allows.
+/// The equations with the running coordinates set to zero, which is permitted once a steady state has been established.
 pub(crate) struct Equations {
     /// `g(qddot, qdot, q; u, b)`, and its parts.
     pub(crate) motion: Vec<ExprId>,
     pub(crate) parts: Residual,
-    /// Derivatives of the inertial part, where there is a shorter way than to differentiate it.
+    /// Derivatives of the inertial part by walks over the bodies, if these apply.
     pub(crate) variation: Option<Variation>,
     /// `g(qddot, 0, q; u, b)`.
     pub(crate) without_velocity: Vec<ExprId>,

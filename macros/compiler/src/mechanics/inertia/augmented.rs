@@ -1,6 +1,6 @@
-//! Bodies with the mass of what hangs on them: a joint that turns about its seat hands on the mass it carries as a point
-//! mass at the seat, because its inertia force is that mass times the acceleration of the seat and a rest in which the
-//! seat's motion does not occur. Equations over augmented bodies are shorter, and so are their derivatives.
+//! Bodies augmented by the mass that hangs on them. A joint that turns about its seat passes on the mass it carries as a point
+//! mass at the seat: its inertia force is that mass times the acceleration of the seat, plus a remainder that does not
+//! depend on the motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -64,8 +64,8 @@ impl AugmentedBody {
     }
 }
 
-/// Whether the inertia force of a body and all it carries is its mass times the acceleration of the joint's seat, and a
-/// rest that does not know how the seat moves.
+/// Whether the inertia force of a body and everything it carries is the total mass times the acceleration of the joint's
+/// seat, plus a remainder that does not depend on the motion of the seat.
 pub(crate) fn rides_on_seat(g: &Graph, motion: &BodyMotion) -> bool {
     motion.frame.offset == motion.seat.offset
         && motion.steps.iter().all(|step| step.slide.is_none())

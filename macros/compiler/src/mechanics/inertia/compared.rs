@@ -11,7 +11,7 @@ use crate::topology::Topology;
 use super::newton_euler::inertial_at;
 use super::variation::variation;
 
-/// Compares every entry with the derivative of the equation it belongs to. How many are not zero; nothing where the walks do not
+/// Compares every entry with the derivative of its equation and counts those that are not zero; `None` if the walks do not
 /// apply.
 pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let g = &mut Graph::new();

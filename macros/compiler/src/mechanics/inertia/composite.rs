@@ -1,5 +1,5 @@
-//! The mass matrix by composite bodies: what has to act on a coordinate for one to accelerate is read off the force and the
-//! moment that accelerate all the body carries as if it were rigid.
+//! The mass matrix by composite bodies: each entry follows from the force and moment that accelerate a body together with
+//! everything it carries, as if all of that were rigid.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::census::taken;
@@ -215,8 +215,8 @@ impl Composites {
     }
 }
 
-/// The mass matrix over the angles in all, by columns; zero beyond the coordinates that move. Only accelerations of free
-/// coordinates have columns.
+/// The mass matrix with respect to the absolute angles, by columns; zero outside the coordinates that move. Only the
+/// accelerations of free coordinates have columns.
 pub(crate) fn mass_matrix(
     g: &mut Graph,
     context: &Context,

@@ -1,4 +1,4 @@
-//! What the motion of the masses asks for: inertia and weight.
+//! Inertia and weight: the forces that the motion of the masses requires.
 
 mod augmented;
 #[cfg(test)]

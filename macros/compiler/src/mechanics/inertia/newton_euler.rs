@@ -8,9 +8,9 @@ use crate::model::mechanism::Frame;
 
 use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
 
-/// Inertia less weight.
+/// Inertia minus weight.
 pub(crate) struct Inertial {
-    /// By coordinate id: along the coordinate, or along the angle in all where it continues a run.
+    /// By coordinate id: along the coordinate, or along the absolute angle if its body continues a run.
     pub(crate) along: Vec<ExprId>,
     /// By body id: of the body and all it carries, about its origin, as its motion is written.
     pub(crate) wrenches: Vec<Wrench>,
@@ -39,16 +39,16 @@ pub(crate) fn inertial_at(
     inertial(g, context, &kinematics, selection)
 }
 
-/// Sums inertia less weight from the leaves towards the ground. `kinematics` is that of the layout of runs, with the ground
-/// accelerated against gravity: weight needs no terms of its own.
+/// Sums inertia minus weight from the leaves towards the ground. `kinematics` is written in the layout of runs, with the
+/// ground accelerated against gravity, so that weight needs no terms of its own.
 ///
-/// Of a body with all it carries on seats, augmented mass `m`, moments `first` and `second`, seats at `s_c`,
+/// For a body together with everything it carries on seats, with augmented mass `m`, moments `first` and `second`, seats at `s_c`,
 ///
 /// - `force = m a_O + rest`, `rest = W first + sum rest_c`,
 /// - `moment = 2 isotropic alpha + sum_k e_k x (first_k a_O + sum_j second_kj W e_j + sum_c s_ck rest_c) + sum moment_c`,
 ///
-/// from `a(rho) = a_O + W rho` integrated over the mass. The angle in all of a body turns this body alone of its run, so the
-/// moments of those that go on from it do no work along it.
+/// from `a(rho) = a_O + W rho` integrated over the mass. The absolute angle of a body turns only this body of its run, so the
+/// moments of the bodies that continue the run do no work along it.
 pub(crate) fn inertial(
     g: &mut Graph,
     context: &Context,
@@ -121,7 +121,8 @@ pub(crate) fn inertial(
     Inertial { along, wrenches }
 }
 
-/// The rest of the force, and the moment without what others carry on.
+/// The part of the force that does not follow from the origin's acceleration, and the moment without contributions handed
+/// on by other bodies.
 fn own_load(
     g: &mut Graph,
     body: &AugmentedBody,

@@ -1,8 +1,8 @@
-//! How inertia and weight along every coordinate change with positions and velocities, along any motion.
+//! Derivatives of inertia and weight along every coordinate by positions and velocities, for any motion.
 //!
-//! Let all that a body carries keep its motion relative to the body. A change of the body's motion, of its angular velocity by
-//! `spin`, of its angular acceleration by `growth - omega x spin`, of the acceleration of its origin by `acceleration`,
-//! changes the acceleration of a particle at `r` by `acceleration + growth x r + 2 spin x dr/dt`. It takes
+//! Suppose that everything a body carries keeps its motion relative to the body. A change of the body's motion, of its angular
+//! velocity by `spin`, of its angular acceleration by `growth - omega x spin`, of the acceleration of its origin by
+//! `acceleration`, changes the acceleration of a particle at `r` by `acceleration + growth x r + 2 spin x dr/dt`. It takes
 //!
 //! - `force = m acceleration + growth x h + 2 spin x P`,
 //! - `moment = h x acceleration + I growth + (tr D 1 - D) spin + spin x L`,
@@ -26,7 +26,7 @@ use super::composite::{Composite, Composites, accelerating, spun};
 use super::momentum::{Momentum, momenta, rates};
 use super::newton_euler::inertial;
 
-/// Derivatives of inertia less weight along the unknowns, by columns.
+/// Derivatives of inertia minus weight by the unknowns, by columns.
 pub(crate) struct Variation {
     pub(crate) by_position: Vec<Vec<ExprId>>,
     pub(crate) by_velocity: Vec<Vec<ExprId>>,
@@ -48,7 +48,8 @@ impl Change {
         g.sum([spin, growth, acceleration])
     }
 
-    /// What is asked of a body is asked of its parent, whose origin the body's leaves at `rate`.
+    /// Carries the covector over from a body to its parent; `rate` is the velocity of the body's origin relative to the
+    /// parent's.
     fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
         if let Some(rotation) = motion.to_parent {
             for part in [&mut self.spin, &mut self.growth, &mut self.acceleration] {
@@ -70,9 +71,9 @@ struct Step {
     /// The axis, and the velocity of the body's origin per unit rate.
     turn: Vector3,
     velocity: Vector3,
-    /// How the body moves otherwise, seen in its axes, where the joint stands further on.
+    /// Change of the body's motion, seen along its axes, per unit of the coordinate.
     further: Change,
-    /// The same where the joint moves faster.
+    /// The same per unit of the coordinate's rate.
     faster: Change,
 }
 
@@ -199,8 +200,8 @@ impl Carried {
     }
 }
 
-/// Derivatives of inertia less weight along the unknowns while the running coordinates stand at `running`; nothing for
-/// mechanisms that are written otherwise than along the axes of each body, or with coasting coordinates.
+/// Derivatives of inertia minus weight by the unknowns while the running coordinates are at `running`; `None` unless every
+/// body is written along its own axes and no coordinate coasts.
 pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
     let topology = context.topology;
     let mut layouts = topology
@@ -268,8 +269,7 @@ pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) ->
 }
 
 impl Variation {
-    /// Entries of a motion with those nearer to the ground, at the body that carries them: what it asks of their change, and
-    /// what its change loads them with.
+    /// Entries that couple a motion with the motions nearer to the ground, at the body that carries them.
     fn meet(
         &mut self,
         g: &mut Graph,

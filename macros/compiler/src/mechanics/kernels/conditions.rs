@@ -1,4 +1,4 @@
-//! The kernels that tell whether a state makes sense: for designs that no real part has, and for singular poses of joints.
+//! The kernels that check a state: physical requirements on the design, and the distance from singular poses of joints.
 
 use crate::algebra::{Array, Function};
 use crate::base::ids::ExprId;
@@ -22,7 +22,7 @@ pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Func
     }
 }
 
-/// The function whose results tell how far joints are from their singular poses.
+/// The function whose results measure how far joints are from their singular poses.
 pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
     let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
     Function {

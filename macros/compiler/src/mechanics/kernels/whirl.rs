@@ -1,4 +1,4 @@
-//! Whether a vibration circles in the sense in which the bodies spin.
+//! Whether a vibration whirls in the direction in which the bodies spin.
 //!
 //! In the vibration `q* + Re((x + i y) e^{i w t})`, `w > 0`, whatever moves by `r` along `x` and by `s` along `y` runs
 //! through the ellipse `r cos(w t) - s sin(w t)`, counterclockwise about `-r x s`. Summed over the bodies, `omega` their
@@ -20,7 +20,7 @@ use crate::model::mechanism::Body;
 
 use super::parameters::parameter;
 
-/// The function that tells the sense in which a vibration circles.
+/// The function that gives the direction in which a vibration whirls.
 pub(crate) fn whirl(g: &mut Graph, context: &Context) -> Option<Function> {
     let symbols = context.symbols;
     let moment_and_size = moment_and_size(g, context)?;
@@ -178,7 +178,7 @@ impl Central {
     }
 }
 
-/// `a / b`. Most often a piece is the whole body, and an arm the way to its centre: then nothing is left to round.
+/// `a / b`, or exactly one if both are the same node: usually a piece is the whole body, and its arm leads to its centre.
 fn ratio(g: &mut Graph, a: ExprId, b: ExprId) -> ExprId {
     if a == b { g.constant(1.0) } else { g.div(a, b) }
 }

@@ -21,7 +21,7 @@ pub(crate) struct Jacobians {
 }
 
 impl Jacobians {
-    /// Inertia and weight are differentiated by the angles in all, forces and constraints by the unknowns.
+    /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
     pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
         let (s, runs) = (context.symbols, context.runs);
         let outward = context.outward_order();
@@ -53,8 +53,11 @@ impl Jacobians {
     }
 }
 
-/// Stiffness and damping of inertia and weight, over the unknowns in place of the angles in all: differentiated, or as
-/// [`Variation`] has them where these, with the residual and with the mass matrix, are fewer operations.
+/// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They are
+/// obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted together
+/// with the residual and with the mass matrix.
+///
+/// [`Variation`]: crate::mechanics::inertia::Variation
 fn of_inertia(
     g: &mut Graph,
     context: &Context,
@@ -83,7 +86,7 @@ fn of_inertia(
     };
     let [stiffness, damping] =
         [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
-    // what a coordinate asks of those before it is the shorter half
+    // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
     let stiffness = match is_symmetric(g, context, &stiffness) {
         true => {
             taken(|| "linearise: symmetric stiffness, transposed".into());
@@ -105,7 +108,7 @@ fn of_inertia(
     }
 }
 
-/// A matrix over the unknowns from one over the angles in all.
+/// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns.
 fn summed(
     g: &mut Graph,
     context: &Context,

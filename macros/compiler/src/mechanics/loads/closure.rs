@@ -1,4 +1,4 @@
-//! Constraints between two frames: what they demand of the place of one side as seen from the other.
+//! Constraints between two frames, as equations for the position and orientation of one side relative to the other.
 
 use crate::algebra::{Graph, Matrix3, Operator, Vector3};
 use crate::base::ids::PointId;

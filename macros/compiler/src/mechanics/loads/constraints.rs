@@ -1,9 +1,9 @@
 //! Constraints: their equations, and what holds them on bodies and coordinates.
 //!
 //! Every equation has a multiplier `mu`. The generalised forces that hold it are `-mu` times the derivative of the equation
-//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. Equations are what a demand
-//! lacks, `Phi = -value`: then `mu` is what the `from` side exerts on the `to` side, as the reaction of a joint is. What an
-//! equation leaves open is the way to go in the direction of its reaction.
+//! by each speed, so that `g + Phi_q^T mu = 0`; on bodies they are pairs of forces and moments. An equation is the negative of
+//! what is demanded to vanish, `Phi = -value`. Then `mu` is what the `from` side exerts on the `to` side, as for the reaction
+//! of a joint, and the residual of an equation has the direction of its reaction.
 
 use crate::algebra::{Graph, gradient, substitute};
 use crate::base::census::taken;

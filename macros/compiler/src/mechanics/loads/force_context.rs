@@ -1,4 +1,4 @@
-//! What force laws and constraints read: the motion, and the places of points in it.
+//! The data that force laws and constraints read: the motion, and the position of points in it.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::PointId;
@@ -8,7 +8,7 @@ use crate::model::mechanism::{Frame, Placement};
 
 use super::pair::Side;
 
-/// What every force law and constraint reads.
+/// The data that every force law and constraint reads.
 pub(crate) struct ForceContext<'a> {
     pub(crate) context: &'a Context<'a>,
     pub(crate) kinematics: &'a Kinematics,

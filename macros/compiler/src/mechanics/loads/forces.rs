@@ -1,4 +1,4 @@
-//! Applied forces: what the force elements do to coordinates and bodies.
+//! The force laws: loads of the force elements on coordinates and bodies.
 
 use crate::algebra::{Graph, Matrix3, Vector3, gradient};
 use crate::base::ids::{ExprId, ForceId, PointId};

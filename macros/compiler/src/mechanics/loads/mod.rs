@@ -1,4 +1,4 @@
-//! What force elements and constraints do.
+//! Loads due to force elements and constraints.
 
 mod applied;
 mod closure;

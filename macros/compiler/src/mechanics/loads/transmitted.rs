@@ -1,5 +1,5 @@
-//! What applied forces and constraints do along the coordinates: loads summed from the leaves towards the ground and
-//! projected on the joint axes.
+//! The effect of applied forces and constraints along the coordinates: loads are summed from the leaves towards the ground
+//! and projected on the joint axes.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;

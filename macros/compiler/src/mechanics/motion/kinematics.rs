@@ -1,7 +1,7 @@
 //! Positions, velocities and accelerations of all bodies, from the ground outwards.
 //!
-//! Every vector is expressed as the layout says: for forces, points and outputs in one common frame, the ground frame at the
-//! instant at which all driven coordinates are zero; for inertia along the axes that make its equations short.
+//! The layout decides how vectors are expressed: for forces, points and outputs in one common frame, which is the ground frame at
+//! the instant at which all driven coordinates are zero; for inertia along the axes that keep its equations short.
 
 use crate::algebra::{Graph, Matrix3, Vector3};
 use crate::base::ids::{BodyId, ExprId};

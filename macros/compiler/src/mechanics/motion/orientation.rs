@@ -1,4 +1,4 @@
-//! How a body is turned against the axes in which its motion is written: those of the common frame, or of the layout.
+//! Orientation of a body relative to the axes in which its motion is written: those of the common frame, or of the layout.
 
 use crate::algebra::{Graph, Matrix3, Unary, Vector3};
 use crate::base::census::taken;

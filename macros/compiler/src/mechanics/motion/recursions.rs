@@ -1,4 +1,4 @@
-//! The motion of a mechanism, as its two uses need it: in the common frame, and for inertia and weight.
+//! The motion of a mechanism in its two forms: in the common frame, and as needed for inertia and weight.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::ExprId;
@@ -34,7 +34,7 @@ pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprI
     )
 }
 
-/// Motion of every body as inertia and weight need it: along runs, the ground accelerated against gravity.
+/// Motion of every body as needed for inertia and weight: in the layout of runs, with the ground accelerated against gravity.
 pub(crate) fn for_inertia(
     g: &mut Graph,
     context: &Context,

@@ -1,4 +1,4 @@
-//! The way from a frame to the ground: common ancestors, and velocities relative to them.
+//! The path from a frame to the ground: common ancestors, and velocities relative to them.
 
 use crate::algebra::{Graph, Vector3};
 use crate::base::ids::BodyId;
@@ -21,7 +21,7 @@ impl Tree {
         Self { branch }
     }
 
-    /// How a body hangs on the one before.
+    /// The branch that connects a body to its parent.
     pub(crate) fn branch(&self, body: BodyId) -> Option<Branch> {
         self.branch[body.index()]
     }
@@ -33,7 +33,7 @@ impl Tree {
         }
     }
 
-    /// The frame and all it hangs on, up to the ground.
+    /// The frame and all its ancestors, up to the ground.
     fn path(&self, frame: Frame) -> Vec<Frame> {
         let mut path = vec![frame];
         let mut at = frame;
@@ -44,7 +44,7 @@ impl Tree {
         path
     }
 
-    /// The last frame that both hang on.
+    /// The last common ancestor of two frames.
     pub(crate) fn common_ancestor(&self, a: Frame, b: Frame) -> Frame {
         let path = self.path(a);
         self.path(b)

@@ -40,8 +40,8 @@ impl Context<'_> {
         self.symbols.q.values[self.moving().1 + row]
     }
 
-    /// What an expression of inputs and design variables comes to at the nominal design; inputs, which have no nominal values,
-    /// are one.
+    /// Value of an expression of inputs and design variables at the nominal design. Inputs have no nominal values and are set
+    /// to one.
     pub(crate) fn nominal(&self, g: &Graph, value: ExprId) -> f64 {
         let value = evaluate(g, &[value], |symbol| {
             let design = self.symbols.b.ids.iter().zip(&self.mechanism.design);
@@ -51,7 +51,7 @@ impl Context<'_> {
         value[0]
     }
 
-    /// For each unknown, the position of its joint on the way from the ground to the leaves; reactions stand behind them.
+    /// For each unknown, the position of its joint in the order from the ground to the leaves; reactions come last.
     pub(crate) fn outward_order(&self) -> Vec<usize> {
         let place = |id: &CoordinateId| {
             let joint = self.mechanism.coordinates[id.index()].joint;

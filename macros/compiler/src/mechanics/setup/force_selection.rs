@@ -1,8 +1,8 @@
-//! Which causes of force an evaluation of the equations takes into account.
+//! The causes of force that an evaluation of the equations includes.
 
 use crate::base::ids::{BodyId, ForceId};
 
-/// Selects causes of force: all for the equations themselves, single ones to find a culprit.
+/// Selects causes of force: all of them for the equations themselves, a single one to find the cause of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ForceSelection {
     pub(crate) inertia: Selection<BodyId>,

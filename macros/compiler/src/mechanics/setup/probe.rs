@@ -1,5 +1,5 @@
-//! Whether something holds at every state: established structurally where the graph shows it, and otherwise by evaluation at
-//! random states, where a value must vanish up to rounding each time.
+//! Tests whether expressions vanish at every state: structurally if the graph shows it, otherwise by evaluation at random
+//! states, at all of which a value must vanish up to rounding.
 
 use crate::algebra::{Evaluation, Graph, evaluate_with_error};
 use crate::base::ids::{ExprId, SymbolId};

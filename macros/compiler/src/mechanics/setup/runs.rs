@@ -2,9 +2,9 @@
 //!
 //! Two choices make this part of the equations short:
 //!
-//! - Bodies that turn about the same axis, one after the other, form a run. Along a run the angles of the bodies, sums of
-//!   the joint angles, are the natural coordinates: turning one body then moves those behind it without turning them. The
-//!   equations are derived in these angles and summed back at the end ([`Runs`]).
+//! - Bodies that turn about the same axis, one after the other, form a run. The natural coordinates of a run are the absolute
+//!   angles of its bodies, that is, the sums of the joint angles: turning one body then moves the bodies behind it without
+//!   turning them. The equations are derived in these angles and summed back at the end ([`Runs`]).
 //! - All vectors of a run are written along the axes of the body before it. Elsewhere a body is written along its own axes,
 //!   in which its mass distribution is constant.
 
@@ -21,7 +21,7 @@ use super::values::Values;
 /// How the motion of a body is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BodyLayout {
-    /// It turns on about the axis of its parent's joint, and its angle is counted as its parent's is.
+    /// It turns about the axis of its parent's joint, and its angle is measured from the same direction.
     pub(crate) continues_run: bool,
     /// Along the body's own axes, not along those of its parent.
     pub(crate) own_axes: bool,
@@ -42,12 +42,13 @@ impl Layout {
     }
 }
 
-/// Coordinates in which inertia and weight are derived: the unknowns themselves, but along runs the angles of the bodies.
+/// Coordinates in which inertia and weight are derived: the unknowns themselves, except that along runs these are the
+/// absolute angles of the bodies.
 pub(crate) struct Runs {
     pub(crate) layout: Layout,
-    /// By free coordinate: the one whose angle it goes on from.
+    /// By free coordinate: the one that precedes it in its run.
     before: Vec<Option<usize>>,
-    /// By unknown: the angle in all, or the unknown itself; and so its rates.
+    /// By unknown: the absolute angle along a run, otherwise the unknown itself; likewise for its rates.
     pub(crate) position: SymbolList,
     pub(crate) velocity: SymbolList,
     pub(crate) acceleration: SymbolList,
@@ -154,7 +155,7 @@ impl Runs {
         }
     }
 
-    /// What stands for the sums, for substitution.
+    /// The sum of joint angles for each absolute angle, and likewise for the rates: for substitution.
     pub(crate) fn sums(&self, g: &mut Graph, symbols: &Symbols) -> Vec<(SymbolId, ExprId)> {
         let mut sums = Vec::new();
         let lists = [
@@ -175,12 +176,12 @@ impl Runs {
         sums
     }
 
-    /// Unknowns that go on from `k`.
+    /// Unknowns that follow `k` in its run.
     fn after(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.before.len()).filter(move |&next| self.before[next] == Some(k))
     }
 
-    /// Forces along the unknowns from forces along the angles in all: each is the sum of those behind it.
+    /// Forces along the unknowns from forces along the absolute angles: each is the sum over the bodies from there on.
     pub(crate) fn forces(&self, g: &mut Graph, along: &[ExprId]) -> Vec<ExprId> {
         let mut summed = vec![None; along.len()];
         (0..along.len())
@@ -207,9 +208,9 @@ impl Runs {
         sum
     }
 
-    /// A matrix over the unknowns from the one over the angles in all, both by columns: each entry is the sum of all behind
-    /// its row and its column. Of a `symmetric` one only the entries whose column is not nearer to the ground than the row
-    /// are used, as `outward` tells.
+    /// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns, both by columns: each entry
+    /// is the sum of all entries from its row and its column on. If the matrix is `symmetric`, only entries are used whose
+    /// column is not nearer to the ground than the row, according to `outward`.
     pub(crate) fn matrix(
         &self,
         g: &mut Graph,
@@ -226,7 +227,7 @@ impl Runs {
             let (row, column) = ordered(i, j);
             columns[column][row]
         };
-        // over the columns behind
+        // sum over the columns that follow
         let mut rows: Vec<Vec<ExprId>> = Vec::with_capacity(n);
         for i in 0..n {
             let mut summed = vec![None; n];
@@ -246,7 +247,7 @@ impl Runs {
             .collect()
     }
 
-    /// Over the rows behind as well.
+    /// The sum over the rows that follow as well.
     fn entry(
         &self,
         g: &mut Graph,

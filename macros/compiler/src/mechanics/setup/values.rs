@@ -1,4 +1,4 @@
-//! Values of the declaration as expressions of the graph.
+//! Translates values of the declaration to expressions of the graph.
 
 use rustc_hash::FxHashMap;
 
@@ -9,7 +9,7 @@ use crate::model::mechanism::{Mechanism, Placement};
 
 use super::symbols::Symbols;
 
-/// Translates values; what depends on the position of the mechanism is looked up in `state`.
+/// Translates values. What depends on the position of the mechanism is looked up in a [`State`].
 pub(crate) struct Values<'a> {
     symbols: &'a Symbols,
     constants: Vec<ExprId>,
