@@ -1,6 +1,6 @@
 //! The import directions of ARCHITECTURE.md: what is absent stays absent.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -26,15 +26,43 @@ const ROOMS: [(&str, &[&str]); 8] = [
     ),
 ];
 
+/// The subfolders of `mechanics`, in order: each may import those before it, and the types that all of them hand on.
+const MECHANICS: [&str; 8] = [
+    "setup",
+    "motion",
+    "inertia",
+    "loads",
+    "equations",
+    "linear",
+    "checks",
+    "kernels",
+];
+
+/// The types that the subfolders of `mechanics` share with other rooms.
+const TYPES: [&str; 2] = ["functions", "kernel_name"];
+
+/// Folders whose files import each other in one direction only.
+const WITHOUT_CIRCLES: [&str; 7] = [
+    "base",
+    "syntax",
+    "model/rules",
+    "topology",
+    "algebra",
+    "mechanics",
+    "program",
+];
+
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 7] = [
+const TYPE_FILES: [(&str, &[&str]); 9] = [
     ("syntax/ast.rs", &[]),
-    ("model/mechanism.rs", &["constraint", "expression"]),
+    ("model/mechanism.rs", &["constraint", "expression", "shape"]),
+    ("model/shape.rs", &["expression"]),
     ("model/constraint.rs", &["expression", "mechanism"]),
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),
     ("algebra/function.rs", &["count", "graph"]),
     ("mechanics/functions.rs", &[]),
+    ("mechanics/kernel_name.rs", &[]),
 ];
 
 fn root() -> PathBuf {
@@ -101,13 +129,153 @@ fn every_room_imports_only_what_it_may() {
 }
 
 #[test]
-fn every_room_is_guarded() {
-    let rooms: BTreeSet<String> = fs::read_dir(root().join("macros/compiler/src"))
-        .expect("the compiler's sources")
+fn no_two_subfolders_of_mechanics_import_each_other() {
+    let mechanics = root().join("macros/compiler/src/mechanics");
+    let folders: BTreeSet<String> = folders(&mechanics);
+    assert_eq!(folders, MECHANICS.map(str::to_owned).into());
+    for (place, folder) in MECHANICS.iter().enumerate() {
+        for file in sources(&mechanics.join(folder)) {
+            let text = read(&file);
+            let mut names = imported(&text, "crate::mechanics::");
+            names.extend(imported(&text, "super::super::"));
+            for name in names {
+                assert!(
+                    TYPES.contains(&name.as_str()) || MECHANICS[..place].contains(&name.as_str()),
+                    "{} imports `{name}`, which {folder} may not",
+                    file.display()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn files_import_each_other_in_one_direction() {
+    let compiler = root().join("macros/compiler/src");
+    for folder in WITHOUT_CIRCLES {
+        let inner = compiler.join(folder);
+        let mut files = sources(&inner);
+        // a folder may have a file of its own name beside it
+        files.extend(Some(inner.with_extension("rs")).filter(|file| file.is_file()));
+        let modules: BTreeMap<String, PathBuf> = files
+            .into_iter()
+            .filter(|file| !file.ends_with("tests.rs"))
+            .map(|file| (module(&compiler, &file), file))
+            .collect();
+        let imports: BTreeMap<&str, BTreeSet<String>> = modules
+            .iter()
+            .map(|(name, file)| (name.as_str(), uses(&read(file), name, &modules)))
+            .collect();
+        if let Some(circle) = circle(&imports) {
+            panic!("in {folder} these import each other: {}", circle.join(", "));
+        }
+    }
+}
+
+/// The path of a file as a module, for example `mechanics::motion::frame`.
+fn module(compiler: &Path, file: &Path) -> String {
+    let path = file.strip_prefix(compiler).expect("a file of the compiler");
+    let names: Vec<&str> = path
+        .iter()
+        .filter_map(|name| name.to_str())
+        .map(|name| name.trim_end_matches(".rs"))
+        .filter(|name| *name != "mod")
+        .collect();
+    names.join("::")
+}
+
+/// The modules that a module names outside of its tests. What it hands on with `pub use` it does not import.
+fn uses(text: &str, own: &str, modules: &BTreeMap<String, PathBuf>) -> BTreeSet<String> {
+    let code = text.split("mod tests {").next().unwrap_or(text);
+    let declared = code.match_indices("use ").flat_map(|(at, word)| {
+        let line = code[..at].rsplit('\n').next().unwrap_or_default();
+        let rest = &code[at + word.len()..];
+        let tree = rest.split(';').next().filter(|_| !line.starts_with("pub"));
+        tree.map(paths).unwrap_or_default()
+    });
+    let is_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    let inline = code.split(|c: char| !is_path(c)).map(str::to_owned);
+    let inline = inline.filter(|path| path.starts_with("crate::") || path.starts_with("super::"));
+    let module_of = |path: String| {
+        let full = absolute(&path, own);
+        let lengths = (1..=full.len()).rev();
+        let mut names = lengths.map(|length| full[..length].join("::"));
+        names.find(|name| modules.contains_key(name))
+    };
+    let all = declared.chain(inline).filter_map(module_of);
+    all.filter(|name| name != own).collect()
+}
+
+/// The paths of a `use` declaration, its braces taken apart.
+fn paths(tree: &str) -> Vec<String> {
+    let Some(open) = tree.find('{') else {
+        return vec![tree.to_owned()];
+    };
+    let (prefix, inner) = (&tree[..open], &tree[open + 1..]);
+    let inner = &inner[..inner.rfind('}').unwrap_or(inner.len())];
+    let (mut depth, mut start, mut list) = (0, 0, Vec::new());
+    for (at, sign) in inner.char_indices() {
+        match sign {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                list.push(&inner[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    list.push(&inner[start..]);
+    list.iter()
+        .map(|item| item.trim())
+        .filter(|item| !item.is_empty())
+        .flat_map(paths)
+        .map(|item| format!("{prefix}{item}"))
+        .collect()
+}
+
+/// The segments of a path from the root of the crate.
+fn absolute(path: &str, own: &str) -> Vec<String> {
+    let mut full: Vec<String> = own.split("::").map(str::to_owned).collect();
+    for (k, segment) in path.split("::").enumerate() {
+        match (k, segment) {
+            (0, "crate") => full.clear(),
+            (_, "self") => {}
+            (_, "super") => drop(full.pop()),
+            (_, segment) => full.push(segment.to_owned()),
+        }
+    }
+    full
+}
+
+/// Modules that import each other in a circle.
+fn circle(imports: &BTreeMap<&str, BTreeSet<String>>) -> Option<Vec<String>> {
+    let mut left = imports.clone();
+    loop {
+        let rest: BTreeSet<String> = left.keys().map(|name| (*name).to_owned()).collect();
+        let before = left.len();
+        left.retain(|_, names| names.intersection(&rest).next().is_some());
+        if left.is_empty() {
+            return None;
+        }
+        if left.len() == before {
+            return Some(left.keys().map(|name| (*name).to_owned()).collect());
+        }
+    }
+}
+
+fn folders(of: &Path) -> BTreeSet<String> {
+    fs::read_dir(of)
+        .unwrap_or_else(|error| panic!("{of:?}: {error}"))
         .map(|entry| entry.expect("a folder entry").path())
         .filter(|path| path.is_dir())
         .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
-        .collect();
+        .collect()
+}
+
+#[test]
+fn every_room_is_guarded() {
+    let rooms = folders(&root().join("macros/compiler/src"));
     let guarded: BTreeSet<String> = ROOMS.iter().map(|(room, _)| (*room).to_owned()).collect();
     assert_eq!(rooms, guarded);
 }
@@ -193,4 +361,28 @@ fn the_guard_reads_imports() {
     let text = "use crate::{a::B, c};\nuse crate::d::{E, F};\nlet x = crate::g::h();";
     let names = ["a", "c", "d", "g"].map(str::to_owned);
     assert_eq!(imported(text, "crate::"), BTreeSet::from(names));
+}
+
+#[test]
+fn the_guard_finds_circles() {
+    let modules: BTreeMap<String, PathBuf> = ["a", "a::b", "a::b::c", "a::d"]
+        .map(|name| (name.to_owned(), PathBuf::new()))
+        .into();
+    let of = |text: &str, own: &str| uses(text, own, &modules);
+    let text = "//! Text.\n\nuse super::c::{D, e};\nuse crate::a::d::F;\nfn g() {}\n";
+    let found = of(text, "a::b");
+    assert_eq!(found, BTreeSet::from(["a", "a::d"].map(str::to_owned)));
+    let found = of(
+        "mod c;\n\nuse c::{H, i::J};\nuse super::{d::{K, l}, M};",
+        "a::b",
+    );
+    let expected = ["a", "a::b::c", "a::d"].map(str::to_owned);
+    assert_eq!(found, BTreeSet::from(expected));
+    let names = |list: &[&str]| -> BTreeSet<String> {
+        list.iter().map(|name| (*name).to_owned()).collect()
+    };
+    let tree = BTreeMap::from([("a", names(&["b"])), ("b", names(&["c"]))]);
+    assert_eq!(circle(&tree), None);
+    let round = BTreeMap::from([("a", names(&["b"])), ("b", names(&["a"]))]);
+    assert_eq!(circle(&round), Some(vec!["a".to_owned(), "b".to_owned()]));
 }

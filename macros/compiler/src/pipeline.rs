@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use crate::algebra::{Function, regrouped};
 use crate::base::diagnostics::Diagnostics;
 use crate::emit::emit;
-use crate::mechanics::{Functions, Limits, derive};
+use crate::mechanics::{Functions, KernelName, Limits, derive};
 use crate::model::mechanism::Mechanism;
 use crate::model::resolve::resolve_what_is_right;
 use crate::program::{Program, lower};
@@ -70,15 +70,18 @@ fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diag
 }
 
 /// Kernels whose residual a solver compares: it has to be the same number in each.
-const OF_ONE_RESIDUAL: [&str; 3] = ["residual", "residual_parts", "residual_and_stiffness"];
+const OF_ONE_RESIDUAL: [KernelName; 3] = [
+    KernelName::Residual,
+    KernelName::ResidualParts,
+    KernelName::ResidualAndStiffness,
+];
 
 /// The kernels with as few operations as grouping them gives.
 fn regrouped_kernels(functions: &mut Functions) -> Vec<Function> {
-    let (alike, others): (Vec<Function>, Vec<Function>) = functions
-        .functions
-        .iter()
-        .cloned()
-        .partition(|function| OF_ONE_RESIDUAL.contains(&function.name));
+    let (alike, others): (Vec<Function>, Vec<Function>) =
+        functions.functions.iter().cloned().partition(|function| {
+            KernelName::named(function.name).is_some_and(|name| OF_ONE_RESIDUAL.contains(&name))
+        });
     let mut kernels = regrouped(&mut functions.graph, &alike);
     for function in others {
         kernels.extend(regrouped(&mut functions.graph, &[function]));

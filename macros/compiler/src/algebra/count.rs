@@ -1,7 +1,8 @@
 //! What an evaluation costs.
 
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
 use crate::base::ids::ExprId;
+use crate::base::operators::{Operator, Unary};
 
 /// Operations of a straight line of code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,47 +1,9 @@
 //! Numeric evaluation of the graph, for checks inside the compiler and for tests.
 
 use super::count::reachable;
-use super::graph::{Graph, Node, Operator, Unary};
+use super::evaluation::{Evaluation, combined, unary};
+use super::graph::{Graph, Node};
 use crate::base::ids::{ExprId, SymbolId};
-
-/// Largest relative rounding error of one operation.
-const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
-
-/// A value and a first-order bound on its rounding error (running error analysis; Higham, Accuracy and Stability of
-/// Numerical Algorithms, section 3.3). Symbols are exact; constants are not, they stand for rounded numbers, or were computed from
-/// such.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evaluation {
-    /// The value.
-    pub value: f64,
-    /// How far rounding may have moved it.
-    pub error: f64,
-}
-
-impl Evaluation {
-    /// Whether nothing but rounding keeps the value from zero.
-    pub fn is_negligible(self) -> bool {
-        self.value.abs() <= 16.0 * self.error
-    }
-
-    /// One.
-    pub(super) const ONE: Self = Self {
-        value: 1.0,
-        error: 0.0,
-    };
-
-    /// A number rounded once.
-    pub(super) fn nearest(value: f64) -> Self {
-        Self::rounded(value, 0.0)
-    }
-
-    fn rounded(value: f64, inherited: f64) -> Self {
-        Self {
-            value,
-            error: inherited + UNIT_ROUNDOFF * value.abs(),
-        }
-    }
-}
 
 /// Values of `roots` for the given symbol values.
 pub fn evaluate(graph: &Graph, roots: &[ExprId], symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {
@@ -79,92 +41,4 @@ pub fn evaluate_with_error(
         };
     }
     roots.iter().map(|root| done[root.index()]).collect()
-}
-
-fn unary(operator: Unary, a: Evaluation) -> Evaluation {
-    let value = apply_unary(operator, a.value);
-    // What has vanished by underflow proves nothing.
-    if value == 0.0 && matches!(operator, Unary::Exp | Unary::PowerInteger(_)) && a.value != 0.0 {
-        return Evaluation {
-            value: f64::NAN,
-            error: f64::NAN,
-        };
-    }
-    let slope = match operator {
-        Unary::Negate => {
-            return Evaluation {
-                value,
-                error: a.error,
-            };
-        }
-        Unary::Sqrt => 0.5 / value,
-        Unary::Sin => a.value.cos(),
-        Unary::Cos => a.value.sin(),
-        Unary::Tan => 1.0 + value * value,
-        Unary::Asin | Unary::Acos => 1.0 / (1.0 - a.value * a.value).sqrt(),
-        Unary::Exp => value,
-        Unary::Ln => 1.0 / a.value,
-        Unary::PowerInteger(n) => f64::from(n) * a.value.powi(n - 1),
-    };
-    let inherited = if a.error == 0.0 {
-        0.0
-    } else {
-        slope.abs() * a.error
-    };
-    Evaluation::rounded(value, inherited)
-}
-
-/// `a operator b`.
-pub(super) fn combined(operator: Operator, a: Evaluation, b: Evaluation) -> Evaluation {
-    let value = apply_binary(operator, a.value, b.value);
-    let (x, y) = (a.value.abs(), b.value.abs());
-    let inherited = match operator {
-        Operator::Add | Operator::Subtract => a.error + b.error,
-        Operator::Multiply => x * b.error + y * a.error,
-        Operator::Divide => (a.error + value.abs() * b.error) / y,
-        Operator::Power => value.abs() * (y / x * a.error + x.ln().abs() * b.error),
-        Operator::Atan2 => (y * a.error + x * b.error) / (x * x + y * y),
-    };
-    Evaluation::rounded(value, inherited)
-}
-
-/// `operator a`.
-pub(crate) fn apply_unary(operator: Unary, a: f64) -> f64 {
-    match operator {
-        Unary::Negate => -a,
-        Unary::Sqrt => a.sqrt(),
-        Unary::Sin => a.sin(),
-        Unary::Cos => a.cos(),
-        Unary::Tan => a.tan(),
-        Unary::Asin => a.asin(),
-        Unary::Acos => a.acos(),
-        Unary::Exp => a.exp(),
-        Unary::Ln => a.ln(),
-        Unary::PowerInteger(n) => a.powi(n),
-    }
-}
-
-/// `operator a` for a number known to the compiler: sine and cosine are exact at the doubles nearest to quarter turns,
-/// so that a frame declared as turned by 90 degrees has axes with zeros.
-pub(super) fn folded(operator: Unary, a: Evaluation) -> Evaluation {
-    let result = unary(operator, a);
-    let nearly_quarter = (result.value.abs() <= 2.0 * f64::EPSILON * a.value.abs())
-        && matches!(operator, Unary::Sin | Unary::Cos);
-    if nearly_quarter {
-        Evaluation::nearest(0.0)
-    } else {
-        result
-    }
-}
-
-/// `a operator b`.
-pub(crate) fn apply_binary(operator: Operator, a: f64, b: f64) -> f64 {
-    match operator {
-        Operator::Add => a + b,
-        Operator::Subtract => a - b,
-        Operator::Multiply => a * b,
-        Operator::Divide => a / b,
-        Operator::Power => a.powf(b),
-        Operator::Atan2 => a.atan2(b),
-    }
 }

@@ -1,8 +1,9 @@
 //! Forward differentiation: the derivative of many expressions along one direction.
 
 use super::count::dependent;
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
 use crate::base::ids::{ExprId, SymbolId};
+use crate::base::operators::{Operator, Unary};
 
 /// A direction in the space of symbols: each listed symbol moves at the given rate, the others stand still.
 #[derive(Clone, Debug, Default)]

@@ -2,9 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::evaluate::Evaluation;
-use super::rules;
+use super::evaluation::Evaluation;
 use crate::base::ids::{ExprId, SymbolId};
+use crate::base::operators::{Operator, Unary};
 
 /// When a symbol's value becomes known: an evaluation redoes only what comes after the stage that moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -28,48 +28,6 @@ pub struct Symbol {
     pub name: String,
     /// When its value is known.
     pub stage: Stage,
-}
-
-/// Operators of two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Operator {
-    /// `a + b`.
-    Add,
-    /// `a - b`.
-    Subtract,
-    /// `a * b`.
-    Multiply,
-    /// `a / b`.
-    Divide,
-    /// `a ^ b`, `a > 0`.
-    Power,
-    /// `atan2(a, b)`.
-    Atan2,
-}
-
-/// Operators of one operand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Unary {
-    /// `-a`.
-    Negate,
-    /// Square root.
-    Sqrt,
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Tangent.
-    Tan,
-    /// Inverse sine.
-    Asin,
-    /// Inverse cosine.
-    Acos,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// `a ^ n`.
-    PowerInteger(i32),
 }
 
 /// A node. Constants are held by their bits so that nodes compare and hash exactly.
@@ -227,63 +185,6 @@ impl Graph {
         (id, self.intern(Node::Symbol(id)))
     }
 
-    /// `a + b`.
-    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.binary(Operator::Add, a, b)
-    }
-
-    /// `a - b`.
-    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.binary(Operator::Subtract, a, b)
-    }
-
-    /// `a * b`.
-    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.binary(Operator::Multiply, a, b)
-    }
-
-    /// `a / b`.
-    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.binary(Operator::Divide, a, b)
-    }
-
-    /// `-a`.
-    pub fn neg(&mut self, a: ExprId) -> ExprId {
-        self.unary(Unary::Negate, a)
-    }
-
-    /// `factor * a`.
-    pub fn scale(&mut self, factor: f64, a: ExprId) -> ExprId {
-        let factor = self.constant(factor);
-        self.mul(factor, a)
-    }
-
-    /// The sum of some terms, from the first to the last.
-    pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
-        let zero = self.zero();
-        terms
-            .into_iter()
-            .fold(zero, |sum, term| self.add(sum, term))
-    }
-
-    /// An operator of one operand, simplified.
-    pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
-        rules::simplify_unary(self, operator, a)
-            .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
-    }
-
-    /// An operator of two operands, simplified.
-    pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
-        if let Some(simpler) = rules::simplify_binary(self, operator, a, b) {
-            return simpler;
-        }
-        let (a, b) = match operator {
-            Operator::Add | Operator::Multiply if b < a => (b, a),
-            _ => (a, b),
-        };
-        self.intern(Node::Binary(operator, a, b))
-    }
-
     /// The latest stage that each node depends on.
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages: Vec<Stage> = Vec::with_capacity(self.nodes.len());
@@ -303,7 +204,8 @@ impl Graph {
         self.interned.get(&node).copied()
     }
 
-    fn intern(&mut self, node: Node) -> ExprId {
+    /// The node, made if there is none yet. Nothing is simplified.
+    pub(super) fn intern(&mut self, node: Node) -> ExprId {
         if let Some(&id) = self.interned.get(&node) {
             return id;
         }

@@ -2,8 +2,10 @@
 //!
 //! Architecture invariant: this wing knows no mechanics and imports only `base`.
 
+mod build;
 mod count;
 mod evaluate;
+mod evaluation;
 mod forward;
 mod function;
 mod graph;
@@ -14,16 +16,18 @@ mod substitute;
 mod vector;
 
 pub use count::{Cost, cost, reachable};
-pub use evaluate::{Evaluation, evaluate, evaluate_with_error};
-pub(crate) use evaluate::{apply_binary, apply_unary};
+pub use evaluate::{evaluate, evaluate_with_error};
+pub use evaluation::Evaluation;
 pub use forward::{Direction, derivatives_along};
 pub use function::{Array, Function, Parameter};
-pub use graph::{Graph, Node, Operator, Stage, Symbol, Unary};
+pub use graph::{Graph, Node, Stage, Symbol};
 pub use regroup::{regroup, regrouped};
 pub use reverse::gradient;
 pub use rules::{Rule, TABLES, Table};
 pub use substitute::substitute;
 pub use vector::{Matrix3, Vector3};
+
+pub use crate::base::operators::{Operator, Unary};
 
 #[cfg(test)]
 mod tests;

@@ -2,8 +2,9 @@
 
 use super::count::dependent;
 use super::forward::{slope, slopes};
-use super::graph::{Graph, Node, Operator, Unary};
+use super::graph::{Graph, Node};
 use crate::base::ids::{ExprId, SymbolId};
+use crate::base::operators::{Operator, Unary};
 
 /// Derivatives of `root` by each of `symbols`.
 pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<ExprId> {

@@ -3,9 +3,10 @@
 //! A rule sees the operands of a node about to be built and may answer with something simpler. Every rule is sampled
 //! numerically by a test that also checks that it fires.
 
-use super::evaluate::{Evaluation, combined, folded};
-use super::graph::{Graph, Node, Operator, Unary};
+use super::evaluation::{Evaluation, combined, folded};
+use super::graph::{Graph, Node};
 use crate::base::ids::ExprId;
+use crate::base::operators::{Operator, Unary};
 
 /// One rewrite rule for `a op b`; operators of one operand ignore `b`.
 pub struct Rule {

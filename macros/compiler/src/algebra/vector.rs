@@ -1,8 +1,9 @@
 //! Vectors and matrices of expressions in three dimensions.
 
-use super::graph::{Graph, Unary};
+use super::graph::Graph;
 use crate::base::census::taken;
 use crate::base::ids::ExprId;
+use crate::base::operators::Unary;
 
 /// Three components in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,5 +5,6 @@ pub mod diagnostics;
 pub mod dimension;
 pub mod ids;
 pub mod nearest;
+pub mod operators;
 pub mod span;
 pub mod units;

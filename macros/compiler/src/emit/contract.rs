@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::algebra::Stage;
+use crate::mechanics::KernelName;
 use crate::program::Kernel;
 
 use super::names::local;
@@ -30,33 +31,39 @@ pub(super) enum Form {
     Partials,
 }
 
-/// The form of a kernel of the contract; `None` for the requirements, which have a method of their own kind.
-pub(super) fn form(kernel: &str) -> Option<Form> {
+/// The form of a kernel of the contract; `None` for requirements and poses, which have methods of their own kind.
+pub(super) fn form(kernel: KernelName) -> Option<Form> {
     Some(match kernel {
-        "residual" | "motion_residual" | "outputs" | "whirl" => Form::Single,
-        "motion" | "residual_and_stiffness" | "residual_partials" | "output_partials" => {
-            Form::Tuple
+        KernelName::Residual
+        | KernelName::MotionResidual
+        | KernelName::Outputs
+        | KernelName::Whirl => Form::Single,
+        KernelName::Motion
+        | KernelName::ResidualAndStiffness
+        | KernelName::ResidualPartials
+        | KernelName::OutputPartials => Form::Tuple,
+        KernelName::ResidualParts => Form::Record("RestParts", |s| vec![s.coordinates]),
+        KernelName::Linear | KernelName::MotionLinear => {
+            Form::Record("Linear", |s| vec![s.coordinates])
         }
-        "residual_parts" => Form::Record("RestParts", |s| vec![s.coordinates]),
-        "linear" | "motion_linear" => Form::Record("Linear", |s| vec![s.coordinates]),
-        "linear_partials" => Form::Partials,
-        "mode_gradient" | "pencil_gradient" | "residual_gradient" => {
+        KernelName::LinearPartials => Form::Partials,
+        KernelName::ModeGradient | KernelName::PencilGradient | KernelName::ResidualGradient => {
             Form::Record("Gradient", |s| vec![s.coordinates, s.inputs, s.design])
         }
-        _ => return None,
+        KernelName::Violation | KernelName::PoseMargin => return None,
     })
 }
 
 /// Kernels that loops over vector lanes call: their bodies are written where they are called, because the instructions of
 /// such a loop reach only what is inlined into it.
-const INLINED: [&str; 7] = [
-    "residual_parts",
-    "residual_and_stiffness",
-    "linear",
-    "residual_partials",
-    "linear_partials",
-    "mode_gradient",
-    "residual_gradient",
+const INLINED: [KernelName; 7] = [
+    KernelName::ResidualParts,
+    KernelName::ResidualAndStiffness,
+    KernelName::Linear,
+    KernelName::ResidualPartials,
+    KernelName::LinearPartials,
+    KernelName::ModeGradient,
+    KernelName::ResidualGradient,
 ];
 
 /// Instructions that a kernel may have for `Real::run` to choose those of the processor: it is compiled once for each choice.
@@ -64,14 +71,22 @@ const CHOSEN: usize = 2048;
 
 /// Kernels for which it is worth it at any length: two are generated for small mechanisms only, the third is what large ones
 /// spend their time in.
-const ALWAYS_CHOSEN: [&str; 3] = ["motion_linear", "linear_partials", "mode_gradient"];
+const ALWAYS_CHOSEN: [KernelName; 3] = [
+    KernelName::MotionLinear,
+    KernelName::LinearPartials,
+    KernelName::ModeGradient,
+];
+
+fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
+    KernelName::named(kernel.name).is_some_and(|name| names.contains(&name))
+}
 
 /// A method as text, with its variants.
 pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
     let results = Results::new(kernel, form, sizes);
     let (name, kind) = (kernel.name, results.kind());
     let mut text = signature(kernel, &kind, "");
-    if !INLINED.contains(&name) {
+    if !is_one_of(kernel, &INLINED) {
         text += &run(kernel, &results.body());
         return text;
     }
@@ -98,7 +113,7 @@ pub(super) fn call(kernel: &Kernel, method: &str, last: &str) -> String {
 
 /// A body that runs with the instructions of the processor that suit it, where that pays.
 fn run(kernel: &Kernel, body: &str) -> String {
-    let chosen = kernel.instructions.len() <= CHOSEN || ALWAYS_CHOSEN.contains(&kernel.name);
+    let chosen = kernel.instructions.len() <= CHOSEN || is_one_of(kernel, &ALWAYS_CHOSEN);
     match chosen && !kernel.instructions.is_empty() {
         true => format!("{{ T::run(#[inline(always)] || {{\n{body}\n}}) }}\n"),
         false => format!("{{\n{body}\n}}\n"),

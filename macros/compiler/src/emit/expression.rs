@@ -42,21 +42,16 @@ impl Text {
 
     /// An operator of one operand.
     pub(super) fn unary(operator: Unary, a: &Self) -> Self {
-        let call = |function: &str| Self::atom(format!("{}.{function}()", a.within(Binding::Atom)));
         match operator {
             Unary::Negate => Self {
                 text: format!("-{}", a.within(Binding::Atom)),
                 binding: Binding::Sign,
             },
             Unary::PowerInteger(n) => Self::atom(format!("{}.powi({n})", a.within(Binding::Atom))),
-            Unary::Sqrt => call("sqrt"),
-            Unary::Sin => call("sin"),
-            Unary::Cos => call("cos"),
-            Unary::Tan => call("tan"),
-            Unary::Asin => call("asin"),
-            Unary::Acos => call("acos"),
-            Unary::Exp => call("exp"),
-            Unary::Ln => call("ln"),
+            function => {
+                let function = function.name();
+                Self::atom(format!("{}.{function}()", a.within(Binding::Atom)))
+            }
         }
     }
 

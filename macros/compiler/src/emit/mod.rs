@@ -33,7 +33,7 @@ use std::fmt::{Debug, Write};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::mechanics::Functions;
+use crate::mechanics::{Functions, KernelName};
 use crate::model::mechanism::Mechanism;
 use crate::program::Program;
 
@@ -52,9 +52,10 @@ pub fn emit<E: Debug>(
     };
     let mut methods = String::new();
     for kernel in &program.kernels {
-        let method = match contract::form(kernel.name) {
+        let name = KernelName::named(kernel.name).expect("mechanics names the kernels");
+        let method = match contract::form(name) {
             Some(form) => contract::method(kernel, form, sizes),
-            None if kernel.name == "violation" => {
+            None if name == KernelName::Violation => {
                 violation::method(kernel, &functions.requirements)
             }
             None => pose_margin::method(kernel, &functions.poses),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::algebra::{Operator, Unary};
+use crate::algebra::Operator;
 use crate::program::{Instruction, Operand, Operation};
 
 /// Longest name that is built from the names of two operands.
@@ -63,7 +63,7 @@ pub(super) fn wanted(
         _ => word.to_owned(),
     };
     match instruction.operation {
-        Operation::Unary(operator, a) => of(function_name(operator), a),
+        Operation::Unary(operator, a) => of(operator.name(), a),
         Operation::Binary(operator, a, b) => match (operator, operand(a), operand(b)) {
             (Operator::Multiply, Some(x), Some(y)) if x == y && x.len() <= COMPOUND => {
                 format!("{x}_squared")
@@ -87,21 +87,6 @@ pub(super) fn wanted(
             (Operator::Power, ..) => "power".to_owned(),
             (Operator::Atan2, ..) => "angle".to_owned(),
         },
-    }
-}
-
-fn function_name(operator: Unary) -> &'static str {
-    match operator {
-        Unary::Negate => "minus",
-        Unary::Sqrt => "sqrt",
-        Unary::Sin => "sin",
-        Unary::Cos => "cos",
-        Unary::Tan => "tan",
-        Unary::Asin => "asin",
-        Unary::Acos => "acos",
-        Unary::Exp => "exp",
-        Unary::Ln => "ln",
-        Unary::PowerInteger(_) => "power",
     }
 }
 

@@ -1,27 +1,20 @@
 //! The recipe from a mechanism to its functions.
 
-use crate::algebra::{Array, Function, Graph, substitute};
+use crate::algebra::Graph;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::{CoordinateId, ExprId};
+use crate::base::ids::CoordinateId;
 use crate::model::mechanism::Mechanism;
 use crate::topology::Topology;
 
-use super::constraints;
-use super::functions::{Functions, Limits, Pose, Requirement, Role, Unknown};
-use super::kernels::{kernels, parameter};
-use super::layout::Runs;
-use super::linearise::{Jacobians, Linear, at_rest};
-use super::outputs::outputs;
-use super::poses::poses;
-use super::problem::{Parts, Problem};
-use super::properties;
-use super::requirements::requirements;
-use super::sources::Sources;
-use super::steady_state;
-use super::symbols::Symbols;
-use super::values::Values;
-use super::variation::{Variation, variation};
-use super::whirl::whirl;
+use super::checks::{
+    poses, properties, require_determinate_motion, require_steady_state, requirements,
+};
+use super::equations::Equations;
+use super::functions::{Functions, Limits, Role, Unknown};
+use super::kernels::{kernels, pose_margin, violation, whirl};
+use super::linear::{Jacobians, Linear};
+use super::loads::constraint_rows;
+use super::setup::{Context, Runs, Symbols, Values};
 
 /// Derives every function of a mechanism. Fails where no steady state exists, where a coordinate has no inertia, and
 /// where nothing resists one: what only the equations can tell about a declaration.
@@ -35,7 +28,7 @@ pub fn derive(
     let symbols = Symbols::new(g, mechanism, topology);
     let values = Values::new(g, mechanism, &symbols);
     let runs = Runs::new(g, mechanism, topology, &values, &symbols);
-    let unconstrained = Problem {
+    let unconstrained = Context {
         mechanism,
         topology,
         symbols: &symbols,
@@ -43,12 +36,12 @@ pub fn derive(
         runs: &runs,
         rows: &[],
     };
-    let rows = constraints::rows(g, &unconstrained);
+    let rows = constraint_rows(g, &unconstrained);
     let labels: Vec<String> = rows.iter().map(|row| row.label.replace('.', "_")).collect();
     let symbols = symbols.clone().with_reactions(g, &labels);
     let runs = runs.with_reactions(&symbols);
     let values = Values::new(g, mechanism, &symbols);
-    let problem = Problem {
+    let context = Context {
         mechanism,
         topology,
         symbols: &symbols,
@@ -57,19 +50,19 @@ pub fn derive(
         rows: &rows,
     };
 
-    steady_state::check(g, &problem)?;
-    let equations = Equations::new(g, &problem);
-    let jacobians = Jacobians::new(g, &problem, &equations);
-    properties::check(g, &problem, &jacobians)?;
-    let properties = properties::establish(g, &problem, &jacobians);
-    let linear = Linear::new(g, &jacobians, properties, &problem);
+    require_steady_state(g, &context)?;
+    let equations = Equations::new(g, &context);
+    let jacobians = Jacobians::new(g, &context, &equations);
+    require_determinate_motion(g, &context, &jacobians)?;
+    let properties = properties(g, &context, &jacobians);
+    let linear = Linear::new(g, &jacobians, properties, &context);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
-    functions.extend(whirl(g, &problem).map(|values| whirl_of(values, &symbols)));
+    functions.extend(whirl(g, &context));
     let requirements = requirements(g, mechanism, &values);
-    functions.push(check_of(&requirements, &symbols));
-    let poses = poses(g, &problem);
-    functions.push(margins_of(&poses, &symbols));
-    let unknowns = unknowns(&problem);
+    functions.push(violation(&requirements, &symbols));
+    let poses = poses(g, &context);
+    functions.push(pose_margin(&poses, &symbols));
+    let unknowns = unknowns(&context);
     Ok(Functions {
         unknowns,
         graph,
@@ -81,8 +74,8 @@ pub fn derive(
 }
 
 /// What the entries of `q` are.
-fn unknowns(problem: &Problem) -> Vec<Unknown> {
-    let (mechanism, topology) = (problem.mechanism, problem.topology);
+fn unknowns(context: &Context) -> Vec<Unknown> {
+    let (mechanism, topology) = (context.mechanism, context.topology);
     let of = |id: CoordinateId, per_second: &str, role: fn(CoordinateId) -> Role| {
         let coordinate = &mechanism.coordinates[id.index()];
         Unknown {
@@ -96,7 +89,7 @@ fn unknowns(problem: &Problem) -> Vec<Unknown> {
         .coasting
         .iter()
         .map(|&id| of(id, "/s", Role::Speed));
-    let reactions = problem.rows.iter().map(|row| Unknown {
+    let reactions = context.rows.iter().map(|row| Unknown {
         name: row.label.clone(),
         unit: row.unit.clone(),
         role: match row.of_velocities {
@@ -105,110 +98,4 @@ fn unknowns(problem: &Problem) -> Vec<Unknown> {
         },
     });
     free.chain(coasting).chain(reactions).collect()
-}
-
-/// The function whose results have to be positive.
-fn check_of(requirements: &[Requirement], symbols: &Symbols) -> Function {
-    let values: Vec<ExprId> = requirements.iter().map(|r| r.value).collect();
-    Function {
-        name: "violation",
-        parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
-        results: vec![Array {
-            name: "requirements",
-            shape: vec![values.len()],
-            values,
-        }],
-    }
-}
-
-/// The function whose results tell how far joints are from their singular poses.
-fn margins_of(poses: &[Pose], symbols: &Symbols) -> Function {
-    let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
-    Function {
-        name: "pose_margin",
-        parameters: vec![
-            parameter("q", &symbols.q),
-            parameter("u", &symbols.u),
-            parameter("b", &symbols.b),
-        ],
-        results: vec![Array {
-            name: "volumes",
-            shape: vec![values.len()],
-            values,
-        }],
-    }
-}
-
-/// The function that tells the sense in which a vibration circles.
-fn whirl_of(moment_and_size: [ExprId; 2], symbols: &Symbols) -> Function {
-    Function {
-        name: "whirl",
-        parameters: vec![
-            parameter("q", &symbols.q),
-            parameter("u", &symbols.u),
-            parameter("b", &symbols.b),
-            parameter("real", &symbols.real),
-            parameter("imaginary", &symbols.imaginary),
-        ],
-        results: vec![Array {
-            name: "moment_and_size",
-            shape: vec![2],
-            values: moment_and_size.to_vec(),
-        }],
-    }
-}
-
-/// The equations with the running coordinates at zero, which a steady state allows.
-pub(super) struct Equations {
-    /// `g(qddot, qdot, q; u, b)`, and its parts.
-    pub(super) motion: Vec<ExprId>,
-    pub(super) parts: Parts,
-    /// Derivatives of the inertial part, where there is a shorter way than to differentiate it.
-    pub(super) variation: Option<Variation>,
-    /// `g(qddot, 0, q; u, b)`.
-    pub(super) without_velocity: Vec<ExprId>,
-    /// `g(0, 0, q; u, b)`.
-    pub(super) rest: Vec<ExprId>,
-    /// The part of `rest` due to inertia.
-    pub(super) rest_inertia: Vec<ExprId>,
-    /// The part of `rest` due to applied forces, with the sign of a force: `rest = rest_inertia - rest_applied`.
-    pub(super) rest_applied: Vec<ExprId>,
-    /// Outputs at rest.
-    pub(super) outputs: Vec<ExprId>,
-}
-
-impl Equations {
-    fn new(g: &mut Graph, problem: &Problem) -> Self {
-        let zero = g.zero();
-        let symbols = problem.symbols;
-        let running = vec![zero; symbols.running.ids.len()];
-        let kinematics = problem.kinematics(g, &running);
-        let zeros = vec![zero; symbols.q.ids.len()];
-        let parts = problem.parts(g, &running, &kinematics, Sources::ALL);
-        let motion = problem.together(g, &parts);
-        let variation = variation(g, problem, &running);
-        let inertia = problem.residual(g, &running, &kinematics, Sources::INERTIA);
-        let applied = problem.residual(g, &running, &kinematics, Sources::APPLIED);
-        let outputs = outputs(g, problem, &running, &kinematics);
-        let without: Vec<_> = symbols.velocity.with(&zeros).collect();
-        let without_velocity = substitute(g, &motion, &without);
-        let rest = at_rest(g, symbols, &motion);
-        let rest_inertia = at_rest(g, symbols, &inertia);
-        let minus_applied = at_rest(g, symbols, &applied);
-        let rest_applied = minus_applied
-            .into_iter()
-            .map(|force| g.neg(force))
-            .collect();
-        let outputs = at_rest(g, symbols, &outputs);
-        Self {
-            motion,
-            parts,
-            variation,
-            without_velocity,
-            rest,
-            rest_inertia,
-            rest_applied,
-            outputs,
-        }
-    }
 }

@@ -1,9 +1,9 @@
-//! What mechanics hands on: the functions to generate, and what was proved about them.
+//! The result of `mechanics`: the functions to generate, and the properties established for them.
 
 use crate::algebra::{Function, Graph};
 use crate::base::ids::{CoordinateId, ExprId};
 
-/// The equations of a mechanism and all that is derived from them, over one graph.
+/// The equations of a mechanism and everything derived from them, on one graph.
 #[derive(Clone, Debug)]
 pub struct Functions {
     /// The unknowns, in the order of `q`.
@@ -47,17 +47,17 @@ pub enum Role {
 /// Bounds on what is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Most entries of explicit partial derivatives of the linearised matrices, `3 n^2 (n + inputs + design)`, that are
-    /// written out. A larger mechanism computes them column by column from directional derivatives: its code would
-    /// grow with the cube of its size.
+    /// Maximum number of entries, `3 n^2 (n + inputs + design)`, up to which the partial derivatives of the linearised matrices
+    /// are written out. Larger mechanisms compute them column by column from directional derivatives, because the generated
+    /// code would grow with the cube of their size.
     pub explicit_partials: usize,
-    /// Most operations of the three matrices linearised along any motion for them to be written out: 32 joints of a robot take
-    /// 40,000. Beyond, they are differentiated one column at a time.
+    /// Maximum number of operations up to which the three matrices linearised along any motion are written out; a robot with 32
+    /// joints takes 40,000. Above it they are differentiated one column at a time.
     pub motion_linear: usize,
 }
 
 impl Limits {
-    /// Whatever there is to write out.
+    /// Everything is written out.
     pub const NONE: Self = Self {
         explicit_partials: usize::MAX,
         motion_linear: usize::MAX,
@@ -84,7 +84,7 @@ pub struct Requirement {
     pub value: ExprId,
 }
 
-/// A joint of three turns: where its axes lie in one plane, two of its coordinates do the same.
+/// A joint of three turns. Where its axes lie in one plane, two of its coordinates describe the same motion.
 #[derive(Clone, Debug)]
 pub struct Pose {
     /// Name of the joint.

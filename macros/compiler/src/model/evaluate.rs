@@ -4,7 +4,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::expression::{Expr, Vector};
 use super::mechanism::{Constant, Mechanism};
-use super::simplify::apply;
 
 /// Values of inputs, design variables and named constants.
 #[derive(Clone, Debug)]
@@ -63,7 +62,7 @@ impl<'a> Values<'a> {
             Expr::Divide(a, b) => part(a) / part(b),
             Expr::PowerInteger(a, n) => part(a).powi(*n),
             Expr::Power(a, b) => part(a).powf(part(b)),
-            Expr::Call(function, a) => apply(*function, part(a)),
+            Expr::Call(function, a) => function.apply(part(a)),
             Expr::Atan2(y, x) => part(y).atan2(part(x)),
         };
         done.insert(address, value);

@@ -7,6 +7,7 @@ use rustc_hash::FxHashSet;
 use crate::base::ids::{
     ConstantId, ConstraintId, CoordinateId, DesignId, InputId, JointId, PointId,
 };
+pub use crate::base::operators::Unary as Function;
 
 /// A scalar value in SI; dimensions have been checked and are gone.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +57,7 @@ pub enum Expr {
     PowerInteger(Rc<Expr>, i32),
     /// `a ^ b` with a positive base.
     Power(Rc<Expr>, Rc<Expr>),
-    /// An elementary function of one argument.
+    /// An elementary function of one argument; signs and whole powers stand by themselves.
     Call(Function, Rc<Expr>),
     /// `atan2(y, x)`.
     Atan2(Rc<Expr>, Rc<Expr>),
@@ -85,27 +86,6 @@ impl Expr {
         }
         leaves
     }
-}
-
-/// Elementary functions of one argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Function {
-    /// Square root.
-    Sqrt,
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Tangent.
-    Tan,
-    /// Inverse sine.
-    Asin,
-    /// Inverse cosine.
-    Acos,
-    /// Exponential.
-    Exp,
-    /// Natural logarithm.
-    Ln,
 }
 
 /// Three components.

@@ -4,6 +4,7 @@ use proc_macro2::Ident;
 
 pub use super::constraint::{Constraint, ConstraintLaw};
 use super::expression::{Expr, Vector};
+pub use super::shape::Shape;
 use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
@@ -44,7 +45,7 @@ impl Mechanism {
     pub fn glides(&self, joint: &Joint) -> bool {
         let coasts =
             |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
-        joint.word == "planar" && joint.steps.iter().all(coasts)
+        joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
 }
 
@@ -123,99 +124,6 @@ pub struct Part {
     pub placement: Placement,
 }
 
-/// A mass distribution in a frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2. A density has been
-/// multiplied by the volume.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// A point mass.
-    Point {
-        /// Mass.
-        mass: Expr,
-        /// Position.
-        center: Vector,
-    },
-    /// A uniform slender bar.
-    Rod {
-        /// Mass.
-        mass: Expr,
-        /// Length.
-        length: Expr,
-        /// Direction of the bar, a unit vector.
-        along: Vector,
-        /// Centre of mass; half the length along the bar from the body's origin unless given.
-        center: Vector,
-    },
-    /// A uniform thin disk.
-    Disk {
-        /// Mass.
-        mass: Expr,
-        /// Radius.
-        radius: Expr,
-        /// Direction of its axis, a unit vector.
-        axis: Vector,
-        /// Centre of mass.
-        center: Vector,
-    },
-    /// A uniform solid cylinder.
-    Cylinder {
-        /// Mass.
-        mass: Expr,
-        /// Radius.
-        radius: Expr,
-        /// Length.
-        length: Expr,
-        /// Direction of its axis, a unit vector.
-        axis: Vector,
-        /// Centre of mass.
-        center: Vector,
-    },
-    /// A uniform tube: a cylinder with a coaxial bore.
-    Tube {
-        /// Mass.
-        mass: Expr,
-        /// Radius of the bore.
-        inner: Expr,
-        /// Radius of the outside.
-        outer: Expr,
-        /// Length.
-        length: Expr,
-        /// Direction of its axis, a unit vector.
-        axis: Vector,
-        /// Centre of mass.
-        center: Vector,
-    },
-    /// A uniform solid box with edges along the body axes.
-    Cuboid {
-        /// Mass.
-        mass: Expr,
-        /// Edge lengths.
-        size: Vector,
-        /// Centre of mass.
-        center: Vector,
-    },
-    /// A uniform solid sphere.
-    Sphere {
-        /// Mass.
-        mass: Expr,
-        /// Radius.
-        radius: Expr,
-        /// Centre of mass.
-        center: Vector,
-    },
-    /// Any rigid body.
-    Rigid {
-        /// Mass.
-        mass: Expr,
-        /// Centre of mass.
-        center: Vector,
-        /// Inertia tensor along the axes of the frame: xx, yy, zz, xy, yz, xz; the products are the tensor's entries,
-        /// `Jxy = -integral x y dm`.
-        inertia: [Expr; 6],
-        /// The point that the inertia is about; the centre of mass unless given.
-        about: Option<Vector>,
-    },
-}
-
 /// A fixed placement in a body frame: first the offset, then the rotations, each about the axes left by the one before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
@@ -233,6 +141,8 @@ pub struct Joint {
     pub name: Ident,
     /// The word it was declared with, for example `universal`.
     pub word: &'static str,
+    /// How it is written as equations where it closes a loop; `None` where it cannot be.
+    pub closing: Option<Closing>,
     /// Elementary motions from the `from` side to the `to` side, each about or along an axis of the frame that the
     /// ones before have left; none for a fixed joint.
     pub steps: Vec<JointStep>,
@@ -246,6 +156,25 @@ pub struct Joint {
     pub to_placement: Placement,
     /// Declared as the one that closes a loop: it has no coordinates, its motions become equations.
     pub cut: bool,
+}
+
+/// Joints that can be written as equations, by what they leave free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closing {
+    /// Nothing.
+    Fixed,
+    /// A turn.
+    Revolute,
+    /// A slide.
+    Prismatic,
+    /// A slide and a turn about one axis.
+    Cylindrical,
+    /// Turns about two axes.
+    Universal,
+    /// Slides in a plane, and a turn about its normal.
+    Planar,
+    /// All turns.
+    Spherical,
 }
 
 /// An elementary motion.

@@ -7,6 +7,7 @@ pub mod mechanism;
 mod print;
 pub mod resolve;
 mod rules;
+pub mod shape;
 mod simplify;
 pub mod welded;
 

@@ -6,7 +6,7 @@ mod shape;
 
 use std::fmt::{self, Display, Formatter};
 
-use super::expression::{Expr, Function, Vector};
+use super::expression::{Expr, Vector};
 use super::mechanism::{Frame, Joint, Mechanism, Motion, Placement, StepMotion, Unit};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -130,7 +130,7 @@ impl Names<'_> {
             Expr::Divide(a, b) => binary(a, "/", b),
             Expr::Power(a, b) => binary(a, "^", b),
             Expr::PowerInteger(a, n) => format!("{}^{n}", self.scalar(a)),
-            Expr::Call(function, a) => format!("{}({})", name(*function), self.scalar(a)),
+            Expr::Call(function, a) => format!("{}({})", function.name(), self.scalar(a)),
             Expr::Atan2(a, b) => format!("atan2({}, {})", self.scalar(a), self.scalar(b)),
         }
     }
@@ -188,18 +188,5 @@ fn unit(unit: &Unit) -> String {
         String::new()
     } else {
         format!(" [{}]", unit.symbol)
-    }
-}
-
-fn name(function: Function) -> &'static str {
-    match function {
-        Function::Sqrt => "sqrt",
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::Tan => "tan",
-        Function::Asin => "asin",
-        Function::Acos => "acos",
-        Function::Exp => "exp",
-        Function::Ln => "ln",
     }
 }

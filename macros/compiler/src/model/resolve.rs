@@ -231,10 +231,10 @@ mod tests {
     /// The parser tells a misplaced word from an unknown one; `point` starts an item too.
     #[test]
     fn the_parser_knows_the_words_inside_items() {
-        let words = |table: &[Signature]| {
+        fn words<R>(table: &[Signature<R>]) -> Vec<&'static str> {
             let words = table.iter().map(|row| row.word);
-            words.filter(|word| *word != "point").collect::<Vec<_>>()
-        };
+            words.filter(|word| *word != "point").collect()
+        }
         let known = [
             ("body", words(bodies::SHAPES)),
             ("joint", Kind::words().collect()),

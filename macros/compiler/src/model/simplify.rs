@@ -78,22 +78,8 @@ pub(super) fn power(a: Expr, b: Expr) -> Expr {
 /// `f(a)`.
 pub(super) fn call(function: Function, a: Expr) -> Expr {
     match a {
-        Number(a) => Number(apply(function, a)),
+        Number(a) => Number(function.apply(a)),
         a => Expr::Call(function, Rc::new(a)),
-    }
-}
-
-/// The function's value.
-pub(super) fn apply(function: Function, a: f64) -> f64 {
-    match function {
-        Function::Sqrt => a.sqrt(),
-        Function::Sin => a.sin(),
-        Function::Cos => a.cos(),
-        Function::Tan => a.tan(),
-        Function::Asin => a.asin(),
-        Function::Acos => a.acos(),
-        Function::Exp => a.exp(),
-        Function::Ln => a.ln(),
     }
 }
 

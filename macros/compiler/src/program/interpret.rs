@@ -1,7 +1,5 @@
 //! Running a program without compiling it: for tests, and for tools that read mechanisms at run time.
 
-use crate::algebra::{apply_binary, apply_unary};
-
 use super::{Kernel, Operand, Operation, Program};
 
 impl Program {
@@ -41,9 +39,9 @@ impl Kernel {
         };
         for instruction in &self.instructions {
             let value = match instruction.operation {
-                Operation::Unary(operator, a) => apply_unary(operator, read(&values, a)),
+                Operation::Unary(operator, a) => operator.apply(read(&values, a)),
                 Operation::Binary(operator, a, b) => {
-                    apply_binary(operator, read(&values, a), read(&values, b))
+                    operator.apply(read(&values, a), read(&values, b))
                 }
             };
             values.push(value);

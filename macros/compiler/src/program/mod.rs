@@ -30,7 +30,7 @@ pub struct Kernel {
     pub instructions: Vec<Instruction>,
     /// Results.
     pub results: Vec<Array>,
-    /// Operations in all.
+    /// Total number of operations.
     pub cost: Cost,
 }
 

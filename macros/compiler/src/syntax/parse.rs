@@ -4,17 +4,20 @@
 mod body;
 mod item;
 mod joint;
+mod names;
 mod placement;
 mod unit;
 mod value;
+mod words;
 
 #[cfg(test)]
-pub(crate) use self::item::INSIDE;
+pub(crate) use self::words::INSIDE;
 
 use proc_macro2::{Delimiter, Ident, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
+use self::words::{DECIMAL_POINT, KEYWORDS};
 use super::ast::{Ast, Item, ItemKind, Unread};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::Diagnostics;
@@ -126,9 +129,6 @@ fn items(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> (Vec<Item>, Vec<
     (items, unread)
 }
 
-/// What to write instead of `3,5`.
-const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
-
 fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> {
     let kind = item::item(tokens)?;
     if tokens.sign(';').is_none() {
@@ -227,7 +227,7 @@ fn starts_item(tokens: &Tokens) -> bool {
     if word == "gravity" {
         return true;
     }
-    item::KEYWORDS.contains(&word.to_string().as_str())
+    KEYWORDS.contains(&word.to_string().as_str())
         && ahead.ident().is_some()
         && (ahead.peek_sign(':') || ahead.peek_sign('='))
 }

@@ -5,17 +5,6 @@ use crate::base::ids::JointId;
 use crate::model::expression::Expr;
 use crate::model::mechanism::{ConstraintLaw, ForceLaw, Mechanism, Motion};
 
-/// Kinds of joint that can be written as equations.
-pub(crate) const CLOSING: [&str; 7] = [
-    "fixed",
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "universal",
-    "planar",
-    "spherical",
-];
-
 /// The joints, by id, whose coordinates something else in the declaration uses: cutting would take them away.
 pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
     let mut needed = vec![false; mechanism.joints.len()];
@@ -36,7 +25,11 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
                 values.push(value);
             }
             ForceLaw::Potential { energy } => values.push(energy),
-            _ => {}
+            ForceLaw::SpringDamper { .. }
+            | ForceLaw::Tension { .. }
+            | ForceLaw::Bushing { .. }
+            | ForceLaw::Load { .. }
+            | ForceLaw::Drag { .. } => {}
         }
     }
     for constraint in &mechanism.constraints {
@@ -56,7 +49,7 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
             .coordinates
             .iter()
             .any(|own| own.joint.index() == index && own.motion != Motion::Free);
-        needed[index] |= moves_itself || !CLOSING.contains(&joint.word);
+        needed[index] |= moves_itself || joint.closing.is_none();
     }
     needed
 }

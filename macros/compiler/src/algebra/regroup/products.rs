@@ -5,9 +5,11 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::super::graph::{Graph, Node, Operator};
-use super::{Uses, product, rebuild};
+use super::super::graph::{Graph, Node};
+use super::rebuild::{product, rebuild};
+use super::uses::Uses;
 use crate::base::ids::ExprId;
+use crate::base::operators::Operator;
 
 /// A factor: a node, or a pair of factors.
 type Factor = u32;

@@ -3,7 +3,8 @@
 use std::cmp::Reverse;
 
 use super::super::graph::{Graph, Node};
-use super::{Uses, is_sum, product, rebuild};
+use super::rebuild::{product, rebuild};
+use super::uses::{Uses, is_sum};
 use crate::base::ids::ExprId;
 
 /// Takes common factors out of the sums below `roots`.

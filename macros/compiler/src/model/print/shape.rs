@@ -1,6 +1,9 @@
 //! Bodies as text.
 
+use std::fmt::Write;
+
 use super::super::mechanism::{Part, Shape};
+use super::super::shape::Argument;
 use super::Names;
 
 impl Names<'_> {
@@ -23,94 +26,19 @@ impl Names<'_> {
     }
 
     fn shape(&self, shape: &Shape) -> String {
-        let (s, v) = (|value| self.scalar(value), |vector| self.vector(vector));
-        match shape {
-            Shape::Point { mass, center } => format!("point mass {} at {}", s(mass), v(center)),
-            Shape::Rod {
-                mass,
-                length,
-                along,
-                center,
-            } => format!(
-                "rod mass {} length {} along {} center {}",
-                s(mass),
-                s(length),
-                v(along),
-                v(center)
-            ),
-            Shape::Disk {
-                mass,
-                radius,
-                axis,
-                center,
-            } => format!(
-                "disk mass {} radius {} axis {} center {}",
-                s(mass),
-                s(radius),
-                v(axis),
-                v(center)
-            ),
-            Shape::Cylinder {
-                mass,
-                radius,
-                length,
-                axis,
-                center,
-            } => format!(
-                "cylinder mass {} radius {} length {} axis {} center {}",
-                s(mass),
-                s(radius),
-                s(length),
-                v(axis),
-                v(center)
-            ),
-            Shape::Tube {
-                mass,
-                inner,
-                outer,
-                length,
-                axis,
-                center,
-            } => format!(
-                "tube mass {} inner {} outer {} length {} axis {} center {}",
-                s(mass),
-                s(inner),
-                s(outer),
-                s(length),
-                v(axis),
-                v(center)
-            ),
-            Shape::Cuboid { mass, size, center } => {
-                format!("box mass {} size {} center {}", s(mass), v(size), v(center))
-            }
-            Shape::Sphere {
-                mass,
-                radius,
-                center,
-            } => format!(
-                "sphere mass {} radius {} center {}",
-                s(mass),
-                s(radius),
-                v(center)
-            ),
-            Shape::Rigid {
-                mass,
-                center,
-                inertia,
-                about,
-            } => {
-                let inertia: Vec<String> = inertia.iter().map(s).collect();
-                let about = match about {
-                    Some(about) => format!(" about {}", v(about)),
-                    None => String::new(),
-                };
-                format!(
-                    "rigid mass {} center {} inertia [{}]{about}",
-                    s(mass),
-                    v(center),
-                    inertia.join(", ")
-                )
-            }
+        let shape = shape.reduced();
+        let mut text = shape.word.to_owned();
+        for (name, argument) in shape.arguments {
+            let value = match argument {
+                Argument::Scalar(value) => self.scalar(value),
+                Argument::Vector(vector) => self.vector(vector),
+                Argument::Tensor(entries) => {
+                    let entries: Vec<String> = entries.iter().map(|e| self.scalar(e)).collect();
+                    format!("[{}]", entries.join(", "))
+                }
+            };
+            let _ = write!(text, " {name} {value}");
         }
+        text
     }
 }

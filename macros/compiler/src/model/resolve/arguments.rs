@@ -5,8 +5,10 @@ use crate::base::nearest::suggestion;
 use crate::syntax::ast::{NamedCall, Value};
 
 /// A shape or a law with its arguments.
-pub(super) struct Signature {
+pub(super) struct Signature<R> {
     pub(super) word: &'static str,
+    /// What makes of the arguments what they mean.
+    pub(super) read: R,
     required: &'static [&'static str],
     optional: &'static [&'static str],
     choice: Choice,
@@ -73,15 +75,17 @@ const SYNONYMS: [(&str, &str); 47] = [
     ("up", "normal"),
 ];
 
-impl Signature {
+impl<R: Copy> Signature<R> {
     /// A word with the arguments it needs.
     pub(super) const fn new(
         word: &'static str,
         required: &'static [&'static str],
         example: &'static str,
+        read: R,
     ) -> Self {
         Self {
             word,
+            read,
             required,
             optional: &[],
             choice: Choice::ExactlyOne(&[]),
@@ -163,13 +167,13 @@ impl<'a> Arguments<'a> {
 
 impl Resolver<'_> {
     /// The signature that a call uses. `synonyms` are what other tools call the words.
-    pub(super) fn signature(
+    pub(super) fn signature<R: Copy>(
         &mut self,
         call: &NamedCall,
         kind: &str,
-        known: &'static [Signature],
+        known: &'static [Signature<R>],
         synonyms: &[(&str, &str)],
-    ) -> Option<&'static Signature> {
+    ) -> Option<&'static Signature<R>> {
         let word = call.word.to_string();
         let found = known.iter().find(|signature| signature.word == word);
         if found.is_none() {
@@ -185,10 +189,10 @@ impl Resolver<'_> {
     }
 
     /// Sorts the arguments of a call by its signature.
-    pub(super) fn arguments<'a>(
+    pub(super) fn arguments<'a, R: Copy>(
         &mut self,
         call: &'a NamedCall,
-        signature: &'static Signature,
+        signature: &'static Signature<R>,
     ) -> Arguments<'a> {
         let word = signature.word;
         let mut given: Vec<(&'static str, &'a Value)> = Vec::new();

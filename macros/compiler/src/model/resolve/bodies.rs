@@ -148,7 +148,7 @@ impl Resolver<'_> {
         let placement = self.placement(term.placement.as_ref(), "a shape's place");
         let signature = self.signature(&term.shape, "shape", SHAPES, &SYNONYMS)?;
         let arguments = self.arguments(&term.shape, signature);
-        let shape = Quantities::new(self, arguments, body).shape(signature.word);
+        let shape = (signature.read)(&mut Quantities::new(self, arguments, body));
         Some(Part {
             hole: term.hole,
             shape: shape?,

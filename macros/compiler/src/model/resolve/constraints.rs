@@ -17,31 +17,61 @@ use crate::syntax::ast::{self, ItemKind};
 
 const OF_COORDINATES: &str = "two points are tied by `coincident`, `aligned` or `distance`";
 
-pub(super) const KINDS: &[Signature] = &[
-    Signature::new("coincident", &["from", "to"], "coincident(from: p, to: q)")
-        .optional(&["along"]),
-    Signature::new("aligned", &["from", "to"], "aligned(from: p, to: q)").optional(&["axis"]),
-    Signature::new(
+/// What makes a constraint of its arguments.
+type Reader =
+    fn(&mut Resolver<'_>, &ast::Constraint, &Arguments<'_>) -> Option<(ConstraintLaw, Exerted)>;
+
+pub(super) type Row = Signature<Reader>;
+
+pub(super) const KINDS: &[Row] = &[
+    Row::new(
+        "coincident",
+        &["from", "to"],
+        "coincident(from: p, to: q)",
+        |resolver, _, arguments| Some((resolver.coincident(arguments)?, Exerted::Force)),
+    )
+    .optional(&["along"]),
+    Row::new(
+        "aligned",
+        &["from", "to"],
+        "aligned(from: p, to: q)",
+        |resolver, _, arguments| Some((resolver.aligned(arguments)?, Exerted::Moment)),
+    )
+    .optional(&["axis"]),
+    Row::new(
         "distance",
         &["from", "to", "length"],
         "distance(from: p, to: q, length: 1 m)",
+        |resolver, constraint, arguments| {
+            let law = resolver.distance(constraint, arguments)?;
+            Some((law, Exerted::Number(Dimension::FORCE)))
+        },
     )
     .refusing(&[(
         "stiffness",
         "an elastic connection is the force `spring_damper`",
     )]),
-    Signature::new(
+    Row::new(
         "coupling",
         &["of", "with", "ratio"],
         "coupling(of: theta1, with: theta2, ratio: -2)",
+        |resolver, _, arguments| resolver.coupling(arguments),
     )
     .optional(&["offset"])
     .refusing(&[("from", OF_COORDINATES), ("to", OF_COORDINATES)]),
-    Signature::new("equation", &["zero"], "equation(zero: position(p).z - 1 m)"),
-    Signature::new(
+    Row::new(
+        "equation",
+        &["zero"],
+        "equation(zero: position(p).z - 1 m)",
+        |resolver, _, arguments| resolver.equation(arguments),
+    ),
+    Row::new(
         "rolling",
         &["wheel", "radius", "on"],
         "rolling(wheel: hub, axis: y, radius: 30 cm, on: road)",
+        |resolver, constraint, arguments| {
+            Some((resolver.rolling(constraint, arguments)?, Exerted::Force))
+        },
     )
     .optional(&["axis", "normal"]),
 ];
@@ -115,18 +145,7 @@ impl Resolver<'_> {
         self.is_no_joint(constraint)?;
         let signature = self.signature(&constraint.law, "constraint", KINDS, &SYNONYMS)?;
         let arguments = self.arguments(&constraint.law, signature);
-        let force = |law| (law, Exerted::Force);
-        match signature.word {
-            "coincident" => self.coincident(&arguments).map(force),
-            "aligned" => self.aligned(&arguments).map(|law| (law, Exerted::Moment)),
-            "distance" => {
-                let law = self.distance(constraint, &arguments)?;
-                Some((law, Exerted::Number(Dimension::FORCE)))
-            }
-            "coupling" => self.coupling(&arguments),
-            "equation" => self.equation(&arguments),
-            _ => self.rolling(constraint, &arguments).map(force),
-        }
+        (signature.read)(self, constraint, &arguments)
     }
 
     /// A joint may close a loop as it is; it is no constraint of that name.

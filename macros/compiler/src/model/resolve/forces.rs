@@ -18,11 +18,17 @@ use crate::syntax::ast::{self, ItemKind, ValueKind};
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
 
-pub(super) const LAWS: &[Signature] = &[
-    Signature::new(
+/// What makes a law of its arguments.
+type Reader = fn(&mut Resolver<'_>, &Arguments<'_>) -> Option<ForceLaw>;
+
+pub(super) type Row = Signature<Reader>;
+
+pub(super) const LAWS: &[Row] = &[
+    Row::new(
         "spring",
         &["on", "stiffness"],
         "spring(on: theta, stiffness: 10 N*m/rad)",
+        |resolver, arguments| resolver.spring(arguments),
     )
     .optional(&["rest"])
     .refusing(&[
@@ -30,38 +36,44 @@ pub(super) const LAWS: &[Signature] = &[
         ("from", BETWEEN_POINTS),
         ("to", BETWEEN_POINTS),
     ]),
-    Signature::new(
+    Row::new(
         "damper",
         &["on", "damping"],
         "damper(on: theta, damping: 0.1 N*m*s/rad)",
+        |resolver, arguments| resolver.damper(arguments),
     )
     .refusing(&[("from", BETWEEN_POINTS), ("to", BETWEEN_POINTS)]),
-    Signature::new(
+    Row::new(
         "spring_damper",
         &["from", "to", "stiffness"],
         "spring_damper(from: p, to: q, stiffness: 100 N/m)",
+        |resolver, arguments| resolver.spring_damper(arguments),
     )
     .optional(&["damping", "length"])
     .refusing(&[("on", "on a coordinate there are `spring` and `damper`")]),
-    Signature::new(
+    Row::new(
         "tension",
         &["from", "to", "law"],
         "tension(from: p, to: q, law: 100 N/m * (length - 1 m))",
+        |resolver, arguments| resolver.tension(arguments),
     ),
-    Signature::new(
+    Row::new(
         "generalized",
         &["on", "value"],
         "generalized(on: theta, value: -1 N*m * sin(theta))",
+        |resolver, arguments| resolver.generalized(arguments),
     ),
-    Signature::new(
+    Row::new(
         "potential",
         &["energy"],
         "potential(energy: 1 J * cos(theta))",
+        |resolver, arguments| resolver.potential(arguments),
     ),
-    Signature::new(
+    Row::new(
         "bushing",
         &["from", "to"],
         "bushing(from: p, to: q, stiffness: [1, 1, 1] kN/m)",
+        |resolver, arguments| resolver.bushing(arguments),
     )
     .at_least_one(&[
         "stiffness",
@@ -69,14 +81,29 @@ pub(super) const LAWS: &[Signature] = &[
         "turning_stiffness",
         "turning_damping",
     ]),
-    Signature::new("load", &["at"], "load(at: p, force: [0, 0, -1] N)")
-        .at_least_one(&["force", "moment"])
-        .refusing(&ON_A_COORDINATE),
-    Signature::new("follower", &["at"], "follower(at: p, force: [0, 0, -1] N)")
-        .at_least_one(&["force", "moment"])
-        .refusing(&ON_A_COORDINATE),
-    Signature::new("drag", &["at"], "drag(at: p, damping: 1 N*s/m)")
-        .at_least_one(&["damping", "turning_damping"]),
+    Row::new(
+        "load",
+        &["at"],
+        "load(at: p, force: [0, 0, -1] N)",
+        |resolver, arguments| resolver.load(arguments, false),
+    )
+    .at_least_one(&["force", "moment"])
+    .refusing(&ON_A_COORDINATE),
+    Row::new(
+        "follower",
+        &["at"],
+        "follower(at: p, force: [0, 0, -1] N)",
+        |resolver, arguments| resolver.load(arguments, true),
+    )
+    .at_least_one(&["force", "moment"])
+    .refusing(&ON_A_COORDINATE),
+    Row::new(
+        "drag",
+        &["at"],
+        "drag(at: p, damping: 1 N*s/m)",
+        |resolver, arguments| resolver.drag(arguments),
+    )
+    .at_least_one(&["damping", "turning_damping"]),
 ];
 
 /// What other tools call them.
@@ -125,17 +152,7 @@ impl Resolver<'_> {
     fn law(&mut self, force: &ast::Force) -> Option<ForceLaw> {
         let signature = self.signature(&force.law, "force law", LAWS, &SYNONYMS)?;
         let arguments = self.arguments(&force.law, signature);
-        match signature.word {
-            "spring" => self.spring(&arguments),
-            "damper" => self.damper(&arguments),
-            "spring_damper" => self.spring_damper(&arguments),
-            "tension" => self.tension(&arguments),
-            "generalized" => self.generalized(&arguments),
-            "potential" => self.potential(&arguments),
-            "bushing" => self.bushing(&arguments),
-            "drag" => self.drag(&arguments),
-            word => self.load(&arguments, word == "follower"),
-        }
+        (signature.read)(self, &arguments)
     }
 
     /// A required argument of a dimension that is unknown when the coordinate is: then only the value is checked.

@@ -172,21 +172,12 @@ impl Resolver<'_> {
         }
         let what = format!("the argument of `{name}`");
         self.expect(quantity, Dimension::NONE, &what, argument)?;
-        let function = match name {
-            "sin" => Function::Sin,
-            "cos" => Function::Cos,
-            "tan" => Function::Tan,
-            "asin" => Function::Asin,
-            "acos" => Function::Acos,
-            "exp" => Function::Exp,
-            "ln" => Function::Ln,
+        let result = match Function::named(name) {
+            Some(function) => simplify::call(function, expr),
             // atan(x) = atan2(x, 1).
-            _ => {
-                let angle = simplify::atan2(expr, Expr::Number(1.0));
-                return Some(Typed::Scalar(angle, plain()));
-            }
+            None => simplify::atan2(expr, Expr::Number(1.0)),
         };
-        Some(Typed::Scalar(simplify::call(function, expr), plain()))
+        Some(Typed::Scalar(result, plain()))
     }
 }
 

@@ -52,6 +52,7 @@ impl Resolver<'_> {
         Some(Joint {
             name: joint.name.clone(),
             word: kind.word,
+            closing: kind.closing,
             steps,
             from,
             to,

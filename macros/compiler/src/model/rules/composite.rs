@@ -1,10 +1,10 @@
 //! What several masses together must be: what holes leave of a body, and what is welded together.
 
 use super::moments::Moments;
-use super::physical::Violation;
 use super::tensor::{
     Matrix, Vector, inertia, is_inertia_of_a_body, matrix, nearest_of_a_body, principal, trace,
 };
+use super::violation::{Violation, digits};
 use crate::base::span::Extent;
 use crate::model::evaluate::Values;
 use crate::model::expression::Expr;
@@ -179,9 +179,4 @@ fn tensor(entries: &[Expr; 6], at: &Values) -> Matrix {
 fn moments(values: Vector) -> String {
     let [a, b, c] = values.map(|value| digits(value, 6));
     format!("{a}, {b} and {c} kg*m^2")
-}
-
-/// A number with so many significant digits.
-pub(super) fn digits(value: f64, count: usize) -> f64 {
-    format!("{value:.*e}", count - 1).parse().unwrap_or(value)
 }

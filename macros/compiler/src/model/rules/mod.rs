@@ -6,3 +6,4 @@ mod moments;
 pub(super) mod physical;
 pub(super) mod presence;
 pub(super) mod tensor;
+mod violation;

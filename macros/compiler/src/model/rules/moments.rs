@@ -4,8 +4,9 @@ use super::tensor::{
     Matrix, Vector, identity, matrix, product, product_with_vector, second_moment, transposed,
 };
 use crate::model::evaluate::Values;
-use crate::model::expression;
+use crate::model::expression::{self, Expr};
 use crate::model::mechanism::{Part, Placement, Shape};
+use crate::model::shape::{MeanSquare, Spread};
 
 /// Mass, first and second moment (the integrals of 1, `r` and `r r^T`) about the origin of the body frame.
 #[derive(Clone, Debug, Default)]
@@ -67,78 +68,44 @@ impl Moments {
 
 /// Mass, centre of mass, and second moment about it, in the frame of the shape.
 fn central_moments(shape: &Shape, at: &Values) -> (f64, Vector, Matrix) {
-    // A solid of revolution: `across` m^2 in each direction across the axis, `along` along it.
+    let shape = shape.reduced();
+    let (mass, center) = (at.of(shape.mass), at.vector(shape.center));
+    let square = |expr: &Expr| at.of(expr).powi(2);
+    let mean_square = |terms: &MeanSquare| -> f64 {
+        let squares = terms.iter().map(|(factor, length)| factor * square(length));
+        squares.sum()
+    };
+    // `across` m^2 in each direction across the axis, `along` along it
     let round = |axis: &expression::Vector, across: f64, along: f64| {
         let a = at.vector(axis);
         matrix(|i, j| across * identity(i, j) + (along - across) * a[i] * a[j])
     };
-    let square = |expr| at.of(expr).powi(2);
-    let (mass, center, per_mass) = match shape {
-        Shape::Point { mass, center } => (mass, center, Matrix::default()),
-        Shape::Rod {
-            mass,
-            length,
+    let per_mass = match &shape.spread {
+        Spread::Point => Matrix::default(),
+        Spread::Line { length, along } => round(along, 0.0, square(length) / 12.0),
+        Spread::Round {
+            axis,
+            across,
             along,
-            center,
-        } => (mass, center, round(along, 0.0, square(length) / 12.0)),
-        Shape::Disk {
-            mass,
-            radius,
-            axis,
-            center,
-        } => (mass, center, round(axis, square(radius) / 4.0, 0.0)),
-        Shape::Cylinder {
-            mass,
-            radius,
-            length,
-            axis,
-            center,
-        } => {
-            let (across, along) = (square(radius) / 4.0, square(length) / 12.0);
-            (mass, center, round(axis, across, along))
-        }
-        Shape::Tube {
-            mass,
-            inner,
-            outer,
-            length,
-            axis,
-            center,
-        } => {
-            let across = (square(inner) + square(outer)) / 4.0;
-            (mass, center, round(axis, across, square(length) / 12.0))
-        }
-        Shape::Cuboid { mass, size, center } => {
+        } => round(axis, mean_square(across), mean_square(along)),
+        Spread::Box { size } => {
             let edges = at.vector(size);
-            let entries = matrix(|i, j| identity(i, j) * edges[i] * edges[j] / 12.0);
-            (mass, center, entries)
+            matrix(|i, j| identity(i, j) * edges[i] * edges[j] / 12.0)
         }
-        Shape::Sphere {
-            mass,
-            radius,
-            center,
-        } => {
-            let along = square(radius) / 5.0;
-            (mass, center, matrix(|i, j| along * identity(i, j)))
+        Spread::Ball(along) => {
+            let along = mean_square(along);
+            matrix(|i, j| along * identity(i, j))
         }
-        Shape::Rigid {
-            mass,
-            center,
-            inertia,
-            about,
-        } => {
+        Spread::Tensor { inertia, about } => {
             let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(|k: usize| at.of(&inertia[k]));
             let second = second_moment(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-            let (mass, c) = (at.of(mass), at.vector(center));
-            let reference = about.as_ref().map_or(c, |about| at.vector(about));
-            let arm = [0, 1, 2].map(|i: usize| c[i] - reference[i]);
+            let reference = about.map_or(center, |about| at.vector(about));
+            let arm = [0, 1, 2].map(|i: usize| center[i] - reference[i]);
             let central = matrix(|i, j| second[i][j] - mass * arm[i] * arm[j]);
-            return (mass, c, central);
+            return (mass, center, central);
         }
     };
-    let mass = at.of(mass);
-    let central = matrix(|i, j| mass * per_mass[i][j]);
-    (mass, at.vector(center), central)
+    (mass, center, matrix(|i, j| mass * per_mass[i][j]))
 }
 
 /// The axes of a placement, column by column, in the frame that it is in.

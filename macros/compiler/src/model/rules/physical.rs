@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::composite::{self, Welded, digits};
+use super::composite::{self, Welded};
+use super::violation::{Violation, digits};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -128,14 +129,6 @@ fn check_tolerance(
             }
         }
     }
-}
-
-/// A requirement that is not met: "the mass of `bar`" "is -3 kg; it must be positive".
-pub(super) struct Violation {
-    pub(super) what: String,
-    pub(super) problem: String,
-    pub(super) extent: Extent,
-    pub(super) help: Option<String>,
 }
 
 fn violation(requirement: &Requirement, at: &Values) -> Option<Violation> {

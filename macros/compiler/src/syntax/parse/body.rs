@@ -4,10 +4,10 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::{Argument, Body, ItemKind, NamedCall, Term};
 use super::super::tokens::{Parsed, Tokens};
-use super::DECIMAL_POINT;
-use super::item::{colon, declared_name};
+use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
+use super::words::DECIMAL_POINT;
 
 const SHAPE: &str = "a shape such as `rod` or `massless`";
 

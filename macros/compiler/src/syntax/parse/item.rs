@@ -9,109 +9,13 @@ use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
 use super::joint::joint;
+use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::unit;
 use super::value::{digits_and_suffix, value};
+use super::words::instead_of;
 use crate::base::diagnostics::Diagnostic;
-use crate::base::nearest::suggestion;
 use crate::base::span::Extent;
-
-/// The words that start an item.
-pub(super) const KEYWORDS: [&str; 10] = [
-    "input",
-    "design",
-    "let",
-    "gravity",
-    "body",
-    "joint",
-    "point",
-    "force",
-    "constraint",
-    "output",
-];
-
-/// What other tools and languages call an item.
-const SYNONYMS: [(&str, &str); 17] = [
-    ("motor", "force"),
-    ("param", "design"),
-    ("parameter", "design"),
-    ("variable", "design"),
-    ("const", "let"),
-    ("constant", "let"),
-    ("link", "body"),
-    ("part", "body"),
-    ("marker", "point"),
-    ("frame", "point"),
-    ("site", "point"),
-    ("loop", "constraint"),
-    ("closure", "constraint"),
-    ("equality", "constraint"),
-    ("contact", "constraint"),
-    ("element", "force"),
-    ("result", "output"),
-];
-
-/// Words that stand behind the name of an item, not before it.
-pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
-    (
-        "body",
-        &[
-            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid",
-        ],
-    ),
-    (
-        "joint",
-        &[
-            "fixed",
-            "revolute",
-            "prismatic",
-            "screw",
-            "cylindrical",
-            "universal",
-            "planar",
-            "spherical",
-            "free",
-        ],
-    ),
-    (
-        "force",
-        &[
-            "spring",
-            "damper",
-            "spring_damper",
-            "tension",
-            "generalized",
-            "potential",
-            "bushing",
-            "load",
-            "follower",
-            "drag",
-        ],
-    ),
-    (
-        "constraint",
-        &[
-            "coincident",
-            "aligned",
-            "distance",
-            "coupling",
-            "equation",
-            "rolling",
-        ],
-    ),
-];
-
-/// What to write for an item that starts with an unknown word.
-fn instead_of(unknown: &str) -> String {
-    let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
-    match (inside, suggestion(unknown, KEYWORDS, &SYNONYMS)) {
-        (Some((keyword, _)), _) => {
-            format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
-        }
-        (None, Some(known)) => format!("did you mean `{known}`?"),
-        (None, None) => format!("an item starts with one of {}", KEYWORDS.join(", ")),
-    }
-}
 
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -137,30 +41,6 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
     };
     tokens.ident();
     read(tokens)
-}
-
-pub(super) fn declared_name(tokens: &mut Tokens) -> Parsed<Ident> {
-    if let Some(keyword) = tokens.peek_ident()
-        && KEYWORDS.iter().any(|word| keyword == word)
-    {
-        let message = format!("`{keyword}` cannot be a name: it starts an item");
-        return Err(Box::new(Diagnostic::new(&keyword, message)));
-    }
-    let name = tokens.name("a name")?;
-    let mut ahead = *tokens;
-    if ahead.sign('-').is_some()
-        && let Some(rest) = ahead.ident()
-    {
-        let message = "a name cannot contain `-`";
-        let diagnostic = Diagnostic::new(Extent::from(&name).to(&rest), message)
-            .with_help(format!("write `{name}_{rest}`"));
-        return Err(Box::new(diagnostic));
-    }
-    Ok(name)
-}
-
-pub(super) fn colon(tokens: &mut Tokens) -> Parsed<Extent> {
-    tokens.expect_sign(':', "`:`")
 }
 
 fn input(tokens: &mut Tokens) -> Parsed<ItemKind> {

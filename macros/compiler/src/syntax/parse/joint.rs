@@ -4,10 +4,10 @@ use proc_macro2::Delimiter;
 
 use super::super::ast::{Coast, Drive, ItemKind, Joint, JointArgument, JointClause};
 use super::super::tokens::{Parsed, Tokens};
-use super::DECIMAL_POINT;
-use super::item::{colon, declared_name};
+use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::value::value;
+use super::words::DECIMAL_POINT;
 
 /// Reads a joint after its keyword.
 pub(super) fn joint(tokens: &mut Tokens) -> Parsed<ItemKind> {

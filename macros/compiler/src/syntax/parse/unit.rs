@@ -5,6 +5,7 @@ use proc_macro2::{Delimiter, Span};
 use super::super::ast::{Unit, UnitFactor};
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
+use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 use crate::base::units;
@@ -95,7 +96,7 @@ fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {
 fn starts(tokens: &Tokens) -> bool {
     tokens.peek_ident().is_some_and(|ident| {
         let word = ident.to_string();
-        !FOLLOWING.contains(&word.as_str()) && !super::item::KEYWORDS.contains(&word.as_str())
+        !FOLLOWING.contains(&word.as_str()) && !KEYWORDS.contains(&word.as_str())
     })
 }
 

@@ -6,6 +6,7 @@ use syn::ext::IdentExt as _;
 use super::super::ast::{Binary, Operator, Value, ValueKind};
 use super::super::tokens::{Parsed, Tokens};
 use super::unit;
+use super::words::KEYWORDS;
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 
@@ -123,7 +124,7 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     }
     let follows_value = tokens.peek_ident().is_some_and(|ident| {
         let word = ident.unraw().to_string();
-        !super::item::KEYWORDS.contains(&word.as_str())
+        !KEYWORDS.contains(&word.as_str())
     });
     if !follows_value {
         return tokens.expected("a value");

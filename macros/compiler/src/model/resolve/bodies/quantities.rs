@@ -10,7 +10,7 @@ use crate::model::simplify;
 use crate::syntax::ast::Value;
 
 /// The arguments of one shape while they are resolved.
-pub(super) struct Quantities<'a, 'b, 'c> {
+pub(in crate::model::resolve) struct Quantities<'a, 'b, 'c> {
     pub(super) resolver: &'a mut Resolver<'b>,
     pub(super) arguments: Arguments<'c>,
     pub(super) body: String,

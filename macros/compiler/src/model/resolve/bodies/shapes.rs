@@ -10,26 +10,35 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::Shape;
 use crate::model::simplify::{multiply, power_integer, subtract};
 
+/// What makes a shape of its arguments. Every argument is looked at before any is found missing.
+type Reader = fn(&mut Quantities<'_, '_, '_>) -> Option<Shape>;
+
+pub(in crate::model::resolve) type Row = Signature<Reader>;
+
 const MASS: &[&str] = &["mass", "density"];
 const CENTER: &[&str] = &["center"];
 
-pub(in crate::model::resolve) const SHAPES: &[Signature] = &[
-    Signature::new("massless", &[], "massless"),
-    Signature::new("point", &["mass"], "point(mass: 1 kg)")
-        .optional(CENTER)
-        .refusing(&[("density", "a point has no volume: give its `mass`")]),
-    Signature::new(
+pub(in crate::model::resolve) const SHAPES: &[Row] = &[
+    Row::new("massless", &[], "massless", |_| None),
+    Row::new("point", &["mass"], "point(mass: 1 kg)", |shape| {
+        shape.point()
+    })
+    .optional(CENTER)
+    .refusing(&[("density", "a point has no volume: give its `mass`")]),
+    Row::new(
         "rod",
         &["length", "along"],
         "rod(mass: 1 kg, length: 1 m, along: -z)",
+        |shape| shape.rod(),
     )
     .exactly_one(MASS)
     .optional(CENTER)
     .refusing(&[("radius", "a rod is thin; a thick one is a `cylinder`")]),
-    Signature::new(
+    Row::new(
         "disk",
         &["radius", "axis"],
         "disk(mass: 1 kg, radius: 0.1 m, axis: z)",
+        |shape| shape.disk(),
     )
     .exactly_one(MASS)
     .optional(CENTER)
@@ -41,31 +50,44 @@ pub(in crate::model::resolve) const SHAPES: &[Signature] = &[
             "a disk with a bore is a `disk` minus a `disk`, or a `tube`",
         ),
     ]),
-    Signature::new(
+    Row::new(
         "cylinder",
         &["radius", "length", "axis"],
         "cylinder(mass: 1 kg, radius: 0.1 m, length: 1 m, axis: z)",
+        |shape| shape.cylinder(),
     )
     .exactly_one(MASS)
     .optional(CENTER)
     .refusing(&[("inner", "a hollow cylinder is a `tube`")]),
-    Signature::new(
+    Row::new(
         "tube",
         &["inner", "outer", "length", "axis"],
         "tube(mass: 1 kg, inner: 8 cm, outer: 10 cm, length: 1 m, axis: z)",
+        |shape| shape.tube(),
     )
     .exactly_one(MASS)
     .optional(CENTER),
-    Signature::new("box", &["size"], "box(mass: 1 kg, size: [1 m, 2 m, 3 m])")
-        .exactly_one(MASS)
-        .optional(CENTER),
-    Signature::new("sphere", &["radius"], "sphere(mass: 1 kg, radius: 0.1 m)")
-        .exactly_one(MASS)
-        .optional(CENTER),
-    Signature::new(
+    Row::new(
+        "box",
+        &["size"],
+        "box(mass: 1 kg, size: [1 m, 2 m, 3 m])",
+        |shape| shape.cuboid(),
+    )
+    .exactly_one(MASS)
+    .optional(CENTER),
+    Row::new(
+        "sphere",
+        &["radius"],
+        "sphere(mass: 1 kg, radius: 0.1 m)",
+        |shape| shape.sphere(),
+    )
+    .exactly_one(MASS)
+    .optional(CENTER),
+    Row::new(
         "rigid",
         &["mass", "inertia"],
         "rigid(mass: 1 kg, inertia: [1, 1, 1] kg*m^2)",
+        |shape| shape.rigid(),
     )
     .optional(&["center", "about"])
     .refusing(&[(
@@ -102,20 +124,6 @@ pub(super) const SYNONYMS: [(&str, &str); 23] = [
 ];
 
 impl Quantities<'_, '_, '_> {
-    /// The shape that a word and its arguments mean. Every argument is looked at before any is found missing.
-    pub(super) fn shape(mut self, word: &str) -> Option<Shape> {
-        match word {
-            "point" => self.point(),
-            "rod" => self.rod(),
-            "disk" => self.disk(),
-            "cylinder" => self.cylinder(),
-            "tube" => self.tube(),
-            "box" => self.cuboid(),
-            "sphere" => self.sphere(),
-            _ => self.rigid(),
-        }
-    }
-
     fn point(&mut self) -> Option<Shape> {
         let (mass, center) = (self.mass(), self.center(|| Some(zero())));
         Some(Shape::Point {

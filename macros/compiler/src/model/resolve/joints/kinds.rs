@@ -1,6 +1,6 @@
 //! The kinds of joint: one row each, nothing else knows their names.
 
-use crate::model::mechanism::CoordinateQuantity;
+use crate::model::mechanism::{Closing, CoordinateQuantity};
 
 /// A kind of joint.
 #[derive(Debug)]
@@ -11,6 +11,8 @@ pub(crate) struct Kind {
     pub(crate) motions: &'static [Elementary],
     /// What its axes must satisfy.
     pub(crate) conditions: &'static [Condition],
+    /// How it closes a loop; not every kind can.
+    pub(crate) closing: Option<Closing>,
     /// What to write, for messages.
     pub(crate) example: &'static str,
 }
@@ -44,54 +46,63 @@ const KINDS: &[Kind] = &[
         word: "fixed",
         motions: &[],
         conditions: &[],
+        closing: Some(Closing::Fixed),
         example: "fixed",
     },
     Kind {
         word: "revolute",
         motions: &[Turn],
         conditions: &[],
+        closing: Some(Closing::Revolute),
         example: "revolute(z)",
     },
     Kind {
         word: "prismatic",
         motions: &[Slide],
         conditions: &[],
+        closing: Some(Closing::Prismatic),
         example: "prismatic(z)",
     },
     Kind {
         word: "screw",
         motions: &[Screw],
         conditions: &[],
+        closing: None,
         example: "screw(z, lead: 5 mm)",
     },
     Kind {
         word: "cylindrical",
         motions: &[Slide, Turn],
         conditions: &[Parallel(0, 1)],
+        closing: Some(Closing::Cylindrical),
         example: "cylindrical(lift: z, turn: z)",
     },
     Kind {
         word: "universal",
         motions: &[Turn, Turn],
         conditions: &[Distinct([0, 1])],
+        closing: Some(Closing::Universal),
         example: "universal(flap: y, lag: z)",
     },
     Kind {
         word: "planar",
         motions: &[Slide, Slide, Turn],
         conditions: &[Distinct([0, 1]), Perpendicular(0, 2), Perpendicular(1, 2)],
+        closing: Some(Closing::Planar),
         example: "planar(u: x, v: y, turn: z)",
     },
     Kind {
         word: "spherical",
         motions: &[Turn, Turn, Turn],
         conditions: &[Distinct([0, 1]), Distinct([1, 2])],
+        closing: Some(Closing::Spherical),
         example: "spherical(yaw: z, pitch: y, roll: x)",
     },
     Kind {
         word: "free",
         motions: &[Slide, Slide, Slide, Turn, Turn, Turn],
         conditions: &[Spanning([0, 1, 2]), Distinct([3, 4]), Distinct([4, 5])],
+        closing: None,
         example: "free(px: x, py: y, pz: z, yaw: z, pitch: y, roll: x)",
     },
 ];

@@ -1,0 +1,65 @@
+//! Building expressions: every new one is simplified by the rules.
+
+use super::graph::{Graph, Node};
+use super::rules;
+use crate::base::ids::ExprId;
+use crate::base::operators::{Operator, Unary};
+
+impl Graph {
+    /// `a + b`.
+    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Add, a, b)
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Subtract, a, b)
+    }
+
+    /// `a * b`.
+    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Multiply, a, b)
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.binary(Operator::Divide, a, b)
+    }
+
+    /// `-a`.
+    pub fn neg(&mut self, a: ExprId) -> ExprId {
+        self.unary(Unary::Negate, a)
+    }
+
+    /// `factor * a`.
+    pub fn scale(&mut self, factor: f64, a: ExprId) -> ExprId {
+        let factor = self.constant(factor);
+        self.mul(factor, a)
+    }
+
+    /// The sum of some terms, from the first to the last.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
+        let zero = self.zero();
+        terms
+            .into_iter()
+            .fold(zero, |sum, term| self.add(sum, term))
+    }
+
+    /// An operator of one operand, simplified.
+    pub fn unary(&mut self, operator: Unary, a: ExprId) -> ExprId {
+        rules::simplify_unary(self, operator, a)
+            .unwrap_or_else(|| self.intern(Node::Unary(operator, a)))
+    }
+
+    /// An operator of two operands, simplified.
+    pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
+        if let Some(simpler) = rules::simplify_binary(self, operator, a, b) {
+            return simpler;
+        }
+        let (a, b) = match operator {
+            Operator::Add | Operator::Multiply if b < a => (b, a),
+            _ => (a, b),
+        };
+        self.intern(Node::Binary(operator, a, b))
+    }
+}

@@ -1,0 +1,108 @@
+//! The operators of expressions: their names and their values.
+
+/// Operators of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Operator {
+    /// `a + b`.
+    Add,
+    /// `a - b`.
+    Subtract,
+    /// `a * b`.
+    Multiply,
+    /// `a / b`.
+    Divide,
+    /// `a ^ b`, `a > 0`.
+    Power,
+    /// `atan2(a, b)`.
+    Atan2,
+}
+
+/// Operators of one operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Unary {
+    /// `-a`.
+    Negate,
+    /// Square root.
+    Sqrt,
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Tangent.
+    Tan,
+    /// Inverse sine.
+    Asin,
+    /// Inverse cosine.
+    Acos,
+    /// Exponential.
+    Exp,
+    /// Natural logarithm.
+    Ln,
+    /// `a ^ n`.
+    PowerInteger(i32),
+}
+
+/// Functions of one argument that have a name in the language.
+const NAMED: [Unary; 8] = [
+    Unary::Sqrt,
+    Unary::Sin,
+    Unary::Cos,
+    Unary::Tan,
+    Unary::Asin,
+    Unary::Acos,
+    Unary::Exp,
+    Unary::Ln,
+];
+
+impl Operator {
+    /// `a operator b`.
+    pub fn apply(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Add => a + b,
+            Self::Subtract => a - b,
+            Self::Multiply => a * b,
+            Self::Divide => a / b,
+            Self::Power => a.powf(b),
+            Self::Atan2 => a.atan2(b),
+        }
+    }
+}
+
+impl Unary {
+    /// The function of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        NAMED.into_iter().find(|function| function.name() == name)
+    }
+
+    /// What it is called: of a function its name in the language and in Rust.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Negate => "minus",
+            Self::Sqrt => "sqrt",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Asin => "asin",
+            Self::Acos => "acos",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::PowerInteger(_) => "power",
+        }
+    }
+
+    /// `operator a`.
+    pub fn apply(self, a: f64) -> f64 {
+        match self {
+            Self::Negate => -a,
+            Self::Sqrt => a.sqrt(),
+            Self::Sin => a.sin(),
+            Self::Cos => a.cos(),
+            Self::Tan => a.tan(),
+            Self::Asin => a.asin(),
+            Self::Acos => a.acos(),
+            Self::Exp => a.exp(),
+            Self::Ln => a.ln(),
+            Self::PowerInteger(n) => a.powi(n),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Checks of the equations, and the properties they establish.
+
+mod determinacy;
+mod poses;
+mod properties;
+mod requirements;
+mod steady_state;
+
+pub(super) use determinacy::require_determinate_motion;
+pub(super) use poses::poses;
+pub(super) use properties::properties;
+pub(super) use requirements::requirements;
+pub(super) use steady_state::require_steady_state;

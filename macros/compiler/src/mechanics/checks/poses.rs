@@ -1,0 +1,25 @@
+//! How far joints of three turns are from the poses in which their coordinates fail.
+
+use crate::algebra::{Graph, Vector3};
+use crate::mechanics::functions::Pose;
+use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::setup::Context;
+
+/// Every joint with three turns.
+pub(crate) fn poses(g: &mut Graph, context: &Context) -> Vec<Pose> {
+    let kinematics = in_common_frame_at_zero(g, context);
+    let mut poses = Vec::new();
+    for branch in &context.topology.branches {
+        let motion = kinematics.of(branch.body);
+        let turns: Vec<Vector3> = motion.steps.iter().filter_map(|step| step.turn).collect();
+        if let [first, second, third] = turns[..] {
+            let normal = first.cross(g, second);
+            let volume = normal.dot(g, third);
+            let joint = context.mechanism.joints[branch.joint.index()]
+                .name
+                .to_string();
+            poses.push(Pose { joint, volume });
+        }
+    }
+    poses
+}

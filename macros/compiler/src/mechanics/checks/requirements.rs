@@ -1,0 +1,180 @@
+//! What bodies and constraints must satisfy at run time, whatever the design values: positive masses and lengths, and inertias
+//! that a body can have.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::mechanics::functions::Requirement;
+use crate::mechanics::inertia::MassDistribution;
+use crate::mechanics::setup::Values;
+use crate::model::is_inertia_of_a_body;
+use crate::model::mechanism::{Body, ConstraintLaw, Mechanism};
+use crate::model::shape::{Reduced, Spread};
+use crate::model::welded::{Member, groups};
+
+/// Share of the trace below which a principal second moment counts as zero: a flat body has one that is exactly zero,
+/// and rounding must not make it negative.
+const FLATNESS: f64 = 1e-9;
+
+/// The requirements that depend on inputs or design variables; constants were checked when the declaration was.
+pub(crate) fn requirements(
+    g: &mut Graph,
+    mechanism: &Mechanism,
+    values: &Values,
+) -> Vec<Requirement> {
+    let mut list = Vec::new();
+    for body in &mechanism.bodies {
+        let name = &body.name;
+        for part in &body.parts {
+            let Reduced { mass, positive, .. } = part.shape.reduced();
+            let all = std::iter::once(("mass", mass.clone())).chain(positive);
+            for (quantity, value) in all {
+                list.push(Requirement {
+                    quantity: format!("{quantity} of {name}"),
+                    requirement: "positive",
+                    value: values.scalar(g, &value),
+                });
+            }
+        }
+        if body.parts.iter().any(|part| part.hole) {
+            let pieces = MassDistribution::of_body(g, values, body);
+            let (mass, second) = central_moments(g, pieces);
+            list.push(Requirement {
+                quantity: format!("mass of {name}"),
+                requirement: "positive",
+                value: mass,
+            });
+            if !is_in_doubt(g, values, body) {
+                list.extend(inertia_of_a_body(g, &name.to_string(), second));
+            }
+        }
+    }
+    for group in groups(mechanism.bodies.len(), &mechanism.joints) {
+        list.extend(inertia_together(g, mechanism, values, &group));
+    }
+    for constraint in &mechanism.constraints {
+        let (quantity, value) = match &constraint.law {
+            ConstraintLaw::Distance { length, .. } => ("length", length),
+            ConstraintLaw::Rolling { radius, .. } => ("radius", radius),
+            ConstraintLaw::Coincident { .. }
+            | ConstraintLaw::Aligned { .. }
+            | ConstraintLaw::Equation { .. } => continue,
+        };
+        list.push(Requirement {
+            quantity: format!("{quantity} of {}", constraint.name),
+            requirement: "positive",
+            value: values.scalar(g, value),
+        });
+    }
+    list.retain(|requirement| g.constant_value(requirement.value).is_none());
+    list
+}
+
+/// Whether an inertia is declared with entries that depend on the design, or that no real body can have.
+fn is_in_doubt(g: &mut Graph, values: &Values, body: &Body) -> bool {
+    body.parts.iter().any(|part| {
+        let Spread::Tensor { inertia, about } = part.shape.reduced().spread else {
+            return false;
+        };
+        let entries: [ExprId; 6] = std::array::from_fn(|k| values.scalar(g, &inertia[k]));
+        let known = entries.map(|entry| g.constant_value(entry));
+        let [Some(xx), Some(yy), Some(zz), Some(xy), Some(yz), Some(xz)] = known else {
+            return true;
+        };
+        let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        about.is_some() || !is_inertia_of_a_body(&tensor)
+    })
+}
+
+/// The requirements on bodies welded together: none if each has the inertia of a real body, because then so has their sum.
+fn inertia_together(
+    g: &mut Graph,
+    mechanism: &Mechanism,
+    values: &Values,
+    group: &[Member],
+) -> Vec<Requirement> {
+    let body = |member: &Member| &mechanism.bodies[member.body.index()];
+    let mut bodies = group.iter().map(body);
+    let Some(first) = bodies.find(|body| is_in_doubt(g, values, body)) else {
+        return Vec::new();
+    };
+    let mut pieces = Vec::new();
+    for member in group {
+        for mut piece in MassDistribution::of_body(g, values, body(member)) {
+            for placement in &member.placements {
+                piece = piece.placed(g, values, placement);
+            }
+            pieces.push(piece);
+        }
+    }
+    let name = match group.len() {
+        1 => first.name.to_string(),
+        _ => format!("{} with all that is welded to it", first.name),
+    };
+    let (_, second) = central_moments(g, pieces);
+    inertia_of_a_body(g, &name, second)
+}
+
+/// Mass, and second moments about the centre of mass: rows of `S - F F^T / m`, each diagonal entry raised by a little of
+/// the trace of `S`.
+fn central_moments(g: &mut Graph, pieces: Vec<MassDistribution>) -> (ExprId, [Vector3; 3]) {
+    let zero = g.zero();
+    let (mut mass, mut first) = (zero, Vector3::zero(g));
+    let mut second = [first; 3];
+    for piece in pieces {
+        mass = g.add(mass, piece.mass);
+        for (k, row) in second.iter_mut().enumerate() {
+            row.0[k] = g.add(row.0[k], piece.isotropic);
+        }
+        for arm in &piece.arms {
+            let share = arm.direction.scale(g, arm.first);
+            first = first.add(g, share);
+            for (other, &weight) in piece.arms.iter().zip(&arm.second) {
+                for (row, &component) in second.iter_mut().zip(&arm.direction.0) {
+                    let factor = g.mul(weight, component);
+                    let share = other.direction.scale(g, factor);
+                    *row = row.add(g, share);
+                }
+            }
+        }
+    }
+    let trace = g.sum([second[0].0[0], second[1].0[1], second[2].0[2]]);
+    let raise = g.scale(FLATNESS, trace);
+    for (k, row) in second.iter_mut().enumerate() {
+        let factor = g.div(first.0[k], mass);
+        let shift = first.scale(g, factor);
+        *row = row.sub(g, shift);
+        row.0[k] = g.add(row.0[k], raise);
+    }
+    (mass, second)
+}
+
+/// The second moment `S = tr(J)/2 1 - J` of an inertia `J` is positive definite exactly when all its principal minors are
+/// positive. Its diagonal entries say by how much two moments exceed the third.
+fn inertia_of_a_body(g: &mut Graph, body: &str, [x, y, z]: [Vector3; 3]) -> Vec<Requirement> {
+    let ([a, xy, xz], [_, b, yz], [_, _, c]) = (x.0, y.0, z.0);
+    let require = |quantity: &str, unit: &str, value| Requirement {
+        quantity: format!("{quantity} of {body} in {unit}"),
+        requirement: "positive (about the centre of mass a principal moment of inertia is at most the sum of the other two)",
+        value,
+    };
+    let mut list = vec![
+        require("(Jyy + Jzz - Jxx)/2", "kg*m^2", a),
+        require("(Jxx + Jzz - Jyy)/2", "kg*m^2", b),
+        require("(Jxx + Jyy - Jzz)/2", "kg*m^2", c),
+    ];
+    if [xy, yz, xz].iter().any(|&product| !g.is(product, 0.0)) {
+        for (name, p, q, r) in [("xy", a, b, xy), ("yz", b, c, yz), ("xz", a, c, xz)] {
+            let (product, square) = (g.mul(p, q), g.mul(r, r));
+            let quantity = format!("the {name} minor of tr(J)/2 - J");
+            list.push(require(&quantity, "kg^2*m^4", g.sub(product, square)));
+        }
+        let normal = x.cross(g, y);
+        let determinant = normal.dot(g, z);
+        list.push(require(
+            "the determinant of tr(J)/2 - J",
+            "kg^3*m^6",
+            determinant,
+        ));
+    }
+    list
+}

@@ -1,0 +1,133 @@
+//! A steady state exists only if the equations do not depend on the running coordinates, driven or coasting.
+
+use crate::algebra::Graph;
+use crate::base::diagnostics::Diagnostics;
+use crate::base::ids::{BodyId, ExprId, ForceId, SymbolId};
+use crate::mechanics::equations::{Residual, outputs};
+use crate::mechanics::motion::{Kinematics, in_common_frame};
+use crate::mechanics::setup::{Context, ForceSelection, Selection, at_rest, by_symbol, vanish};
+use crate::model::mechanism::Motion;
+
+const GRAVITY: &str = "gravity is not parallel to its axis";
+
+/// Rejects a mechanism whose equations or outputs depend on a running coordinate, naming the cause.
+pub(crate) fn require_steady_state(g: &mut Graph, context: &Context) -> Result<(), Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let running = &context.symbols.running.values;
+    let kinematics = in_common_frame(g, context, running);
+    let residual =
+        Residual::new(g, context, running, &kinematics, ForceSelection::ALL).total(g, context);
+    let outputs = outputs(g, context, running, &kinematics);
+    let outputs = at_rest(g, context.symbols, &outputs);
+    let coordinates: Vec<_> = context.topology.running().collect();
+    for (&symbol, id) in context.symbols.running.ids.iter().zip(coordinates) {
+        // Driven at a speed of zero is locked: the equations hold where it stands.
+        if g.is(kinematics.coordinates[id.index()].velocity, 0.0) {
+            continue;
+        }
+        let coordinate = &context.mechanism.coordinates[id.index()];
+        let name = &coordinate.name;
+        let (motion, drive) = match coordinate.motion {
+            Motion::Coasting => ("coasting", "motion"),
+            _ => ("driven", "drive"),
+        };
+        if depends(g, context, &residual, symbol) {
+            let mut causes = causes(g, context, &kinematics, symbol);
+            if causes.is_empty() {
+                causes.push(
+                    "at least, the contrary could not be shown near the nominal design".to_owned(),
+                );
+            }
+            diagnostics.error_with_help(
+                name.span(),
+                format!(
+                    "the equations of motion depend on the {motion} coordinate `{name}`, so there is no steady state: {}",
+                    causes.join("; ")
+                ),
+                match causes.as_slice() {
+                    [only] if only == GRAVITY => format!(
+                        "let gravity act along the axis of the {drive}, for example `gravity 9.81 m/s^2 along -z;`, or hold the axis upright"
+                    ),
+                    _ => format!("make what it names symmetric about the axis of the {drive}, or attach it to what moves with it"),
+                },
+            );
+        }
+        for (&value, output) in outputs.iter().zip(&context.mechanism.outputs) {
+            if depends(g, context, &[value], symbol) {
+                diagnostics.error_with_help(
+                    output.name.span(),
+                    format!(
+                        "output `{}` depends on the {motion} coordinate `{name}` and is not constant in steady motion",
+                        output.name
+                    ),
+                    "use a quantity that this motion leaves unchanged: a height, a distance, a distance from the axis",
+                );
+            }
+        }
+    }
+    diagnostics.into_result(())
+}
+
+fn depends(g: &mut Graph, context: &Context, roots: &[ExprId], symbol: SymbolId) -> bool {
+    let change = by_symbol(g, roots, symbol);
+    vanish(g, context, &change).into_iter().any(|zero| !zero)
+}
+
+/// The causes of force, each by itself, that make the equations depend on `symbol`.
+fn causes(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    symbol: SymbolId,
+) -> Vec<String> {
+    let running = &context.symbols.running.values;
+    let none = ForceSelection {
+        inertia: Selection::None,
+        forces: Selection::None,
+        gravity: false,
+        constraints: false,
+    };
+    let mut candidates = vec![(
+        ForceSelection {
+            gravity: true,
+            ..none
+        },
+        GRAVITY.to_owned(),
+    )];
+    for (index, force) in context.mechanism.forces.iter().enumerate() {
+        candidates.push((
+            ForceSelection {
+                forces: Selection::One(ForceId::new(index)),
+                ..none
+            },
+            format!("the force `{}` changes with it", force.name),
+        ));
+    }
+    for (index, body) in context.mechanism.bodies.iter().enumerate() {
+        candidates.push((
+            ForceSelection {
+                inertia: Selection::One(BodyId::new(index)),
+                ..none
+            },
+            format!("the inertia of `{}` changes with it", body.name),
+        ));
+    }
+    candidates.retain(|(selection, _)| {
+        let part = Residual::new(g, context, running, kinematics, *selection).total(g, context);
+        depends(g, context, &part, symbol)
+    });
+    let mut causes: Vec<String> = candidates.into_iter().map(|(_, cause)| cause).collect();
+    let constraints = ForceSelection {
+        constraints: true,
+        ..none
+    };
+    let values = Residual::new(g, context, running, kinematics, constraints).total(g, context);
+    for (row, &value) in context.rows.iter().zip(&values[context.moving().1..]) {
+        if depends(g, context, &[value], symbol) {
+            let source = row.source.name(context.mechanism);
+            causes.push(format!("the constraint `{source}` changes with it"));
+        }
+    }
+    causes.dedup();
+    causes
+}

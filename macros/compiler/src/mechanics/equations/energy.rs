@@ -1,0 +1,104 @@
+//! Kinetic and potential energy, for outputs.
+
+use crate::algebra::Graph;
+use crate::base::ids::ExprId;
+use crate::mechanics::inertia::MassDistribution;
+use crate::mechanics::motion::Kinematics;
+use crate::mechanics::setup::Context;
+use crate::model::mechanism::ForceLaw;
+
+/// `integral |v_O + omega x rho|^2 dm / 2` over all bodies.
+pub(crate) fn kinetic(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> ExprId {
+    let mut twice = g.zero();
+    for (body, motion) in context.mechanism.bodies.iter().zip(&kinematics.bodies) {
+        let (v, omega) = (motion.frame.velocity, motion.frame.angular_velocity);
+        for piece in MassDistribution::of_body(g, context.values, body) {
+            let rates: Vec<_> = piece
+                .arms
+                .iter()
+                .map(|arm| {
+                    let (arm, _) = motion.frame.carry(g, arm.direction);
+                    omega.cross(g, arm)
+                })
+                .collect();
+            let speed = v.dot(g, v);
+            let turning = omega.dot(g, omega);
+            let double_isotropic = g.scale(2.0, piece.isotropic);
+            let mut terms = vec![g.mul(piece.mass, speed), g.mul(double_isotropic, turning)];
+            for (arm, rate) in piece.arms.iter().zip(&rates) {
+                let along = v.dot(g, *rate);
+                let double_first = g.scale(2.0, arm.first);
+                terms.push(g.mul(double_first, along));
+                for (&second, other) in arm.second.iter().zip(&rates) {
+                    let product = rate.dot(g, *other);
+                    terms.push(g.mul(second, product));
+                }
+            }
+            let sum = g.sum(terms);
+            twice = g.add(twice, sum);
+        }
+    }
+    g.scale(0.5, twice)
+}
+
+/// Energy of gravity, springs and declared potentials; zero at the ground's origin and at the free lengths. Resolution rejects
+/// it if a force has no potential.
+pub(crate) fn potential(g: &mut Graph, context: &Context, kinematics: &Kinematics) -> ExprId {
+    let values = context.values;
+    let gravity = values.vector(g, &context.mechanism.gravity);
+    let mut energy = g.zero();
+    for (body, motion) in context.mechanism.bodies.iter().zip(&kinematics.bodies) {
+        for piece in MassDistribution::of_body(g, values, body) {
+            let mut first = motion.frame.position.scale(g, piece.mass);
+            for arm in &piece.arms {
+                let (direction, _) = motion.frame.carry(g, arm.direction);
+                let share = direction.scale(g, arm.first);
+                first = first.add(g, share);
+            }
+            let work = gravity.dot(g, first);
+            energy = g.sub(energy, work);
+        }
+    }
+    for force in &context.mechanism.forces {
+        let share = match &force.law {
+            ForceLaw::CoordinateSpring {
+                coordinate,
+                stiffness,
+                rest,
+            } => {
+                let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
+                let position = kinematics.coordinates[coordinate.index()].position;
+                quadratic(g, stiffness, position, rest)
+            }
+            ForceLaw::SpringDamper {
+                from,
+                to,
+                stiffness,
+                length,
+                ..
+            } => {
+                let (stiffness, length) = (values.scalar(g, stiffness), values.scalar(g, length));
+                let [start, end] = [from, to].map(|id| kinematics.points[id.index()].position);
+                let distance = end.sub(g, start).norm(g);
+                quadratic(g, stiffness, distance, length)
+            }
+            ForceLaw::Potential { energy } => values.scalar_at(g, energy, kinematics),
+            ForceLaw::CoordinateDamper { .. }
+            | ForceLaw::Tension { .. }
+            | ForceLaw::Generalized { .. }
+            | ForceLaw::Bushing { .. }
+            | ForceLaw::Load { .. }
+            | ForceLaw::Drag { .. } => continue,
+        };
+        energy = g.add(energy, share);
+    }
+    energy
+}
+
+/// `stiffness (x - rest)^2 / 2`.
+fn quadratic(g: &mut Graph, stiffness: ExprId, x: ExprId, rest: ExprId) -> ExprId {
+    let stretch = g.sub(x, rest);
+    let square = g.mul(stretch, stretch);
+    let twice = g.mul(stiffness, square);
+    g.scale(0.5, twice)
+}

@@ -1,0 +1,10 @@
+//! The equations of motion and the outputs.
+
+mod energy;
+mod outputs;
+mod residual;
+mod steady_equations;
+
+pub(super) use outputs::outputs;
+pub(super) use residual::Residual;
+pub(super) use steady_equations::Equations;

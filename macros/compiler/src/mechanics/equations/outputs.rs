@@ -1,0 +1,164 @@
+//! Outputs, with what they may refer to besides coordinates and points.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::{ConstraintId, ExprId, JointId};
+use crate::mechanics::inertia::inertial_at;
+use crate::mechanics::loads::{ForceContext, held, transmitted};
+use crate::mechanics::motion::{Kinematics, Wrench};
+use crate::mechanics::setup::{Context, ForceSelection, Source, State};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{ConstraintLaw, Frame};
+
+use super::energy::{kinetic, potential};
+
+/// The declared outputs.
+pub(crate) fn outputs(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<ExprId> {
+    let state = Everything {
+        kinematics,
+        reactions: reactions(g, context, running, kinematics),
+        constraints: constraint_reactions(g, context, kinematics),
+        kinetic: kinetic(g, context, kinematics),
+        potential: potential(g, context, kinematics),
+    };
+    let outputs = &context.mechanism.outputs;
+    outputs
+        .iter()
+        .map(|output| context.values.scalar_at(g, &output.value, &state))
+        .collect()
+}
+
+/// Everything that an output can use. What no output uses costs nothing: code is generated only for nodes that a result
+/// depends on.
+struct Everything<'a> {
+    kinematics: &'a Kinematics,
+    /// By joint id: force and moment.
+    reactions: Vec<[Vector3; 2]>,
+    /// By constraint id.
+    constraints: Vec<[ExprId; 6]>,
+    kinetic: ExprId,
+    potential: ExprId,
+}
+
+impl Everything<'_> {
+    fn reaction(&self, joint: JointId, component: usize) -> ExprId {
+        self.reactions[joint.index()][component / 3].0[component % 3]
+    }
+}
+
+impl State for Everything<'_> {
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Reaction(joint, component) => self.reaction(*joint, *component),
+            Expr::ConstraintReaction(id, component) => self.constraints[id.index()][*component],
+            Expr::KineticEnergy => self.kinetic,
+            Expr::PotentialEnergy => self.potential,
+            _ => self.kinematics.leaf(leaf),
+        }
+    }
+}
+
+/// What the `from` side of each joint exerts on its `to` side: force and moment at the origin of the joint frame on the
+/// `from` side, along its axes.
+fn reactions(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<[Vector3; 2]> {
+    let loads = transmitted(g, context, kinematics, ForceSelection::ALL).wrenches;
+    let inertial = inertial_wrenches(g, context, running, kinematics);
+    let zero = Vector3::zero(g);
+    let mut reactions = vec![[zero; 2]; context.mechanism.joints.len()];
+    for branch in &context.topology.branches {
+        let motion = kinematics.of(branch.body);
+        let index = branch.body.index();
+        let load = loads[index].add(g, inertial[index]);
+        let load = if branch.reversed { load.neg(g) } else { load };
+        let shift = motion.from_origin.cross(g, load.force);
+        let moment = load.moment.sub(g, shift);
+        let to_axes = motion.from_axes.transpose();
+        reactions[branch.joint.index()] = [to_axes.apply(g, load.force), to_axes.apply(g, moment)];
+    }
+    let force_context = ForceContext::new(context, kinematics);
+    for &joint in &context.topology.cut {
+        if let Some(load) = held(g, &force_context, Source::Joint(joint)) {
+            reactions[joint.index()] = [load.force, load.moment];
+        }
+    }
+    reactions
+}
+
+/// By body id: inertia minus weight of a body and everything it carries, about its origin, in the common frame.
+fn inertial_wrenches(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    kinematics: &Kinematics,
+) -> Vec<Wrench> {
+    let wrenches = inertial_at(g, context, running, ForceSelection::ALL).wrenches;
+    let mut axes = vec![kinematics.ground.orientation.axes; wrenches.len()];
+    for branch in &context.topology.branches {
+        let index = branch.body.index();
+        axes[index] = match (context.runs.layout.of(branch.body).own_axes, branch.parent) {
+            (true, _) => kinematics.of(branch.body).frame.orientation.axes,
+            (false, Frame::Body(parent)) => axes[parent.index()],
+            (false, Frame::Ground) => kinematics.ground.orientation.axes,
+        };
+    }
+    let parts: Vec<ExprId> = wrenches
+        .iter()
+        .zip(&axes)
+        .flat_map(|(wrench, axes)| [wrench.force, wrench.moment].map(|v| axes.apply(g, v).0))
+        .flatten()
+        .collect();
+    let vectors = context.in_unknowns(g, &parts);
+    let vector = |c: &[ExprId]| Vector3([c[0], c[1], c[2]]);
+    vectors
+        .chunks_exact(6)
+        .map(|c| Wrench {
+            force: vector(&c[..3]),
+            moment: vector(&c[3..]),
+        })
+        .collect()
+}
+
+/// What each constraint exerts; see [`Expr::ConstraintReaction`].
+fn constraint_reactions(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+) -> Vec<[ExprId; 6]> {
+    let force_context = ForceContext::new(context, kinematics);
+    let zero = g.zero();
+    let ids = (0..context.mechanism.constraints.len()).map(ConstraintId::new);
+    ids.map(|id| {
+        let source = Source::Constraint(id);
+        let law = &context.mechanism.constraints[id.index()].law;
+        let multiplier = |component: usize| {
+            let row = context.row(source, component);
+            row.map_or(zero, |row| context.multiplier(row))
+        };
+        match law {
+            ConstraintLaw::Distance { .. } | ConstraintLaw::Equation { .. } => {
+                [multiplier(0), zero, zero, zero, zero, zero]
+            }
+            ConstraintLaw::Rolling { .. } => {
+                let [normal, forward, lateral] = [0, 1, 2].map(multiplier);
+                [forward, lateral, normal, zero, zero, zero]
+            }
+            ConstraintLaw::Coincident { .. } | ConstraintLaw::Aligned { .. } => {
+                let Some(Wrench { force, moment }) = held(g, &force_context, source) else {
+                    return [zero; 6];
+                };
+                let ([a, b, c], [d, e, f]) = (force.0, moment.0);
+                [a, b, c, d, e, f]
+            }
+        }
+    })
+    .collect()
+}

@@ -1,0 +1,62 @@
+//! The residual of the equations of motion and of the constraints.
+
+use crate::algebra::Graph;
+use crate::base::ids::ExprId;
+use crate::mechanics::inertia::inertial_at;
+use crate::mechanics::loads::transmitted;
+use crate::mechanics::motion::Kinematics;
+use crate::mechanics::setup::{Context, ForceSelection};
+
+/// The residual in two parts. It is their sum after the first has been transformed from absolute angles to the unknowns.
+pub(crate) struct Residual {
+    /// By unknown: inertia minus weight, in terms of the absolute angles.
+    pub(crate) inertial: Vec<ExprId>,
+    /// By unknown: forces and constraints, with the sign of inertia.
+    pub(crate) applied: Vec<ExprId>,
+}
+
+impl Residual {
+    /// Along free and coasting coordinates, then the equations of constraints. `kinematics` is the motion while the running
+    /// coordinates stand at `running`.
+    pub(crate) fn new(
+        g: &mut Graph,
+        context: &Context,
+        running: &[ExprId],
+        kinematics: &Kinematics,
+        selection: ForceSelection,
+    ) -> Self {
+        let inertial = inertial_at(g, context, running, selection).along;
+        let loads = transmitted(g, context, kinematics, selection);
+        let topology = context.topology;
+        let moving = || topology.free.iter().chain(&topology.coasting);
+        let zeros = loads.constraints.iter().map(|_| g.zero());
+        Self {
+            inertial: moving()
+                .map(|id| inertial[id.index()])
+                .chain(zeros)
+                .collect(),
+            applied: moving()
+                .map(|id| loads.along[id.index()])
+                .chain(loads.constraints.iter().copied())
+                .collect(),
+        }
+    }
+
+    /// The sum of both parts.
+    pub(crate) fn total(&self, g: &mut Graph, context: &Context) -> Vec<ExprId> {
+        let inertial = context.runs.forces(g, &self.inertial);
+        let inertial = context.in_unknowns(g, &inertial);
+        let sums: Vec<ExprId> = inertial
+            .into_iter()
+            .zip(&self.applied)
+            .map(|(inertial, &applied)| g.add(inertial, applied))
+            .collect();
+        let topology = context.topology;
+        let coordinates = topology.free.iter().chain(&topology.coasting);
+        for (&value, id) in sums.iter().zip(coordinates) {
+            let name = &context.mechanism.coordinates[id.index()].name;
+            g.set_name(value, || format!("residual_{name}"));
+        }
+        sums
+    }
+}

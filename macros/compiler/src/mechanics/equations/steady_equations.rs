@@ -1,0 +1,67 @@
+//! The equations of steady motion and of small motions about it.
+
+use crate::algebra::{Graph, substitute};
+use crate::base::ids::ExprId;
+use crate::mechanics::inertia::{Variation, variation};
+use crate::mechanics::motion::in_common_frame;
+use crate::mechanics::setup::{Context, ForceSelection, at_rest};
+
+use super::outputs::outputs;
+use super::residual::Residual;
+
+/// The equations with the running coordinates set to zero, which is permitted once a steady state has been established.
+pub(crate) struct Equations {
+    /// `g(qddot, qdot, q; u, b)`, and its parts.
+    pub(crate) motion: Vec<ExprId>,
+    pub(crate) parts: Residual,
+    /// Derivatives of the inertial part by walks over the bodies, if these apply.
+    pub(crate) variation: Option<Variation>,
+    /// `g(qddot, 0, q; u, b)`.
+    pub(crate) without_velocity: Vec<ExprId>,
+    /// `g(0, 0, q; u, b)`.
+    pub(crate) rest: Vec<ExprId>,
+    /// The part of `rest` due to inertia.
+    pub(crate) rest_inertia: Vec<ExprId>,
+    /// The part of `rest` due to applied forces, with the sign of a force: `rest = rest_inertia - rest_applied`.
+    pub(crate) rest_applied: Vec<ExprId>,
+    /// Outputs at rest.
+    pub(crate) outputs: Vec<ExprId>,
+}
+
+impl Equations {
+    pub(crate) fn new(g: &mut Graph, context: &Context) -> Self {
+        let zero = g.zero();
+        let symbols = context.symbols;
+        let running = vec![zero; symbols.running.ids.len()];
+        let kinematics = in_common_frame(g, context, &running);
+        let zeros = vec![zero; symbols.q.ids.len()];
+        let parts = Residual::new(g, context, &running, &kinematics, ForceSelection::ALL);
+        let motion = parts.total(g, context);
+        let variation = variation(g, context, &running);
+        let inertia = Residual::new(g, context, &running, &kinematics, ForceSelection::INERTIA)
+            .total(g, context);
+        let applied = Residual::new(g, context, &running, &kinematics, ForceSelection::APPLIED)
+            .total(g, context);
+        let outputs = outputs(g, context, &running, &kinematics);
+        let without: Vec<_> = symbols.velocity.with(&zeros).collect();
+        let without_velocity = substitute(g, &motion, &without);
+        let rest = at_rest(g, symbols, &motion);
+        let rest_inertia = at_rest(g, symbols, &inertia);
+        let minus_applied = at_rest(g, symbols, &applied);
+        let rest_applied = minus_applied
+            .into_iter()
+            .map(|force| g.neg(force))
+            .collect();
+        let outputs = at_rest(g, symbols, &outputs);
+        Self {
+            motion,
+            parts,
+            variation,
+            without_velocity,
+            rest,
+            rest_inertia,
+            rest_applied,
+            outputs,
+        }
+    }
+}

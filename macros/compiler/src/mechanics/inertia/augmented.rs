@@ -1,0 +1,113 @@
+//! Bodies augmented by the mass that hangs on them. A joint that turns about its seat passes on the mass it carries as a point
+//! mass at the seat: its inertia force is that mass times the acceleration of the seat, plus a remainder that does not
+//! depend on the motion of the seat. Equations over augmented bodies are shorter, and so are their derivatives.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
+use crate::base::ids::{BodyId, ExprId};
+use crate::mechanics::motion::{BodyMotion, Kinematics};
+use crate::mechanics::setup::{Context, ForceSelection};
+use crate::model::mechanism::Frame;
+
+use super::mass_distribution::MassDistribution;
+
+/// A mass distribution about the origin of a body, over its axes: `integral rho dm = first` and
+/// `integral rho rho^T dm = isotropic 1 + second`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AugmentedBody {
+    pub(crate) mass: ExprId,
+    pub(crate) first: Vector3,
+    pub(crate) isotropic: ExprId,
+    pub(crate) second: [[ExprId; 3]; 3],
+}
+
+impl AugmentedBody {
+    fn empty(g: &mut Graph) -> Self {
+        let zero = g.zero();
+        Self {
+            mass: zero,
+            first: Vector3::zero(g),
+            isotropic: zero,
+            second: [[zero; 3]; 3],
+        }
+    }
+
+    fn add(&mut self, g: &mut Graph, piece: &MassDistribution) {
+        self.mass = g.add(self.mass, piece.mass);
+        self.isotropic = g.add(self.isotropic, piece.isotropic);
+        for arm in &piece.arms {
+            let share = arm.direction.scale(g, arm.first);
+            self.first = self.first.add(g, share);
+            for (&second, other) in arm.second.iter().zip(&piece.arms) {
+                let weighted = arm.direction.scale(g, second);
+                self.add_product(g, weighted, other.direction);
+            }
+        }
+    }
+
+    /// A point mass.
+    fn add_point(&mut self, g: &mut Graph, mass: ExprId, place: Vector3) {
+        let share = place.scale(g, mass);
+        self.mass = g.add(self.mass, mass);
+        self.first = self.first.add(g, share);
+        self.add_product(g, share, place);
+    }
+
+    /// Adds `a b^T`, known to be symmetric in the sum.
+    fn add_product(&mut self, g: &mut Graph, a: Vector3, b: Vector3) {
+        for i in 0..3 {
+            for j in 0..3 {
+                let product = g.mul(a.0[i], b.0[j]);
+                self.second[i][j] = g.add(self.second[i][j], product);
+            }
+        }
+    }
+}
+
+/// Whether the inertia force of a body and everything it carries is the total mass times the acceleration of the joint's
+/// seat, plus a remainder that does not depend on the motion of the seat.
+pub(crate) fn rides_on_seat(g: &Graph, motion: &BodyMotion) -> bool {
+    motion.frame.offset == motion.seat.offset
+        && motion.steps.iter().all(|step| step.slide.is_none())
+        && motion.steps.iter().all(|step| step.point.is_zero(g))
+}
+
+/// By body id.
+pub(crate) fn augmented_bodies(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    selection: ForceSelection,
+) -> Vec<AugmentedBody> {
+    let mut bodies = Vec::new();
+    for (index, body) in context.mechanism.bodies.iter().enumerate() {
+        let mut augmented = AugmentedBody::empty(g);
+        if selection.gravity || selection.inertia.contains(BodyId::new(index)) {
+            for piece in MassDistribution::of_body(g, context.values, body) {
+                augmented.add(g, &piece);
+            }
+        }
+        bodies.push(augmented);
+    }
+    for branch in context.topology.branches.iter().rev() {
+        let motion = kinematics.of(branch.body);
+        let name = &context.mechanism.bodies[branch.body.index()].name;
+        let carried = bodies[branch.body.index()];
+        g.set_name(carried.mass, || format!("{name}_carried_mass"));
+        carried
+            .first
+            .set_name(g, &format!("{name}_augmented_first_moment"));
+        for (row, i) in carried.second.into_iter().zip(["x", "y", "z"]) {
+            for (entry, j) in row.into_iter().zip(["x", "y", "z"]) {
+                g.set_name(entry, || format!("{name}_augmented_second_moment_{i}{j}"));
+            }
+        }
+        if let Frame::Body(parent) = branch.parent
+            && rides_on_seat(g, motion)
+        {
+            taken(|| "augmented: rides on its seat".into());
+            bodies[parent.index()].add_point(g, carried.mass, motion.seat.arm);
+        }
+    }
+    bodies
+}

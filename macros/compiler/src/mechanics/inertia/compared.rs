@@ -1,0 +1,43 @@
+//! A check for tests: the walks over the bodies against derivatives of the equations.
+
+use crate::algebra::Graph;
+use crate::base::ids::ExprId;
+use crate::mechanics::setup::{
+    Context, ForceSelection, Runs, Symbols, Values, columns, probe, vanish,
+};
+use crate::model::mechanism::Mechanism;
+use crate::topology::Topology;
+
+use super::newton_euler::inertial_at;
+use super::variation::variation;
+
+/// Compares every entry with the derivative of its equation and counts those that are not zero; `None` if the walks do not
+/// apply.
+pub(crate) fn compared(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
+    let g = &mut Graph::new();
+    let symbols = Symbols::new(g, mechanism, topology);
+    let values = Values::new(g, mechanism, &symbols);
+    let context = Context {
+        mechanism,
+        topology,
+        symbols: &symbols,
+        values: &values,
+        runs: &Runs::new(g, mechanism, topology, &values, &symbols),
+        rows: &[],
+    };
+    let running = vec![g.zero(); symbols.running.ids.len()];
+    let loads = inertial_at(g, &context, &running, ForceSelection::ALL);
+    let found = variation(g, &context, &running)?;
+    let free = topology.free.iter();
+    let along: Vec<ExprId> = free.map(|id| loads.along[id.index()]).collect();
+    let mut exact = columns(g, &along, &symbols.q).concat();
+    exact.extend(columns(g, &along, &symbols.velocity).concat());
+    let found = [found.by_position.concat(), found.by_velocity.concat()].concat();
+    let pairs = exact.iter().zip(&found);
+    let differences: Vec<ExprId> = pairs.map(|(&one, &other)| g.sub(one, other)).collect();
+    assert!(!probe(g, &context, &differences).is_empty());
+    let equal = vanish(g, &context, &differences);
+    assert!(equal.iter().all(|equal| *equal), "{equal:?}");
+    let zeros = vanish(g, &context, &exact);
+    Some(zeros.into_iter().filter(|zero| !zero).count())
+}

@@ -1,0 +1,17 @@
+//! Inertia and weight: the forces that the motion of the masses requires.
+
+mod augmented;
+#[cfg(test)]
+mod compared;
+mod composite;
+mod mass_distribution;
+mod momentum;
+mod newton_euler;
+mod variation;
+
+#[cfg(test)]
+pub(crate) use compared::compared;
+pub(super) use composite::mass_matrix;
+pub(super) use mass_distribution::MassDistribution;
+pub(super) use newton_euler::inertial_at;
+pub(super) use variation::{Variation, variation};

@@ -1,0 +1,150 @@
+//! Inertia and weight along every coordinate: the recursion of Newton and Euler over augmented bodies.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::mechanics::motion::{FrameMotion, Kinematics, Wrench, for_inertia};
+use crate::mechanics::setup::{Context, ForceSelection};
+use crate::model::mechanism::Frame;
+
+use super::augmented::{AugmentedBody, augmented_bodies, rides_on_seat};
+
+/// Inertia minus weight.
+pub(crate) struct Inertial {
+    /// By coordinate id: along the coordinate, or along the absolute angle if its body continues a run.
+    pub(crate) along: Vec<ExprId>,
+    /// By body id: of the body and all it carries, about its origin, as its motion is written.
+    pub(crate) wrenches: Vec<Wrench>,
+}
+
+/// What a body has gathered from those it carries.
+#[derive(Clone)]
+struct Gathered {
+    /// Forces that do not ride on a seat, and the rest of those that do.
+    rest: Vector3,
+    /// By axis of the body: what its arm is crossed with.
+    brackets: [Vector3; 3],
+    /// About the origin: of bodies that do not continue a run with this one, and of those that do.
+    moment: Vector3,
+    moment_of_run: Vector3,
+}
+
+/// [`inertial`] while the running coordinates stand at `running`.
+pub(crate) fn inertial_at(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    selection: ForceSelection,
+) -> Inertial {
+    let kinematics = for_inertia(g, context, running, selection);
+    inertial(g, context, &kinematics, selection)
+}
+
+/// Sums inertia minus weight from the leaves towards the ground. `kinematics` is written in the layout of runs, with the
+/// ground accelerated against gravity, so that weight needs no terms of its own.
+///
+/// For a body together with everything it carries on seats, with augmented mass `m`, moments `first` and `second`, seats at `s_c`,
+///
+/// - `force = m a_O + rest`, `rest = W first + sum rest_c`,
+/// - `moment = 2 isotropic alpha + sum_k e_k x (first_k a_O + sum_j second_kj W e_j + sum_c s_ck rest_c) + sum moment_c`,
+///
+/// from `a(rho) = a_O + W rho` integrated over the mass. The absolute angle of a body turns only this body of its run, so the
+/// moments of the bodies that continue the run do no work along it.
+pub(crate) fn inertial(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    selection: ForceSelection,
+) -> Inertial {
+    let mechanism = context.mechanism;
+    let zero = Vector3::zero(g);
+    let bodies = augmented_bodies(g, context, kinematics, selection);
+    let nothing = Gathered {
+        rest: zero,
+        brackets: [zero; 3],
+        moment: zero,
+        moment_of_run: zero,
+    };
+    let mut gathered = vec![nothing; mechanism.bodies.len()];
+    let mut along = vec![g.zero(); mechanism.coordinates.len()];
+    let nothing = Wrench {
+        force: zero,
+        moment: zero,
+    };
+    let mut wrenches = vec![nothing; mechanism.bodies.len()];
+    for branch in context.topology.branches.iter().rev() {
+        let index = branch.body.index();
+        let motion = kinematics.of(branch.body);
+        let name = mechanism.bodies[index].name.to_string();
+        let own = own_load(g, &bodies[index], &motion.frame, &gathered[index]);
+        let rest = own.force.set_name(g, &format!("{name}_rest_of_force"));
+        let by_mass = motion.frame.acceleration.scale(g, bodies[index].mass);
+        let force = by_mass
+            .add(g, rest)
+            .set_name(g, &format!("{name}_inertia_force"));
+        let turning = own
+            .moment
+            .add(g, gathered[index].moment)
+            .set_name(g, &format!("{name}_inertia_moment"));
+        for step in &motion.steps {
+            along[step.coordinate.index()] = step.project(g, force, turning);
+        }
+        let moment = turning.add(g, gathered[index].moment_of_run);
+        wrenches[index] = Wrench { force, moment };
+
+        let Frame::Body(parent) = branch.parent else {
+            continue;
+        };
+        let rides = rides_on_seat(g, motion);
+        let mut write = |vector: Vector3| match motion.to_parent {
+            Some(rotation) => rotation.apply(g, vector),
+            None => vector,
+        };
+        let handed = write(if rides { rest } else { force });
+        let moment = write(moment);
+        let at = &mut gathered[parent.index()];
+        at.rest = at.rest.add(g, handed);
+        if rides {
+            for (bracket, &arm) in at.brackets.iter_mut().zip(&motion.seat.arm.0) {
+                let share = handed.scale(g, arm);
+                *bracket = bracket.add(g, share);
+            }
+        } else {
+            let shift = motion.frame.offset.cross(g, handed);
+            at.moment = at.moment.add(g, shift);
+        }
+        let slot = match context.runs.layout.of(branch.body).continues_run {
+            true => &mut at.moment_of_run,
+            false => &mut at.moment,
+        };
+        *slot = slot.add(g, moment);
+    }
+    Inertial { along, wrenches }
+}
+
+/// The part of the force that does not follow from the origin's acceleration, and the moment without contributions handed
+/// on by other bodies.
+fn own_load(
+    g: &mut Graph,
+    body: &AugmentedBody,
+    motion: &FrameMotion,
+    gathered: &Gathered,
+) -> Wrench {
+    let mut force = gathered.rest;
+    let twice = g.scale(2.0, body.isotropic);
+    let mut moment = motion.angular_acceleration.scale(g, twice);
+    let axes: [(Vector3, Vector3); 3] = motion.axes();
+    for k in 0..3 {
+        let (axis, _) = axes[k];
+        let mut bracket = motion.acceleration.scale(g, body.first.0[k]);
+        for (&second, (_, rate)) in body.second[k].iter().zip(&axes) {
+            let share = rate.scale(g, second);
+            bracket = bracket.add(g, share);
+        }
+        bracket = bracket.add(g, gathered.brackets[k]);
+        let share = axis.cross(g, bracket);
+        moment = moment.add(g, share);
+        let share = axes[k].1.scale(g, body.first.0[k]);
+        force = force.add(g, share);
+    }
+    Wrench { force, moment }
+}

@@ -1,0 +1,303 @@
+//! Derivatives of inertia and weight along every coordinate by positions and velocities, for any motion.
+//!
+//! Suppose that everything a body carries keeps its motion relative to the body. A change of the body's motion, of its angular
+//! velocity by `spin`, of its angular acceleration by `growth - omega x spin`, of the acceleration of its origin by
+//! `acceleration`, changes the acceleration of a particle at `r` by `acceleration + growth x r + 2 spin x dr/dt`. It takes
+//!
+//! - `force = m acceleration + growth x h + 2 spin x P`,
+//! - `moment = h x acceleration + I growth + (tr D 1 - D) spin + spin x L`,
+//!
+//! with mass `m`, first moment `h`, inertia `I`, and as rates of a frame that moves with the origin without turning: linear and
+//! angular momentum `P` and `L`, rate `D` of the second moment. Seen from the next body outwards, `spin` and `growth` are the
+//! same and `acceleration` is more by `growth x d + 2 spin x dd/dt`, `d` from origin to origin. Every joint is thus a change
+//! of the motion of what it carries, and every coordinate behind it asks with one covector: one walk towards the ground for each.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::census::taken;
+use crate::base::ids::{BodyId, ExprId};
+use crate::mechanics::motion::{
+    BodyMotion, Kinematics, StepAxis, Tree, Wrench, for_inertia, second_rate,
+};
+use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection};
+use crate::model::mechanism::Frame;
+
+use super::augmented::augmented_bodies;
+use super::composite::{Composite, Composites, accelerating, spun};
+use super::momentum::{Momentum, momenta, rates};
+use super::newton_euler::inertial;
+
+/// Derivatives of inertia minus weight by the unknowns, by columns.
+pub(crate) struct Variation {
+    pub(crate) by_position: Vec<Vec<ExprId>>,
+    pub(crate) by_velocity: Vec<Vec<ExprId>>,
+}
+
+/// A change of the motion of a body, or what multiplies each of its parts.
+#[derive(Clone, Copy)]
+struct Change {
+    spin: Vector3,
+    growth: Vector3,
+    acceleration: Vector3,
+}
+
+impl Change {
+    fn dot(&self, g: &mut Graph, other: &Self) -> ExprId {
+        let spin = self.spin.dot(g, other.spin);
+        let growth = self.growth.dot(g, other.growth);
+        let acceleration = self.acceleration.dot(g, other.acceleration);
+        g.sum([spin, growth, acceleration])
+    }
+
+    /// Carries the covector over from a body to its parent; `rate` is the velocity of the body's origin relative to the
+    /// parent's.
+    fn move_to_parent(&mut self, g: &mut Graph, motion: &BodyMotion, rate: Vector3) {
+        if let Some(rotation) = motion.to_parent {
+            for part in [&mut self.spin, &mut self.growth, &mut self.acceleration] {
+                *part = rotation.apply(g, *part);
+            }
+        }
+        let lever = motion.frame.offset.cross(g, self.acceleration);
+        self.growth = self.growth.add(g, lever);
+        let two = g.constant(2.0);
+        let carried = rate.cross(g, self.acceleration).scale(g, two);
+        self.spin = self.spin.add(g, carried);
+    }
+}
+
+/// An elementary motion of a free coordinate, and what it does to the motion of the body that it carries.
+struct Step {
+    unknown: usize,
+    axis: StepAxis,
+    /// The axis, and the velocity of the body's origin per unit rate.
+    turn: Vector3,
+    velocity: Vector3,
+    /// Change of the body's motion, seen along its axes, per unit of the coordinate.
+    further: Change,
+    /// The same per unit of the coordinate's rate.
+    faster: Change,
+}
+
+impl Step {
+    /// A wrench that moves with the body, by position, seen from before the joint.
+    fn carry(&self, g: &mut Graph, wrench: &Wrench) -> Wrench {
+        let turned = self.turn.cross(g, wrench.moment);
+        let moved = self.velocity.cross(g, wrench.force);
+        Wrench {
+            force: self.turn.cross(g, wrench.force),
+            moment: turned.add(g, moved),
+        }
+    }
+}
+
+/// The free motions of a joint, from the parent to the body.
+///
+/// Behind an elementary motion with axis `z` and velocity `v` of the body's origin `O`, a frame moves with `omega` and `W` (its
+/// second rate), its point at `O` has the acceleration `a`, and `O` leaves that point at `u`, the rate of the motions that
+/// follow. Further on by one unit, the frame is turned and moved, and what moved it is not: seen from it,
+///
+/// - `spin = omega x z`, `growth = W z`, `acceleration = a x z + W v + 2 spin x u`;
+///
+/// and faster by one unit, `spin = z`, `growth = 2 omega x z`, `acceleration = 2 omega x v + 2 z x u`.
+fn steps(g: &mut Graph, context: &Context, kinematics: &Kinematics, body: BodyId) -> Vec<Step> {
+    let motion = kinematics.of(body);
+    let frame = &motion.frame;
+    let (mut omega, mut alpha) = (frame.angular_velocity, frame.angular_acceleration);
+    let mut acceleration = frame.acceleration;
+    let zero = Vector3::zero(g);
+    let two = g.constant(2.0);
+    let mut leaving = zero;
+    let mut steps = Vec::new();
+    for axis in motion.steps.iter().rev() {
+        let turn = axis.turn.unwrap_or(zero);
+        let velocity = axis.velocity(g, zero);
+        let free = &context.topology.free;
+        if let Some(unknown) = free.iter().position(|&id| id == axis.coordinate) {
+            let second_rate = second_rate(g, omega, alpha);
+            let spin = omega.cross(g, turn);
+            let turned = acceleration.cross(g, turn);
+            let moved = second_rate.apply(g, velocity);
+            let carried = spin.cross(g, leaving).scale(g, two);
+            let further = Change {
+                spin,
+                growth: second_rate.apply(g, turn),
+                acceleration: turned.add(g, moved).add(g, carried),
+            };
+            let moved = omega.cross(g, velocity);
+            let carried = turn.cross(g, leaving);
+            let faster = Change {
+                spin: turn,
+                growth: spin.scale(g, two),
+                acceleration: moved.add(g, carried).scale(g, two),
+            };
+            steps.push(Step {
+                unknown,
+                axis: *axis,
+                turn,
+                velocity,
+                further,
+                faster,
+            });
+        }
+        // the frame before this motion
+        let CoordinateMotion {
+            velocity: rate,
+            acceleration: growth,
+            ..
+        } = kinematics.coordinates[axis.coordinate.index()];
+        let spin = turn.scale(g, rate);
+        let speed = velocity.scale(g, rate);
+        omega = omega.sub(g, spin);
+        let growing = turn.scale(g, growth);
+        let gyroscopic = omega.cross(g, spin);
+        alpha = alpha.sub(g, growing).sub(g, gyroscopic);
+        let growing = velocity.scale(g, growth);
+        let coriolis = omega.cross(g, speed).scale(g, two);
+        let centripetal = spin.cross(g, speed);
+        for term in [growing, coriolis, centripetal] {
+            acceleration = acceleration.sub(g, term);
+        }
+        leaving = leaving.add(g, speed);
+    }
+    steps.reverse();
+    steps
+}
+
+/// A body with all it carries, its joints held to their motion.
+struct Carried {
+    mass: Composite,
+    momentum: Momentum,
+}
+
+impl Carried {
+    /// The wrench that a change of the body's motion takes.
+    fn wrench(&self, g: &mut Graph, change: &Change) -> Wrench {
+        let Composite {
+            mass,
+            first,
+            second,
+        } = self.mass;
+        let two = g.constant(2.0);
+        let pushed = change.acceleration.scale(g, mass);
+        let growing = change.growth.cross(g, first);
+        let spinning = change.spin.cross(g, self.momentum.linear).scale(g, two);
+        let force = pushed.add(g, growing).add(g, spinning);
+        let pushed = first.cross(g, change.acceleration);
+        let growing = spun(g, second, change.growth);
+        let spreading = spun(g, self.momentum.second, change.spin);
+        let spinning = change.spin.cross(g, self.momentum.angular);
+        let moment = pushed.add(g, growing).add(g, spreading).add(g, spinning);
+        Wrench { force, moment }
+    }
+
+    /// What the load along an elementary motion asks of the spin.
+    fn asks_of_spin(&self, g: &mut Graph, step: &Step) -> Vector3 {
+        let two = g.constant(2.0);
+        let pushed = self.momentum.linear.cross(g, step.velocity);
+        let pushed = pushed.scale(g, two);
+        let spreading = spun(g, self.momentum.second, step.turn);
+        let turning = self.momentum.angular.cross(g, step.turn);
+        pushed.add(g, spreading).add(g, turning)
+    }
+}
+
+/// Derivatives of inertia minus weight by the unknowns while the running coordinates are at `running`; `None` unless every
+/// body is written along its own axes and no coordinate coasts.
+pub(crate) fn variation(g: &mut Graph, context: &Context, running: &[ExprId]) -> Option<Variation> {
+    let topology = context.topology;
+    let mut layouts = topology
+        .branches
+        .iter()
+        .map(|branch| context.runs.layout.of(branch.body));
+    if !topology.coasting.is_empty() || layouts.any(|layout| !layout.own_axes) {
+        return None;
+    }
+    taken(|| "variation: walks over bodies".into());
+    let kinematics = &for_inertia(g, context, running, ForceSelection::ALL);
+    let inertial = inertial(g, context, kinematics, ForceSelection::ALL);
+    let bodies = augmented_bodies(g, context, kinematics, ForceSelection::ALL);
+    let composites = Composites::new(g, context, kinematics, &bodies);
+    let rates = rates(g, context, kinematics);
+    let momenta = momenta(g, context, kinematics, &bodies, &composites, &rates);
+    let steps: Vec<Vec<Step>> = (0..bodies.len())
+        .map(|index| steps(g, context, kinematics, BodyId::new(index)))
+        .collect();
+
+    let n = context.symbols.q.ids.len();
+    let mut this = Variation {
+        by_position: vec![vec![g.zero(); n]; n],
+        by_velocity: vec![vec![g.zero(); n]; n],
+    };
+    let tree = Tree::new(context.mechanism, topology);
+    for branch in &topology.branches {
+        let index = branch.body.index();
+        let frame = &kinematics.of(branch.body).frame;
+        let whole = Carried {
+            mass: composites.whole[index],
+            momentum: momenta[index],
+        };
+        for (place, step) in steps[index].iter().enumerate() {
+            let carried = &composites.carried[index];
+            let load = accelerating(g, &step.axis, &bodies[index], frame, carried);
+            let mut asks = Change {
+                spin: whole.asks_of_spin(g, step),
+                growth: load.moment,
+                acceleration: load.force,
+            };
+            let further = whole.wrench(g, &step.further);
+            let turned = step.carry(g, &inertial.wrenches[index]);
+            let mut loads = [further.add(g, turned), whole.wrench(g, &step.faster)];
+            this.by_position[step.unknown][step.unknown] = asks.dot(g, &step.further);
+            this.by_velocity[step.unknown][step.unknown] = asks.dot(g, &step.faster);
+            this.meet(g, step, &steps[index][..place], &asks, &loads);
+
+            let mut at = *branch;
+            while let Frame::Body(parent) = at.parent {
+                let motion = kinematics.of(at.body);
+                asks.move_to_parent(g, motion, rates[at.body.index()]);
+                for load in &mut loads {
+                    *load = moved_to_parent(g, motion, load);
+                }
+                this.meet(g, step, &steps[parent.index()], &asks, &loads);
+                let Some(next) = tree.branch(parent) else {
+                    break;
+                };
+                at = next;
+            }
+        }
+    }
+    Some(this)
+}
+
+impl Variation {
+    /// Entries that couple a motion with the motions nearer to the ground, at the body that carries them.
+    fn meet(
+        &mut self,
+        g: &mut Graph,
+        step: &Step,
+        before: &[Step],
+        asks: &Change,
+        loads: &[Wrench; 2],
+    ) {
+        let k = step.unknown;
+        for other in before {
+            let i = other.unknown;
+            self.by_position[i][k] = asks.dot(g, &other.further);
+            self.by_velocity[i][k] = asks.dot(g, &other.faster);
+            let [by_position, by_velocity] =
+                loads.map(|load| other.axis.project(g, load.force, load.moment));
+            self.by_position[k][i] = by_position;
+            self.by_velocity[k][i] = by_velocity;
+        }
+    }
+}
+
+fn moved_to_parent(g: &mut Graph, motion: &BodyMotion, load: &Wrench) -> Wrench {
+    let mut load = *load;
+    if let Some(rotation) = motion.to_parent {
+        load.force = rotation.apply(g, load.force);
+        load.moment = rotation.apply(g, load.moment);
+    }
+    let shift = motion.frame.offset.cross(g, load.force);
+    load.moment = load.moment.add(g, shift);
+    load
+}

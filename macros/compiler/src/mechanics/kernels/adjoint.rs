@@ -1,0 +1,67 @@
+//! Scalars whose gradients give every design derivative of a mode at once.
+
+use crate::algebra::{Array, Direction, Graph, derivatives_along, gradient};
+use crate::base::ids::{ExprId, SymbolId};
+use crate::mechanics::equations::Equations;
+use crate::mechanics::setup::{Symbols, at_rest};
+
+/// `phi^T (Khat - lambda Mhat) phi` without either matrix: the derivative of `phi^T g` along
+/// (`qddot`, `q`) = (`-lambda phi`, `phi`), with the `phi` in front held fixed.
+pub(crate) fn mode_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
+    let power = weighted_sum(g, &s.phi.values, &e.without_velocity);
+    let minus_lambda = g.neg(s.lambda.values[0]);
+    let acceleration: Vec<ExprId> = s
+        .phi
+        .values
+        .iter()
+        .map(|&phi| g.mul(minus_lambda, phi))
+        .collect();
+    let rates = s
+        .acceleration
+        .with(&acceleration)
+        .chain(s.q.with(&s.phi.values))
+        .collect();
+    let functional = derivatives_along(g, &[power], &Direction::new("_mode", rates));
+    at_rest(g, s, &functional)[0]
+}
+
+/// `left^T (Mhat acceleration + Chat velocity + Khat position)` without any matrix: the derivative of `left^T g` along
+/// (`qddot`, `qdot`, `q`), taken at rest. `Chat` holds products of a velocity and the drives, so the velocities go only
+/// after differentiating.
+pub(crate) fn pencil_functional(g: &mut Graph, s: &Symbols, e: &Equations) -> ExprId {
+    let power = weighted_sum(g, &s.pencil.left.values, &e.motion);
+    let rates = s
+        .acceleration
+        .with(&s.pencil.acceleration.values)
+        .chain(s.velocity.with(&s.pencil.velocity.values))
+        .chain(s.q.with(&s.pencil.position.values))
+        .collect();
+    let functional = derivatives_along(g, &[power], &Direction::new("_pencil", rates));
+    at_rest(g, s, &functional)[0]
+}
+
+pub(crate) fn weighted_sum(g: &mut Graph, weights: &[ExprId], values: &[ExprId]) -> ExprId {
+    let terms: Vec<ExprId> = weights
+        .iter()
+        .zip(values)
+        .map(|(&weight, &value)| g.mul(weight, value))
+        .collect();
+    g.sum(terms)
+}
+
+/// Gradient of a scalar by coordinates, inputs and design variables.
+pub(crate) fn state_gradient(g: &mut Graph, s: &Symbols, root: ExprId) -> Vec<Array> {
+    let symbols: Vec<SymbolId> = [&s.q, &s.u, &s.b]
+        .iter()
+        .flat_map(|list| list.ids.clone())
+        .collect();
+    let mut all = gradient(g, root, &symbols).into_iter();
+    [("coordinates", &s.q), ("inputs", &s.u), ("design", &s.b)]
+        .into_iter()
+        .map(|(name, list)| Array {
+            name,
+            shape: vec![list.ids.len()],
+            values: all.by_ref().take(list.ids.len()).collect(),
+        })
+        .collect()
+}

@@ -1,0 +1,41 @@
+//! The kernels that check a state: physical requirements on the design, and the distance from singular poses of joints.
+
+use crate::algebra::{Array, Function};
+use crate::base::ids::ExprId;
+use crate::mechanics::functions::{Pose, Requirement};
+use crate::mechanics::kernel_name::KernelName;
+use crate::mechanics::setup::Symbols;
+
+use super::parameters::parameter;
+
+/// The function whose results have to be positive.
+pub(crate) fn violation(requirements: &[Requirement], symbols: &Symbols) -> Function {
+    let values: Vec<ExprId> = requirements.iter().map(|r| r.value).collect();
+    Function {
+        name: KernelName::Violation.name(),
+        parameters: vec![parameter("u", &symbols.u), parameter("b", &symbols.b)],
+        results: vec![Array {
+            name: "requirements",
+            shape: vec![values.len()],
+            values,
+        }],
+    }
+}
+
+/// The function whose results measure how far joints are from their singular poses.
+pub(crate) fn pose_margin(poses: &[Pose], symbols: &Symbols) -> Function {
+    let values: Vec<ExprId> = poses.iter().map(|pose| pose.volume).collect();
+    Function {
+        name: KernelName::PoseMargin.name(),
+        parameters: vec![
+            parameter("q", &symbols.q),
+            parameter("u", &symbols.u),
+            parameter("b", &symbols.b),
+        ],
+        results: vec![Array {
+            name: "volumes",
+            shape: vec![values.len()],
+            values,
+        }],
+    }
+}

@@ -1,0 +1,11 @@
+//! The functions that are generated.
+
+mod adjoint;
+mod conditions;
+mod contract;
+mod parameters;
+mod whirl;
+
+pub(super) use conditions::{pose_margin, violation};
+pub(super) use contract::kernels;
+pub(super) use whirl::whirl;

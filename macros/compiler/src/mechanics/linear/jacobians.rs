@@ -1,0 +1,130 @@
+//! The residual differentiated by everything it is linearised in (eqs. 13-17).
+
+use crate::algebra::{Graph, cost, substitute};
+use crate::base::census::taken;
+use crate::base::ids::ExprId;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::inertia::mass_matrix;
+use crate::mechanics::motion::for_inertia;
+use crate::mechanics::setup::{Context, ForceSelection, at_rest, columns, vanish};
+
+use super::columns::{added, transposed};
+
+/// All first derivatives of the residual at rest: `matrix[j][i]` is the derivative of residual `i` by coordinate `j`.
+pub(crate) struct Jacobians {
+    /// `Mhat = dg/dqddot` (eq. 15). It holds at any velocity.
+    pub(crate) mass: Vec<Vec<ExprId>>,
+    /// `Chat = dg/dqdot` (eq. 16, of the complete residual).
+    pub(crate) damping: Vec<Vec<ExprId>>,
+    /// `Khat = dg/dq` (eq. 17).
+    pub(crate) stiffness: Vec<Vec<ExprId>>,
+}
+
+impl Jacobians {
+    /// Inertia and weight are differentiated by the absolute angles, forces and constraints by the unknowns.
+    pub(crate) fn new(g: &mut Graph, context: &Context, e: &Equations) -> Self {
+        let (s, runs) = (context.symbols, context.runs);
+        let outward = context.outward_order();
+        let running = vec![g.zero(); s.running.ids.len()];
+        let kinematics = for_inertia(g, context, &running, ForceSelection::INERTIA);
+        let mass = mass_matrix(g, context, &kinematics);
+        // the acceleration of a coasting coordinate is the rate of an unknown
+        let symmetric = context.topology.coasting.is_empty();
+        let mass = runs.matrix(g, &mass, symmetric, &outward);
+
+        let [stiffness, damping] = of_inertia(g, context, e, &mass);
+
+        let applied = &e.parts.applied;
+        let applied_at_rest = at_rest(g, s, applied);
+        let by_position = columns(g, &applied_at_rest, &s.q);
+        let moving = columns(g, applied, &s.velocity);
+        let by_velocity: Vec<_> = moving.iter().map(|column| at_rest(g, s, column)).collect();
+        let mut in_unknowns = |columns: Vec<Vec<ExprId>>| -> Vec<Vec<ExprId>> {
+            let n = columns.len();
+            let flat = context.in_unknowns(g, &columns.concat());
+            flat.chunks(n.max(1)).map(<[_]>::to_vec).collect()
+        };
+        let [mass, damping, stiffness] = [mass, damping, stiffness].map(&mut in_unknowns);
+        Self {
+            mass,
+            damping: added(g, &damping, &by_velocity),
+            stiffness: added(g, &stiffness, &by_position),
+        }
+    }
+}
+
+/// Stiffness and damping due to inertia and weight, with respect to the unknowns instead of the absolute angles. They are
+/// obtained by differentiation, or from the [`Variation`] of the equations if that takes fewer operations, counted together
+/// with the residual and with the mass matrix.
+///
+/// [`Variation`]: crate::mechanics::inertia::Variation
+fn of_inertia(
+    g: &mut Graph,
+    context: &Context,
+    e: &Equations,
+    mass: &[Vec<ExprId>],
+) -> [Vec<Vec<ExprId>>; 2] {
+    let (s, runs, inertial) = (context.symbols, context.runs, &e.parts.inertial);
+    let outward = context.outward_order();
+    let still = |g: &mut Graph, roots: &[ExprId]| {
+        let zeros = vec![g.zero(); s.q.ids.len()];
+        let rates = runs.velocity.with(&zeros);
+        let all: Vec<_> = rates.chain(runs.acceleration.with(&zeros)).collect();
+        let roots = substitute(g, roots, &all);
+        at_rest(g, s, &roots)
+    };
+    let all_still = |g: &mut Graph, columns: &[Vec<ExprId>]| -> Vec<Vec<ExprId>> {
+        columns.iter().map(|column| still(g, column)).collect()
+    };
+    let rest = still(g, inertial);
+    let stiffness = columns(g, &rest, &runs.position);
+    let damping = columns(g, inertial, &runs.velocity);
+    let damping = all_still(g, &damping);
+    let differentiated = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+    let Some(known) = &e.variation else {
+        return differentiated;
+    };
+    let [stiffness, damping] =
+        [&known.by_position, &known.by_velocity].map(|matrix| all_still(g, matrix));
+    // equations of outer coordinates are shorter when differentiated by inner ones than the other way round
+    let stiffness = match is_symmetric(g, context, &stiffness) {
+        true => {
+            taken(|| "linearise: symmetric stiffness, transposed".into());
+            transposed(&stiffness)
+        }
+        false => stiffness,
+    };
+    let composed = [stiffness, damping].map(|matrix| summed(g, context, &matrix, &outward));
+    let operations = |[stiffness, damping]: &[Vec<Vec<ExprId>>; 2]| {
+        let with_residual = [&rest[..], &stiffness.concat()].concat();
+        let with_mass = [mass.concat(), damping.concat(), stiffness.concat()].concat();
+        cost(g, &with_residual).operations + cost(g, &with_mass).operations
+    };
+    if operations(&composed) < operations(&differentiated) {
+        taken(|| "linearise: stiffness and damping by variation".into());
+        composed
+    } else {
+        differentiated
+    }
+}
+
+/// Transforms a matrix with respect to the absolute angles to one with respect to the unknowns.
+fn summed(
+    g: &mut Graph,
+    context: &Context,
+    columns: &[Vec<ExprId>],
+    outward: &[usize],
+) -> Vec<Vec<ExprId>> {
+    let symmetric = is_symmetric(g, context, columns);
+    context.runs.matrix(g, columns, symmetric, outward)
+}
+
+fn is_symmetric(g: &mut Graph, context: &Context, columns: &[Vec<ExprId>]) -> bool {
+    let mut asymmetry = Vec::new();
+    for (j, column) in columns.iter().enumerate() {
+        for (i, mirrored) in columns[..j].iter().enumerate() {
+            asymmetry.push(g.sub(column[i], mirrored[j]));
+        }
+    }
+    vanish(g, context, &asymmetry).into_iter().all(|zero| zero)
+}

@@ -1,0 +1,174 @@
+//! The matrices of the linearised equations, with what is known of them put to use.
+
+use crate::algebra::{Array, Graph, cost};
+use crate::base::census::taken;
+use crate::base::ids::ExprId;
+use crate::mechanics::equations::Equations;
+use crate::mechanics::functions::{Damping, Properties};
+use crate::mechanics::inertia::Variation;
+use crate::mechanics::setup::{Context, SymbolList, Symbols, columns};
+
+use super::columns::added;
+use super::jacobians::Jacobians;
+
+/// The three linearised matrices, row by row, with what is known of them put to use.
+pub(crate) struct Linear {
+    mass: Vec<ExprId>,
+    damping: Vec<ExprId>,
+    stiffness: Vec<ExprId>,
+}
+
+impl Linear {
+    pub(crate) fn new(
+        g: &mut Graph,
+        jacobians: &Jacobians,
+        properties: Properties,
+        context: &Context,
+    ) -> Self {
+        let order = context.outward_order();
+        let n = order.len();
+        let zero = g.zero();
+        // Of two equal entries, the one that differentiates by the coordinate nearer to the leaves is cheaper: less
+        // of the mechanism moves with it.
+        let outer_last = |i: usize, j: usize| if order[i] <= order[j] { (i, j) } else { (j, i) };
+        let symmetric = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> {
+            entries(n)
+                .map(|(i, j)| {
+                    let (row, column) = outer_last(i, j);
+                    matrix[column][row]
+                })
+                .collect()
+        };
+        let general = |matrix: &[Vec<ExprId>]| -> Vec<ExprId> {
+            entries(n).map(|(i, j)| matrix[j][i]).collect()
+        };
+        let damping = match properties.damping {
+            Damping::Zero => vec![zero; n * n],
+            Damping::General => general(&jacobians.damping),
+            Damping::Gyroscopic => entries(n)
+                .map(|(i, j)| {
+                    let (row, column) = outer_last(i, j);
+                    let entry = jacobians.damping[column][row];
+                    match (i == j, (row, column) == (i, j)) {
+                        (true, _) => zero,
+                        (false, true) => entry,
+                        (false, false) => g.neg(entry),
+                    }
+                })
+                .collect(),
+        };
+        let stiffness = match properties.symmetric_stiffness {
+            true => symmetric(&jacobians.stiffness),
+            false => general(&jacobians.stiffness),
+        };
+        // The acceleration of a coasting coordinate is the rate of an unknown.
+        let mass = match context.topology.coasting.is_empty() {
+            true => symmetric(&jacobians.mass),
+            false => general(&jacobians.mass),
+        };
+        let this = Self {
+            mass,
+            damping,
+            stiffness,
+        };
+        this.set_names(g, n);
+        this
+    }
+
+    /// Names the entries for readers.
+    fn set_names(&self, g: &mut Graph, n: usize) {
+        for (name, values) in LINEAR
+            .into_iter()
+            .zip([&self.mass, &self.damping, &self.stiffness])
+        {
+            for ((i, j), &entry) in entries(n).zip(values) {
+                g.set_name(entry, || format!("{name}_{i}_{j}"));
+            }
+        }
+    }
+
+    /// All entries, matrix after matrix.
+    pub(crate) fn roots(&self) -> Vec<ExprId> {
+        [&self.mass[..], &self.damping, &self.stiffness].concat()
+    }
+
+    /// All entries of the matrices linearised along any motion. The mass matrix does not depend on the motion, and the other
+    /// two are not symmetric.
+    pub(crate) fn along_motion(&self, g: &mut Graph, s: &Symbols, e: &Equations) -> Vec<ExprId> {
+        let n = e.motion.len();
+        let all = |g: &mut Graph, motion: &[ExprId], inertial: Option<&Variation>| {
+            let mut roots = self.mass.clone();
+            let inertial = inertial.map(|known| [&known.by_velocity, &known.by_position]);
+            for (k, list) in [&s.velocity, &s.q].into_iter().enumerate() {
+                let mut columns = columns(g, motion, list);
+                if let Some(known) = inertial {
+                    columns = added(g, known[k], &columns);
+                }
+                roots.extend(entries(n).map(|(i, j)| columns[j][i]));
+            }
+            roots
+        };
+        let differentiated = all(g, &e.motion, None);
+        let Some(known) = &e.variation else {
+            return differentiated;
+        };
+        let composed = all(g, &e.parts.applied, Some(known));
+        cheaper(g, differentiated, composed)
+    }
+
+    /// The three matrices.
+    pub(crate) fn arrays(&self, n: usize) -> Vec<Array> {
+        linear_arrays(&self.roots(), n)
+    }
+
+    /// Derivatives of the three by each symbol of a list.
+    pub(crate) fn partials(&self, g: &mut Graph, n: usize, by: &SymbolList) -> Vec<Array> {
+        let each = columns(g, &self.roots(), by);
+        let count = by.ids.len();
+        let mut arrays = Vec::new();
+        for (k, name) in LINEAR.into_iter().enumerate() {
+            let values = each
+                .iter()
+                .flat_map(|roots| &roots[k * n * n..(k + 1) * n * n])
+                .copied()
+                .collect();
+            arrays.push(Array {
+                name,
+                shape: vec![count, n, n],
+                values,
+            });
+        }
+        arrays
+    }
+}
+
+/// Of two ways to write the same, the one with fewer operations.
+fn cheaper(g: &Graph, one: Vec<ExprId>, other: Vec<ExprId>) -> Vec<ExprId> {
+    let operations = |roots: &[ExprId]| cost(g, roots).operations;
+    if operations(&other) < operations(&one) {
+        taken(|| "linearise: along a motion by variation".into());
+        other
+    } else {
+        one
+    }
+}
+
+const LINEAR: [&str; 3] = ["mass", "damping", "stiffness"];
+
+/// The three matrices from all their entries.
+pub(crate) fn linear_arrays(roots: &[ExprId], n: usize) -> Vec<Array> {
+    LINEAR
+        .into_iter()
+        .enumerate()
+        .map(|(k, name)| Array {
+            name,
+            shape: vec![n, n],
+            values: roots[k * n * n..(k + 1) * n * n].to_vec(),
+        })
+        .collect()
+}
+
+/// Rows and columns of an `n` by `n` matrix, row by row.
+fn entries(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n * n).map(move |k| (k / n, k % n))
+}

@@ -1,0 +1,303 @@
+//! The force laws: loads of the force elements on coordinates and bodies.
+
+use crate::algebra::{Graph, Matrix3, Vector3, gradient};
+use crate::base::ids::{ExprId, ForceId, PointId};
+use crate::mechanics::motion::Wrench;
+use crate::mechanics::setup::{ForceSelection, State};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Force, ForceLaw, Frame};
+
+use super::applied::AppliedForces;
+use super::force_context::ForceContext;
+
+/// Evaluates the force elements.
+pub(crate) fn applied_forces(
+    g: &mut Graph,
+    force_context: &ForceContext,
+    selection: ForceSelection,
+) -> AppliedForces {
+    let mechanism = force_context.context.mechanism;
+    let mut applied = AppliedForces::none(g, mechanism);
+    for (index, force) in mechanism.forces.iter().enumerate() {
+        if selection.forces.contains(ForceId::new(index)) {
+            applied.act(g, force_context, force);
+        }
+    }
+    applied
+}
+
+impl AppliedForces {
+    fn act(&mut self, g: &mut Graph, force_context: &ForceContext, force: &Force) {
+        let ForceContext {
+            context,
+            kinematics,
+            ..
+        } = *force_context;
+        let values = context.values;
+        let name = force.name.to_string();
+        match &force.law {
+            // Q = -stiffness (q - rest)
+            ForceLaw::CoordinateSpring {
+                coordinate,
+                stiffness,
+                rest,
+            } => {
+                let (stiffness, rest) = (values.scalar(g, stiffness), values.scalar(g, rest));
+                let position = kinematics.coordinates[coordinate.index()].position;
+                let stretch = g.sub(position, rest);
+                let load = g.mul(stiffness, stretch);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.sub(*slot, load);
+            }
+            // Q = -damping qdot
+            ForceLaw::CoordinateDamper {
+                coordinate,
+                damping,
+            } => {
+                let damping = values.scalar(g, damping);
+                let velocity = kinematics.coordinates[coordinate.index()].velocity;
+                let load = g.mul(damping, velocity);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.sub(*slot, load);
+            }
+            ForceLaw::Generalized { coordinate, value } => {
+                let load = values.scalar_at(g, value, kinematics);
+                g.set_name(load, || name);
+                let slot = &mut self.on_coordinates[coordinate.index()];
+                *slot = g.add(*slot, load);
+            }
+            // Q_i = -dV/dq_i
+            ForceLaw::Potential { energy } => {
+                let energy = values.scalar_at(g, energy, kinematics);
+                let free = context.topology.free.len();
+                let slopes = gradient(g, energy, &context.symbols.q.ids[..free]);
+                for (id, slope) in context.topology.free.iter().zip(slopes) {
+                    let slot = &mut self.on_coordinates[id.index()];
+                    *slot = g.sub(*slot, slope);
+                }
+            }
+            // tension = stiffness (distance - length) + damping d(distance)/dt
+            ForceLaw::SpringDamper {
+                from,
+                to,
+                stiffness,
+                damping,
+                length,
+            } => {
+                let line = Line::new(g, force_context, *from, *to, &name);
+                let [stiffness, damping, length] =
+                    [stiffness, damping, length].map(|value| values.scalar(g, value));
+                let stretch = g.sub(line.distance, length);
+                let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, line.rate));
+                let tension = g.add(elastic, viscous);
+                self.pull(g, force_context, &line, tension, &name);
+            }
+            ForceLaw::Tension { from, to, tension } => {
+                let line = Line::new(g, force_context, *from, *to, &name);
+                let tension = values.scalar_at(g, tension, &line);
+                self.pull(g, force_context, &line, tension, &name);
+            }
+            ForceLaw::Bushing {
+                from,
+                to,
+                stiffness,
+                damping,
+                turning_stiffness,
+                turning_damping,
+            } => {
+                let [stiffness, damping, turning_stiffness, turning_damping] =
+                    [stiffness, damping, turning_stiffness, turning_damping]
+                        .map(|value| values.vector(g, value));
+                let laws = [(stiffness, damping), (turning_stiffness, turning_damping)];
+                self.bushing(g, force_context, (*from, *to), laws, &name);
+            }
+            ForceLaw::Load {
+                point,
+                force,
+                moment,
+                following,
+            } => {
+                let (force, moment) = (values.vector(g, force), values.vector(g, moment));
+                let axes = force_context.point(*point).axes;
+                let load = match following {
+                    true => Wrench {
+                        force: axes.apply(g, force),
+                        moment: axes.apply(g, moment),
+                    },
+                    false => Wrench { force, moment },
+                };
+                self.apply(g, force_context, *point, load, Frame::Ground);
+            }
+            // force = -damping v, moment = -turning_damping omega, both absolute
+            ForceLaw::Drag {
+                point,
+                damping,
+                turning_damping,
+            } => {
+                let [damping, turning_damping] =
+                    [damping, turning_damping].map(|value| values.scalar(g, value));
+                let position = force_context.point(*point).position;
+                let (velocity, angular) =
+                    force_context.velocity(g, force_context.frame(*point), position, Frame::Ground);
+                let force = velocity
+                    .scale(g, damping)
+                    .set_name(g, &format!("minus_{name}_force"));
+                let moment = angular.scale(g, turning_damping);
+                let load = Wrench { force, moment }.neg(g);
+                self.apply(g, force_context, *point, load, Frame::Ground);
+            }
+        }
+    }
+
+    /// Opposite forces along the line between two points.
+    fn pull(
+        &mut self,
+        g: &mut Graph,
+        force_context: &ForceContext,
+        line: &Line,
+        tension: ExprId,
+        name: &str,
+    ) {
+        g.set_name(tension, || format!("{name}_tension"));
+        let density = g.div(tension, line.distance);
+        let force = line
+            .vector
+            .scale(g, density)
+            .set_name(g, &format!("{name}_force"));
+        let pull = Wrench {
+            force,
+            moment: Vector3::zero(g),
+        };
+        let push = pull.neg(g);
+        self.apply(g, force_context, line.from, pull, line.closing);
+        self.apply(g, force_context, line.to, push, line.closing);
+    }
+
+    /// Force and moment by the displacement and rotation of `to` against `from`, in the axes of `from`; the opposite acts on
+    /// `from` at the place of `to`.
+    fn bushing(
+        &mut self,
+        g: &mut Graph,
+        force_context: &ForceContext,
+        (from, to): (PointId, PointId),
+        [(stiffness, damping), (turning_stiffness, turning_damping)]: [(Vector3, Vector3); 2],
+        name: &str,
+    ) {
+        let [start, end] = [from, to].map(|id| force_context.point(id));
+        let frames = [from, to].map(|id| force_context.frame(id));
+        let closing = force_context.tree.common_ancestor(frames[0], frames[1]);
+        let to_axes = start.axes.transpose();
+        let gap = end.position.sub(g, start.position);
+        let displacement = to_axes.apply(g, gap);
+        // As seen from `from`, the point of its body where `to` is stands still.
+        let [(carrier, carrier_turn), (own, own_turn)] =
+            frames.map(|frame| force_context.velocity(g, frame, end.position, closing));
+        let velocity = own.sub(g, carrier);
+        let velocity = to_axes.apply(g, velocity);
+        let turning = own_turn.sub(g, carrier_turn);
+        let turning = to_axes.apply(g, turning);
+        let relative = to_axes.multiply(g, end.axes);
+        let rotation = half_antisymmetric(g, relative);
+        let rotation_rate = half_antisymmetric_rate(g, relative, turning);
+
+        let mut law = |stiffness: Vector3, x: Vector3, damping: Vector3, rate: Vector3| {
+            Vector3(std::array::from_fn(|i| {
+                let elastic = g.mul(stiffness.0[i], x.0[i]);
+                let viscous = g.mul(damping.0[i], rate.0[i]);
+                g.add(elastic, viscous)
+            }))
+        };
+        let force = law(stiffness, displacement, damping, velocity);
+        let moment = law(turning_stiffness, rotation, turning_damping, rotation_rate);
+        let force = start
+            .axes
+            .apply(g, force)
+            .set_name(g, &format!("{name}_force"));
+        let moment = start
+            .axes
+            .apply(g, moment)
+            .set_name(g, &format!("{name}_moment"));
+        // At the place of `to`, seen from the origin of `from`, the force on `from` has a moment more.
+        let lever = gap.cross(g, force);
+        let on_from = Wrench {
+            force,
+            moment: moment.add(g, lever),
+        };
+        self.apply(g, force_context, from, on_from, closing);
+        let on_to = Wrench { force, moment }.neg(g);
+        self.apply(g, force_context, to, on_to, closing);
+    }
+}
+
+/// The line between two points, and how fast it grows.
+struct Line {
+    from: PointId,
+    to: PointId,
+    /// From the first to the second.
+    vector: Vector3,
+    distance: ExprId,
+    rate: ExprId,
+    /// The last frame that both ends hang on.
+    closing: Frame,
+}
+
+impl Line {
+    fn new(
+        g: &mut Graph,
+        force_context: &ForceContext,
+        from: PointId,
+        to: PointId,
+        name: &str,
+    ) -> Self {
+        let ends = [from, to].map(|id| (force_context.frame(id), force_context.point(id).position));
+        let closing = force_context.tree.common_ancestor(ends[0].0, ends[1].0);
+        let vector = ends[1].1.sub(g, ends[0].1);
+        let distance = vector.norm(g);
+        g.set_name(distance, || format!("{name}_length"));
+        let [start, end] =
+            ends.map(|(frame, position)| force_context.velocity(g, frame, position, closing).0);
+        let relative = end.sub(g, start);
+        let growth = relative.dot(g, vector);
+        let rate = g.div(growth, distance);
+        Self {
+            from,
+            to,
+            vector,
+            distance,
+            rate,
+            closing,
+        }
+    }
+}
+
+impl State for Line {
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Length => self.distance,
+            Expr::LengthRate => self.rate,
+            _ => unreachable!("resolution admits {leaf:?} elsewhere only"),
+        }
+    }
+}
+
+/// `r = vee((R - R^T) / 2)`: the rotation vector of a small rotation.
+fn half_antisymmetric(g: &mut Graph, rotation: Matrix3) -> Vector3 {
+    let entry = |i: usize, j: usize| rotation.0[j].0[i];
+    let mut half_difference = |a, b| {
+        let difference = g.sub(a, b);
+        g.scale(0.5, difference)
+    };
+    Vector3([
+        half_difference(entry(2, 1), entry(1, 2)),
+        half_difference(entry(0, 2), entry(2, 0)),
+        half_difference(entry(1, 0), entry(0, 1)),
+    ])
+}
+
+/// Rate of [`half_antisymmetric`] while the rotation turns with `omega` (in the axes it is written in): `R' = [omega]x R`.
+fn half_antisymmetric_rate(g: &mut Graph, rotation: Matrix3, omega: Vector3) -> Vector3 {
+    let rate = Matrix3(rotation.0.map(|column| omega.cross(g, column)));
+    half_antisymmetric(g, rate)
+}

@@ -1,0 +1,15 @@
+//! Loads due to force elements and constraints.
+
+mod applied;
+mod closure;
+mod constraints;
+mod force_context;
+mod forces;
+mod pair;
+mod perpendiculars;
+mod rolling;
+mod transmitted;
+
+pub(super) use constraints::{constraint_rows, held};
+pub(super) use force_context::ForceContext;
+pub(super) use transmitted::transmitted;

@@ -1,0 +1,61 @@
+//! A constraint between two sides: what it demands of their relative motion, and the pair of forces that holds it.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::mechanics::motion::{PointMotion, Wrench};
+use crate::model::mechanism::Frame;
+
+/// A place fixed in a frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Side {
+    pub(crate) frame: Frame,
+    pub(crate) at: PointMotion,
+}
+
+/// One equation between two sides, with the pair that belongs to it: the derivative of the equation by the velocity and the
+/// angular velocity of `to` relative to `from`, at the place where the pair acts.
+pub(crate) struct Demand {
+    /// Which equation of its constraint; empty for the only one.
+    pub(crate) label: &'static str,
+    pub(crate) value: ExprId,
+    pub(crate) force: Vector3,
+    pub(crate) moment: Vector3,
+    pub(crate) of_velocities: bool,
+}
+
+impl Demand {
+    /// What a multiplier exerts on the `to` side.
+    pub(crate) fn held_by(&self, g: &mut Graph, multiplier: ExprId) -> Wrench {
+        Wrench {
+            force: self.force.scale(g, multiplier),
+            moment: self.moment.scale(g, multiplier),
+        }
+    }
+}
+
+/// Two sides and what is demanded of them.
+pub(crate) struct Pair {
+    pub(crate) from: Side,
+    pub(crate) to: Side,
+    /// From the point of `to` to the place where the pair acts.
+    pub(crate) reach: Vector3,
+    pub(crate) demands: Vec<Demand>,
+}
+
+impl Pair {
+    /// From the point of `from` to the place where the pair acts.
+    pub(crate) fn gap(&self, g: &mut Graph) -> Vector3 {
+        let between = self.to.at.position.sub(g, self.from.at.position);
+        between.add(g, self.reach)
+    }
+
+    pub(crate) fn new(g: &mut Graph, from: Side, to: Side, demands: Vec<Demand>) -> Self {
+        let reach = Vector3::zero(g);
+        Self {
+            from,
+            to,
+            reach,
+            demands,
+        }
+    }
+}

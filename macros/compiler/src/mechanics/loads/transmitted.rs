@@ -1,0 +1,94 @@
+//! The effect of applied forces and constraints along the coordinates: loads are summed from the leaves towards the ground
+//! and projected on the joint axes.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::mechanics::motion::{Kinematics, Wrench};
+use crate::mechanics::setup::{Context, ForceSelection};
+use crate::model::mechanism::Frame;
+
+use super::applied::{Loads, add_load};
+use super::constraints::constraints;
+use super::force_context::ForceContext;
+use super::forces::applied_forces;
+
+/// Loads along the coordinates, and what the joints transmit of them, with the sign of inertia.
+pub(crate) struct Transmitted {
+    /// By coordinate id.
+    pub(crate) along: Vec<ExprId>,
+    /// By row: the equations of constraints.
+    pub(crate) constraints: Vec<ExprId>,
+    /// By body id: what the parent exerts on the body and all it carries, about the body's origin.
+    pub(crate) wrenches: Vec<Wrench>,
+}
+
+/// Sums the negative of applied forces from the leaves towards the ground.
+pub(crate) fn transmitted(
+    g: &mut Graph,
+    context: &Context,
+    kinematics: &Kinematics,
+    selection: ForceSelection,
+) -> Transmitted {
+    let Context {
+        mechanism,
+        topology,
+        ..
+    } = *context;
+    let force_context = ForceContext::new(context, kinematics);
+    let mut applied = applied_forces(g, &force_context, selection);
+    let constraints = match selection.constraints {
+        true => constraints(g, &force_context, &mut applied),
+        false => vec![g.zero(); context.rows.len()],
+    };
+    let mut loads: Vec<Loads> = applied.on_bodies.iter().map(|on| negated(g, on)).collect();
+
+    let zero = Vector3::zero(g);
+    let mut along: Vec<ExprId> = applied
+        .on_coordinates
+        .iter()
+        .map(|&force| g.neg(force))
+        .collect();
+    let nothing = Wrench {
+        force: zero,
+        moment: zero,
+    };
+    let mut wrenches = vec![nothing; mechanism.bodies.len()];
+    for branch in topology.branches.iter().rev() {
+        let body = branch.body.index();
+        let name = mechanism.bodies[body].name.to_string();
+        let motion = kinematics.of(branch.body);
+        let carried = std::mem::take(&mut loads[body]);
+        for (&closing, &load) in &carried {
+            load.force.set_name(g, &format!("{name}_total_force"));
+            load.moment.set_name(g, &format!("{name}_total_moment"));
+            wrenches[body] = wrenches[body].add(g, load);
+            for step in &motion.steps {
+                let power = step.project(g, load.force, load.moment);
+                let slot = &mut along[step.coordinate.index()];
+                *slot = g.add(*slot, power);
+            }
+            if let Frame::Body(parent) = branch.parent
+                && closing != branch.parent
+            {
+                let shift = motion.frame.offset.cross(g, load.force);
+                let moved = Wrench {
+                    force: load.force,
+                    moment: load.moment.add(g, shift),
+                };
+                add_load(g, &mut loads[parent.index()], closing, moved);
+            }
+        }
+    }
+    Transmitted {
+        along,
+        constraints,
+        wrenches,
+    }
+}
+
+fn negated(g: &mut Graph, loads: &Loads) -> Loads {
+    loads
+        .iter()
+        .map(|(&closing, load)| (closing, load.neg(g)))
+        .collect()
+}

@@ -1,0 +1,342 @@
+//! Positions, velocities and accelerations of all bodies, from the ground outwards.
+//!
+//! The layout decides how vectors are expressed: for forces, points and outputs in one common frame, which is the ground frame at
+//! the instant at which all driven coordinates are zero; for inertia along the axes that keep its equations short.
+
+use crate::algebra::{Graph, Matrix3, Vector3};
+use crate::base::ids::{BodyId, ExprId};
+use crate::mechanics::setup::{BodyLayout, CoordinateMotion, Layout, State, Values};
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Frame, Joint, Mechanism, Placement, StepMotion};
+use crate::topology::Topology;
+
+use super::frame::FrameMotion;
+use super::step_axis::StepAxis;
+
+/// Motion of a body, and of the joint that carries it.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyMotion {
+    pub(crate) frame: FrameMotion,
+    /// The axes of the joint frame on the side that was declared as `from`.
+    pub(crate) from_axes: Matrix3,
+    /// Its origin, from the body's origin.
+    pub(crate) from_origin: Vector3,
+    /// The elementary motions of the joint, from the parent to the body.
+    pub(crate) steps: Vec<StepAxis>,
+    /// The place of the joint on its parent.
+    pub(crate) seat: Seat,
+    /// Takes a vector from the axes in which this body's motion is written to those of its parent's; `None` where they
+    /// are the same.
+    pub(crate) to_parent: Option<Matrix3>,
+}
+
+/// The place of a joint on the body nearer to the ground.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seat {
+    /// From the parent's origin, in the parent's body frame.
+    pub(crate) arm: Vector3,
+    /// The same as the parent's motion is written.
+    pub(crate) offset: Vector3,
+}
+
+/// A named point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PointMotion {
+    /// From the origin of its frame.
+    pub(crate) arm: Vector3,
+    /// From the ground's origin.
+    pub(crate) position: Vector3,
+    /// Its axes.
+    pub(crate) axes: Matrix3,
+}
+
+/// Motion of every frame of a mechanism.
+pub(crate) struct Kinematics {
+    pub(crate) coordinates: Vec<CoordinateMotion>,
+    pub(crate) ground: FrameMotion,
+    /// By body id.
+    pub(crate) bodies: Vec<BodyMotion>,
+    /// By point id.
+    pub(crate) points: Vec<PointMotion>,
+}
+
+impl Kinematics {
+    /// Runs the recursion. `coordinates` is by coordinate id. Only with everything in the common frame do positions and
+    /// points have a meaning.
+    pub(crate) fn new(
+        g: &mut Graph,
+        mechanism: &Mechanism,
+        topology: &Topology,
+        values: &Values,
+        coordinates: Vec<CoordinateMotion>,
+        layout: &Layout,
+        ground_acceleration: Vector3,
+    ) -> Self {
+        let ground = FrameMotion::ground(g, ground_acceleration);
+        let placeholder = BodyMotion {
+            frame: ground,
+            from_axes: ground.orientation.axes,
+            from_origin: ground.position,
+            steps: Vec::new(),
+            seat: Seat {
+                arm: ground.position,
+                offset: ground.position,
+            },
+            to_parent: None,
+        };
+        let mut this = Self {
+            coordinates,
+            ground,
+            bodies: vec![placeholder; mechanism.bodies.len()],
+            points: Vec::new(),
+        };
+        for branch in &topology.branches {
+            let parent = *this.frame(branch.parent);
+            let name = mechanism.bodies[branch.body.index()].name.to_string();
+            let joint = &mechanism.joints[branch.joint.index()];
+            let gliding = mechanism.glides(joint);
+            let place = layout.of(branch.body);
+            let walk = (branch.reversed, gliding);
+            let motion = this.body(g, values, joint, walk, place, &parent, &name);
+            this.bodies[branch.body.index()] = motion;
+        }
+        for point in &mechanism.points {
+            let place = this.place(g, values, point.frame, &point.placement);
+            place.position.set_name(g, &point.name.to_string());
+            this.points.push(place);
+        }
+        this
+    }
+
+    /// A place fixed in a frame.
+    pub(crate) fn place(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        frame: Frame,
+        placement: &Placement,
+    ) -> PointMotion {
+        let frame = *self.frame(frame);
+        let (offset, rotation) = values.placement(g, placement);
+        let arm = frame.orientation.express(g, offset);
+        PointMotion {
+            arm,
+            position: frame.position.add(g, arm),
+            axes: frame.orientation.then_fixed(g, rotation).axes,
+        }
+    }
+
+    /// Motion of a frame.
+    pub(crate) fn frame(&self, frame: Frame) -> &FrameMotion {
+        match frame {
+            Frame::Ground => &self.ground,
+            Frame::Body(body) => &self.bodies[body.index()].frame,
+        }
+    }
+
+    /// Motion of a body.
+    pub(crate) fn of(&self, body: BodyId) -> &BodyMotion {
+        &self.bodies[body.index()]
+    }
+
+    /// From the parent through the joint frame, one elementary motion after the other, to the body. A joint declared from
+    /// the body to its parent is walked backwards, each motion about the opposite axis.
+    #[allow(clippy::too_many_arguments)]
+    fn body(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        joint: &Joint,
+        (reversed, gliding): (bool, bool),
+        layout: BodyLayout,
+        parent: &FrameMotion,
+        name: &str,
+    ) -> BodyMotion {
+        let (inboard, outboard) = match reversed {
+            false => (&joint.from_placement, &joint.to_placement),
+            true => (&joint.to_placement, &joint.from_placement),
+        };
+        let (inboard_offset, inboard_rotation) = values.placement(g, inboard);
+        let (outboard_offset, outboard_rotation) = values.placement(g, outboard);
+
+        let start = parent.departing(g);
+        let mut moving = start
+            .displaced(g, inboard_offset)
+            .rotated(g, inboard_rotation);
+        let joint_frame = moving;
+        let mut steps = Vec::new();
+        let order: Vec<_> = match reversed {
+            false => joint.steps.iter().collect(),
+            true => joint.steps.iter().rev().collect(),
+        };
+        if gliding {
+            (moving, steps) = self.glide(g, values, joint, moving, name);
+        }
+        for step in order.into_iter().filter(|_| !gliding) {
+            let axis = values.vector(g, &step.axis);
+            let axis = if reversed { axis.neg(g) } else { axis };
+            let motion = self.coordinates[step.coordinate.index()];
+            let direction = moving.orientation.express(g, axis);
+            let (turn, slide) = match &step.motion {
+                StepMotion::Turn => (Some(direction), None),
+                StepMotion::Slide => (None, Some(direction)),
+                StepMotion::Screw { lead } => {
+                    let lead = values.scalar(g, lead);
+                    (Some(direction), Some(direction.scale(g, lead)))
+                }
+            };
+            let point = moving.offset;
+            steps.push(StepAxis {
+                coordinate: step.coordinate,
+                turn,
+                slide,
+                own_axis: axis,
+                point,
+            });
+            if let Some(slide) = slide {
+                moving = moving.slid(g, slide, motion);
+            }
+            if let Some(direction) = turn {
+                let turn = (axis, direction);
+                moving = match layout.continues_run {
+                    false => moving.turned(g, turn, motion, name),
+                    true => moving.turned_on(g, turn, motion, name),
+                };
+            }
+        }
+
+        let backwards = outboard_offset.neg(g);
+        let mut frame = moving
+            .rotated(g, outboard_rotation.map(Matrix3::transpose))
+            .displaced(g, backwards);
+        frame.position = parent.position.add(g, frame.offset);
+        frame.set_names(g, name);
+        for step in &mut steps {
+            step.point = step.point.sub(g, frame.offset);
+        }
+        let (from_axes, from_origin) = match reversed {
+            false => (
+                joint_frame.orientation.axes,
+                joint_frame.offset.sub(g, frame.offset),
+            ),
+            true => (
+                frame.orientation.then_fixed(g, outboard_rotation).axes,
+                frame.orientation.express(g, outboard_offset),
+            ),
+        };
+        let to_parent = layout.own_axes.then_some(frame.orientation.axes);
+        if gliding {
+            for step in &mut steps {
+                step.own_axis = outboard_rotation
+                    .map_or(step.own_axis, |to_body| to_body.apply(g, step.own_axis));
+            }
+        } else {
+            let axes = self.axes_in_body(g, values, joint, reversed, outboard_rotation);
+            for (step, axis) in steps.iter_mut().zip(axes) {
+                step.own_axis = axis;
+            }
+        }
+        if let Some(axes) = to_parent {
+            let to_own = axes.transpose();
+            for step in &mut steps {
+                step.slide = step.slide.map(|slide| match step.turn {
+                    Some(_) => to_own.apply(g, slide),
+                    None => step.own_axis,
+                });
+                step.turn = step.turn.map(|_| step.own_axis);
+                step.point = to_own.apply(g, step.point);
+            }
+            frame = frame.along_own_axes(g);
+        }
+        BodyMotion {
+            frame,
+            from_axes,
+            from_origin,
+            steps,
+            seat: Seat {
+                arm: inboard_offset,
+                offset: joint_frame.offset,
+            },
+            to_parent,
+        }
+    }
+}
+
+impl Kinematics {
+    /// The axes of a joint's motions, from the parent to the body, in the frame of the body: each is turned by the motions
+    /// after it.
+    fn axes_in_body(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        joint: &Joint,
+        reversed: bool,
+        outboard: Option<Matrix3>,
+    ) -> Vec<Vector3> {
+        let mut to_body = outboard.unwrap_or_else(|| Matrix3::identity(g));
+        let mut axes = Vec::new();
+        let inwards: Vec<_> = match reversed {
+            false => joint.steps.iter().rev().collect(),
+            true => joint.steps.iter().collect(),
+        };
+        for step in inwards {
+            let axis = values.vector(g, &step.axis);
+            let axis = if reversed { axis.neg(g) } else { axis };
+            axes.push(to_body.apply(g, axis));
+            if step.motion != StepMotion::Slide {
+                let angle = self.coordinates[step.coordinate.index()].position;
+                let back = Matrix3::rotation(g, axis, angle).transpose();
+                to_body = to_body.multiply(g, back);
+            }
+        }
+        axes.reverse();
+        axes
+    }
+
+    /// A motion in a plane that nothing depends on, by its speeds along the turned axes: quasi-velocities, with
+    /// `a = vdot + omega x v`.
+    fn glide(
+        &self,
+        g: &mut Graph,
+        values: &Values,
+        joint: &Joint,
+        start: FrameMotion,
+        name: &str,
+    ) -> (FrameMotion, Vec<StepAxis>) {
+        let mut moving = start;
+        let mut steps = Vec::new();
+        for step in joint.steps.iter().rev() {
+            let axis = values.vector(g, &step.axis);
+            let motion = self.coordinates[step.coordinate.index()];
+            let direction = moving.orientation.express(g, axis);
+            let turns = step.motion == StepMotion::Turn;
+            moving = if turns {
+                moving.turned(g, (axis, direction), motion, name)
+            } else {
+                moving.glided(g, direction, motion)
+            };
+            steps.push(StepAxis {
+                coordinate: step.coordinate,
+                turn: turns.then_some(direction),
+                slide: (!turns).then_some(direction),
+                own_axis: axis,
+                point: moving.offset,
+            });
+        }
+        for step in &mut steps {
+            step.point = moving.offset;
+        }
+        (moving, steps)
+    }
+}
+
+impl State for Kinematics {
+    fn leaf(&self, leaf: &Expr) -> ExprId {
+        match leaf {
+            Expr::Coordinate(id) => self.coordinates[id.index()].position,
+            Expr::Rate(id) => self.coordinates[id.index()].velocity,
+            Expr::Position(id, axis) => self.points[id.index()].position.0[*axis],
+            _ => unreachable!("resolution admits {leaf:?} elsewhere only"),
+        }
+    }
+}

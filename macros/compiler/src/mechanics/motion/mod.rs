@@ -1,0 +1,16 @@
+//! How the bodies move.
+
+mod frame;
+mod kinematics;
+mod orientation;
+mod recursions;
+mod step_axis;
+mod tree;
+mod wrench;
+
+pub(super) use frame::{FrameMotion, second_rate};
+pub(super) use kinematics::{BodyMotion, Kinematics, PointMotion};
+pub(super) use recursions::{for_inertia, in_common_frame, in_common_frame_at_zero};
+pub(super) use step_axis::StepAxis;
+pub(super) use tree::Tree;
+pub(super) use wrench::Wrench;

@@ -1,0 +1,106 @@
+//! The motion of a mechanism in its two forms: in the common frame, and as needed for inertia and weight.
+
+use crate::algebra::{Graph, Vector3};
+use crate::base::ids::ExprId;
+use crate::mechanics::setup::{Context, CoordinateMotion, ForceSelection, Layout, Selection};
+use crate::model::mechanism::Motion;
+
+use super::kinematics::Kinematics;
+
+/// Motion of every frame while the running coordinates stand at zero.
+pub(crate) fn in_common_frame_at_zero(g: &mut Graph, context: &Context) -> Kinematics {
+    let zero = g.zero();
+    in_common_frame(g, context, &vec![zero; context.symbols.running.ids.len()])
+}
+
+/// Motion of every frame while the running coordinates stand at `running`.
+pub(crate) fn in_common_frame(g: &mut Graph, context: &Context, running: &[ExprId]) -> Kinematics {
+    let symbols = context.symbols;
+    let motions = motions(g, context, running, |k| CoordinateMotion {
+        position: symbols.q.values[k],
+        velocity: symbols.velocity.values[k],
+        acceleration: symbols.acceleration.values[k],
+    });
+    let layout = Layout::common(context.mechanism.bodies.len());
+    let still = Vector3::zero(g);
+    Kinematics::new(
+        g,
+        context.mechanism,
+        context.topology,
+        context.values,
+        motions,
+        &layout,
+        still,
+    )
+}
+
+/// Motion of every body as needed for inertia and weight: in the layout of runs, with the ground accelerated against gravity.
+pub(crate) fn for_inertia(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    selection: ForceSelection,
+) -> Kinematics {
+    let mut motions = motions(g, context, running, |k| context.runs.motion(k));
+    let zero = g.zero();
+    if selection.inertia == Selection::None {
+        for motion in &mut motions {
+            motion.velocity = zero;
+            motion.acceleration = zero;
+        }
+    }
+    let ground = match selection.gravity {
+        true => context.values.vector(g, &context.mechanism.gravity).neg(g),
+        false => Vector3::zero(g),
+    };
+    let layout = &context.runs.layout;
+    Kinematics::new(
+        g,
+        context.mechanism,
+        context.topology,
+        context.values,
+        motions,
+        layout,
+        ground,
+    )
+}
+
+/// By coordinate id: the motion of all coordinates, `free` of the free ones.
+fn motions(
+    g: &mut Graph,
+    context: &Context,
+    running: &[ExprId],
+    free: impl Fn(usize) -> CoordinateMotion,
+) -> Vec<CoordinateMotion> {
+    let zero = g.zero();
+    let still = CoordinateMotion {
+        position: zero,
+        velocity: zero,
+        acceleration: zero,
+    };
+    let mut coordinates = vec![still; context.mechanism.coordinates.len()];
+    for (k, id) in context.topology.free.iter().enumerate() {
+        coordinates[id.index()] = free(k);
+    }
+    for (k, id) in context.topology.driven.iter().enumerate() {
+        let coordinate = &context.mechanism.coordinates[id.index()];
+        if let Motion::Driven(speed) = &coordinate.motion {
+            let velocity = context.values.scalar(g, speed);
+            g.set_name(velocity, || format!("speed_{}", coordinate.name));
+            coordinates[id.index()] = CoordinateMotion {
+                position: running[k],
+                velocity,
+                acceleration: zero,
+            };
+        }
+    }
+    let (free, driven) = (context.moving().0, context.topology.driven.len());
+    for (k, id) in context.topology.coasting.iter().enumerate() {
+        coordinates[id.index()] = CoordinateMotion {
+            position: running[driven + k],
+            velocity: context.symbols.q.values[free + k],
+            acceleration: context.symbols.velocity.values[free + k],
+        };
+    }
+    coordinates
+}

@@ -1,0 +1,74 @@
+//! What every step of the derivation reads.
+
+use crate::algebra::{Graph, evaluate, substitute};
+use crate::base::ids::{CoordinateId, ExprId};
+use crate::model::mechanism::Mechanism;
+use crate::topology::Topology;
+
+use super::rows::{Row, Source};
+use super::runs::Runs;
+use super::symbols::Symbols;
+use super::values::Values;
+
+/// What every step of the derivation reads.
+pub(crate) struct Context<'a> {
+    pub(crate) mechanism: &'a Mechanism,
+    pub(crate) topology: &'a Topology,
+    pub(crate) symbols: &'a Symbols,
+    pub(crate) values: &'a Values<'a>,
+    /// The coordinates in which inertia and weight are derived.
+    pub(crate) runs: &'a Runs,
+    /// The equations of constraints.
+    pub(crate) rows: &'a [Row],
+}
+
+impl Context<'_> {
+    /// Numbers of free coordinates, and of coordinates with an equation of motion: free and coasting.
+    pub(crate) fn moving(&self) -> (usize, usize) {
+        let free = self.topology.free.len();
+        (free, free + self.topology.coasting.len())
+    }
+
+    /// The place of an equation; `None` where it holds whatever the mechanism does.
+    pub(crate) fn row(&self, source: Source, component: usize) -> Option<usize> {
+        let is = |row: &Row| row.source == source && row.component == component;
+        self.rows.iter().position(is)
+    }
+
+    /// The multiplier of an equation of a constraint.
+    pub(crate) fn multiplier(&self, row: usize) -> ExprId {
+        self.symbols.q.values[self.moving().1 + row]
+    }
+
+    /// Value of an expression of inputs and design variables at the nominal design. Inputs have no nominal values and are set
+    /// to one.
+    pub(crate) fn nominal(&self, g: &Graph, value: ExprId) -> f64 {
+        let value = evaluate(g, &[value], |symbol| {
+            let design = self.symbols.b.ids.iter().zip(&self.mechanism.design);
+            let mut nominal = design.filter(|(id, _)| **id == symbol);
+            nominal.next().map_or(1.0, |(_, variable)| variable.nominal)
+        });
+        value[0]
+    }
+
+    /// For each unknown, the position of its joint in the order from the ground to the leaves; reactions come last.
+    pub(crate) fn outward_order(&self) -> Vec<usize> {
+        let place = |id: &CoordinateId| {
+            let joint = self.mechanism.coordinates[id.index()].joint;
+            self.topology
+                .branches
+                .iter()
+                .position(|branch| branch.joint == joint)
+                .unwrap_or(0)
+        };
+        let reactions = self.rows.iter().map(|_| usize::MAX);
+        let moving = self.topology.free.iter().chain(&self.topology.coasting);
+        moving.map(place).chain(reactions).collect()
+    }
+
+    /// Replaces each absolute angle by its sum of joint angles.
+    pub(crate) fn in_unknowns(&self, g: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
+        let sums = self.runs.sums(g, self.symbols);
+        substitute(g, roots, &sums)
+    }
+}

@@ -1,0 +1,37 @@
+//! The equations of constraints: where each comes from, and what its multiplier is called.
+
+use proc_macro2::Ident;
+
+use crate::base::ids::{ConstraintId, JointId};
+use crate::model::mechanism::Mechanism;
+
+/// What an equation comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Constraint(ConstraintId),
+    /// A joint that closes a loop.
+    Joint(JointId),
+}
+
+impl Source {
+    pub(crate) fn name(self, mechanism: &Mechanism) -> &Ident {
+        match self {
+            Source::Constraint(id) => &mechanism.constraints[id.index()].name,
+            Source::Joint(id) => &mechanism.joints[id.index()].name,
+        }
+    }
+}
+
+/// One equation of a constraint.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) source: Source,
+    /// Which of the equations of its source.
+    pub(crate) component: usize,
+    /// The name of its source, with the component where there are several.
+    pub(crate) label: String,
+    /// Unit of its multiplier.
+    pub(crate) unit: String,
+    /// It is one of velocities, not of positions.
+    pub(crate) of_velocities: bool,
+}

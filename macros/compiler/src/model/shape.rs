@@ -1,0 +1,341 @@
+//! The shapes, and all that later stages ask of one: its arguments, what of it has to be positive, how its mass is spread.
+
+use std::rc::Rc;
+
+use super::expression::{Expr, Vector};
+
+/// A mass distribution in a frame. Directions are unit vectors; lengths m, masses kg, inertias kg m^2. A density has been
+/// multiplied by the volume.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A point mass.
+    Point {
+        /// Mass.
+        mass: Expr,
+        /// Position.
+        center: Vector,
+    },
+    /// A uniform slender bar.
+    Rod {
+        /// Mass.
+        mass: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of the bar, a unit vector.
+        along: Vector,
+        /// Centre of mass; half the length along the bar from the body's origin unless given.
+        center: Vector,
+    },
+    /// A uniform thin disk.
+    Disk {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid cylinder.
+    Cylinder {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform tube: a cylinder with a coaxial bore.
+    Tube {
+        /// Mass.
+        mass: Expr,
+        /// Radius of the bore.
+        inner: Expr,
+        /// Radius of the outside.
+        outer: Expr,
+        /// Length.
+        length: Expr,
+        /// Direction of its axis, a unit vector.
+        axis: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid box with edges along the body axes.
+    Cuboid {
+        /// Mass.
+        mass: Expr,
+        /// Edge lengths.
+        size: Vector,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// A uniform solid sphere.
+    Sphere {
+        /// Mass.
+        mass: Expr,
+        /// Radius.
+        radius: Expr,
+        /// Centre of mass.
+        center: Vector,
+    },
+    /// Any rigid body.
+    Rigid {
+        /// Mass.
+        mass: Expr,
+        /// Centre of mass.
+        center: Vector,
+        /// Inertia tensor along the axes of the frame: xx, yy, zz, xy, yz, xz; the products are the tensor's entries,
+        /// `Jxy = -integral x y dm`.
+        inertia: [Expr; 6],
+        /// The point that the inertia is about; the centre of mass unless given.
+        about: Option<Vector>,
+    },
+}
+
+/// A shape as later stages see it: they know of no kinds of shape, only of kinds of [`Spread`].
+#[derive(Clone, Debug)]
+pub struct Reduced<'a> {
+    /// The word it is shown with.
+    pub word: &'static str,
+    /// What was declared, in the order in which it is shown.
+    pub arguments: Vec<(&'static str, Argument<'a>)>,
+    /// Mass.
+    pub mass: &'a Expr,
+    /// Centre of mass.
+    pub center: &'a Vector,
+    /// How the mass is spread about its centre.
+    pub spread: Spread<'a>,
+    /// What has to be positive besides the mass, in words.
+    pub positive: Vec<(&'static str, Expr)>,
+}
+
+/// An argument of a shape.
+#[derive(Clone, Copy, Debug)]
+pub enum Argument<'a> {
+    /// A number.
+    Scalar(&'a Expr),
+    /// A place, a direction or three lengths.
+    Vector(&'a Vector),
+    /// Six entries of a tensor.
+    Tensor(&'a [Expr; 6]),
+}
+
+/// How mass is spread about its centre.
+#[derive(Clone, Debug)]
+pub enum Spread<'a> {
+    /// Not at all.
+    Point,
+    /// Evenly along a line.
+    Line {
+        /// Length.
+        length: &'a Expr,
+        /// Direction, a unit vector.
+        along: &'a Vector,
+    },
+    /// Alike in all directions across an axis.
+    Round {
+        /// The axis, a unit vector.
+        axis: &'a Vector,
+        /// Along any diameter.
+        across: MeanSquare<'a>,
+        /// Along the axis.
+        along: MeanSquare<'a>,
+    },
+    /// Evenly over a box.
+    Box {
+        /// Edge lengths along the axes of the frame.
+        size: &'a Vector,
+    },
+    /// Alike in all directions.
+    Ball(MeanSquare<'a>),
+    /// As an inertia tensor tells; its entries as in [`Shape::Rigid`].
+    Tensor {
+        /// The tensor.
+        inertia: &'a [Expr; 6],
+        /// The point that it is about; the centre of mass unless given.
+        about: Option<&'a Vector>,
+    },
+}
+
+/// The mean square of the distances from the centre in one direction: a sum of squares of lengths, each with a factor.
+pub type MeanSquare<'a> = Vec<(f64, &'a Expr)>;
+
+use Argument::{Scalar, Tensor, Vector as Triple};
+
+impl Shape {
+    /// What each kind of shape comes to.
+    pub fn reduced(&self) -> Reduced<'_> {
+        match self {
+            Self::Point { mass, center } => Reduced {
+                word: "point",
+                arguments: vec![("mass", Scalar(mass)), ("at", Triple(center))],
+                mass,
+                center,
+                spread: Spread::Point,
+                positive: Vec::new(),
+            },
+            Self::Rod {
+                mass,
+                length,
+                along,
+                center,
+            } => Reduced {
+                word: "rod",
+                arguments: vec![
+                    ("mass", Scalar(mass)),
+                    ("length", Scalar(length)),
+                    ("along", Triple(along)),
+                    ("center", Triple(center)),
+                ],
+                mass,
+                center,
+                spread: Spread::Line { length, along },
+                positive: vec![("length", length.clone())],
+            },
+            Self::Disk {
+                mass,
+                radius,
+                axis,
+                center,
+            } => Reduced {
+                word: "disk",
+                arguments: vec![
+                    ("mass", Scalar(mass)),
+                    ("radius", Scalar(radius)),
+                    ("axis", Triple(axis)),
+                    ("center", Triple(center)),
+                ],
+                mass,
+                center,
+                spread: Spread::Round {
+                    axis,
+                    across: vec![(1.0 / 4.0, radius)],
+                    along: Vec::new(),
+                },
+                positive: vec![("radius", radius.clone())],
+            },
+            Self::Cylinder {
+                mass,
+                radius,
+                length,
+                axis,
+                center,
+            } => Reduced {
+                word: "cylinder",
+                arguments: vec![
+                    ("mass", Scalar(mass)),
+                    ("radius", Scalar(radius)),
+                    ("length", Scalar(length)),
+                    ("axis", Triple(axis)),
+                    ("center", Triple(center)),
+                ],
+                mass,
+                center,
+                spread: Spread::Round {
+                    axis,
+                    across: vec![(1.0 / 4.0, radius)],
+                    along: vec![(1.0 / 12.0, length)],
+                },
+                positive: vec![("radius", radius.clone()), ("length", length.clone())],
+            },
+            Self::Tube {
+                mass,
+                inner,
+                outer,
+                length,
+                axis,
+                center,
+            } => Reduced {
+                word: "tube",
+                arguments: vec![
+                    ("mass", Scalar(mass)),
+                    ("inner", Scalar(inner)),
+                    ("outer", Scalar(outer)),
+                    ("length", Scalar(length)),
+                    ("axis", Triple(axis)),
+                    ("center", Triple(center)),
+                ],
+                mass,
+                center,
+                spread: Spread::Round {
+                    axis,
+                    across: vec![(1.0 / 4.0, inner), (1.0 / 4.0, outer)],
+                    along: vec![(1.0 / 12.0, length)],
+                },
+                positive: vec![
+                    ("inner radius", inner.clone()),
+                    ("length", length.clone()),
+                    ("wall thickness", difference(outer, inner)),
+                ],
+            },
+            Self::Cuboid { mass, size, center } => {
+                let [x, y, z] = size.clone();
+                Reduced {
+                    word: "box",
+                    arguments: vec![
+                        ("mass", Scalar(mass)),
+                        ("size", Triple(size)),
+                        ("center", Triple(center)),
+                    ],
+                    mass,
+                    center,
+                    spread: Spread::Box { size },
+                    positive: vec![
+                        ("size along x", x),
+                        ("size along y", y),
+                        ("size along z", z),
+                    ],
+                }
+            }
+            Self::Sphere {
+                mass,
+                radius,
+                center,
+            } => Reduced {
+                word: "sphere",
+                arguments: vec![
+                    ("mass", Scalar(mass)),
+                    ("radius", Scalar(radius)),
+                    ("center", Triple(center)),
+                ],
+                mass,
+                center,
+                spread: Spread::Ball(vec![(1.0 / 5.0, radius)]),
+                positive: vec![("radius", radius.clone())],
+            },
+            Self::Rigid {
+                mass,
+                center,
+                inertia,
+                about,
+            } => {
+                let mut arguments = vec![
+                    ("mass", Scalar(mass)),
+                    ("center", Triple(center)),
+                    ("inertia", Tensor(inertia)),
+                ];
+                arguments.extend(about.as_ref().map(|about| ("about", Triple(about))));
+                Reduced {
+                    word: "rigid",
+                    arguments,
+                    mass,
+                    center,
+                    spread: Spread::Tensor {
+                        inertia,
+                        about: about.as_ref(),
+                    },
+                    positive: Vec::new(),
+                }
+            }
+        }
+    }
+}
+
+fn difference(a: &Expr, b: &Expr) -> Expr {
+    Expr::Subtract(Rc::new(a.clone()), Rc::new(b.clone()))
+}

@@ -1,0 +1,103 @@
+//! The words that start items, and what to write instead of others.
+
+use crate::base::nearest::suggestion;
+
+/// The words that start an item.
+pub(super) const KEYWORDS: [&str; 10] = [
+    "input",
+    "design",
+    "let",
+    "gravity",
+    "body",
+    "joint",
+    "point",
+    "force",
+    "constraint",
+    "output",
+];
+
+/// What other tools and languages call an item.
+const SYNONYMS: [(&str, &str); 17] = [
+    ("motor", "force"),
+    ("param", "design"),
+    ("parameter", "design"),
+    ("variable", "design"),
+    ("const", "let"),
+    ("constant", "let"),
+    ("link", "body"),
+    ("part", "body"),
+    ("marker", "point"),
+    ("frame", "point"),
+    ("site", "point"),
+    ("loop", "constraint"),
+    ("closure", "constraint"),
+    ("equality", "constraint"),
+    ("contact", "constraint"),
+    ("element", "force"),
+    ("result", "output"),
+];
+
+/// Words that stand behind the name of an item, not before it.
+pub(crate) const INSIDE: [(&str, &[&str]); 4] = [
+    (
+        "body",
+        &[
+            "massless", "rod", "disk", "cylinder", "tube", "box", "sphere", "rigid",
+        ],
+    ),
+    (
+        "joint",
+        &[
+            "fixed",
+            "revolute",
+            "prismatic",
+            "screw",
+            "cylindrical",
+            "universal",
+            "planar",
+            "spherical",
+            "free",
+        ],
+    ),
+    (
+        "force",
+        &[
+            "spring",
+            "damper",
+            "spring_damper",
+            "tension",
+            "generalized",
+            "potential",
+            "bushing",
+            "load",
+            "follower",
+            "drag",
+        ],
+    ),
+    (
+        "constraint",
+        &[
+            "coincident",
+            "aligned",
+            "distance",
+            "coupling",
+            "equation",
+            "rolling",
+        ],
+    ),
+];
+
+/// What to write for an item that starts with an unknown word.
+pub(super) fn instead_of(unknown: &str) -> String {
+    let inside = INSIDE.iter().find(|(_, words)| words.contains(&unknown));
+    match (inside, suggestion(unknown, KEYWORDS, &SYNONYMS)) {
+        (Some((keyword, _)), _) => {
+            format!("a `{unknown}` is a {keyword}: write `{keyword} NAME: {unknown} ...;`")
+        }
+        (None, Some(known)) => format!("did you mean `{known}`?"),
+        (None, None) => format!("an item starts with one of {}", KEYWORDS.join(", ")),
+    }
+}
+
+/// What to write instead of `3,5`.
+pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";
