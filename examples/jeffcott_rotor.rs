@@ -85,7 +85,7 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     let about = "How tolerances move the critical speeds and the limit of stability of a rotor";
     let options = Options::parse("jeffcott_rotor", about, arguments)?;
     let question = RotorQuestion {
-        speed: JeffcottRotor::speed,
+        speed: JeffcottRotor::speed.any(),
         range: (0.0, 6000.0 * RPM),
         running: 3000.0 * RPM,
         orders: vec![1.0, 2.0],
@@ -99,8 +99,8 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
     let events = events::find(&study, &question)?;
     let risk = Risk::assess(&study, &question, options.samples)?;
 
-    let names = JeffcottRotor::DESCRIPTION.design.iter();
-    let names: Vec<&str> = names.map(|info| info.name).collect();
+    let design = study.description().design.clone();
+    let names: Vec<&str> = design.iter().map(|info| &*info.name).collect();
     record::diagram(&campbell, &options.file("sweep.csv"))?;
     record::events(&events, &names, &options.file("events.csv"))?;
     let whole = Whirling {

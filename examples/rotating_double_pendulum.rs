@@ -82,9 +82,9 @@ fn equal_bars(options: &Options) -> Result<Analysis, Failure> {
     type Pendulum = RotatingDoublePendulum;
     let study = Study::new(RotatingDoublePendulum).start(Pendulum::theta1, 60f64.to_radians());
     let question = Question {
-        speed: Pendulum::omega,
+        speed: Pendulum::omega.any(),
         range: (0.0, 8.0),
-        varied: vec![Pendulum::l],
+        varied: vec![Pendulum::l.any()],
         levels: vec![0.03, 0.06, 0.12],
     };
     let analysis = Analysis::run(&study, &question, options)?;
@@ -106,9 +106,11 @@ fn independent_bars(options: &Options) -> Result<Analysis, Failure> {
     type Bars = IndependentBars;
     let study = Study::new(IndependentBars).start(Bars::theta1, 60f64.to_radians());
     let question = Question {
-        speed: Bars::omega,
+        speed: Bars::omega.any(),
         range: (0.0, 8.0),
-        varied: vec![Bars::l1, Bars::l2, Bars::m1, Bars::m2],
+        varied: [Bars::l1, Bars::l2, Bars::m1, Bars::m2]
+            .map(|variable| variable.any())
+            .to_vec(),
         levels: vec![0.03],
     };
     let analysis = Analysis::run(&study, &question, options)?;

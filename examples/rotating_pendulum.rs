@@ -44,9 +44,9 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
 
     let study = Study::new(RotatingPendulum).start(RotatingPendulum::theta, 60f64.to_radians());
     let question = Question {
-        speed: RotatingPendulum::omega,
+        speed: RotatingPendulum::omega.any(),
         range: (0.0, 8.0),
-        varied: vec![RotatingPendulum::l],
+        varied: vec![RotatingPendulum::l.any()],
         levels: vec![0.03, 0.06, 0.12],
     };
     let analysis = Analysis::run(&study, &question, &options)?;

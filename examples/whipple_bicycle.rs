@@ -130,7 +130,7 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
 }
 
 /// Some ten rows of the eigenvalues.
-fn table<const N: usize, const U: usize, const P: usize>(campbell: &Campbell<N, U, P>) -> Table {
+fn table(campbell: &Campbell) -> Table {
     let labels = campbell.labels();
     let mut table = Table::new(
         std::iter::once("speed m/s".to_owned())
@@ -156,11 +156,7 @@ fn table<const N: usize, const U: usize, const P: usize>(campbell: &Campbell<N, 
 }
 
 /// A limit of stability, and the three variables that move it most.
-fn limit<const P: usize>(
-    out: &mut dyn Write,
-    what: &str,
-    event: &EventTolerance<P>,
-) -> Result<(), Failure> {
+fn limit(out: &mut dyn Write, what: &str, event: &EventTolerance) -> Result<(), Failure> {
     write!(out, "{what} {:.4} m/s", event.value)?;
     let Ok(spread) = &event.spread else {
         writeln!(out)?;
@@ -171,7 +167,7 @@ fn limit<const P: usize>(
         ", standard deviation {:.4} m/s, mostly from",
         spread.sigma
     )?;
-    let mut order: Vec<usize> = (0..P).collect();
+    let mut order: Vec<usize> = (0..spread.by_design.len()).collect();
     order.sort_by(|&a, &b| spread.variance_shares[b].total_cmp(&spread.variance_shares[a]));
     for &k in order.iter().take(3) {
         let info = &WhippleBicycle::DESCRIPTION.design[k];

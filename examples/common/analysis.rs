@@ -29,14 +29,11 @@ impl Analysis {
     ///
     /// # Errors
     /// Those that concern the whole sweep; a speed that fails is reported in the summary.
-    pub fn run<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        study: &Study<M, N, U, P, O>,
+    pub fn run<M: Mechanism>(
+        study: &Study<M>,
         question: &Question,
         options: &Options,
-    ) -> Result<Self, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Result<Self, Error> {
         let events = Events::find(study, question)?;
         let critical = events.critical.speed;
         let places = speeds::around(options.speeds, question.range, critical);

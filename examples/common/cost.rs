@@ -42,16 +42,13 @@ impl Cost {
     }
 
     /// Measures one tolerance at all speeds; a speed that fails costs both what it costs.
-    pub fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        study: &Study<M, N, U, P, O>,
+    pub fn measure<M: Mechanism>(
+        study: &Study<M>,
         question: &Question,
         level: f64,
         speeds: &[f64],
         sampling: &Sampling<'_>,
-    ) -> Self
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Self {
         let samples = sampling.samples.min(MOST_SAMPLES);
         let ready = question
             .varied_by(study, level)
@@ -59,7 +56,7 @@ impl Cost {
             .seed(sampling.seed)
             .vectors(None)
             .threads(1);
-        let at = |&speed: &f64| ready.clone().input(question.speed, speed);
+        let at = |&speed: &f64| ready.clone().input(question.input(), speed);
         let studies: Vec<_> = speeds.iter().map(at).collect();
 
         let start = ThreadTime::now();

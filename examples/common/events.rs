@@ -28,18 +28,12 @@ impl Events {
     ///
     /// # Errors
     /// Those of [`Study::critical_tolerance`] and [`Study::crossing_tolerances`].
-    pub fn find<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        study: &Study<M, N, U, P, O>,
-        question: &Question,
-    ) -> Result<Self, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    pub fn find<M: Mechanism>(study: &Study<M>, question: &Question) -> Result<Self, Error> {
         let (low, high) = question.range;
         let level = question.levels.first().copied().unwrap_or(0.0);
         let study = question.varied_by(study, level);
-        let critical = study.critical_tolerance(question.speed, low, high)?;
-        let resonances = study.crossing_tolerances(question.speed, low, high, 1.0)?;
+        let critical = study.critical_tolerance(question.input(), low, high)?;
+        let resonances = study.crossing_tolerances(question.input(), low, high, 1.0)?;
         Ok(Self {
             critical: Event::from(&critical),
             resonances: resonances.iter().map(Event::from).collect(),
@@ -47,8 +41,8 @@ impl Events {
     }
 }
 
-impl<const P: usize> From<&EventTolerance<P>> for Event {
-    fn from(found: &EventTolerance<P>) -> Self {
+impl From<&EventTolerance> for Event {
+    fn from(found: &EventTolerance) -> Self {
         Self {
             speed: found.value,
             sigma: found.sigma(),

@@ -17,20 +17,18 @@ pub struct Question {
 
 impl Question {
     /// The study with tolerances of one level on the varied design variables and on no other.
-    pub fn varied_by<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &self,
-        study: &Study<M, N, U, P, O>,
-        level: f64,
-    ) -> Study<M, N, U, P, O>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        (0..P)
-            .map(DesignVariable)
+    pub fn varied_by<M: Mechanism>(&self, study: &Study<M>, level: f64) -> Study<M> {
+        (0..study.design_values().len())
+            .map(DesignVariable::new)
             .fold(study.clone(), |study, variable| {
-                let varies = self.varied.contains(&variable);
+                let varies = self.varied.contains(&variable.any());
                 study.relative_tolerance(variable, if varies { level } else { 0.0 })
             })
+    }
+
+    /// The driven speed as an input of the mechanism.
+    pub fn input<M>(&self) -> Input<M> {
+        Input::new(self.speed.index())
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use eigentol::Text;
+
 use crate::Failure;
 use crate::question::percent;
 use crate::sweep::{Row, Spread, Sweep};
@@ -61,7 +63,7 @@ fn head(sweep: &Sweep) -> Vec<String> {
     if sweep.variables.len() > 1 {
         for level in &levels {
             for mode in 1..=sweep.modes {
-                let of = |variable: &&str| format!("share_{mode}_{variable}_{level}pct");
+                let of = |variable: &Text| format!("share_{mode}_{variable}_{level}pct");
                 names.extend(sweep.variables.iter().map(of));
             }
         }

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use eigentol::Text;
 use eigentol::tolerance::TRUSTED_DISTANCE;
 
 use crate::cost::Cost;
@@ -39,7 +40,7 @@ pub fn events(
         out,
         "Events: speed and its standard deviation, rad/s ({} % on {} holds 3 of them)",
         percent(level),
-        sweep.variables.join(", ")
+        names(&sweep.variables)
     )?;
     let mut table =
         Table::new(["event                        ", "speed", "sigma", "paper"].map(str::to_owned));
@@ -77,7 +78,7 @@ pub fn by_speed(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
         out,
         "By speed, {} % on {}: standard deviation at first order and from {} samples",
         percent(level),
-        sweep.variables.join(", "),
+        names(&sweep.variables),
         sweep.samples
     )?;
     if sweep.variables.len() > 1 {
@@ -262,4 +263,9 @@ pub fn costs(
          each with its own equilibrium (from the nominal one) and modes; one pass.\n",
         cost.passes, cost.samples
     )
+}
+
+fn names(variables: &[Text]) -> String {
+    let names: Vec<&str> = variables.iter().map(|name| &**name).collect();
+    names.join(", ")
 }

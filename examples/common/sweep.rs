@@ -4,7 +4,9 @@
 use eigentol::equilibrium::SweepPoint;
 use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
 use eigentol::tolerance::{Sampling, first_order, monte_carlo};
-use eigentol::{Equilibrium, Error, FirstOrder, Mechanism, Modes, MonteCarlo, Study, Tolerances};
+use eigentol::{
+    Equilibrium, Error, FirstOrder, Kernels, Mechanism, Modes, MonteCarlo, Study, Text, Tolerances,
+};
 
 use crate::Question;
 
@@ -17,7 +19,7 @@ pub struct Sweep {
     /// The question it answers.
     pub question: Question,
     /// Names of the varied design variables.
-    pub variables: Vec<&'static str>,
+    pub variables: Vec<Text>,
     /// Number of modes.
     pub modes: usize,
     /// Monte Carlo samples at each speed and tolerance; 0 without Monte Carlo.
@@ -74,55 +76,45 @@ impl Sweep {
     ///
     /// # Errors
     /// Only those that concern every point; a point that fails says so in its row.
-    pub fn run<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        study: &Study<M, N, U, P, O>,
+    pub fn run<M: Mechanism>(
+        study: &Study<M>,
         question: &Question,
         speeds: &[f64],
         sampling: Option<&Sampling<'_>>,
-    ) -> Result<Self, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let points = study.sweep(question.speed, speeds)?;
+    ) -> Result<Self, Error> {
+        let points = study.sweep(question.input(), speeds)?;
         let rows = points
             .iter()
             .zip(0..)
             .map(|(point, place)| row(study, question, (point, place), sampling));
-        let name = |index: usize| {
-            M::DESCRIPTION
-                .design
-                .get(index)
-                .map_or("?", |info| info.name)
-        };
+        let design = study.description().design.clone();
         Ok(Self {
             question: question.clone(),
             variables: question
                 .varied
                 .iter()
-                .map(|variable| name(variable.0))
+                .map(|variable| design[variable.index()].name.clone())
                 .collect(),
-            modes: N,
+            modes: study.start_values().len(),
             samples: sampling.map_or(0, |sampling| sampling.samples),
             rows: rows.collect(),
         })
     }
 }
 
-fn row<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
+fn row<M: Mechanism>(
+    study: &Study<M>,
     question: &Question,
-    (point, place): (&SweepPoint<N, U, P>, u64),
+    (point, place): (&SweepPoint, u64),
     sampling: Option<&Sampling<'_>>,
-) -> Row
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let mechanism = study.mechanism();
+) -> Row {
+    let (mechanism, n) = (study.mechanism(), study.start_values().len());
+    let kernels: &dyn Kernels = mechanism;
     let mut row = Row {
         speed: point.value,
-        angles: vec![None; O],
-        frequencies: vec![None; N],
-        spreads: vec![Spread::none(N); question.levels.len()],
+        angles: vec![None; study.description().outputs.len()],
+        frequencies: vec![None; n],
+        spreads: vec![Spread::none(n); question.levels.len()],
         troubles: Vec::new(),
     };
     let state = match &point.equilibrium {
@@ -138,8 +130,8 @@ where
             state.stability
         ));
     }
-    let angles = mechanism.outputs(&state.coordinates, &state.inputs, &state.design);
-    row.angles = angles.map(finite).to_vec();
+    let angles = kernels.outputs(&state.coordinates, &state.inputs, &state.design);
+    row.angles = angles.iter().copied().map(finite).collect();
     match &point.modes {
         Ok(modes) => {
             row.frequencies = modes.frequencies().to_vec();
@@ -173,11 +165,11 @@ where
 }
 
 /// Where one spread is computed.
-struct Place<'a, M, const N: usize, const U: usize, const P: usize> {
+struct Place<'a, M> {
     mechanism: &'a M,
-    state: &'a Equilibrium<N, U, P>,
-    modes: &'a Modes<N>,
-    tolerances: Tolerances<P>,
+    state: &'a Equilibrium,
+    modes: &'a Modes,
+    tolerances: Tolerances,
 }
 
 impl Spread {
@@ -193,15 +185,12 @@ impl Spread {
 
     /// Fills in everything; what was found before an error stays. The samples come first, because they exist also at an
     /// exactly critical state, which has no derivatives.
-    fn fill<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn fill<M: Mechanism>(
         &mut self,
         question: &Question,
-        at: &Place<'_, M, N, U, P>,
+        at: &Place<'_, M>,
         sampling: Option<&Sampling<'_>>,
-    ) -> Result<(), Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Result<(), Error> {
         let Place {
             mechanism,
             state,
@@ -214,17 +203,13 @@ impl Spread {
             )?);
         }
         let slopes = sensitivities(*mechanism, state, modes)?;
-        self.take_first_order(question, &first_order(modes, &slopes, tolerances));
+        self.take_first_order(question, &first_order(modes, &slopes, tolerances)?);
         let slopes = sensitivities_by_finite_difference(*mechanism, state, modes, STEP)?;
-        self.differences = moments(&first_order(modes, &slopes, tolerances));
+        self.differences = moments(&first_order(modes, &slopes, tolerances)?);
         Ok(())
     }
 
-    fn take_first_order<const N: usize, const P: usize>(
-        &mut self,
-        question: &Question,
-        found: &FirstOrder<N, P>,
-    ) {
+    fn take_first_order(&mut self, question: &Question, found: &FirstOrder) {
         self.first_order = moments(found);
         self.shares = found
             .modes
@@ -233,7 +218,7 @@ impl Spread {
                 question
                     .varied
                     .iter()
-                    .map(|variable| mode.variance_shares[variable.0])
+                    .map(|variable| mode.variance_shares()[variable.index()])
                     .collect()
             })
             .collect();
@@ -241,26 +226,29 @@ impl Spread {
         self.trusted = found.trusted();
     }
 
-    fn take_samples<const N: usize, const P: usize>(&mut self, found: &MonteCarlo<N, P>) {
+    fn take_samples(&mut self, found: &MonteCarlo) {
         self.unstable = Some(found.counts.total() - found.counts.stable);
         self.sampled = found
             .modes
             .iter()
             .map(|mode| Moments {
                 mean: mode.map(|mode| mode.mean),
-                sigma: mode.and_then(|mode| mode.standard_deviation),
+                sigma: mode.and_then(|mode| mode.sigma),
             })
             .collect();
     }
 }
 
-fn moments<const N: usize, const P: usize>(found: &FirstOrder<N, P>) -> Vec<Moments> {
+fn moments(found: &FirstOrder) -> Vec<Moments> {
     found
         .modes
         .iter()
         .map(|mode| Moments {
-            mean: mode.mean.and_then(finite),
-            sigma: mode.sigma.and_then(finite),
+            mean: mode.frequency.as_ref().and_then(|found| finite(found.mean)),
+            sigma: mode
+                .frequency
+                .as_ref()
+                .and_then(|found| finite(found.sigma)),
         })
         .collect()
 }

@@ -282,9 +282,9 @@ fn the_smallest_sweep_works() {
 fn a_speed_that_fails_is_reported_and_leaves_its_fields_empty() {
     use rotating_pendulum::RotatingPendulum;
     let question = Question {
-        speed: RotatingPendulum::omega,
+        speed: RotatingPendulum::omega.any(),
         range: (0.0, 8.0),
-        varied: vec![RotatingPendulum::l],
+        varied: vec![RotatingPendulum::l.any()],
         levels: vec![0.03],
     };
     let sampling = Sampling {

@@ -3,16 +3,17 @@
 use crate::equilibrium::{
     Condition, Crossing, Following, Line, Tracker, between, check_input, critical_states_on,
 };
+use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::tolerance::{
     Event, EventTolerance, Spread, Tolerances, critical_tolerance, crossing_tolerance,
 };
-use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Mechanism};
+use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 
 /// One mode at one value of the input.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CampbellMode<const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct CampbellMode {
     /// Number of the motion along the diagram.
     pub label: usize,
     /// Eigenvalue, 1/s.
@@ -20,9 +21,9 @@ pub struct CampbellMode<const P: usize> {
     /// What it means.
     pub behaviour: Behaviour,
     /// Frequency `Im s` and its spread, rad/s; `None` for a mode that does not oscillate, or has no derivative.
-    pub frequency: Option<Spread<P>>,
+    pub frequency: Option<Spread>,
     /// Damping ratio and its spread; `None` likewise.
-    pub damping_ratio: Option<Spread<P>>,
+    pub damping_ratio: Option<Spread>,
     /// Whirl; `None` where it does not apply.
     pub whirl: Option<Whirl>,
     /// Its eigenvalue is nearly that of another mode: spreads of its own do not exist there.
@@ -31,40 +32,40 @@ pub struct CampbellMode<const P: usize> {
 
 /// All modes at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CampbellPoint<const N: usize, const U: usize, const P: usize> {
+pub struct CampbellPoint {
     /// The value, SI.
     pub value: f64,
     /// The equilibrium there, or why there is none.
-    pub equilibrium: Result<Equilibrium<N, U, P>, Error>,
+    pub equilibrium: Result<Equilibrium, Error>,
     /// Its modes, or why there are none.
-    pub modes: Result<Vec<CampbellMode<P>>, Error>,
+    pub modes: Result<Vec<CampbellMode>, Error>,
 }
 
 /// A Campbell diagram.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Campbell<const N: usize, const U: usize, const P: usize> {
+pub struct Campbell {
     /// The input along which it is drawn.
     pub input: Input,
     /// One point for each value.
-    pub points: Vec<CampbellPoint<N, U, P>>,
+    pub points: Vec<CampbellPoint>,
     /// The lines that crossings were looked for with.
     pub orders: Vec<Line>,
     /// Where a frequency meets a line: value of the input, sensitivity and spread; line by line. The number of
     /// the mode is its label.
-    pub crossings: Vec<EventTolerance<P>>,
+    pub crossings: Vec<EventTolerance>,
     /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::equilibrium::Sweep)).
-    pub critical: Vec<EventTolerance<P>>,
+    pub critical: Vec<EventTolerance>,
     /// Where an oscillation begins or ceases to grow; undamped modes never do.
-    pub flutter_onsets: Vec<EventTolerance<P>>,
+    pub flutter_onsets: Vec<EventTolerance>,
     /// Standard deviations that a tolerance holds.
     pub sigma_level: f64,
     /// Which modes it shows.
     pub family: Family,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Campbell<N, U, P> {
+impl Campbell {
     /// The modes that occur: their labels, ascending.
     pub fn labels(&self) -> Vec<usize> {
         let modes = self
@@ -78,7 +79,7 @@ impl<const N: usize, const U: usize, const P: usize> Campbell<N, U, P> {
     }
 
     /// One branch of the diagram: the values of the input at which the mode of this label was found, and the mode there.
-    pub fn branch(&self, label: usize) -> impl Iterator<Item = (f64, &CampbellMode<P>)> {
+    pub fn branch(&self, label: usize) -> impl Iterator<Item = (f64, &CampbellMode)> {
         self.points.iter().filter_map(move |point| {
             let modes = point.modes.as_ref().ok()?;
             let mode = modes.iter().find(|mode| mode.label == label)?;
@@ -105,24 +106,22 @@ pub struct Axes<'a> {
 ///
 /// # Errors
 /// [`Error::UnknownHandle`]; a point that fails carries its own error.
-pub fn campbell<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn campbell(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     following: impl Into<Following>,
     axes: &Axes<'_>,
-    tolerances: &Tolerances<P>,
-) -> Result<Campbell<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+    tolerances: &Tolerances,
+) -> Result<Campbell, Error> {
     let Axes {
         input,
         values,
         orders,
     } = *axes;
-    check_input::<U>(input, M::DESCRIPTION.name)?;
+    let description = mechanism.description();
+    check_input(input, &description)?;
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let conditions = orders.iter().map(|&line| Condition::Line(line));
@@ -131,16 +130,16 @@ where
     let mut points = Vec::with_capacity(values.len());
     let mut smooth = Vec::with_capacity(values.len());
     for &value in values {
-        let before = tracker.last;
+        let before = tracker.last.clone();
         let (equilibrium, modes) = match tracker.advance(value) {
             Ok((state, modes)) => (Ok(state), modes),
             Err(error) => (Err(error.clone()), Err(error)),
         };
         smooth.push(tracker.smooth && modes.is_ok());
-        if let (Some(before), Some(after), true) = (before, tracker.last, modes.is_ok()) {
+        if let (Some(before), Some(after), true) = (&before, &tracker.last, modes.is_ok()) {
             for &condition in &conditions {
                 let mut found = Vec::new();
-                between(&tracker, &before, &after, condition, &mut found);
+                between(&tracker, before, after, condition, &mut found);
                 let list = match condition {
                     Condition::Line(_) => &mut crossings,
                     Condition::FlutterOnset => &mut flutter_onsets,
@@ -165,7 +164,7 @@ where
         });
     }
     // Engine order by engine order; stable, so onsets stay as they were found.
-    let order = |event: &EventTolerance<P>| match event.event {
+    let order = |event: &EventTolerance| match event.event {
         Event::Crossing {
             condition: Condition::Line(line),
             ..
@@ -188,35 +187,29 @@ where
         flutter_onsets,
         sigma_level: tolerances.sigma_level(),
         family: tracker.family(),
-        description: const { &M::DESCRIPTION },
+        description,
     })
 }
 
 /// The spread of a crossing under the label of its mode.
-fn labelled<const N: usize, const U: usize, const P: usize>(
-    crossing: &Crossing<N, U, P>,
-    spread: EventTolerance<P>,
-) -> EventTolerance<P> {
+fn labelled(crossing: &Crossing, spread: EventTolerance) -> EventTolerance {
     let mode = crossing.modes.modes.get(crossing.mode);
     spread.with_mode(mode.map_or(crossing.mode, |mode| mode.label))
 }
 
-fn describe<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    state: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-) -> Vec<CampbellMode<P>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let slopes: Option<Sensitivities<N, U, P>> = sensitivities(mechanism, state, modes).ok();
+fn describe(
+    mechanism: &dyn Kernels,
+    state: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Vec<CampbellMode> {
+    let slopes: Option<Sensitivities> = sensitivities(mechanism, state, modes).ok();
     let whirls = whirls(mechanism, state, modes);
-    let one = |(r, mode): (usize, &Mode<N>)| {
+    let one = |(r, mode): (usize, &Mode)| {
         let own = slopes.as_ref().map(|slopes| &slopes.modes[r]);
         let spread = |quantity: Quantity| {
             let by_design = own?.of(quantity)?.by_design;
-            Some(Spread::new(quantity.of(mode)?, &by_design, tolerances))
+            Some(Spread::new(quantity.of(mode)?, by_design, tolerances))
         };
         CampbellMode {
             label: mode.label,

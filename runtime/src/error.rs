@@ -2,6 +2,8 @@
 
 use thiserror::Error as ThisError;
 
+use crate::Text;
+
 /// A failure of one of the solvers. Values are SI.
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
@@ -12,17 +14,27 @@ pub enum Error {
         /// What kind of quantity it is: `input`, `design variable`, `start value of coordinate` ...
         kind: &'static str,
         /// Its declared name.
-        name: &'static str,
+        name: Text,
         /// What it is.
         value: f64,
+    },
+    /// A list has not one value for each input, design variable or unknown.
+    #[error("{found} {kind} given where the mechanism has {expected}")]
+    WrongLength {
+        /// What kind of list it is: `inputs`, `design variables`, `start values` ...
+        kind: &'static str,
+        /// How many values were given.
+        found: usize,
+        /// How many the mechanism has.
+        expected: usize,
     },
     /// A physical requirement is not met.
     #[error("{quantity} must be {requirement}, but is {value}")]
     Unphysical {
         /// What is wrong, for example `mass of bar1`.
-        quantity: &'static str,
+        quantity: Text,
         /// What it has to be.
-        requirement: &'static str,
+        requirement: Text,
         /// What it is.
         value: f64,
     },
@@ -33,7 +45,7 @@ pub enum Error {
     )]
     OutsideDomain {
         /// Name of the mechanism.
-        mechanism: &'static str,
+        mechanism: Text,
         /// What was evaluated.
         what: &'static str,
         /// Where.
@@ -63,13 +75,13 @@ pub enum Error {
         /// Why.
         reason: &'static str,
         /// The row that stays open most, in relation to the motions that could close it.
-        constraint: &'static str,
+        constraint: Text,
         /// By how much, SI.
         gap: f64,
         /// Unit of the gap: `m` or `rad`, of a constraint on velocities `m/s` or `rad/s`; empty for a pure number.
         unit: &'static str,
         /// The other rows that stay open, and by how much, SI.
-        others: Vec<(&'static str, f64)>,
+        others: Vec<(Text, f64)>,
         /// Where the gaps are least.
         coordinates: Vec<f64>,
         /// Iterations spent.
@@ -84,7 +96,7 @@ pub enum Error {
     )]
     SingularConfiguration {
         /// The rows.
-        constraints: Vec<&'static str>,
+        constraints: Vec<Text>,
     },
     /// The search ended beside a singular configuration of the constraints in which the forces do not balance: towards it
     /// they do by reactions that grow without bound.
@@ -95,7 +107,7 @@ pub enum Error {
     )]
     UnboundedReactions {
         /// The rows.
-        constraints: Vec<&'static str>,
+        constraints: Vec<Text>,
         /// Last state.
         coordinates: Vec<f64>,
     },
@@ -106,7 +118,7 @@ pub enum Error {
     )]
     SingularMass {
         /// The coordinate whose pivot vanishes.
-        coordinate: &'static str,
+        coordinate: Text,
     },
     /// The stiffness matrix is singular: the equilibrium is a critical state.
     #[error(
@@ -121,9 +133,9 @@ pub enum Error {
     )]
     ClosesHereOnly {
         /// The constraint.
-        constraint: &'static str,
+        constraint: Text,
         /// The input or design variable that breaks it.
-        variable: &'static str,
+        variable: Text,
     },
     /// The stiffness matrix is not symmetric, so undamped symmetric modes do not exist.
     #[error(
@@ -199,7 +211,7 @@ pub enum Error {
         /// What was looked for: `critical value` or `crossing`.
         what: &'static str,
         /// Name of the input.
-        input: &'static str,
+        input: Text,
         /// Low end, SI.
         low: f64,
         /// High end, SI.
@@ -227,7 +239,7 @@ pub enum Error {
         /// The handle's index.
         index: usize,
         /// Name of the mechanism.
-        mechanism: &'static str,
+        mechanism: Text,
         /// How many there are.
         count: usize,
     },
@@ -236,12 +248,12 @@ pub enum Error {
     Threads(String),
 }
 
-fn names(names: &[&'static str]) -> String {
+fn names(names: &[Text]) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }
 
-fn listed(others: &[(&'static str, f64)]) -> String {
+fn listed(others: &[(Text, f64)]) -> String {
     let each = others
         .iter()
         .map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));

@@ -1,7 +1,7 @@
 //! Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 //!
 //! Declare a mechanism with [`mechanism!`]; ask questions through `Study`, or call the functions of the modules
-//! directly: each takes the mechanism, plain arrays and the results of the step before. Numbers of equations are those of
+//! directly: each takes the mechanism, lists of numbers and the results of the step before. Numbers of equations are those of
 //! S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in Dynamic
 //! Equilibrium State", completed where the paper is incomplete.
 //!
@@ -38,7 +38,8 @@
 //! # fn main() {}
 //! ```
 //!
-//! What a `Study` answers, and the function behind it where results are to be used again:
+//! What a `Study` answers, and the function behind it; several questions about one operating point share its equilibrium and modes
+//! through `Study::solve`:
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
@@ -70,17 +71,19 @@ mod real;
 mod trigonometry;
 
 #[cfg(feature = "std")]
-mod array;
-#[cfg(feature = "std")]
 mod batched;
 #[cfg(feature = "std")]
 pub mod campbell;
 #[cfg(feature = "std")]
 mod constraints;
 #[cfg(feature = "std")]
+mod dense;
+#[cfg(feature = "std")]
 pub mod equilibrium;
 #[cfg(feature = "std")]
 mod error;
+#[cfg(feature = "std")]
+pub mod kernels;
 #[cfg(feature = "std")]
 pub mod modes;
 #[cfg(feature = "std")]
@@ -90,6 +93,7 @@ mod pencil;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
+#[expect(dead_code, reason = "for the calls of large kernels")]
 mod room;
 #[cfg(feature = "std")]
 mod rounding;
@@ -100,13 +104,19 @@ mod study;
 #[cfg(feature = "std")]
 pub mod tolerance;
 
+#[cfg(feature = "std")]
+pub use dense::{Matrix, Vector};
 pub use dual::Dual;
 pub use eigentol_macros::mechanism;
-pub use mechanism::{Coordinate, DesignVariable, Input, Output};
+#[cfg(feature = "std")]
+pub use kernels::Kernels;
+pub use mechanism::{Any, Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo, Linear,
-    LinearPartials, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Unit, Violation,
+    Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
+    Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared, Text,
+    Unit, Violation,
 };
+pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
 pub use real::Real;
 
 #[cfg(feature = "std")]
@@ -123,7 +133,7 @@ pub use num_complex::Complex64 as Complex;
 #[cfg(feature = "std")]
 pub use sensitivity::{Quantity, Sensitivities};
 #[cfg(feature = "std")]
-pub use study::Study;
+pub use study::{Solved, Study};
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
 

@@ -1,8 +1,10 @@
 //! Accelerations of the full nonlinear motion, for those who integrate it in time.
 
-use crate::array::{Cholesky, Lu, Square, all_finite, all_finite_square, dot};
 use crate::constraints::{Structure, Tangent, fix_gauge};
-use crate::{Error, Linear, Mechanism};
+use crate::dense::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, dot};
+use crate::equilibrium::{check_count, name};
+use crate::kernels::{DirectionalKernels, Kernels, Linear, MotionKernels};
+use crate::{Description, Error};
 
 /// Accelerations `qddot` of the free coordinates, from `M* qddot = Q*` (eqs. 7-9).
 ///
@@ -21,64 +23,64 @@ use crate::{Error, Linear, Mechanism};
 ///
 /// # Errors
 /// [`Error::SingularMass`] when `M*` is not positive definite (with constraints: over the motions they leave),
-/// [`Error::OutsideDomain`] when the state lies outside the domain of an expression.
-pub fn accelerations<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    velocity: &[f64; N],
-    q: &[f64; N],
-    u: &[f64; U],
-    b: &[f64; P],
-) -> Result<[f64; N], Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    if const { !Structure::of(&M::DESCRIPTION).open() } {
-        return constrained(mechanism, velocity, q, u, b);
+/// [`Error::OutsideDomain`] when the state lies outside the domain of an expression, [`Error::WrongLength`].
+pub fn accelerations(
+    mechanism: &dyn MotionKernels,
+    velocity: &[f64],
+    q: &[f64],
+    u: &[f64],
+    b: &[f64],
+) -> Result<Vector, Error> {
+    let description = &*mechanism.description();
+    check_count("velocities", velocity, description.coordinates.len())?;
+    check_count("coordinates", q, description.coordinates.len())?;
+    check_count("inputs", u, description.inputs.len())?;
+    check_count("design variables", b, description.design.len())?;
+    let structure = Structure::of(description);
+    if !structure.open() {
+        return constrained(mechanism, structure, velocity, q, u, b);
     }
     let (mass, right) = mechanism.motion(velocity, q, u, b);
-    if !all_finite(&right) || !all_finite_square(&mass) {
-        return Err(outside::<M, N, U, P, O>(q));
+    if !all_finite(&right) || !all_finite_matrix(&mass) {
+        return Err(outside(description, q));
     }
     Cholesky::new(&mass)
         .map(|factors| factors.solve(&right))
-        .map_err(|row| singular::<M, N, U, P, O>(row))
+        .map_err(|row| singular(description, row))
 }
 
-fn constrained<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    velocity: &[f64; N],
-    q: &[f64; N],
-    u: &[f64; U],
-    b: &[f64; P],
-) -> Result<[f64; N], Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Structure::of(&M::DESCRIPTION);
-    let motions = structure.motions();
-    let only = |x: &[f64; N], count: usize| -> [f64; N] {
-        core::array::from_fn(|i| if i < count { x[i] } else { 0.0 })
+fn constrained(
+    mechanism: &dyn MotionKernels,
+    structure: Structure,
+    velocity: &[f64],
+    q: &[f64],
+    u: &[f64],
+    b: &[f64],
+) -> Result<Vector, Error> {
+    let (plain, directional): (&dyn Kernels, &dyn DirectionalKernels) = (mechanism, mechanism);
+    let (n, motions) = (q.len(), structure.motions());
+    let only = |x: &[f64], count: usize| -> Vector {
+        Vector::from_fn(n, |i| if i < count { x[i] } else { 0.0 })
     };
     let rates = only(velocity, structure.coordinates);
     let q = only(q, motions);
-    let rest = mechanism.motion_residual(&[0.0; N], &rates, &q, u, b);
-    let linear = mechanism.linear(&q, u, b);
-    let along = mechanism.linear_along(&q, u, b, &rates, &[0.0; U], &[0.0; P]);
+    let rest = mechanism.motion_residual(&Vector::zeros(n), &rates, &q, u, b);
+    let linear = plain.linear(&q, u, b);
+    let still = (Vector::zeros(u.len()), Vector::zeros(b.len()));
+    let along = directional.linear_along(&q, u, b, [&rates, &still.0, &still.1]);
     // Columns of accelerations and of rates of speeds, and those of reactions.
-    let mut matrix: Square<N> = core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            if structure.position_rows().contains(&i) || j >= motions {
-                linear.stiffness[i][j]
-            } else if structure.velocity_rows().contains(&i) {
-                by_velocity(&linear, structure, i, j)
-            } else if j < structure.coordinates {
-                linear.mass[i][j]
-            } else {
-                linear.damping[i][j]
-            }
-        })
+    let mut matrix = Matrix::from_fn(n, n, |i, j| {
+        if structure.position_rows().contains(&i) || j >= motions {
+            linear.stiffness[i][j]
+        } else if structure.velocity_rows().contains(&i) {
+            by_velocity(&linear, structure, i, j)
+        } else if j < structure.coordinates {
+            linear.mass[i][j]
+        } else {
+            linear.damping[i][j]
+        }
     });
-    let right: [f64; N] = core::array::from_fn(|i| {
+    let right = Vector::from_fn(n, |i| {
         if i < motions {
             -rest[i]
         } else if structure.position_rows().contains(&i) {
@@ -87,24 +89,19 @@ where
             -dot(&along.damping[i], &rates) - dot(&linear.stiffness[i], &rates)
         }
     });
-    if !all_finite(&right) || !all_finite_square(&matrix) {
-        return Err(outside::<M, N, U, P, O>(&q));
+    if !all_finite(&right) || !all_finite_matrix(&matrix) {
+        return Err(outside(&mechanism.description(), &q));
     }
     fix_gauge(&mut matrix, structure);
     if let Some(lu) = Lu::new(&matrix) {
         return Ok(lu.solve(&right));
     }
     let row = Tangent::new(&linear, structure).massless(&linear);
-    Err(singular::<M, N, U, P, O>(row))
+    Err(singular(&mechanism.description(), row))
 }
 
 /// Derivative of constraint on velocities `i` by the velocity of a coordinate or by a speed.
-fn by_velocity<const N: usize>(
-    linear: &Linear<f64, N>,
-    structure: Structure,
-    i: usize,
-    j: usize,
-) -> f64 {
+fn by_velocity(linear: &Linear, structure: Structure, i: usize, j: usize) -> f64 {
     if j < structure.coordinates {
         linear.damping[i][j]
     } else {
@@ -112,25 +109,16 @@ fn by_velocity<const N: usize>(
     }
 }
 
-fn outside<M, const N: usize, const U: usize, const P: usize, const O: usize>(q: &[f64; N]) -> Error
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn outside(description: &Description, q: &[f64]) -> Error {
     Error::OutsideDomain {
-        mechanism: M::DESCRIPTION.name,
+        mechanism: description.name.clone(),
         what: "the equation of motion",
         coordinates: q.to_vec(),
     }
 }
 
-fn singular<M, const N: usize, const U: usize, const P: usize, const O: usize>(row: usize) -> Error
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn singular(description: &Description, row: usize) -> Error {
     Error::SingularMass {
-        coordinate: M::DESCRIPTION
-            .coordinates
-            .get(row)
-            .map_or("?", |info| info.name),
+        coordinate: name(description, row),
     }
 }

@@ -1,8 +1,8 @@
 //! What is zero but for rounding. Stability, modes, tolerances and reports all decide here whether a number is negative, zero
 //! or positive: against the error that it may have.
 
-use crate::array::{Lu, Square, dot, transpose};
-use crate::{Linear, Mechanism};
+use crate::dense::{Lu, Matrix, dot};
+use crate::kernels::{Kernels, Linear};
 
 /// A value that may be off by an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,25 +34,25 @@ pub(crate) const fn of_elements(n: usize) -> f64 {
 }
 
 /// What rounding of the elements of a matrix changes in `phi^T matrix phi`.
-pub(crate) fn of_form<const N: usize>(matrix: &Square<N>, phi: &[f64; N]) -> f64 {
+pub(crate) fn of_form(matrix: &Matrix, phi: &[f64]) -> f64 {
     let mut terms = 0.0;
     for (row, left) in matrix.iter().zip(phi) {
         for (element, right) in row.iter().zip(phi) {
             terms += (left * element * right).abs();
         }
     }
-    of_elements(N) * terms
+    of_elements(phi.len()) * terms
 }
 
 /// Rounding of an input, a design variable or a coordinate, relative to it, with that of the operations in which it takes part.
 const OF_DATA: f64 = 8.0 * f64::EPSILON;
 
 /// A state and what remains of its residual.
-pub(crate) struct Place<'a, const N: usize, const U: usize, const P: usize> {
-    pub(crate) coordinates: &'a [f64; N],
-    pub(crate) inputs: &'a [f64; U],
-    pub(crate) design: &'a [f64; P],
-    pub(crate) residual: &'a [f64; N],
+pub(crate) struct Place<'a> {
+    pub(crate) coordinates: &'a [f64],
+    pub(crate) inputs: &'a [f64],
+    pub(crate) design: &'a [f64],
+    pub(crate) residual: &'a [f64],
 }
 
 /// What rounding of the data changes in an eigenvalue `lambda` of `Khat phi = lambda Mhat phi`, `phi^T Mhat phi = 1`, the shift
@@ -60,20 +60,17 @@ pub(crate) struct Place<'a, const N: usize, const U: usize, const P: usize> {
 /// centrifugal forces do at a critical speed: its own size says nothing of its error, its derivatives do.
 #[cold]
 #[inline(never)]
-pub(crate) fn of_data<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Place<'_, N, U, P>,
-    linear: &Linear<f64, N>,
-    (lambda, phi): (f64, &[f64; N]),
-) -> f64
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(crate) fn of_data(
+    mechanism: &dyn Kernels,
+    at: &Place<'_>,
+    linear: &Linear,
+    (lambda, phi): (f64, &[f64]),
+) -> f64 {
     let (q, u, b) = (at.coordinates, at.inputs, at.design);
     let mut slopes = mechanism.mode_gradient(q, u, b, phi, lambda);
     let mut rest = 0.0;
     let direct = terms(&slopes.coordinates, q);
-    if let Some(factors) = Lu::new(&transpose(&linear.stiffness)) {
+    if let Some(factors) = Lu::new(&linear.stiffness.transpose()) {
         let adjoint = factors.solve(&slopes.coordinates);
         let shift = mechanism.residual_gradient(q, u, b, &adjoint);
         for (slope, shift) in slopes.inputs.iter_mut().zip(shift.inputs) {
@@ -88,7 +85,7 @@ where
 }
 
 /// Sum of the absolute products.
-fn terms<const K: usize>(slopes: &[f64; K], values: &[f64; K]) -> f64 {
+fn terms(slopes: &[f64], values: &[f64]) -> f64 {
     let products = slopes.iter().zip(values);
     products.fold(0.0, |sum, (slope, value)| sum + (slope * value).abs())
 }
@@ -97,8 +94,8 @@ fn terms<const K: usize>(slopes: &[f64; K], values: &[f64; K]) -> f64 {
 /// diagonal and that of `Mhat`: no pivot is a small rest of its element, and no stiffness so small that its element could be
 /// the rest of greater terms.
 #[inline]
-pub(crate) fn clear<const N: usize>(pivots: &[f64; N], linear: &Linear<f64, N>) -> bool {
-    (0..N).all(|i| {
+pub(crate) fn clear(pivots: &[f64], linear: &Linear) -> bool {
+    (0..pivots.len()).all(|i| {
         pivots[i] > CANCELLED * linear.stiffness[i][i] && pivots[i] > SLOW * linear.mass[i][i]
     })
 }

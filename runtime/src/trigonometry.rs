@@ -3,7 +3,7 @@
 
 use core::f64::consts::FRAC_2_PI;
 
-use crate::lanes::Vector;
+use crate::lanes::Lanes;
 
 /// Greatest `|x|` that [`sin_cos_within`] takes, rad: beyond it the multiple of pi/2 has more bits than [`PI_2`] leaves free.
 pub(crate) const LIMIT: f64 = 1e5;
@@ -45,7 +45,7 @@ const COSINE: [f64; 6] = [
 /// Reduction by multiples of pi/2 after Cody and Waite (1980), with the rounding error of the difference carried on, so that
 /// digits stay where `x` is next to a multiple.
 #[inline(always)]
-pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
+pub(crate) fn sin_cos_within<V: Lanes>(x: V) -> (V, V) {
     let number = V::constant;
     let shifted = x * number(FRAC_2_PI) + number(ROUND);
     let turns = shifted - number(ROUND);
@@ -70,7 +70,7 @@ pub(crate) fn sin_cos_within<V: Vector>(x: V) -> (V, V) {
 /// Sine and cosine of an angle in full turns, between zero and one, to a few units of rounding of one.
 #[inline(always)]
 #[cfg(feature = "std")]
-pub(crate) fn sin_cos_of_turns<V: Vector>(turns: V) -> (V, V) {
+pub(crate) fn sin_cos_of_turns<V: Lanes>(turns: V) -> (V, V) {
     let number = V::constant;
     let quarters = turns * number(4.0);
     let shifted = quarters + number(ROUND);
@@ -85,7 +85,7 @@ pub(crate) fn sin_cos_of_turns<V: Vector>(turns: V) -> (V, V) {
 
 /// `S1 + S2 z + ..`, `z = r^2`, `w = z^2`.
 #[inline(always)]
-fn sine_terms<V: Vector>(z: V, w: V) -> V {
+fn sine_terms<V: Lanes>(z: V, w: V) -> V {
     let number = V::constant;
     (number(SINE[1]) + z * number(SINE[2]))
         + w * ((number(SINE[3]) + z * number(SINE[4])) + w * number(SINE[5]))
@@ -93,7 +93,7 @@ fn sine_terms<V: Vector>(z: V, w: V) -> V {
 
 /// `C0 + C1 z + ..`.
 #[inline(always)]
-fn cosine_terms<V: Vector>(z: V, w: V) -> V {
+fn cosine_terms<V: Lanes>(z: V, w: V) -> V {
     let number = V::constant;
     let low = number(COSINE[0]) + z * (number(COSINE[1]) + z * number(COSINE[2]));
     let high = (number(COSINE[3]) + z * number(COSINE[4])) + w * number(COSINE[5]);

@@ -123,8 +123,8 @@ fn double_pendulum_matches_reference() {
 #[test]
 fn every_branch_is_found() {
     let search = Search {
-        lower: [-3.2],
-        upper: [3.2],
+        lower: [-3.2].into(),
+        upper: [3.2].into(),
         starts: 40,
         seed: 1,
     };
@@ -266,7 +266,8 @@ fn wrong_values_are_named() {
         &[0.0],
         Policy::Stable,
     );
-    assert_eq!(massless, Err(Error::SingularMass { coordinate: "x" }));
+    let coordinate = "x".into();
+    assert_eq!(massless, Err(Error::SingularMass { coordinate }));
     let overflow = equilibrium(&Pendulum, &[1e200], &BAR, &[1.0], Policy::Stable);
     assert!(
         matches!(overflow, Err(Error::OutsideDomain { .. })),

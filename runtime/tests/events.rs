@@ -24,7 +24,7 @@ fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
         &BAR,
         &[1.047],
         Policy::Stable,
-        Input(0),
+        Input::new(0),
         &values,
     )
     .unwrap();
@@ -43,7 +43,7 @@ fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
         &BAR,
         &[0.0],
         Policy::Stable,
-        Input(3),
+        Input::new(3),
         &values,
     );
     assert!(matches!(
@@ -55,7 +55,7 @@ fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
 #[test]
 fn critical_speeds_and_crossings_match_closed_forms() {
     let range = Range {
-        input: Input(0),
+        input: Input::new(0),
         low: 0.1,
         high: 5.0,
         steps: 60,
@@ -66,10 +66,7 @@ fn critical_speeds_and_crossings_match_closed_forms() {
     close(double.value, 2.680_114_012_253_375_3, 1e-12);
     let below = Range { high: 3.0, ..range };
     let none = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], below);
-    assert!(matches!(
-        none,
-        Err(Error::NotInRange { input: "omega", .. })
-    ));
+    assert!(matches!(none, Err(Error::NotInRange { input, .. }) if input == "omega"));
 
     let met = crossings(&Pendulum, &[0.0], &BAR, &[1.0], Policy::Stable, range, 1.0).unwrap();
     assert_eq!(met.len(), 1);
@@ -92,7 +89,7 @@ fn critical_speeds_and_crossings_match_closed_forms() {
 fn a_limit_point_is_found_where_the_branch_ends() {
     // k q - q^3 = 1 loses its lower solution where k = 3 q^2 and 2 q^3 = 1.
     let range = Range {
-        input: Input(0),
+        input: Input::new(0),
         low: 4.0,
         high: 1.0,
         steps: 20,
@@ -106,7 +103,7 @@ fn a_limit_point_is_found_where_the_branch_ends() {
 
 fn through(low: f64, high: f64, steps: usize) -> Range {
     Range {
-        input: Input(0),
+        input: Input::new(0),
         low,
         high,
         steps,
@@ -205,7 +202,7 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
 #[test]
 fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
     let range = Range {
-        input: Input(0),
+        input: Input::new(0),
         low: 0.0,
         high: 0.6,
         steps: 7,
@@ -230,7 +227,7 @@ fn a_mode_that_has_ended_does_not_lend_its_label_to_another() {
         &[],
         &[0.0; 2],
         Policy::Stable,
-        Input(0),
+        Input::new(0),
         &values,
     )
     .unwrap();

@@ -3,8 +3,11 @@
 mod common;
 
 use common::pendulum::Pendulum as ByHand;
-use eigentol::lanes::{self, Batch, Instructions, WIDTH};
-use eigentol::{Gradient, Linear, LinearPartials, Mechanism, mechanism};
+use eigentol::kernels::{
+    BatchKernels, BatchPoint, Gradient, Kernels, Linear, LinearPartials, RestParts,
+};
+use eigentol::lanes::{Batch, Instructions, WIDTH};
+use eigentol::{Matrix, mechanism};
 
 mechanism! {
     /// Every function of the language: roots, powers, exponentials and angles.
@@ -55,12 +58,12 @@ fn numbers() -> impl FnMut() -> f64 {
     }
 }
 
-fn batches<const K: usize>(mut value: impl FnMut() -> f64) -> [Batch; K] {
-    core::array::from_fn(|_| Batch::from_fn(|_| value()))
+fn batches(count: usize, mut value: impl FnMut() -> f64) -> Vec<Batch> {
+    (0..count).map(|_| Batch::from_fn(|_| value())).collect()
 }
 
-fn of_state<const K: usize>(batches: &[Batch; K], state: usize) -> [f64; K] {
-    core::array::from_fn(|k| batches[k].0[state])
+fn of_state(batches: &[Batch], state: usize) -> Vec<f64> {
+    batches.iter().map(|batch| batch.0[state]).collect()
 }
 
 /// Equal bits, or both not a number.
@@ -79,7 +82,7 @@ fn same_list(batches: &[Batch], state: usize, alone: &[f64]) {
     }
 }
 
-fn same_linear<const N: usize>(batch: &Linear<Batch, N>, state: usize, alone: &Linear<f64, N>) {
+fn same_linear(batch: &Linear<Batch>, state: usize, alone: &Linear) {
     same_list(batch.mass.as_flattened(), state, alone.mass.as_flattened());
     same_list(
         batch.damping.as_flattened(),
@@ -93,55 +96,54 @@ fn same_linear<const N: usize>(batch: &Linear<Batch, N>, state: usize, alone: &L
     );
 }
 
-fn same_gradient<const N: usize, const U: usize, const P: usize>(
-    batch: &Gradient<Batch, N, U, P>,
-    state: usize,
-    alone: &Gradient<f64, N, U, P>,
-) {
+fn same_gradient(batch: &Gradient<Batch>, state: usize, alone: &Gradient) {
     same_list(&batch.coordinates, state, &alone.coordinates);
     same_list(&batch.inputs, state, &alone.inputs);
     same_list(&batch.design, state, &alone.design);
 }
 
 /// All kernels at one batch of states.
-fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    m: &M,
-    q: &[Batch; N],
-    u: &[Batch; U],
-    b: &[Batch; P],
-) where
-    M: Mechanism<N, U, P, O>,
-{
+fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
+    let kernels: &dyn Kernels = m;
+    let sizes = kernels.sizes();
+    let n = sizes.coordinates;
     let mut random = numbers();
-    let (phi, lambda): ([Batch; N], _) = (batches(&mut random), Batch::from_fn(|_| random()));
+    let (phi, lambda) = (batches(n, &mut random), Batch::from_fn(|_| random()));
+    let at = BatchPoint { q, u, b };
     for set in Instructions::available() {
-        let mut newton = ([Batch::default(); N], [[Batch::default(); N]; N]);
-        let mut linear = Linear::default();
-        let mut partials = ([[Batch::default(); U]; N], [[Batch::default(); P]; N]);
-        let mut matrices = LinearPartials::default();
-        let (mut mode, mut residual) = (Gradient::default(), Gradient::default());
-        lanes::residual_and_stiffness(set, m, q, u, b, &mut newton);
-        lanes::linear(set, m, q, u, b, &mut linear);
-        lanes::residual_partials(set, m, q, u, b, &mut partials);
-        lanes::linear_partials(set, m, q, u, b, &mut matrices);
-        lanes::mode_gradient(set, m, q, u, b, &phi, &lambda, &mut mode);
-        lanes::residual_gradient(set, m, q, u, b, &phi, &mut residual);
+        let mut newton = (vec![Batch::default(); n], Matrix::zeros(n, n));
+        let (mut linear, mut both) = (Linear::zeros(n), (RestParts::zeros(n), Linear::zeros(n)));
+        let mut matrices = LinearPartials::zeros(sizes);
+        let mut partials = (
+            Matrix::zeros(n, sizes.inputs),
+            Matrix::zeros(n, sizes.design),
+        );
+        let (mut mode, mut residual) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+        m.residual_and_stiffness_batch(set, at, &mut newton.0, &mut newton.1);
+        m.linear_batch(set, at, &mut linear);
+        m.parts_and_linear_batch(set, at, &mut both.0, &mut both.1);
+        m.partials_batch(set, at, &mut matrices, &mut partials);
+        m.mode_gradient_batch(set, at, &phi, &lambda, &mut mode);
+        m.residual_gradient_batch(set, at, &phi, &mut residual);
         for state in 0..WIDTH {
-            let (q, u, b) = (of_state(q, state), of_state(u, state), of_state(b, state));
+            let [q, u, b] = [q, u, b].map(|batches| of_state(batches, state));
             let (phi, lambda) = (of_state(&phi, state), lambda.0[state]);
-            let (g, k) = m.residual_and_stiffness(&q, &u, &b);
+            let (g, k) = kernels.residual_and_stiffness(&q, &u, &b);
             same_list(&newton.0, state, &g);
             same_list(newton.1.as_flattened(), state, k.as_flattened());
-            same_linear(&linear, state, &m.linear(&q, &u, &b));
-            let (by_input, by_design) = m.residual_partials(&q, &u, &b);
+            let alone = kernels.linear(&q, &u, &b);
+            same_linear(&linear, state, &alone);
+            same_linear(&both.1, state, &alone);
+            let alone = kernels.residual_parts(&q, &u, &b);
+            same_list(&both.0.inertia, state, &alone.inertia);
+            same_list(&both.0.applied, state, &alone.applied);
+            let (by_input, by_design) = kernels.residual_partials(&q, &u, &b);
             same_list(partials.0.as_flattened(), state, by_input.as_flattened());
             same_list(partials.1.as_flattened(), state, by_design.as_flattened());
-            let alone = m.linear_partials(&q, &u, &b);
-            let at_once = m.partials(&q, &u, &b);
-            let one_by_one = (alone, (by_input, by_design));
-            assert!(format!("{at_once:?}") == format!("{one_by_one:?}"));
+            let alone = kernels.linear_partials(&q, &u, &b);
+            let at_once = kernels.partials(&q, &u, &b);
             for (batch, alone) in [
-                (&matrices.by_coordinate[..], &alone.by_coordinate[..]),
+                (&matrices.by_coordinate, &alone.by_coordinate),
                 (&matrices.by_input, &alone.by_input),
                 (&matrices.by_design, &alone.by_design),
             ] {
@@ -151,8 +153,18 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
                     .zip(alone)
                     .for_each(|(batch, alone)| same_linear(batch, state, alone));
             }
-            same_gradient(&mode, state, &m.mode_gradient(&q, &u, &b, &phi, lambda));
-            same_gradient(&residual, state, &m.residual_gradient(&q, &u, &b, &phi));
+            let one_by_one = (alone, (by_input, by_design));
+            assert!(format!("{at_once:?}") == format!("{one_by_one:?}"));
+            same_gradient(
+                &mode,
+                state,
+                &kernels.mode_gradient(&q, &u, &b, &phi, lambda),
+            );
+            same_gradient(
+                &residual,
+                state,
+                &kernels.residual_gradient(&q, &u, &b, &phi),
+            );
         }
     }
 }
@@ -161,12 +173,12 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 fn random_states() {
     let mut random = numbers();
     for _ in 0..200 {
-        let q = batches(|| 3.0 * random());
-        let u = batches(|| 10.0 * random());
-        let b = batches(|| 1.5 + random());
+        let q = batches(2, || 3.0 * random());
+        let u = batches(1, || 10.0 * random());
+        let b = batches(4, || 1.5 + random());
         check(&Everything, &q, &u, &b);
         check(&Double, &q, &u, &b);
-        check(&Double, &batches(|| 2e4 * random()), &u, &b);
+        check(&Double, &batches(2, || 2e4 * random()), &u, &b);
     }
 }
 
@@ -187,15 +199,8 @@ fn states_at_the_edges() {
     ];
     for &value in &odd {
         for place in 0..WIDTH {
-            let q = batches(|| 0.3).map(|batch: Batch| {
-                Batch::from_fn(|state| {
-                    if state == place {
-                        value
-                    } else {
-                        batch.0[state]
-                    }
-                })
-            });
+            let odd = |state| if state == place { value } else { 0.3 };
+            let q = [Batch::from_fn(odd); 2];
             check(&Double, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
             check(&Everything, &q, &[Batch::all(2.0)], &[Batch::all(1.0); 4]);
         }
@@ -212,7 +217,7 @@ fn states_at_the_edges() {
 #[test]
 fn written_by_hand() {
     let mut random = numbers();
-    let (q, b) = (batches(&mut random), batches(|| 1.5 + random()));
+    let (q, b) = (batches(1, &mut random), batches(2, || 1.5 + random()));
     check(&ByHand, &q, &[Batch::all(3.0)], &b);
 }
 

@@ -23,12 +23,11 @@ fn look(text: &str) -> Option<&str> {
     Some(&text[at.saturating_sub(200)..at + 3])
 }
 
-fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    name: &str,
-    study: &Study<M, N, U, P, O>,
-) where
-    M: Mechanism<N, U, P, O>,
-{
+fn wide<M>(k: usize) -> DesignVariable<M> {
+    DesignVariable::new(k)
+}
+
+fn ask<M: Mechanism>(name: &str, study: &Study<M>) {
     for family in [Family::Undamped, Family::General] {
         let study = study.clone().family(family).samples(20).threads(1);
         let mut answers = vec![
@@ -51,12 +50,15 @@ fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
                 ratio: 1.0,
                 offset: 0.0,
             };
-            let diagram = study.campbell(Input(0), &values, &[line]);
+            let diagram = study.campbell(Input::new(0), &values, &[line]);
             answers.extend([
-                ("sweep", format!("{:?}", study.sweep(Input(0), &values))),
+                (
+                    "sweep",
+                    format!("{:?}", study.sweep(Input::new(0), &values)),
+                ),
                 (
                     "slopes",
-                    format!("{:?}", study.first_order_sweep(Input(0), &values)),
+                    format!("{:?}", study.first_order_sweep(Input::new(0), &values)),
                 ),
                 ("campbell", format!("{diagram:?}")),
                 (
@@ -76,17 +78,16 @@ fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
 fn no_answer_has_a_nan_in_it() {
     for exponent in [100, 149, 151, 153, 155, 160, 200, 250, 300, 307] {
         for x in [10.0_f64.powi(exponent), 10.0_f64.powi(-exponent)] {
-            let wide = |k: usize| DesignVariable(k);
-            let spring = Study::new(Derived(Spring)).input(Input(0), 1.0);
+            let spring = Study::new(Derived(Spring)).input(Input::new(0), 1.0);
             let spring = spring.relative_tolerance(wide(0), 0.01);
             ask(
                 &format!("stiffness {x:e}"),
-                &spring.clone().input(Input(0), x),
+                &spring.clone().input(Input::new(0), x),
             );
             ask(&format!("mass {x:e}"), &spring.clone().design(wide(0), x));
             ask(
                 &format!("both {x:e}"),
-                &spring.clone().design(wide(0), x).input(Input(0), x),
+                &spring.clone().design(wide(0), x).input(Input::new(0), x),
             );
             let bent = spring.design(wide(1), 1.0);
             ask(&format!("force {x:e}"), &bent.clone().design(wide(2), x));
@@ -95,18 +96,18 @@ fn no_answer_has_a_nan_in_it() {
                 &bent.tolerance(wide(2), x).tolerance(wide(0), x),
             );
             let pendulum = Study::new(Pendulum)
-                .input(Input(0), 3.0)
+                .input(Input::new(0), 3.0)
                 .relative_tolerance(wide(0), 0.01);
             ask(
                 &format!("speed {x:e}"),
-                &pendulum.clone().input(Input(0), x),
+                &pendulum.clone().input(Input::new(0), x),
             );
             ask(
                 &format!("length {x:e}"),
                 &pendulum.clone().design(wide(1), x),
             );
             ask(&format!("heavy {x:e}"), &pendulum.design(wide(0), x));
-            let plate = Study::new(Derived(Plate)).input(Input(0), 3.0);
+            let plate = Study::new(Derived(Plate)).input(Input::new(0), 3.0);
             ask(
                 &format!("plate {x:e}"),
                 &plate
@@ -121,7 +122,7 @@ fn no_answer_has_a_nan_in_it() {
                     .design(wide(3), x)
                     .relative_tolerance(wide(3), 0.01),
             );
-            ask(&format!("fast {x:e}"), &plate.input(Input(0), x));
+            ask(&format!("fast {x:e}"), &plate.input(Input::new(0), x));
             let pair = Study::new(Derived(Pair));
             ask(
                 &format!("pair {x:e}"),
@@ -140,8 +141,8 @@ fn no_answer_has_a_nan_in_it() {
 
 #[test]
 fn an_eigenvalue_whose_square_overflows_is_named() {
-    let plate = Study::new(Derived(Plate)).input(Input(0), 3.0);
-    let found = plate.design(DesignVariable(3), 1e200).modes();
+    let plate = Study::new(Derived(Plate)).input(Input::new(0), 3.0);
+    let found = plate.design(DesignVariable::new(3), 1e200).modes();
     let Err(Error::EigenvalueRange { mode, size }) = found else {
         panic!("{found:?}")
     };
@@ -151,7 +152,7 @@ fn an_eigenvalue_whose_square_overflows_is_named() {
 
 #[test]
 fn a_band_around_something_infinite_is_refused() {
-    let study = Study::new(Pendulum).input(Input(0), 5.0);
+    let study = Study::new(Pendulum).input(Input::new(0), 5.0);
     for (order, fraction) in [
         (f64::INFINITY, 0.1),
         (f64::NEG_INFINITY, 0.1),
@@ -164,11 +165,11 @@ fn a_band_around_something_infinite_is_refused() {
     ] {
         for speed in [0.0, 5.0] {
             let band = Band::Around {
-                input: Input(0),
+                input: Input::new(0),
                 order,
                 fraction,
             };
-            let found = study.clone().input(Input(0), speed).margin(0, band);
+            let found = study.clone().input(Input::new(0), speed).margin(0, band);
             let in_range =
                 speed == 0.0 && order.is_finite() && fraction > 0.0 && fraction.is_finite();
             match found {
@@ -186,7 +187,7 @@ fn a_band_around_something_infinite_is_refused() {
 /// A million threads are as many as make sense, and the answer is that of one.
 #[test]
 fn a_million_threads_are_not_started() {
-    let study = Study::new(Pendulum).input(Input(0), 3.0).samples(1000);
+    let study = Study::new(Pendulum).input(Input::new(0), 3.0).samples(1000);
     let many = study.clone().threads(1_000_000).monte_carlo().unwrap();
     assert_eq!(many, study.threads(1).monte_carlo().unwrap());
 }

@@ -3,17 +3,20 @@
 
 mod common;
 
+use std::sync::Arc;
+
+use eigentol::kernels::Linear;
 use eigentol::modes::{modes, modes_of};
 use eigentol::tolerance::Doubt;
 use eigentol::{
-    Behaviour, CoordinateInfo, DampingKind, Description, DesignVariable, Family, Input, Linear,
-    Policy, Real, Stability, Study, mechanism,
+    Behaviour, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy, Real,
+    Shared, Stability, Study, Vector, mechanism,
 };
 
 use common::derived::{Derived, Model};
 use common::models::Plate;
 use common::pendulum::W;
-use common::{METRE, STIFFNESS, close, coordinate, design};
+use common::{METRE, STIFFNESS, close, coordinate, design, sizes};
 
 mechanism! {
     mechanism Bar {
@@ -97,24 +100,26 @@ mechanism! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Chain;
 
-impl Model<3, 0, 3, 0> for Chain {
+impl Model for Chain {
+    sizes!(3, 0, 3, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Chain",
-        coordinates: &[
+        name: Shared::Static("Chain"),
+        coordinates: Shared::Static(&[
             coordinate("x", METRE),
             coordinate("y", METRE),
             coordinate("z", METRE),
-        ],
-        inputs: &[],
-        design: &[
+        ]),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[
             design("k1", STIFFNESS, 1.0, 0.0),
             design("k2", STIFFNESS, 1.0, 0.0),
             design("g", STIFFNESS, 0.0, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -145,7 +150,7 @@ fn exact_lambda(omega: f64) -> f64 {
     (W - square) - omega.mul_add(omega, -square)
 }
 
-fn bar(omega: f64, start: f64) -> Study<Bar, 1, 1, 2, 0> {
+fn bar(omega: f64, start: f64) -> Study<Bar> {
     let study = Study::new(Bar).input(Bar::omega, omega);
     study.start(Bar::theta, start)
 }
@@ -185,7 +190,7 @@ fn beside_its_critical_speed_a_pendulum_is_stable_or_not() {
         for omega in [critical * (1.0 - distance), critical * (1.0 + distance)] {
             let study = bar(omega, 0.0).policy(Policy::Nearest);
             let at = study.equilibrium().unwrap();
-            let mode = study.modes().unwrap().modes[0];
+            let mode = study.modes().unwrap().modes.remove(0);
             let exact = exact_lambda(omega);
             let expected = match exact > 0.0 {
                 true => (Stability::Stable, Behaviour::Oscillating(exact.sqrt())),
@@ -212,7 +217,7 @@ fn a_critical_state_that_was_located_is_neutral() {
     close(found.value, W.sqrt(), 1e-12);
     let at = &found.equilibrium;
     assert_eq!(at.stability, Stability::Neutral { zero: 1 });
-    let mode = modes(at).unwrap().modes[0];
+    let mode = modes(at).unwrap().modes.remove(0);
     assert_eq!(mode.behaviour, Behaviour::Neutral);
 }
 
@@ -294,8 +299,8 @@ fn an_oscillation_that_keeps_its_amplitude_neither_grows_nor_decays() {
     for speed in [0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 8.0] {
         let study = Study::new(Derived(Plate))
             .family(Family::General)
-            .input(Input(0), speed)
-            .tolerance(DesignVariable(3), 1e-2);
+            .input(Input::new(0), speed)
+            .tolerance(DesignVariable::new(3), 1e-2);
         let summary = study.summary().unwrap();
         for (mode, trust) in summary.first.modes.iter().zip(&summary.trust) {
             assert_eq!(mode.distance_to_instability, 0.0, "{speed}");
@@ -422,7 +427,7 @@ fn what_the_elements_cannot_hold_is_neutral() {
             let g = share * (k1 + k2);
             let study = [k1, k2, g].into_iter().enumerate().fold(
                 Study::new(Derived(Chain)).policy(Policy::Nearest),
-                |study, (k, value)| study.design(DesignVariable(k), value),
+                |study, (k, value)| study.design(DesignVariable::new(k), value),
             );
             assert_eq!(
                 study.equilibrium().unwrap().stability,
@@ -450,59 +455,57 @@ fn what_the_elements_cannot_hold_is_neutral() {
 
 /// Matrices of whole numbers with known eigenvalues: `Mhat = T^T T`, `Khat = T^T diag(d) T`, `T` a product of shears. None is farther
 /// off than its error, and no sign is wrong.
-fn known_eigenvalues<const N: usize>(seed: &mut u64) -> [usize; 2] {
-    struct Coordinates<const N: usize>;
-    impl<const N: usize> Coordinates<N> {
-        const ALL: [CoordinateInfo; N] = [coordinate("q", METRE); N];
-        const DESCRIPTION: &'static Description = &Description {
-            name: "Known",
-            coordinates: &Self::ALL,
-            inputs: &[],
-            design: &[],
-            outputs: &[],
-            symmetric_stiffness: true,
-            damping: DampingKind::Zero,
-            kernels: &[],
-        };
-    }
+fn known_eigenvalues(n: usize, seed: &mut u64) -> [usize; 2] {
+    let infos = vec![coordinate("q", METRE); n];
+    let description = Shared::Counted(Arc::new(Description {
+        name: Shared::Static("Known"),
+        coordinates: infos.into(),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[]),
+        outputs: Shared::Static(&[]),
+        symmetric_stiffness: true,
+        damping: DampingKind::Zero,
+        kernels: Shared::Static(&[]),
+    }));
     let mut next = |count: u64| {
         *seed = seed
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 33) % count
     };
-    let mut t: [[f64; N]; N] =
-        std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
-    for _ in 0..2 * N {
-        let (i, j) = (next(N as u64) as usize, next(N as u64) as usize);
+    let mut t = Matrix::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));
+    for _ in 0..2 * n {
+        let (i, j) = (next(n as u64) as usize, next(n as u64) as usize);
         let factor = next(3) as f64 - 1.0;
         if i != j {
-            t[i] = std::array::from_fn(|k| t[i][k] + factor * t[j][k]);
+            for k in 0..n {
+                t[i][k] += factor * t[j][k];
+            }
         }
     }
     // A quarter zero, some negative, the others up to 2^30.
-    let mut d: [f64; N] = std::array::from_fn(|_| match next(4) {
+    let mut d = Vector::from_fn(n, |_| match next(4) {
         0 => 0.0,
         1 => -(next(1 << 10) as f64),
         _ => 2.0_f64.powi(next(31) as i32),
     });
-    let product = |weight: &[f64; N]| -> [[f64; N]; N] {
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..N).map(|k| weight[k] * t[k][i] * t[k][j]).sum())
+    let product = |weight: &[f64]| {
+        Matrix::from_fn(n, n, |i, j| {
+            (0..n).map(|k| weight[k] * t[k][i] * t[k][j]).sum::<f64>()
         })
     };
-    let (mass, stiffness) = (product(&[1.0; N]), product(&d));
+    let (mass, stiffness) = (product(&vec![1.0; n]), product(&d));
     let exact = stiffness
+        .as_flattened()
         .iter()
-        .flatten()
         .all(|value| value.abs() < 2.0_f64.powi(52));
     assert!(exact);
     let linear = Linear {
         mass,
-        damping: [[0.0; N]; N],
+        damping: Matrix::zeros(n, n),
         stiffness,
     };
-    let found = modes_of(&linear, Family::Undamped, Coordinates::<N>::DESCRIPTION).unwrap();
+    let found = modes_of(&linear, Family::Undamped, &description).unwrap();
     d.sort_by(f64::total_cmp);
     let mut counts = [0; 2];
     for (mode, exact) in found.modes.iter().zip(d) {
@@ -530,15 +533,8 @@ fn errors_are_bounds_and_signs_are_true() {
     let mut seed = 5;
     let mut open = [0, 0];
     for _ in 0..400 {
-        let counts = [
-            known_eigenvalues::<1>(&mut seed),
-            known_eigenvalues::<2>(&mut seed),
-            known_eigenvalues::<3>(&mut seed),
-            known_eigenvalues::<5>(&mut seed),
-            known_eigenvalues::<8>(&mut seed),
-            known_eigenvalues::<10>(&mut seed),
-        ];
-        for count in counts {
+        for n in [1, 2, 3, 5, 8, 10] {
+            let count = known_eigenvalues(n, &mut seed);
             open = [open[0] + count[0], open[1] + count[1]];
         }
     }

@@ -2,10 +2,11 @@
 //! rounding, the same bits with every set of instructions and any number of threads.
 
 use eigentol::equilibrium::equilibrium;
+use eigentol::kernels::{BatchKernels, Kernels};
 use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
 use eigentol::tolerance::{Counts, Sampling, monte_carlo};
-use eigentol::{Mechanism, MonteCarlo, Policy, Tolerances, mechanism};
+use eigentol::{MonteCarlo, Policy, Tolerances, Vector, mechanism};
 
 mechanism! {
     mechanism Pendulum {
@@ -59,28 +60,23 @@ mechanism! {
     }
 }
 
-fn nominal<M, const N: usize, const U: usize, const P: usize, const O: usize>() -> [f64; P]
-where
-    M: Mechanism<N, U, P, O>,
-{
-    core::array::from_fn(|j| M::DESCRIPTION.design[j].nominal)
+fn nominal(m: &dyn Kernels) -> Vector {
+    let description = m.description();
+    description.design.iter().map(|info| info.nominal).collect()
 }
 
 /// Runs every set of instructions, compares with single samples, and returns what became of them and whether any was
 /// solved in vectors, which rounding shows.
-fn compare<M, const N: usize, const P: usize>(
-    m: &M,
+fn compare(
+    m: &dyn BatchKernels,
     omega: f64,
-    start: [f64; N],
-    tolerances: &Tolerances<P>,
-) -> (Counts, bool)
-where
-    M: Mechanism<N, 1, P, 0>,
-{
-    let b = nominal::<M, N, 1, P, 0>();
-    let state = equilibrium(m, &[omega], &b, &start, Policy::Stable).expect("an equilibrium");
+    start: &[f64],
+    tolerances: &Tolerances,
+) -> (Counts, bool) {
+    let b = nominal(m);
+    let state = equilibrium(m, &[omega], &b, start, Policy::Stable).expect("an equilibrium");
     let found = modes(&state).expect("modes");
-    let run = |vectors, threads| -> MonteCarlo<N, P> {
+    let run = |vectors, threads| -> MonteCarlo {
         let sampling = Sampling {
             samples: 1003,
             seed: 42,
@@ -102,7 +98,7 @@ where
         }
     }
     // Which it was the result says, and the report where it was not one by one.
-    let said = |run: &MonteCarlo<N, P>| run.to_string().contains("side by side in vectors");
+    let said = |run: &MonteCarlo| run.to_string().contains("side by side in vectors");
     assert!(!alone.side_by_side && !said(&alone));
     assert_eq!(first.side_by_side, said(&first));
     assert!(first.side_by_side || first.modes == alone.modes);
@@ -119,7 +115,7 @@ where
         assert_eq!(own.outcome, other.outcome);
         assert_eq!(own.coordinates.is_some(), other.coordinates.is_some());
         for (a, b) in own.coordinates.iter().zip(&other.coordinates) {
-            (0..N).for_each(|i| near(a[i], b[i], 1.0));
+            a.iter().zip(b).for_each(|(a, b)| near(*a, *b, 1.0));
         }
         assert_eq!(own.damping_ratios, other.damping_ratios);
         assert_eq!(own.frequencies.len(), other.frequencies.len());
@@ -152,8 +148,8 @@ where
                 near(a, b, b.abs() + 0.1);
             }
             near(
-                own.standard_deviation.expect("several"),
-                other.standard_deviation.expect("several"),
+                own.sigma.expect("several"),
+                other.sigma.expect("several"),
                 other.mean.abs() + 0.1,
             );
         }
@@ -161,23 +157,20 @@ where
     (first.counts, first.modes != alone.modes)
 }
 
-fn declared<M, const N: usize, const P: usize>() -> Tolerances<P>
-where
-    M: Mechanism<N, 1, P, 0>,
-{
-    Tolerances::declared(&M::DESCRIPTION).expect("declared")
+fn declared(m: &dyn Kernels) -> Tolerances {
+    Tolerances::declared(&m.description()).expect("declared")
 }
 
 #[test]
 fn chains_of_one_two_and_three() {
-    let one = compare(&Pendulum, 5.0, [1.0], &declared::<Pendulum, 1, 2>());
-    let two = compare(&Double, 6.0, [1.0, 0.1], &declared::<Double, 2, 4>());
-    let three = compare(&Triple, 6.0, [1.0, 0.1, 0.0], &declared::<Triple, 3, 5>());
+    let one = compare(&Pendulum, 5.0, &[1.0], &declared(&Pendulum));
+    let two = compare(&Double, 6.0, &[1.0, 0.1], &declared(&Double));
+    let three = compare(&Triple, 6.0, &[1.0, 0.1, 0.0], &declared(&Triple));
     for (counts, in_vectors) in [one, two, three] {
         assert!(counts.stable == 1003 && in_vectors);
     }
     // At rest the equilibrium does not move.
-    let hanging = compare(&Double, 0.0, [0.0; 2], &declared::<Double, 2, 4>());
+    let hanging = compare(&Double, 0.0, &[0.0; 2], &declared(&Double));
     assert!(hanging.0.stable == 1003 && hanging.1);
 }
 
@@ -185,7 +178,7 @@ fn chains_of_one_two_and_three() {
 #[test]
 fn samples_that_fail_are_what_they_are_alone() {
     let wide = Tolerances::new([3.0, 0.0, 0.6, 0.9], 2.0, None).expect("valid");
-    let (counts, _) = compare(&Double, 6.0, [1.0, 0.1], &wide);
+    let (counts, _) = compare(&Double, 6.0, &[1.0, 0.1], &wide);
     assert!(counts.unphysical > 30 && counts.stable > 500, "{counts:?}");
     let correlation = [
         [1.0, 0.5, 0.2, 0.0, -0.3],
@@ -194,8 +187,9 @@ fn samples_that_fail_are_what_they_are_alone() {
         [0.0, 0.1, 0.9, 1.0, 0.0],
         [-0.3, 0.0, 0.0, 0.0, 1.0],
     ];
-    let wide = Tolerances::new([0.6, 0.4, 0.2, 0.2, 390.0], 3.0, Some(correlation)).expect("valid");
-    let (counts, _) = compare(&Triple, 6.0, [1.0, 0.1, 0.0], &wide);
+    let wide =
+        Tolerances::new([0.6, 0.4, 0.2, 0.2, 390.0], 3.0, Some(correlation.into())).expect("valid");
+    let (counts, _) = compare(&Triple, 6.0, &[1.0, 0.1, 0.0], &wide);
     assert!(counts.stable > 900, "{counts:?}");
 }
 
@@ -206,7 +200,7 @@ fn near_a_critical_state() {
     for factor in [0.97, 0.999, 0.9999, 1.0001, 1.001, 1.03] {
         for width in [0.001, 0.01, 0.05] {
             let tolerances = Tolerances::new([0.0, width], 3.0, None).expect("valid");
-            let (counts, _) = compare(&Pendulum, factor * critical, [0.3], &tolerances);
+            let (counts, _) = compare(&Pendulum, factor * critical, &[0.3], &tolerances);
             assert_eq!(counts.stable, 1003, "{factor} {width}");
         }
     }

@@ -10,12 +10,12 @@ use eigentol::equilibrium::Condition;
 use eigentol::tolerance::{Event, Tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Input, Study};
 
-const OMEGA: Input = Input(0);
-const THETA: Coordinate = Coordinate(0);
-const MASS: DesignVariable = DesignVariable(0);
-const LENGTH: DesignVariable = DesignVariable(1);
+const OMEGA: Input<Pendulum> = Input::new(0);
+const THETA: Coordinate<Pendulum> = Coordinate::new(0);
+const MASS: DesignVariable<Pendulum> = DesignVariable::new(0);
+const LENGTH: DesignVariable<Pendulum> = DesignVariable::new(1);
 
-fn study() -> Study<Pendulum, 1, 1, 2, 1> {
+fn study() -> Study<Pendulum> {
     Study::new(Pendulum)
 }
 
@@ -26,13 +26,13 @@ fn what_was_set_can_be_read() {
         .design(LENGTH, 2.0)
         .start(THETA, 0.5);
     assert_eq!(study.input_values(), &[3.0]);
-    assert_eq!(study.design_values()[LENGTH.0], 2.0);
+    assert_eq!(study.design_values()[LENGTH.index()], 2.0);
     assert_eq!(study.start_values(), &[0.5]);
 }
 
 #[test]
 fn a_relative_tolerance_follows_its_variable() {
-    let width = |study: Study<_, 1, 1, 2, 1>| study.tolerances().unwrap().half_widths()[LENGTH.0];
+    let width = |study: Study<Pendulum>| study.tolerances().unwrap().half_widths()[LENGTH.index()];
     let before = study().relative_tolerance(LENGTH, 0.03).design(LENGTH, 2.0);
     let after = study().design(LENGTH, 2.0).relative_tolerance(LENGTH, 0.03);
     assert_eq!([width(before.clone()), width(after)], [0.06; 2]);
@@ -41,7 +41,7 @@ fn a_relative_tolerance_follows_its_variable() {
         let refused = study().relative_tolerance(LENGTH, fraction).tolerances();
         assert!(matches!(refused, Err(Error::Setting { .. })), "{fraction}");
     }
-    let unknown = study().relative_tolerance(DesignVariable(2), 0.1);
+    let unknown = study().relative_tolerance(DesignVariable::new(2), 0.1);
     assert!(matches!(
         unknown.tolerances(),
         Err(Error::UnknownHandle { .. })
@@ -53,7 +53,7 @@ fn sigma_counts_correlation() {
     let slopes = [3.0, -4.0];
     let sigma = |rho: f64| {
         let correlation = [[1.0, rho], [rho, 1.0]];
-        let tolerances = Tolerances::new([0.6, 0.3], 3.0, Some(correlation)).unwrap();
+        let tolerances = Tolerances::new([0.6, 0.3], 3.0, Some(correlation.into())).unwrap();
         tolerances.sigma(&slopes)
     };
     let independent = Tolerances::new([0.6, 0.3], 3.0, None).unwrap();
@@ -80,15 +80,15 @@ fn the_critical_speed_has_a_spread() {
         .relative_tolerance(LENGTH, 0.03)
         .sigma_level(2.0);
     let found = study.critical_tolerance(OMEGA, 0.0, 6.0).unwrap();
-    let (speed, l) = (found.value, study.design_values()[LENGTH.0]);
+    let (speed, l) = (found.value, study.design_values()[LENGTH.index()]);
     assert_eq!(found.event, Event::Critical);
     close(speed, (1.5 * 9.81 / l).sqrt(), 1e-12);
     let spread = found.spread.clone().unwrap();
-    close(spread.by_design[LENGTH.0], -0.5 * speed / l, 1e-9);
+    close(spread.by_design[LENGTH.index()], -0.5 * speed / l, 1e-9);
     close(spread.sigma, 0.5 * speed * 0.015, 1e-9);
     close(spread.band, 0.5 * speed * 0.03, 1e-9);
     assert_eq!(found.sigma(), Some(spread.sigma));
-    assert_eq!(spread.variance_shares[LENGTH.0], 1.0);
+    assert_eq!(spread.variance_shares[LENGTH.index()], 1.0);
     let text = found.to_string();
     for part in ["critical at", "+/-", "2 sigma", "100.0 %"] {
         assert!(text.contains(part), "{part}: {text}");
@@ -117,7 +117,7 @@ fn a_resonance_has_a_spread() {
     close(s.im, crossing.value, 1e-12);
     // One coordinate moves along a line.
     assert_eq!(whirl.map(|whirl| whirl.sense()), None);
-    let l = study.design_values()[LENGTH.0];
+    let l = study.design_values()[LENGTH.index()];
     close(crossing.value, (0.75 * 9.81 / l).sqrt(), 1e-12);
     close(crossing.sigma().unwrap(), 0.5 * crossing.value * 0.01, 1e-9);
     assert!(crossing.to_string().contains("frequency 1 is 1 times"));
@@ -136,9 +136,11 @@ fn streams_are_independent_and_the_same_on_any_number_of_threads() {
         assert_eq!(run(0, threads).unwrap(), first);
         assert_eq!(run(u64::MAX, threads).unwrap(), last);
     }
-    let lengths = |run: &eigentol::MonteCarlo<1, 2>| -> Vec<f64> {
+    let lengths = |run: &eigentol::MonteCarlo| -> Vec<f64> {
         let all = run.all.as_deref().unwrap();
-        all.iter().map(|sample| sample.design[LENGTH.0]).collect()
+        all.iter()
+            .map(|sample| sample.design[LENGTH.index()])
+            .collect()
     };
     let (a, b) = (lengths(&first), lengths(&last));
     assert!(a.iter().zip(&b).all(|(a, b)| a != b));

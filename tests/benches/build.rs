@@ -119,10 +119,8 @@ fn growing(name: &str, bars: usize) -> Result<String, Box<dyn Error>> {
     }
     compilation.program = lower(&functions.graph, &kernels);
     let text = compilation.emit().to_string();
-    let (contract, rest) = text
-        .split_once(":: eigentol :: Mechanism <")
+    let (before, after) = text
+        .split_once(":: eigentol :: Mechanism for")
         .ok_or("no contract in the emitted items")?;
-    let (_, rest) = rest.split_once('>').ok_or("a contract without sizes")?;
-    let design = 2 * bars;
-    Ok(format!("{contract} Kernels<{bars}, {design}> {rest}"))
+    Ok(format!("{before} Kernels for {after}"))
 }

@@ -1,46 +1,43 @@
 //! Generated code by the name of a kernel, over vectors of any scalar, in the flattened form of the interpreter's results.
 
-use eigentol::{Gradient, Linear, Mechanism, Real};
+use eigentol::{Array, Gradient, Linear, Mechanism, Real};
 
 /// Calls a kernel of the runtime's contract: one vector per returned array, indices of differentiation outermost.
 /// Nothing for a name that the contract does not have.
 ///
 /// # Panics
 /// When the number or the lengths of the arguments are wrong.
-pub fn evaluate<T, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+pub fn evaluate<T: Real, M: Mechanism>(
     machine: &M,
     kernel: &str,
     arguments: &[Vec<T>],
-) -> Option<Vec<Vec<T>>>
-where
-    T: Real,
-    M: Mechanism<N, U, P, O>,
-{
-    let q = |k: usize| array::<T, N>(&arguments[k]);
-    let u = |k: usize| array::<T, U>(&arguments[k]);
-    let b = |k: usize| array::<T, P>(&arguments[k]);
+) -> Option<Vec<Vec<T>>> {
+    let q = |k: usize| <M::Coordinates<T> as Array<T>>::view(&arguments[k]);
+    let u = |k: usize| <M::Inputs<T> as Array<T>>::view(&arguments[k]);
+    let b = |k: usize| <M::Design<T> as Array<T>>::view(&arguments[k]);
     let scalar = |k: usize| arguments[k][0];
     Some(match kernel {
         "motion_residual" => {
             vec![
                 machine
                     .motion_residual(q(0), q(1), q(2), u(3), b(4))
+                    .as_ref()
                     .to_vec(),
             ]
         }
         "motion" => {
             let (mass, right) = machine.motion(q(0), q(1), u(2), b(3));
-            vec![flat(&mass), right.to_vec()]
+            vec![flat(mass.as_ref()), right.as_ref().to_vec()]
         }
         "residual_and_stiffness" => {
             let (residual, stiffness) = machine.residual_and_stiffness(q(0), u(1), b(2));
-            vec![residual.to_vec(), flat(&stiffness)]
+            vec![residual.as_ref().to_vec(), flat(stiffness.as_ref())]
         }
         "linear_partials" => {
             let partials = machine.linear_partials(q(0), u(1), b(2));
-            let mut arrays = matrices(&partials.by_coordinate);
-            arrays.extend(matrices(&partials.by_input));
-            arrays.extend(matrices(&partials.by_design));
+            let mut arrays = matrices(partials.by_coordinate.as_ref());
+            arrays.extend(matrices(partials.by_input.as_ref()));
+            arrays.extend(matrices(partials.by_design.as_ref()));
             arrays
         }
         "linear_along" => matrices(&[machine.linear_along(q(0), u(1), b(2), q(3), u(4), b(5))]),
@@ -98,50 +95,51 @@ where
 ///
 /// # Panics
 /// When the number or the lengths of the arguments are wrong.
-pub fn evaluate_at<T, M, const N: usize, const U: usize, const P: usize, const O: usize>(
+pub fn evaluate_at<T: Real, M: Mechanism>(
     machine: &M,
     kernel: &str,
     arguments: &[Vec<T>],
-) -> Option<Vec<Vec<T>>>
-where
-    T: Real,
-    M: Mechanism<N, U, P, O>,
-{
-    let q = |k: usize| array::<T, N>(&arguments[k]);
-    let u = |k: usize| array::<T, U>(&arguments[k]);
-    let b = |k: usize| array::<T, P>(&arguments[k]);
+) -> Option<Vec<Vec<T>>> {
+    let q = |k: usize| <M::Coordinates<T> as Array<T>>::view(&arguments[k]);
+    let u = |k: usize| <M::Inputs<T> as Array<T>>::view(&arguments[k]);
+    let b = |k: usize| <M::Design<T> as Array<T>>::view(&arguments[k]);
     Some(match kernel {
-        "residual" => vec![machine.residual(q(0), u(1), b(2)).to_vec()],
+        "residual" => vec![machine.residual(q(0), u(1), b(2)).as_ref().to_vec()],
         "residual_parts" => {
             let parts = machine.residual_parts(q(0), u(1), b(2));
-            vec![parts.inertia.to_vec(), parts.applied.to_vec()]
+            vec![
+                parts.inertia.as_ref().to_vec(),
+                parts.applied.as_ref().to_vec(),
+            ]
         }
         "linear" => matrices(&[machine.linear(q(0), u(1), b(2))]),
         "residual_partials" => {
             let (by_input, by_design) = machine.residual_partials(q(0), u(1), b(2));
-            vec![flat(&by_input), flat(&by_design)]
+            vec![flat(by_input.as_ref()), flat(by_design.as_ref())]
         }
-        "outputs" => vec![machine.outputs(q(0), u(1), b(2)).to_vec()],
+        "outputs" => vec![machine.outputs(q(0), u(1), b(2)).as_ref().to_vec()],
         "output_partials" => {
             let (by_coordinate, by_input, by_design) = machine.output_partials(q(0), u(1), b(2));
-            vec![flat(&by_coordinate), flat(&by_input), flat(&by_design)]
+            vec![
+                flat(by_coordinate.as_ref()),
+                flat(by_input.as_ref()),
+                flat(by_design.as_ref()),
+            ]
         }
         _ => return None,
     })
 }
 
-fn array<T, const K: usize>(values: &[T]) -> &[T; K] {
-    values.try_into().expect("an argument of the right length")
-}
-
-fn flat<T: Copy, const R: usize, const C: usize>(matrix: &[[T; C]; R]) -> Vec<T> {
-    matrix.iter().flatten().copied().collect()
+fn flat<T: Copy, R: AsRef<[T]>>(rows: &[R]) -> Vec<T> {
+    rows.iter().flat_map(AsRef::as_ref).copied().collect()
 }
 
 /// All masses, all dampings, all stiffnesses.
-fn matrices<T: Copy, const N: usize>(list: &[Linear<T, N>]) -> Vec<Vec<T>> {
-    let part = |of: fn(&Linear<T, N>) -> &[[T; N]; N]| {
-        list.iter().flat_map(|linear| flat(of(linear))).collect()
+fn matrices<T: Copy, R: AsRef<[T]>, A: AsRef<[R]>>(list: &[Linear<A>]) -> Vec<Vec<T>> {
+    let part = |of: fn(&Linear<A>) -> &A| -> Vec<T> {
+        list.iter()
+            .flat_map(|linear| flat(of(linear).as_ref()))
+            .collect()
     };
     vec![
         part(|linear| &linear.mass),
@@ -150,12 +148,12 @@ fn matrices<T: Copy, const N: usize>(list: &[Linear<T, N>]) -> Vec<Vec<T>> {
     ]
 }
 
-fn gradient<T: Copy, const N: usize, const U: usize, const P: usize>(
-    gradient: Gradient<T, N, U, P>,
+fn gradient<T: Copy>(
+    gradient: Gradient<impl AsRef<[T]>, impl AsRef<[T]>, impl AsRef<[T]>>,
 ) -> Vec<Vec<T>> {
     vec![
-        gradient.coordinates.to_vec(),
-        gradient.inputs.to_vec(),
-        gradient.design.to_vec(),
+        gradient.coordinates.as_ref().to_vec(),
+        gradient.inputs.as_ref().to_vec(),
+        gradient.design.as_ref().to_vec(),
     ]
 }

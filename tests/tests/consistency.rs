@@ -10,14 +10,7 @@ use eigentol_tests::{loops, machines, wheels};
 struct Names(Vec<(&'static str, &'static str)>);
 
 impl Visitor for Names {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        _: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, declaration: &'static str, _: M) {
         self.0.push((name, declaration));
     }
 }

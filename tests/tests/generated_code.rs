@@ -7,7 +7,7 @@ mod constraints;
 #[path = "generated_code/scalars.rs"]
 mod scalars;
 
-use eigentol::Mechanism;
+use eigentol::Kernels;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -30,16 +30,10 @@ impl Numbers {
 
     /// Arguments for a kernel by the names of its parameters: design variables near their nominal values, all else
     /// between -1 and 1.
-    fn arguments<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &mut self,
-        _: &M,
-        parameters: &[(&str, usize)],
-    ) -> Vec<Vec<f64>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn arguments(&mut self, machine: &dyn Kernels, parameters: &[(&str, usize)]) -> Vec<Vec<f64>> {
+        let description = machine.description();
         let near = |numbers: &mut Self| {
-            let nominal = M::DESCRIPTION.design.iter().map(|info| info.nominal);
+            let nominal = description.design.iter().map(|info| info.nominal);
             nominal
                 .map(|value| value * (1.0 + 0.05 * numbers.next()))
                 .collect()
@@ -51,5 +45,16 @@ impl Numbers {
                 _ => self.list(length),
             })
             .collect()
+    }
+
+    /// Arguments `q`, `u` and `b`.
+    fn point(&mut self, machine: &dyn Kernels) -> Vec<Vec<f64>> {
+        let sizes = machine.sizes();
+        let lengths = [
+            ("q", sizes.coordinates),
+            ("u", sizes.inputs),
+            ("b", sizes.design),
+        ];
+        self.arguments(machine, &lengths)
     }
 }

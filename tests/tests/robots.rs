@@ -205,14 +205,7 @@ fn robots_are_those_of_pinocchio() {
     }
 }
 
-fn compiled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: &M,
-    kernel: &str,
-    arguments: &[&[f64]],
-) -> Vec<Vec<f64>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn compiled<M: Mechanism>(machine: &M, kernel: &str, arguments: &[&[f64]]) -> Vec<Vec<f64>> {
     let arguments: Vec<Vec<f64>> = arguments.iter().map(|list| list.to_vec()).collect();
     evaluate(machine, kernel, &arguments).unwrap_or_else(|| panic!("no kernel `{kernel}`"))
 }

@@ -75,7 +75,7 @@ chain! {
     (bar64 turn64 length64 mass64)
 }
 
-type Bicycle = Study<WhippleBicycle, 14, 1, 26, 2>;
+type Bicycle = Study<WhippleBicycle>;
 
 /// Runs on a stack of so many KiB.
 fn on(stack: usize, question: impl FnOnce() + Send + 'static) {
@@ -85,14 +85,14 @@ fn on(stack: usize, question: impl FnOnce() + Send + 'static) {
 }
 
 /// Asks 64 bars on the stack of a Rust thread.
-fn ask<T>(question: impl FnOnce(&Study<Bars, 64, 1, 128, 0>) -> Result<T, Error> + Send + 'static) {
+fn ask<T>(question: impl FnOnce(&Study<Bars>) -> Result<T, Error> + Send + 'static) {
     on(2048, || {
         let study = Study::new(Bars).threads(2).samples(2).steps(2);
         black_box(question(&study).expect("an answer"));
     });
 }
 
-const OMEGA: Input = Bars::omega;
+const OMEGA: Input<Bars> = Bars::omega;
 
 #[test]
 fn questions_about_one_state() {
@@ -100,8 +100,8 @@ fn questions_about_one_state() {
     ask(Study::assembly);
     ask(|study| {
         study.equilibria(&Search {
-            lower: [-0.01; 64],
-            upper: [0.01; 64],
+            lower: [-0.01; 64].into(),
+            upper: [0.01; 64].into(),
             starts: 1,
             seed: 0,
         })

@@ -15,37 +15,37 @@ const BLACK: usize = 5;
 
 /// What figures of a rotor are drawn from.
 #[derive(Clone, Copy, Debug)]
-pub struct Whirling<'a, const N: usize, const U: usize, const P: usize> {
+pub struct Whirling<'a> {
     /// What was asked.
     pub question: &'a RotorQuestion,
     /// The curves.
-    pub campbell: &'a Campbell<N, U, P>,
+    pub campbell: &'a Campbell,
     /// The markers.
-    pub events: &'a [RotorEvent<P>],
+    pub events: &'a [RotorEvent],
 }
 
 /// A quantity of a mode, in the unit of the figure.
-type Quantity<const P: usize> = fn(&CampbellMode<P>) -> Option<f64>;
+type Quantity = fn(&CampbellMode) -> Option<f64>;
 
-fn hertz<const P: usize>(mode: &CampbellMode<P>) -> Option<f64> {
+fn hertz(mode: &CampbellMode) -> Option<f64> {
     Some(mode.behaviour.frequency()? / HZ)
 }
 
-fn percent<const P: usize>(mode: &CampbellMode<P>) -> Option<f64> {
-    Some(100.0 * mode.damping_ratio?.mean)
+fn percent(mode: &CampbellMode) -> Option<f64> {
+    Some(100.0 * mode.damping_ratio.as_ref()?.mean)
 }
 
-impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
+impl Whirling<'_> {
     /// The Campbell diagram: frequencies up to `top`, Hz, the orders, where they meet, and the limit of stability.
     pub fn frequencies(&self, name: &str, title: &str, top: f64) -> Figure {
         let mut figure = self.figure((name, title), "frequency [Hz]", (0.0, top));
         figure.curves = self.curves(hertz);
-        figure.bands = self.bands(|mode| mode.frequency, 1.0 / HZ);
+        figure.bands = self.bands(|mode| mode.frequency.as_ref(), 1.0 / HZ);
         figure.note = self.about_bands();
         self.add_orders(&mut figure);
-        let at = |event: &&RotorEvent<P>| (event.speed / RPM, event.s.im / HZ);
+        let at = |event: &&RotorEvent| (event.speed / RPM, event.s.im / HZ);
         let meeting = |forward: bool| {
-            let senses = move |event: &&RotorEvent<P>| {
+            let senses = move |event: &&RotorEvent| {
                 matches!(event.happening, Happening::Order(_))
                     && forward == (event.whirl.map(Whirl::sense) == Some(Sense::Forward))
             };
@@ -75,7 +75,7 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
     pub fn damping_ratios(&self, name: &str, title: &str) -> Figure {
         let mut figure = self.figure((name, title), "damping ratio [%]", (0.0, 0.0));
         figure.curves = self.curves(percent);
-        figure.bands = self.bands(|mode| mode.damping_ratio, 100.0);
+        figure.bands = self.bands(|mode| mode.damping_ratio.as_ref(), 100.0);
         figure.note = self.about_bands();
         let edges = figure.bands.iter().flat_map(|band| &band.edges);
         let (low, high) = edges.fold((0.0_f64, 0.0_f64), |(low, high), edge| {
@@ -117,12 +117,12 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
     }
 
     /// The neighbourhood of the running speed: frequencies with their bands, the forbidden band, and the samples.
-    pub fn margin(&self, name: &str, title: &str, risk: &Risk<P>) -> Figure {
+    pub fn margin(&self, name: &str, title: &str, risk: &Risk) -> Figure {
         let running = self.question.running / HZ;
         let mut figure = self.figure((name, title), "frequency [Hz]", (0.0, 0.0));
         figure.range = (0.6 * running, 1.3 * running);
         figure.curves = self.curves(hertz);
-        figure.bands = self.bands(|mode| mode.frequency, 1.0 / HZ);
+        figure.bands = self.bands(|mode| mode.frequency.as_ref(), 1.0 / HZ);
         figure.note = self.about_bands();
         figure.bands.push(Band {
             label: format!("within {} % of the speed", 100.0 * self.question.margin),
@@ -175,13 +175,13 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
         }
     }
 
-    fn onsets(&self) -> impl Iterator<Item = &RotorEvent<P>> {
+    fn onsets(&self) -> impl Iterator<Item = &RotorEvent> {
         let events = self.events.iter();
         events.filter(|event| event.happening == Happening::Onset)
     }
 
     /// The modes, forward and planar ones solid, backward ones dashed.
-    fn curves(&self, quantity: Quantity<P>) -> Vec<Curve> {
+    fn curves(&self, quantity: Quantity) -> Vec<Curve> {
         let mut curves = Vec::new();
         for label in self.campbell.labels() {
             for (sense, word) in [
@@ -205,7 +205,7 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
 
     /// The parts of a curve in which the mode whirls in one sense; each step belongs to the sense at its end, or, where
     /// nothing whirls there, at its beginning.
-    fn pieces(&self, label: usize, sense: Sense, quantity: Quantity<P>) -> Vec<Vec<Point>> {
+    fn pieces(&self, label: usize, sense: Sense, quantity: Quantity) -> Vec<Vec<Point>> {
         let mut pieces: Vec<Vec<Point>> = vec![Vec::new()];
         for pair in self.campbell.points.windows(2) {
             let [from, to] = [&pair[0], &pair[1]].map(|point| {
@@ -233,7 +233,7 @@ impl<const N: usize, const U: usize, const P: usize> Whirling<'_, N, U, P> {
     }
 
     /// The bands that hold as many standard deviations as the tolerances do.
-    fn bands(&self, quantity: fn(&CampbellMode<P>) -> Option<Spread<P>>, unit: f64) -> Vec<Band> {
+    fn bands(&self, quantity: fn(&CampbellMode) -> Option<&Spread>, unit: f64) -> Vec<Band> {
         let mut bands = Vec::new();
         for label in self.campbell.labels() {
             let mut edges = Vec::new();

@@ -13,9 +13,9 @@ const BLACK: usize = 5;
 
 /// The eigenvalues of a diagram up to `top` in size, 1/s, and the speeds at which stability changes with the bands that
 /// tolerances give them. `speed` is the name and unit of the axis.
-pub fn eigenvalues<const N: usize, const U: usize, const P: usize>(
+pub fn eigenvalues(
     (name, title): (&str, &str),
-    campbell: &Campbell<N, U, P>,
+    campbell: &Campbell,
     speed: &str,
     top: f64,
 ) -> Figure {
@@ -39,7 +39,7 @@ pub fn eigenvalues<const N: usize, const U: usize, const P: usize>(
         ..Figure::default()
     };
     for label in campbell.labels() {
-        for (part, dashed) in [(real as Part<P>, false), (imaginary as Part<P>, true)] {
+        for (part, dashed) in [(real as Part, false), (imaginary as Part, true)] {
             let pieces = pieces(campbell, label, part);
             if !pieces.is_empty() {
                 let word = if dashed { "imaginary" } else { "real" };
@@ -69,21 +69,17 @@ pub fn eigenvalues<const N: usize, const U: usize, const P: usize>(
 }
 
 /// A part of an eigenvalue; `None` where it is not drawn.
-type Part<const P: usize> = fn(&CampbellMode<P>) -> Option<f64>;
+type Part = fn(&CampbellMode) -> Option<f64>;
 
-fn real<const P: usize>(mode: &CampbellMode<P>) -> Option<f64> {
+fn real(mode: &CampbellMode) -> Option<f64> {
     Some(mode.s.re)
 }
 
-fn imaginary<const P: usize>(mode: &CampbellMode<P>) -> Option<f64> {
+fn imaginary(mode: &CampbellMode) -> Option<f64> {
     mode.behaviour.frequency()
 }
 
-fn pieces<const N: usize, const U: usize, const P: usize>(
-    campbell: &Campbell<N, U, P>,
-    label: usize,
-    part: Part<P>,
-) -> Vec<Vec<Point>> {
+fn pieces(campbell: &Campbell, label: usize, part: Part) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = vec![Vec::new()];
     for point in &campbell.points {
         let modes = point.modes.as_deref().unwrap_or_default();
@@ -97,7 +93,7 @@ fn pieces<const N: usize, const U: usize, const P: usize>(
     pieces
 }
 
-fn band<const P: usize>(event: &EventTolerance<P>, top: f64) -> Option<Band> {
+fn band(event: &EventTolerance, top: f64) -> Option<Band> {
     let half = event.spread.as_ref().ok()?.band;
     let edges = [event.value - half, event.value + half];
     Some(Band {

@@ -2,7 +2,7 @@
 
 use eigentol::equilibrium::{Condition, Crossing};
 use eigentol::modes::{Whirl, whirls};
-use eigentol::tolerance::{EventSpread, crossing_tolerance};
+use eigentol::tolerance::{Spread, crossing_tolerance};
 use eigentol::{Complex, Error, Mechanism, Study};
 
 use super::RotorQuestion;
@@ -18,7 +18,7 @@ pub enum Happening {
 
 /// Something that happens at a speed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RotorEvent<const P: usize> {
+pub struct RotorEvent {
     /// What happens.
     pub happening: Happening,
     /// Number of the mode along the Campbell diagram, from 0.
@@ -30,10 +30,10 @@ pub struct RotorEvent<const P: usize> {
     /// How the mode whirls.
     pub whirl: Option<Whirl>,
     /// How the design moves the speed, or why it has no derivative.
-    pub spread: Result<EventSpread<P>, Error>,
+    pub spread: Result<Spread, Error>,
 }
 
-impl<const P: usize> RotorEvent<P> {
+impl RotorEvent {
     /// Standard deviation of the speed, rad/s.
     pub fn sigma(&self) -> Option<f64> {
         self.spread.as_ref().ok().map(|spread| spread.sigma)
@@ -53,25 +53,22 @@ impl<const P: usize> RotorEvent<P> {
 ///
 /// # Errors
 /// Those of [`Study::crossings`], [`Study::flutter_onsets`] and [`Study::tolerances`].
-pub fn find<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
+pub fn find<M: Mechanism>(
+    study: &Study<M>,
     question: &RotorQuestion,
-) -> Result<Vec<RotorEvent<P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<Vec<RotorEvent>, Error> {
     let (low, high) = question.range;
-    let mut crossings: Vec<Crossing<N, U, P>> = Vec::new();
+    let mut crossings: Vec<Crossing> = Vec::new();
     for &order in &question.orders {
-        let mut found = study.crossings(question.speed, low, high, order)?;
+        let mut found = study.crossings(question.input(), low, high, order)?;
         found.sort_by(|a, b| a.value.total_cmp(&b.value));
         crossings.append(&mut found);
     }
-    crossings.extend(study.flutter_onsets(question.speed, low, high)?);
+    crossings.extend(study.flutter_onsets(question.input(), low, high)?);
 
     let tolerances = study.tolerances()?;
     let mechanism = study.mechanism();
-    let event = |crossing: &Crossing<N, U, P>| {
+    let event = |crossing: &Crossing| {
         let mode = crossing.modes.modes.get(crossing.mode)?;
         let whirls = whirls(mechanism, &crossing.equilibrium, &crossing.modes);
         Some(RotorEvent {

@@ -41,20 +41,22 @@ impl RotorQuestion {
     ///
     /// # Errors
     /// Those of [`Study::campbell`].
-    pub fn campbell<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    pub fn campbell<M: Mechanism>(
         &self,
-        study: &Study<M, N, U, P, O>,
+        study: &Study<M>,
         (low, high): (f64, f64),
         count: usize,
-    ) -> Result<Campbell<N, U, P>, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Result<Campbell, Error> {
         let step = (high - low) / (count.max(2) - 1) as f64;
         let speeds: Vec<f64> = (0..count)
             .map(|k| (low + step * k as f64).min(high))
             .collect();
-        study.campbell(self.speed, &speeds, &self.orders)
+        study.campbell(self.input(), &speeds, &self.orders)
+    }
+
+    /// The speed as an input of the mechanism.
+    pub fn input<M>(&self) -> Input<M> {
+        Input::new(self.speed.index())
     }
 
     /// Ends of the forbidden band at the running speed, rad/s.

@@ -14,16 +14,17 @@ use crate::record::field;
 ///
 /// # Errors
 /// [`Failure::Output`].
-pub fn diagram<const N: usize, const U: usize, const P: usize>(
-    campbell: &Campbell<N, U, P>,
-    path: &Path,
-) -> Result<(), Failure> {
-    let columns: [Column<P>; 6] = [
+pub fn diagram(campbell: &Campbell, path: &Path) -> Result<(), Failure> {
+    let columns: [Column; 6] = [
         ("frequency", |mode| mode.behaviour.frequency()),
         ("growth", |mode| Some(mode.s.re)),
-        ("damping_ratio", |mode| Some(mode.damping_ratio?.mean)),
-        ("sigma", |mode| Some(mode.frequency?.sigma)),
-        ("damping_sigma", |mode| Some(mode.damping_ratio?.sigma)),
+        ("damping_ratio", |mode| {
+            Some(mode.damping_ratio.as_ref()?.mean)
+        }),
+        ("sigma", |mode| Some(mode.frequency.as_ref()?.sigma)),
+        ("damping_sigma", |mode| {
+            Some(mode.damping_ratio.as_ref()?.sigma)
+        }),
         ("whirl", |mode| Some(mode.whirl?.ratio)),
     ];
     let labels = campbell.labels();
@@ -31,7 +32,7 @@ pub fn diagram<const N: usize, const U: usize, const P: usize>(
     for (name, _) in columns {
         head.extend(labels.iter().map(|label| format!("{name}_{}", label + 1)));
     }
-    let row = |point: &CampbellPoint<N, U, P>| {
+    let row = |point: &CampbellPoint| {
         let modes = point.modes.as_deref().unwrap_or_default();
         let mut fields = vec![field(Some(point.value))];
         for (_, pick) in columns {
@@ -46,18 +47,14 @@ pub fn diagram<const N: usize, const U: usize, const P: usize>(
 }
 
 /// The name of a column and where its value is.
-type Column<const P: usize> = (&'static str, fn(&CampbellMode<P>) -> Option<f64>);
+type Column = (&'static str, fn(&CampbellMode) -> Option<f64>);
 
 /// Writes the events: what happens to which mode, the speed with its standard deviation, frequency, growth and whirl
 /// there, and the derivatives of the speed by the design variables called `names`.
 ///
 /// # Errors
 /// [`Failure::Output`].
-pub fn events<const P: usize>(
-    events: &[RotorEvent<P>],
-    names: &[&str],
-    path: &Path,
-) -> Result<(), Failure> {
+pub fn events(events: &[RotorEvent], names: &[&str], path: &Path) -> Result<(), Failure> {
     let head = [
         "event",
         "order",
@@ -70,7 +67,7 @@ pub fn events<const P: usize>(
     ];
     let head = head.map(str::to_owned).into_iter();
     let head = head.chain(names.iter().map(|name| format!("by_{name}")));
-    let row = |event: &RotorEvent<P>| {
+    let row = |event: &RotorEvent| {
         let (name, order) = match event.happening {
             Happening::Order(order) => ("order", Some(order)),
             Happening::Onset => ("onset", None),
@@ -85,8 +82,8 @@ pub fn events<const P: usize>(
             field(Some(event.s.re)),
             field(event.whirl.map(|whirl| whirl.ratio)),
         ];
-        let slopes = event.spread.as_ref().ok().map(|spread| spread.by_design);
-        fields.extend((0..P).map(|j| field(slopes.map(|slopes| slopes[j]))));
+        let slopes = event.spread.as_ref().ok().map(|spread| &spread.by_design);
+        fields.extend((0..names.len()).map(|j| field(slopes.map(|slopes| slopes[j]))));
         fields
     };
     write(path, head.collect(), events.iter().map(row))

@@ -13,24 +13,24 @@ const BLOCK: usize = 1 << 14;
 
 /// The rotor at its running speed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Risk<const P: usize> {
+pub struct Risk {
     /// One entry for each mode, ascending in the natural frequency.
-    pub modes: Vec<ModeRisk<P>>,
+    pub modes: Vec<ModeRisk>,
     /// Probability that the rotor is unstable: at first and second order that of its least damped mode.
     pub unstable: Chance,
 }
 
 /// One mode at the running speed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ModeRisk<const P: usize> {
+pub struct ModeRisk {
     /// Nominal eigenvalue, 1/s.
     pub s: Complex,
     /// How it whirls.
     pub whirl: Option<Whirl>,
     /// Its frequency to second order, rad/s; `None` where it has no derivatives of its own.
-    pub frequency: Option<SecondOrderSpread<P>>,
+    pub frequency: Option<SecondOrderSpread>,
     /// Its damping ratio to second order; `None` likewise.
-    pub damping_ratio: Option<SecondOrderSpread<P>>,
+    pub damping_ratio: Option<SecondOrderSpread>,
     /// Its frequency over all samples where it oscillates, rad/s.
     pub sampled_frequency: Sampled,
     /// Its damping ratio over the same samples.
@@ -97,20 +97,17 @@ impl Sampled {
     }
 }
 
-impl<const P: usize> Risk<P> {
+impl Risk {
     /// Asks at the running speed; the samples are those that `study` is set to take.
     ///
     /// # Errors
     /// Those of [`Study::modes`], [`Study::second_order`] and [`Study::monte_carlo`].
-    pub fn assess<M, const N: usize, const U: usize, const O: usize>(
-        study: &Study<M, N, U, P, O>,
+    pub fn assess<M: Mechanism>(
+        study: &Study<M>,
         question: &RotorQuestion,
         samples: usize,
-    ) -> Result<Self, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let study = study.clone().input(question.speed, question.running);
+    ) -> Result<Self, Error> {
+        let study = study.clone().input(question.input(), question.running);
         let tolerances = study.tolerances()?;
         let (modes, whirls) = (study.modes()?, study.whirls()?);
         let spreads = study.second_order()?.modes;
@@ -118,17 +115,17 @@ impl<const P: usize> Risk<P> {
             let mode = &modes.modes[r];
             let band = Band::around(question.speed, question.margin);
             let margin = study.margin(r, band).ok().map(|found| found.margin);
-            let spread: Option<&eigentol::tolerance::ModeSecondOrder<P>> = spread;
+            let spread: Option<&eigentol::tolerance::ModeSecondOrder> = spread;
             ModeRisk {
                 s: mode.s,
                 whirl: whirls[r],
-                frequency: spread.map(|spread| spread.frequency),
-                damping_ratio: spread.map(|spread| spread.damping_ratio),
+                frequency: spread.map(|spread| spread.frequency.clone()),
+                damping_ratio: spread.map(|spread| spread.damping_ratio.clone()),
                 sampled_frequency: Sampled::about(mode.s.im),
                 sampled_damping_ratio: Sampled::about(mode.damping_ratio().unwrap_or(0.0)),
                 in_band: Chance {
-                    first_order: margin.map(|margin| margin.first_order),
-                    second_order: margin.map(|margin| margin.corrected.value),
+                    first_order: margin.as_ref().map(|margin| margin.first_order),
+                    second_order: margin.as_ref().map(|margin| margin.corrected.value),
                     ..Chance::default()
                 },
             }
@@ -144,13 +141,16 @@ impl<const P: usize> Risk<P> {
     }
 
     /// Probability that the damping ratio of the least damped mode is negative, by its models.
-    fn of_instability(&self, tolerances: &Tolerances<P>) -> Chance {
-        let models = self.modes.iter().filter_map(|mode| mode.damping_ratio);
-        let models = models.map(|spread| spread.model);
+    fn of_instability(&self, tolerances: &Tolerances) -> Chance {
+        let models = self
+            .modes
+            .iter()
+            .filter_map(|mode| mode.damping_ratio.as_ref());
+        let models = models.map(|spread| &spread.model);
         let least = models.min_by(|a, b| a.value.total_cmp(&b.value));
         let negative = (f64::NEG_INFINITY, 0.0);
-        let first = |model: Quadratic<P>| model.probability_first_order(tolerances, negative).ok();
-        let second = |model: Quadratic<P>| model.probability(tolerances, negative).ok();
+        let first = |model: &Quadratic| model.probability_first_order(tolerances, negative).ok();
+        let second = |model: &Quadratic| model.probability(tolerances, negative).ok();
         Chance {
             first_order: least.and_then(first),
             second_order: least.and_then(second).map(|found| found.value),
@@ -158,15 +158,12 @@ impl<const P: usize> Risk<P> {
         }
     }
 
-    fn sample<M, const N: usize, const U: usize, const O: usize>(
+    fn sample<M: Mechanism>(
         &mut self,
-        study: &Study<M, N, U, P, O>,
+        study: &Study<M>,
         question: &RotorQuestion,
         samples: usize,
-    ) -> Result<(), Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Result<(), Error> {
         let bar = progress::bar(samples);
         let count = |done: usize| bar.inc(done as u64);
         let blocks = (0..samples).step_by(BLOCK).zip(0..);
@@ -182,7 +179,7 @@ impl<const P: usize> Risk<P> {
         Ok(())
     }
 
-    fn add<const N: usize>(&mut self, sample: &Sample<N, P>, (low, high): (f64, f64)) {
+    fn add(&mut self, sample: &Sample, (low, high): (f64, f64)) {
         self.unstable.samples += 1;
         self.unstable.hits += usize::from(sample.outcome != Outcome::Stable);
         let damping_ratios = sample.damping_ratios.iter();

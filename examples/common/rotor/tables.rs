@@ -16,10 +16,7 @@ const ROWS: usize = 13;
 ///
 /// # Errors
 /// Those of the writer.
-pub fn diagram<const N: usize, const U: usize, const P: usize>(
-    out: &mut dyn Write,
-    campbell: &Campbell<N, U, P>,
-) -> io::Result<()> {
+pub fn diagram(out: &mut dyn Write, campbell: &Campbell) -> io::Result<()> {
     writeln!(
         out,
         "Campbell diagram: frequency [Hz] with its whirl (F forward, B backward, P planar) and standard deviation,\n\
@@ -42,9 +39,9 @@ pub fn diagram<const N: usize, const U: usize, const P: usize>(
             let mode = modes.iter().find(|mode| mode.label == label);
             let frequency = mode.and_then(|mode| mode.behaviour.frequency());
             let sigma = mode
-                .and_then(|mode| mode.frequency)
+                .and_then(|mode| mode.frequency.as_ref())
                 .map(|own| own.sigma / HZ);
-            let damping = mode.and_then(|mode| mode.damping_ratio);
+            let damping = mode.and_then(|mode| mode.damping_ratio.as_ref());
             let whirl = letter(mode.and_then(|mode| mode.whirl));
             row.push(format!("{} {whirl}", hertz(frequency)));
             row.push(number(sigma, 2));
@@ -67,10 +64,10 @@ pub fn diagram<const N: usize, const U: usize, const P: usize>(
 ///
 /// # Errors
 /// Those of the writer.
-pub fn events<const P: usize>(
+pub fn events(
     out: &mut dyn Write,
-    events: &[RotorEvent<P>],
-    tolerances: &Tolerances<P>,
+    events: &[RotorEvent],
+    tolerances: &Tolerances,
     description: &Description,
 ) -> io::Result<()> {
     writeln!(out, "Critical speeds and limit of stability")?;
@@ -112,14 +109,14 @@ pub fn events<const P: usize>(
     );
     let mut table = Table::new(head);
     let half_widths = tolerances.half_widths();
-    for (j, info) in description.design.iter().enumerate().take(P) {
+    for (j, info) in description.design.iter().enumerate() {
         let half_width = half_widths[j] / info.unit.scale;
         let mut row = vec![
             format!("{:<17}", info.name),
             format!("{} {:<5}", significant(half_width), info.unit.symbol),
         ];
         for event in events {
-            let slopes = event.spread.as_ref().ok().map(|spread| spread.by_design);
+            let slopes = event.spread.as_ref().ok().map(|spread| &spread.by_design);
             row.push(number(
                 slopes.map(|slopes| slopes[j] * half_widths[j] / RPM),
                 1,
@@ -134,11 +131,7 @@ pub fn events<const P: usize>(
 ///
 /// # Errors
 /// Those of the writer.
-pub fn risk<const P: usize>(
-    out: &mut dyn Write,
-    risk: &Risk<P>,
-    question: &RotorQuestion,
-) -> io::Result<()> {
+pub fn risk(out: &mut dyn Write, risk: &Risk, question: &RotorQuestion) -> io::Result<()> {
     let samples = risk.unstable.samples;
     writeln!(
         out,
@@ -162,19 +155,19 @@ pub fn risk<const P: usize>(
         let lines = [
             (
                 format!("mode {place} {whirl}, Hz"),
-                mode.frequency,
+                mode.frequency.as_ref(),
                 mode.sampled_frequency,
                 1.0 / HZ,
             ),
             (
                 "  damping, %".to_owned(),
-                mode.damping_ratio,
+                mode.damping_ratio.as_ref(),
                 mode.sampled_damping_ratio,
                 100.0,
             ),
         ];
         for (name, model, sampled, unit) in lines {
-            let moments = model.map(|model| model.moments);
+            let moments = model.map(|model| &model.moments);
             let nominal = model.map(|model| model.model.value);
             let shown = |value: Option<f64>| number(value.map(|value| unit * value), 4);
             let shift = sampled
@@ -197,11 +190,7 @@ pub fn risk<const P: usize>(
     chances(out, risk, question)
 }
 
-fn chances<const P: usize>(
-    out: &mut dyn Write,
-    risk: &Risk<P>,
-    question: &RotorQuestion,
-) -> io::Result<()> {
+fn chances(out: &mut dyn Write, risk: &Risk, question: &RotorQuestion) -> io::Result<()> {
     let (low, high) = question.band();
     writeln!(
         out,

@@ -1,6 +1,71 @@
-//! Symmetric matrices of any small size, one in each lane. A flag is a vector of ones, zero in the lanes that failed.
+//! Symmetric matrices of a small size `n`, one in each lane. A flag is a vector of ones, zero in the lanes that failed.
+//!
+//! Sizes are arguments of functions that are written where they are called: a caller for whom `n` is a constant has loops
+//! without a count, see [`for_size`].
 
-use crate::lanes::Vector;
+use crate::dense::Matrix;
+use crate::lanes::{Batch, Lanes};
+
+/// Largest mechanism whose states are solved side by side.
+pub(crate) const LARGEST: usize = 8;
+
+/// One number for each unknown; those from `n` on mean nothing.
+pub(crate) type Row<V> = [V; LARGEST];
+/// A matrix of size `n`.
+pub(crate) type Square<V> = [Row<V>; LARGEST];
+
+/// Calls `work` with the size; as a constant where that is small, so that it is compiled for it.
+#[inline(always)]
+pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
+    match n {
+        1 => work(1),
+        2 => work(2),
+        3 => work(3),
+        n => work(n.min(LARGEST)),
+    }
+}
+
+/// A matrix as one of a small size.
+pub(crate) fn small(matrix: &Matrix) -> Square<f64> {
+    let mut rows = [[0.0; LARGEST]; LARGEST];
+    for (to, from) in rows.iter_mut().zip(matrix.iter()) {
+        to[..from.len()].copy_from_slice(from);
+    }
+    rows
+}
+
+/// The first entries of each batch.
+#[inline(always)]
+pub(crate) fn load<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Row<V> {
+    let from = &from[..n];
+    let mut row = [V::constant(0.0); LARGEST];
+    for i in 0..n {
+        row[i] = V::load(&from[i], at);
+    }
+    row
+}
+
+/// The same of a matrix.
+#[inline(always)]
+pub(crate) fn load_matrix<V: Lanes>(n: usize, from: &Matrix<Batch>, at: usize) -> Square<V> {
+    let mut rows = [[V::constant(0.0); LARGEST]; LARGEST];
+    let from = &from.as_flattened()[..n * n];
+    for i in 0..n {
+        for j in 0..n {
+            rows[i][j] = V::load(&from[i * n + j], at);
+        }
+    }
+    rows
+}
+
+/// Writes the first entries.
+#[inline(always)]
+pub(crate) fn store<V: Lanes>(n: usize, row: &Row<V>, to: &mut [Batch], at: usize) {
+    let to = &mut to[..n];
+    for i in 0..n {
+        row[i].store(&mut to[i], at);
+    }
+}
 
 /// Off-diagonal elements count as zero below this share of the diagonal, squared.
 const NEGLIGIBLE: f64 = 1e-33;
@@ -12,35 +77,21 @@ const RECOGNISED: f64 = 0.7;
 /// it are within 26 of each other, squared cosine above 0.8.
 pub(crate) const CLEAR: f64 = 0.95;
 
-/// The same numbers in every lane.
-#[inline(always)]
-pub(crate) fn constants<V: Vector, const K: usize>(values: &[f64; K]) -> [V; K] {
-    // Loops, here and elsewhere: an adaptor of an iterator that is not inlined leaves the instructions behind.
-    let mut constants = [V::constant(0.0); K];
-    for (constant, value) in constants.iter_mut().zip(values) {
-        *constant = V::constant(*value);
-    }
-    constants
-}
-
 /// `flag` where `mask` holds, else zero.
 #[inline(always)]
-pub(crate) fn keep<V: Vector>(flag: V, mask: V::Mask) -> V {
+pub(crate) fn keep<V: Lanes>(flag: V, mask: V::Mask) -> V {
     V::choose(mask, flag, V::constant(0.0))
 }
 
 /// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, at least the share
 /// `least` of its diagonal element.
 #[inline(always)]
-pub(crate) fn factor<V: Vector, const N: usize>(
-    matrix: &[[V; N]; N],
-    least: f64,
-) -> ([[V; N]; N], V) {
+pub(crate) fn factor<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> (Square<V>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut factor = [[zero; N]; N];
-    let mut pivots = [zero; N];
+    let mut factor = [[zero; LARGEST]; LARGEST];
+    let mut pivots = [zero; LARGEST];
     let mut flag = one;
-    for i in 0..N {
+    for i in 0..n {
         let mut pivot = matrix[i][i];
         for j in 0..i {
             // `scaled` is L_ij D_j until its own turn is over.
@@ -63,16 +114,16 @@ pub(crate) fn factor<V: Vector, const N: usize>(
 
 /// Solves `L D L^T x = right`.
 #[inline(always)]
-pub(crate) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V; N]) -> [V; N] {
+pub(crate) fn solve<V: Lanes>(n: usize, factor: &Square<V>, right: &Row<V>) -> Row<V> {
     let mut x = *right;
-    for i in 0..N {
+    for i in 0..n {
         for j in 0..i {
             x[i] = x[i] - factor[i][j] * x[j];
         }
     }
-    for i in (0..N).rev() {
+    for i in (0..n).rev() {
         x[i] = x[i] * factor[i][i];
-        for j in i + 1..N {
+        for j in i + 1..n {
             x[i] = x[i] - factor[j][i] * x[j];
         }
     }
@@ -82,24 +133,21 @@ pub(crate) fn solve<V: Vector, const N: usize>(factor: &[[V; N]; N], right: &[V;
 /// `basis^T matrix basis` of a symmetric matrix; the vectors of the basis are the rows of `basis`. Below and on the
 /// diagonal.
 #[inline(always)]
-pub(crate) fn congruent<V: Vector, const N: usize>(
-    matrix: &[[V; N]; N],
-    basis: &[[f64; N]; N],
-) -> [[V; N]; N] {
+pub(crate) fn congruent<V: Lanes>(n: usize, matrix: &Square<V>, basis: &Square<f64>) -> Square<V> {
     let zero = V::constant(0.0);
-    let mut result = [[zero; N]; N];
-    for r in 0..N {
-        let mut image = [zero; N];
-        for i in 0..N {
+    let mut result = [[zero; LARGEST]; LARGEST];
+    for r in 0..n {
+        let mut image = [zero; LARGEST];
+        for i in 0..n {
             // Sums start from their first term: a sum with zero is an operation too.
             image[i] = matrix[i][0] * V::constant(basis[r][0]);
-            for j in 1..N {
+            for j in 1..n {
                 image[i] = image[i] + matrix[i][j] * V::constant(basis[r][j]);
             }
         }
-        for s in r..N {
+        for s in r..n {
             result[s][r] = image[0] * V::constant(basis[s][0]);
-            for i in 1..N {
+            for i in 1..n {
                 result[s][r] = result[s][r] + image[i] * V::constant(basis[s][i]);
             }
         }
@@ -111,29 +159,31 @@ pub(crate) fn congruent<V: Vector, const N: usize>(
 /// the identity, both nearly diagonal, given below and on the diagonal. The flag says that the rotations came to rest and
 /// that each eigenvector is near enough.
 #[inline(always)]
-pub(crate) fn eigenvalues<V: Vector, const N: usize>(
-    stiffness: &[[V; N]; N],
-    mass: &[[V; N]; N],
-) -> ([V; N], V) {
-    let (lambda, _, flag) = rotated(stiffness, mass, RECOGNISED);
+pub(crate) fn eigenvalues<V: Lanes>(
+    n: usize,
+    stiffness: &Square<V>,
+    mass: &Square<V>,
+) -> (Row<V>, V) {
+    let (lambda, _, flag) = rotated(n, stiffness, mass, RECOGNISED);
     (lambda, flag)
 }
 
 /// As [`eigenvalues`], with the vectors, one in each row, `phi^T mass phi = 1`; the flag wants them nearer, [`CLEAR`].
 #[inline(always)]
-pub(crate) fn eigenpairs<V: Vector, const N: usize>(
-    stiffness: &[[V; N]; N],
-    mass: &[[V; N]; N],
-) -> ([V; N], [[V; N]; N], V) {
-    let (lambda, images, flag) = rotated(stiffness, mass, CLEAR);
-    let (factor, _) = factor(mass, 0.0);
-    let mut vectors = [[V::constant(0.0); N]; N];
-    for r in 0..N {
-        let mut image = [V::constant(0.0); N];
-        for i in 0..N {
+pub(crate) fn eigenpairs<V: Lanes>(
+    n: usize,
+    stiffness: &Square<V>,
+    mass: &Square<V>,
+) -> (Row<V>, Square<V>, V) {
+    let (lambda, images, flag) = rotated(n, stiffness, mass, CLEAR);
+    let (factor, _) = factor(n, mass, 0.0);
+    let mut vectors = [[V::constant(0.0); LARGEST]; LARGEST];
+    for r in 0..n {
+        let mut image = [V::constant(0.0); LARGEST];
+        for i in 0..n {
             image[i] = images[i][r];
         }
-        vectors[r] = solve(&factor, &image);
+        vectors[r] = solve(n, &factor, &image);
     }
     (lambda, vectors, flag)
 }
@@ -141,16 +191,17 @@ pub(crate) fn eigenpairs<V: Vector, const N: usize>(
 /// Eigenvalues, and in each column `mass phi` of the vector that belongs to it; the flag as above, for a squared cosine of
 /// `least`.
 #[inline(always)]
-fn rotated<V: Vector, const N: usize>(
-    stiffness: &[[V; N]; N],
-    mass: &[[V; N]; N],
+fn rotated<V: Lanes>(
+    n: usize,
+    stiffness: &Square<V>,
+    mass: &Square<V>,
     least: f64,
-) -> ([V; N], [[V; N]; N], V) {
+) -> (Row<V>, Square<V>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
     // mass = L L^T; the rows of `vectors` are those of L, rotated later.
-    let mut vectors = [[zero; N]; N];
+    let mut vectors = [[zero; LARGEST]; LARGEST];
     let mut flag = one;
-    for i in 0..N {
+    for i in 0..n {
         for j in 0..=i {
             let mut sum = mass[i][j];
             for k in 0..j {
@@ -166,28 +217,28 @@ fn rotated<V: Vector, const N: usize>(
     }
     // a = L^-1 stiffness L^-T
     let mut a = *stiffness;
-    for i in 0..N {
+    for i in 0..n {
         for j in 0..i {
             a[j][i] = a[i][j];
         }
     }
-    for column in 0..N {
-        for i in 0..N {
+    for column in 0..n {
+        for i in 0..n {
             for k in 0..i {
                 a[i][column] = a[i][column] - vectors[i][k] * a[k][column];
             }
             a[i][column] = a[i][column] / vectors[i][i];
         }
     }
-    for row in &mut a {
-        for i in 0..N {
+    for row in &mut a[..n] {
+        for i in 0..n {
             for k in 0..i {
                 row[i] = row[i] - vectors[i][k] * row[k];
             }
             row[i] = row[i] / vectors[i][i];
         }
     }
-    for i in 0..N {
+    for i in 0..n {
         for j in 0..i {
             let mean = (a[i][j] + a[j][i]) * V::constant(0.5);
             (a[i][j], a[j][i]) = (mean, mean);
@@ -196,9 +247,9 @@ fn rotated<V: Vector, const N: usize>(
     let mut at_rest = zero;
     for _ in 0..SWEEPS {
         at_rest = one;
-        for p in 0..N {
-            for q in p + 1..N {
-                let small = rotate(&mut a, &mut vectors, p, q);
+        for p in 0..n {
+            for q in p + 1..n {
+                let small = rotate(n, &mut a, &mut vectors, p, q);
                 at_rest = keep(at_rest, small);
             }
         }
@@ -207,12 +258,12 @@ fn rotated<V: Vector, const N: usize>(
         }
     }
     flag = keep(flag, one.at_most(at_rest));
-    for r in 0..N {
+    for r in 0..n {
         let share = vectors[r][r] * vectors[r][r];
         flag = keep(flag, (mass[r][r] * V::constant(least)).at_most(share));
     }
-    let mut lambda = [zero; N];
-    for (r, lambda) in lambda.iter_mut().enumerate() {
+    let mut lambda = [zero; LARGEST];
+    for (r, lambda) in lambda[..n].iter_mut().enumerate() {
         *lambda = a[r][r];
     }
     (lambda, vectors, flag)
@@ -221,9 +272,10 @@ fn rotated<V: Vector, const N: usize>(
 /// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero; nothing moves where it counts as zero already,
 /// which the mask returned says, so that lanes do not wait for each other with effect.
 #[inline(always)]
-fn rotate<V: Vector, const N: usize>(
-    a: &mut [[V; N]; N],
-    vectors: &mut [[V; N]; N],
+fn rotate<V: Lanes>(
+    n: usize,
+    a: &mut Square<V>,
+    vectors: &mut Square<V>,
     p: usize,
     q: usize,
 ) -> V::Mask {
@@ -239,14 +291,14 @@ fn rotate<V: Vector, const N: usize>(
     a[p][p] = a[p][p] - tangent * off;
     a[q][q] = a[q][q] + tangent * off;
     (a[p][q], a[q][p]) = (zero, zero);
-    for k in 0..N {
+    for k in 0..n {
         if k != p && k != q {
             let (x, y) = (a[k][p], a[k][q]);
             (a[k][p], a[k][q]) = (cosine * x - sine * y, sine * x + cosine * y);
             (a[p][k], a[q][k]) = (a[k][p], a[k][q]);
         }
     }
-    for row in vectors {
+    for row in &mut vectors[..n] {
         let (x, y) = (row[p], row[q]);
         (row[p], row[q]) = (cosine * x - sine * y, sine * x + cosine * y);
     }

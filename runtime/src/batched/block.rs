@@ -1,122 +1,147 @@
 //! Neighbouring values of an input, solved side by side.
 
+use super::algebra::LARGEST;
 use super::continuity::Continuity;
-use super::newton::Newton;
-use super::slopes::Slopes;
-use super::state::State;
+use super::newton::newton;
+use super::slopes::{Slopes, slopes};
+use super::state::{Scratch, state};
 use crate::constraints::Structure;
-use crate::lanes::{Batch, Instructions, WIDTH, generated};
-use crate::{DampingKind, Input, Linear, Mechanism};
+use crate::dense::{Matrix, Vector};
+use crate::kernels::{BatchKernels, BatchPoint, Linear, Sizes};
+use crate::lanes::{Batch, Instructions, WIDTH};
+use crate::{DampingKind, Description, Input};
 
-/// Largest mechanism whose values are solved side by side.
-const LARGEST: usize = 8;
 /// Least pivot of a matrix that is clearly positive definite, relative to its diagonal element.
 pub(crate) const POSITIVE: f64 = 1e-10;
 
 /// The last three values of the input and the states there, the latest first.
-pub(crate) type Past<const N: usize> = [(f64, [f64; N]); 3];
+pub(crate) type Past = [(f64, Vector); 3];
 
 /// Equilibria, undamped modes and their total derivatives at [`WIDTH`] values of an input.
-pub(crate) struct Block<const N: usize, const U: usize, const P: usize> {
+pub(crate) struct Block {
     pub(crate) values: Batch,
-    pub(super) inputs: [Batch; U],
-    pub(super) design: [Batch; P],
-    pub(super) coordinates: [Batch; N],
+    pub(super) inputs: Vector<Batch>,
+    pub(super) design: Vector<Batch>,
+    pub(super) coordinates: Vector<Batch>,
     pub(super) iterations: Batch,
-    pub(super) residual: [Batch; N],
+    pub(super) residual: Vector<Batch>,
     pub(super) relative_residual: Batch,
-    pub(super) linear: Linear<Batch, N>,
-    pub(super) lambda: [Batch; N],
+    pub(super) linear: Linear<Batch>,
+    pub(super) lambda: Vector<Batch>,
     /// By mode.
-    pub(super) shapes: [[Batch; N]; N],
-    pub(super) mode_residuals: [Batch; N],
-    pub(super) mode_errors: [Batch; N],
+    pub(super) shapes: Matrix<Batch>,
+    pub(super) mode_residuals: Vector<Batch>,
+    pub(super) mode_errors: Vector<Batch>,
     /// `dlambda` by mode.
-    pub(super) by_input: [[Batch; U]; N],
-    pub(super) by_design: [[Batch; P]; N],
+    pub(super) by_input: Matrix<Batch>,
+    pub(super) by_design: Matrix<Batch>,
     /// One where a lane has passed every check.
     pub(super) flags: Batch,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
-    /// Whether the mechanism's kind allows it: generated code, undamped modes, no constraints, few coordinates.
-    pub(crate) const fn possible<M, const O: usize>() -> bool
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        N > 0
-            && N <= LARGEST
-            && Structure::of(&M::DESCRIPTION).open()
-            && matches!(M::DESCRIPTION.damping, DampingKind::Zero)
-            && M::DESCRIPTION.symmetric_stiffness
-            && generated(&M::DESCRIPTION, "residual_and_stiffness")
-            && generated(&M::DESCRIPTION, "residual_parts")
-            && generated(&M::DESCRIPTION, "linear")
-            && generated(&M::DESCRIPTION, "mode_gradient")
-            && generated(&M::DESCRIPTION, "residual_gradient")
-    }
+/// What is written on the way to a block, and over again.
+pub(crate) struct Workspace {
+    scratch: Scratch,
+    /// For derivatives of the modes, where they are wanted.
+    slopes: Option<Slopes>,
+}
 
+impl Workspace {
+    /// For blocks of a mechanism.
+    pub(crate) fn new(description: &Description, with_slopes: bool) -> Self {
+        let sizes = sizes(description);
+        Self {
+            scratch: Scratch::new(sizes.coordinates),
+            slopes: with_slopes.then(|| Slopes::new(description, sizes)),
+        }
+    }
+}
+
+fn sizes(description: &Description) -> Sizes {
+    Sizes {
+        coordinates: description.coordinates.len(),
+        inputs: description.inputs.len(),
+        design: description.design.len(),
+        outputs: description.outputs.len(),
+    }
+}
+
+/// Whether the mechanism's kind allows it: generated code, undamped modes, no constraints, few coordinates.
+pub(crate) fn possible(description: &Description, kernels: &[&str]) -> bool {
+    let n = description.coordinates.len();
+    (1..=LARGEST).contains(&n)
+        && Structure::of(description).open()
+        && matches!(description.damping, DampingKind::Zero)
+        && description.symmetric_stiffness
+        && kernels
+            .iter()
+            .all(|name| description.kernel(name).is_some())
+}
+
+/// The kernels that a block needs.
+pub(crate) const KERNELS: [&str; 5] = [
+    "residual_and_stiffness",
+    "residual_parts",
+    "linear",
+    "mode_gradient",
+    "residual_gradient",
+];
+
+impl Block {
     /// One for a design and inputs of which one will vary.
-    pub(crate) fn new(inputs: &[f64; U], design: &[f64; P]) -> Box<Self> {
+    pub(crate) fn new(description: &Description, inputs: &[f64], design: &[f64]) -> Self {
+        let sizes = sizes(description);
+        let n = sizes.coordinates;
         let zero = Batch::default();
-        Box::new(Self {
+        Self {
             values: zero,
-            inputs: inputs.map(Batch::all),
-            design: design.map(Batch::all),
-            coordinates: [zero; N],
+            inputs: inputs.iter().copied().map(Batch::all).collect(),
+            design: design.iter().copied().map(Batch::all).collect(),
+            coordinates: Vector::zeros(n),
             iterations: zero,
-            residual: [zero; N],
+            residual: Vector::zeros(n),
             relative_residual: zero,
-            linear: Linear::default(),
-            lambda: [zero; N],
-            shapes: [[zero; N]; N],
-            mode_residuals: [zero; N],
-            mode_errors: [zero; N],
-            by_input: [[zero; U]; N],
-            by_design: [[zero; P]; N],
+            linear: Linear::zeros(n),
+            lambda: Vector::zeros(n),
+            shapes: Matrix::zeros(n, n),
+            mode_residuals: Vector::zeros(n),
+            mode_errors: Vector::zeros(n),
+            by_input: Matrix::zeros(n, sizes.inputs),
+            by_design: Matrix::zeros(n, sizes.design),
             flags: zero,
-        })
+        }
     }
 
-    /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last state,
-    /// one in each row. Returns how many of the states in a row passed every check; with `SLOPES`, their modes have derivatives.
-    pub(crate) fn solve<const SLOPES: bool, M, const O: usize>(
+    /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last
+    /// state, one in each row. Returns how many of the states in a row passed every check; if wanted, their modes have
+    /// derivatives.
+    pub(crate) fn solve(
         &mut self,
-        mechanism: &M,
-        instructions: Instructions,
+        workspace: &mut Workspace,
+        (kernels, instructions): (&dyn BatchKernels, Instructions),
         (input, values): (Input, &[f64]),
-        past: &Past<N>,
-        shapes: &[[f64; N]; N],
-    ) -> usize
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+        past: &Past,
+        shapes: &Matrix,
+    ) -> usize {
         let number = values.len().min(WIDTH);
         let Some(&last) = values[..number].last() else {
             return 0;
         };
         // Lanes without a value of their own repeat the last.
         self.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
-        self.inputs[input.0] = self.values;
+        self.inputs[input.index()] = self.values;
         self.predict(past);
-        instructions.run(Newton::<M, N, U, P, O> {
-            mechanism,
-            block: self,
-        });
+        let Workspace {
+            scratch,
+            slopes: derivatives,
+        } = workspace;
+        newton(kernels, instructions, self, scratch);
         instructions.run(Continuity { past, block: self });
-        if self.flags.0[0] != 1.0 {
-            return 0;
-        }
-        instructions.run(State::<M, N, U, P, O> {
-            mechanism,
-            shapes,
-            block: self,
-        });
-        if const { SLOPES } {
-            instructions.run(Slopes::<M, N, U, P, O> {
-                mechanism,
-                block: self,
-            });
+        if self.flags.0[0] == 1.0 {
+            state(kernels, instructions, self, scratch, shapes);
+            if let Some(derivatives) = derivatives {
+                slopes(kernels, instructions, self, derivatives);
+            }
         }
         let passed = self.flags.0[..number]
             .iter()
@@ -124,15 +149,22 @@ impl<const N: usize, const U: usize, const P: usize> Block<N, U, P> {
         passed.count()
     }
 
+    pub(super) fn point(&self) -> BatchPoint<'_> {
+        BatchPoint {
+            q: &self.coordinates,
+            u: &self.inputs,
+            b: &self.design,
+        }
+    }
+
     /// The parabola through the last states.
-    fn predict(&mut self, past: &Past<N>) {
+    fn predict(&mut self, past: &Past) {
         let [(u0, q0), (u1, q1), (u2, q2)] = past;
         let (step, before, both) = (1.0 / (u0 - u1), 1.0 / (u1 - u2), 1.0 / (u0 - u2));
-        for i in 0..N {
+        for (i, place) in self.coordinates.iter_mut().enumerate() {
             let slope = (q0[i] - q1[i]) * step;
             let bend = (slope - (q1[i] - q2[i]) * before) * both;
-            let place = &mut self.coordinates[i].0;
-            for (q, u) in place.iter_mut().zip(&self.values.0) {
+            for (q, u) in place.0.iter_mut().zip(&self.values.0) {
                 *q = q0[i] + (u - u0) * (slope + (u - u1) * bend);
             }
         }

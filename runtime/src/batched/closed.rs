@@ -1,7 +1,7 @@
 //! The same as [`algebra`](super::algebra) for matrices of size one and two, by formulas with few divisions and roots.
 
-use super::algebra::{self, keep};
-use crate::lanes::Vector;
+use super::algebra::{self, LARGEST, Row, Square, keep};
+use crate::lanes::Lanes;
 
 /// Greatest squared tangent of the rotation and greatest squared coupling of the masses, relative to these: the squared cosine
 /// between a mode and the nominal one is then at least `(0.995 - 0.1 / 2)^2 / 1.25 = 0.71`, enough to recognise it.
@@ -9,29 +9,29 @@ const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
 /// A matrix ready to solve with.
-pub(crate) enum Solver<V: Vector, const N: usize> {
+pub(crate) enum Solver<V: Lanes> {
     /// Of size two: the matrix and the inverse of its determinant.
     Two(V, V, V, V),
-    Factor([[V; N]; N]),
+    Factor(Square<V>),
 }
 
-impl<V: Vector, const N: usize> Solver<V, N> {
+impl<V: Lanes> Solver<V> {
     /// The flag says that the matrix is positive definite, pivots at least the share `least`.
     #[inline(always)]
-    pub(crate) fn new(matrix: &[[V; N]; N], least: f64) -> (Self, V) {
-        if N == 2 {
+    pub(crate) fn new(n: usize, matrix: &Square<V>, least: f64) -> (Self, V) {
+        if n == 2 {
             let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
             let inverse = V::constant(1.0) / (a * d - b * b);
-            (Self::Two(a, b, d, inverse), definite(matrix, least))
+            (Self::Two(a, b, d, inverse), definite(n, matrix, least))
         } else {
-            let (factor, flag) = algebra::factor(matrix, least);
+            let (factor, flag) = algebra::factor(n, matrix, least);
             (Self::Factor(factor), flag)
         }
     }
 
     /// Solves `matrix x = right`.
     #[inline(always)]
-    pub(crate) fn solve(&self, right: &[V; N]) -> [V; N] {
+    pub(crate) fn solve(&self, n: usize, right: &Row<V>) -> Row<V> {
         match self {
             Self::Two(a, b, d, inverse) => {
                 let mut x = *right;
@@ -39,36 +39,37 @@ impl<V: Vector, const N: usize> Solver<V, N> {
                 x[1] = (*a * right[1] - *b * right[0]) * *inverse;
                 x
             }
-            Self::Factor(factor) => algebra::solve(factor, right),
+            Self::Factor(factor) => algebra::solve(n, factor, right),
         }
     }
 }
 
 /// Flag of positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
 #[inline(always)]
-pub(crate) fn definite<V: Vector, const N: usize>(matrix: &[[V; N]; N], least: f64) -> V {
-    if N == 2 {
+pub(crate) fn definite<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> V {
+    if n == 2 {
         let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
         let flag = keep(V::constant(1.0), V::constant(0.0).at_most(a));
         let rest = a * d - b * b;
         keep(flag, ((a * d).abs() * V::constant(least)).at_most(rest))
     } else {
-        algebra::factor(matrix, least).1
+        algebra::factor(n, matrix, least).1
     }
 }
 
 /// As [`algebra::eigenvalues`].
 #[inline(always)]
-pub(crate) fn eigenvalues<V: Vector, const N: usize>(
-    stiffness: &[[V; N]; N],
-    mass: &[[V; N]; N],
-) -> ([V; N], V) {
+pub(crate) fn eigenvalues<V: Lanes>(
+    n: usize,
+    stiffness: &Square<V>,
+    mass: &Square<V>,
+) -> (Row<V>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut lambda = [zero; N];
-    if N == 1 {
+    let mut lambda = [zero; LARGEST];
+    if n == 1 {
         lambda[0] = stiffness[0][0] / mass[0][0];
         (lambda, keep(one, V::constant(0.5).at_most(mass[0][0])))
-    } else if N == 2 {
+    } else if n == 2 {
         let (k00, k10, k11) = (stiffness[0][0], stiffness[1][0], stiffness[1][1]);
         let (m00, m10, m11) = (mass[0][0], mass[1][0], mass[1][1]);
         // a = L^-1 stiffness L^-T; its element a_10 only as a square, which takes no root.
@@ -94,7 +95,7 @@ pub(crate) fn eigenvalues<V: Vector, const N: usize>(
         let flag = keep(flag, square.at_most(sum * sum * V::constant(TURNED)));
         (lambda, flag)
     } else {
-        algebra::eigenvalues(stiffness, mass)
+        algebra::eigenvalues(n, stiffness, mass)
     }
 }
 
@@ -102,19 +103,20 @@ pub(crate) fn eigenvalues<V: Vector, const N: usize>(
 /// `phi^T mass phi = 1`. The flag says that each is clearly the unit vector of its place: squared cosine at least
 /// [`algebra::CLEAR`].
 #[inline(always)]
-pub(crate) fn eigenpairs<V: Vector, const N: usize>(
-    stiffness: &[[V; N]; N],
-    mass: &[[V; N]; N],
-) -> ([V; N], [[V; N]; N], V) {
+pub(crate) fn eigenpairs<V: Lanes>(
+    n: usize,
+    stiffness: &Square<V>,
+    mass: &Square<V>,
+) -> (Row<V>, Square<V>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut lambda = [zero; N];
-    let mut vectors = [[zero; N]; N];
-    if N == 1 {
+    let mut lambda = [zero; LARGEST];
+    let mut vectors = [[zero; LARGEST]; LARGEST];
+    if n == 1 {
         let inverse = one / mass[0][0];
         lambda[0] = stiffness[0][0] * inverse;
         vectors[0][0] = inverse.sqrt();
         (lambda, vectors, keep(one, zero.at_most(mass[0][0])))
-    } else if N == 2 {
+    } else if n == 2 {
         let (k00, k10, k11) = (stiffness[0][0], stiffness[1][0], stiffness[1][1]);
         let (m00, m10, m11) = (mass[0][0], mass[1][0], mass[1][1]);
         // Reciprocals of the diagonal of L, mass = L L^T.
@@ -150,6 +152,6 @@ pub(crate) fn eigenpairs<V: Vector, const N: usize>(
         let flag = keep(flag, (m11 * clear).at_most(turned * turned));
         (lambda, vectors, flag)
     } else {
-        algebra::eigenpairs(stiffness, mass)
+        algebra::eigenpairs(n, stiffness, mass)
     }
 }

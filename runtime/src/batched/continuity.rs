@@ -1,27 +1,28 @@
 //! Whether the states of a block continue the way that led there, each seen from the three before it.
 
-use super::algebra::keep;
+use super::algebra::{LARGEST, keep};
 use super::block::{Block, Past};
 use crate::equilibrium::prediction::{MISSED, STILL};
-use crate::lanes::{Batch, Task, Vector, WIDTH};
+use crate::lanes::{Batch, Lanes, Task, WIDTH};
 
 /// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
 /// them: what [`confirmed`](crate::equilibrium::prediction::confirmed) asks of one state.
-pub(super) struct Continuity<'a, const N: usize, const U: usize, const P: usize> {
-    pub(super) past: &'a Past<N>,
-    pub(super) block: &'a mut Block<N, U, P>,
+pub(super) struct Continuity<'a> {
+    pub(super) past: &'a Past,
+    pub(super) block: &'a mut Block,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Task for Continuity<'_, N, U, P> {
+impl Task for Continuity<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) {
+    fn run<V: Lanes>(self) {
         let Self { past, block } = self;
-        let values = before(&block.values, past.map(|(value, _)| value));
-        let mut states = [[Batch::default(); 3]; N];
-        for (i, states) in states.iter_mut().enumerate() {
-            *states = before(&block.coordinates[i], past.map(|(_, state)| state[i]));
+        let n = block.coordinates.len();
+        let values = before(&block.values, [0, 1, 2].map(|k| past[k].0));
+        let mut states = [[Batch::default(); 3]; LARGEST];
+        for (i, states) in states[..n].iter_mut().enumerate() {
+            *states = before(&block.coordinates[i], [0, 1, 2].map(|k| past[k].1[i]));
         }
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let u = V::load(&block.values, at);
@@ -30,7 +31,7 @@ impl<const N: usize, const U: usize, const P: usize> Task for Continuity<'_, N, 
             let (one, zero) = (V::constant(1.0), V::constant(0.0));
             let (step, before, both) = (one / (u0 - u1), one / (u1 - u2), one / (u0 - u2));
             let (mut missed, mut moved, mut size) = (zero, zero, one);
-            for i in 0..N {
+            for i in 0..n {
                 let q = V::load(&block.coordinates[i], at);
                 let [q0, q1, q2] = three::<V>(&states[i], at);
                 let slope = (q0 - q1) * step;
@@ -64,7 +65,7 @@ fn before(batch: &Batch, past: [f64; 3]) -> [Batch; 3] {
 }
 
 #[inline(always)]
-fn three<V: Vector>(batches: &[Batch; 3], at: usize) -> [V; 3] {
+fn three<V: Lanes>(batches: &[Batch; 3], at: usize) -> [V; 3] {
     let mut vectors = [V::constant(0.0); 3];
     for (vector, batch) in vectors.iter_mut().zip(batches) {
         *vector = V::load(batch, at);
@@ -74,6 +75,6 @@ fn three<V: Vector>(batches: &[Batch; 3], at: usize) -> [V; 3] {
 
 /// The greater of two; what is not a number stays.
 #[inline(always)]
-fn greater<V: Vector>(a: V, b: V) -> V {
+fn greater<V: Lanes>(a: V, b: V) -> V {
     V::choose(b.at_most(a), a, b)
 }

@@ -14,4 +14,4 @@ mod reading;
 mod slopes;
 mod state;
 
-pub(crate) use block::{Block, POSITIVE};
+pub(crate) use block::{Block, KERNELS, POSITIVE, Workspace, possible};

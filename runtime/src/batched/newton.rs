@@ -1,11 +1,12 @@
 //! Newton's method in every lane.
 
-use super::algebra::keep;
+use super::algebra::{self, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
-use crate::Mechanism;
+use super::state::Scratch;
 use crate::equilibrium::convergence::{LAST_STEP, SMALL_MOTION};
-use crate::lanes::{Store, Task, Vector, WIDTH, load};
+use crate::kernels::BatchKernels;
+use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// Steps at most: predicted states are near to what they predict.
 const STEPS: usize = 6;
@@ -14,51 +15,85 @@ const RADIUS: f64 = 1.0;
 
 /// Takes the coordinates of a block to the equilibria next to them. Flags the lanes that came to rest, the stiffness positive
 /// definite all the way.
-pub(super) struct Newton<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    pub(super) mechanism: &'a M,
-    pub(super) block: &'a mut Block<N, U, P>,
+pub(super) fn newton(
+    kernels: &dyn BatchKernels,
+    instructions: Instructions,
+    block: &mut Block,
+    scratch: &mut Scratch,
+) {
+    let mut resting = Batch::all(0.0);
+    block.flags = Batch::all(1.0);
+    block.iterations = Batch::all(0.0);
+    for _ in 0..STEPS {
+        kernels.residual_and_stiffness_batch(
+            instructions,
+            block.point(),
+            &mut scratch.residual,
+            &mut scratch.stiffness,
+        );
+        let resting = &mut resting;
+        instructions.run(Step {
+            scratch,
+            block,
+            resting,
+        });
+        if resting.0.iter().all(|rests| *rests >= 1.0) {
+            break;
+        }
+    }
+    for (flag, rests) in block.flags.0.iter_mut().zip(resting.0) {
+        *flag = if rests >= 1.0 { *flag } else { 0.0 };
+    }
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Task
-    for Newton<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+/// One step in every lane.
+struct Step<'a> {
+    scratch: &'a Scratch,
+    block: &'a mut Block,
+    resting: &'a mut Batch,
+}
+
+impl Task for Step<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) {
-        let Self { mechanism, block } = self;
+    fn run<V: Lanes>(self) {
+        let Self {
+            scratch,
+            block,
+            resting,
+        } = self;
         let (zero, one) = (V::constant(0.0), V::constant(1.0));
-        for at in (0..WIDTH).step_by(V::WIDTH) {
-            let (u, b): ([V; U], [V; P]) = (load(&block.inputs, at), load(&block.design, at));
-            let mut q: [V; N] = load(&block.coordinates, at);
-            let (mut flag, mut resting, mut steps) = (one, zero, zero);
-            for _ in 0..STEPS {
-                let (residual, stiffness) = mechanism.residual_and_stiffness_inlined(&q, &u, &b);
-                let (solver, positive) = Solver::new(&stiffness, POSITIVE);
-                let step = solver.solve(&residual);
-                // Lanes at rest stay where they are, so that none depends on the others.
-                let moving = resting.at_most(zero);
-                let (mut last, mut near) = (one, positive);
-                for (q, step) in q.iter_mut().zip(step) {
-                    let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
-                    last = keep(last, step.abs().at_most(scale));
-                    near = keep(near, step.abs().at_most(V::constant(RADIUS)));
-                    *q = V::choose(moving, *q - step, *q);
+        for_size(
+            block.coordinates.len(),
+            #[inline(always)]
+            |n| {
+                for at in (0..WIDTH).step_by(V::WIDTH) {
+                    let stiffness = load_matrix::<V>(n, &scratch.stiffness, at);
+                    let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
+                    let step = solver.solve(n, &algebra::load(n, &scratch.residual, at));
+                    // Lanes at rest stay where they are, so that none depends on the others.
+                    let rested = V::load(resting, at);
+                    let moving = rested.at_most(zero);
+                    let (mut last, mut near) = (one, positive);
+                    let coordinates = &mut block.coordinates[..n];
+                    for i in 0..n {
+                        let (q, step) = (V::load(&coordinates[i], at), step[i]);
+                        let scale = V::constant(LAST_STEP) * (q.abs() + V::constant(SMALL_MOTION));
+                        last = keep(last, step.abs().at_most(scale));
+                        near = keep(near, step.abs().at_most(V::constant(RADIUS)));
+                        V::choose(moving, q - step, q).store(&mut coordinates[i], at);
+                    }
+                    let flag = V::load(&block.flags, at);
+                    let flag = keep(flag, one.at_most(V::choose(moving, near, one)));
+                    flag.store(&mut block.flags, at);
+                    let steps = V::load(&block.iterations, at) + V::choose(moving, one, zero);
+                    steps.store(&mut block.iterations, at);
+                    // Lanes that failed rest too.
+                    let done = V::choose(one.at_most(flag), last, one);
+                    V::choose(moving, done, rested).store(resting, at);
                 }
-                flag = keep(flag, one.at_most(V::choose(moving, near, one)));
-                steps = steps + V::choose(moving, one, zero);
-                // Lanes that failed rest too.
-                let done = V::choose(one.at_most(flag), last, one);
-                resting = V::choose(moving, done, resting);
-                if V::every(one.at_most(resting)) {
-                    break;
-                }
-            }
-            block.coordinates.store(&q, at);
-            steps.store(&mut block.iterations, at);
-            keep(flag, one.at_most(resting)).store(&mut block.flags, at);
-        }
+            },
+        );
     }
 }

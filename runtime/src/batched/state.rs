@@ -1,94 +1,140 @@
 //! What there is at the equilibrium in every lane: what remains of the residual, the linearised mechanism, its modes.
 
-use super::algebra::{congruent, keep};
+use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix, small};
 use super::block::{Block, POSITIVE};
 use super::closed::{self, Solver};
+use crate::dense::{Matrix, Vector};
 use crate::equilibrium::convergence::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
-use crate::lanes::{Store, Task, Vector, WIDTH, load};
+use crate::kernels::{BatchKernels, BatchPoint, RestParts};
+use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::modes::symmetric::INACCURATE;
 use crate::rounding::{SLOW, of_elements};
 use crate::sensitivity::CLUSTER_GAP;
-use crate::{Linear, Mechanism, RestParts};
+
+/// What kernels write on the way.
+pub(super) struct Scratch {
+    pub(super) residual: Vector<Batch>,
+    pub(super) stiffness: Matrix<Batch>,
+    pub(super) parts: RestParts<Batch>,
+}
+
+impl Scratch {
+    pub(super) fn new(n: usize) -> Self {
+        Self {
+            residual: Vector::zeros(n),
+            stiffness: Matrix::zeros(n, n),
+            parts: RestParts::zeros(n),
+        }
+    }
+}
 
 /// Completes the states of a block. `shapes` are modes near by, one in each row, that tell the modes apart. Keeps the flags of
 /// lanes that are solved to rounding, a clear minimum, each mode recognised, oscillating and apart from the others.
-pub(super) struct State<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    pub(super) mechanism: &'a M,
-    pub(super) shapes: &'a [[f64; N]; N],
-    pub(super) block: &'a mut Block<N, U, P>,
+pub(super) fn state(
+    kernels: &dyn BatchKernels,
+    instructions: Instructions,
+    block: &mut Block,
+    scratch: &mut Scratch,
+    shapes: &Matrix,
+) {
+    let parts = &mut scratch.parts;
+    let point = BatchPoint {
+        q: &block.coordinates,
+        u: &block.inputs,
+        b: &block.design,
+    };
+    kernels.parts_and_linear_batch(instructions, point, parts, &mut block.linear);
+    let shapes = &small(shapes);
+    instructions.run(State {
+        shapes,
+        parts,
+        block,
+    });
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Task
-    for State<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+struct State<'a> {
+    shapes: &'a Square<f64>,
+    parts: &'a RestParts<Batch>,
+    block: &'a mut Block,
+}
+
+impl Task for State<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) {
+    fn run<V: Lanes>(self) {
         let Self {
-            mechanism,
             shapes,
+            parts,
             block,
         } = self;
         let one = V::constant(1.0);
-        for at in (0..WIDTH).step_by(V::WIDTH) {
-            let (u, b): ([V; U], [V; P]) = (load(&block.inputs, at), load(&block.design, at));
-            let q: [V; N] = load(&block.coordinates, at);
-            let parts = mechanism.residual_parts_inlined(&q, &u, &b);
-            let linear = mechanism.linear_inlined(&q, &u, &b);
-            let mut residual = parts.inertia;
-            for (residual, applied) in residual.iter_mut().zip(parts.applied) {
-                *residual = *residual - applied;
-            }
-            let (relative, rest) = remainder(&q, &parts, &residual, &linear.stiffness);
-            let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
-            flag = keep(flag, one.at_most(closed::definite(&linear.mass, POSITIVE)));
-            let (lambda, vectors, found) = modes(&linear, shapes);
-            flag = keep(flag, one.at_most(found));
-            block.residual.store(&residual, at);
-            relative.store(&mut block.relative_residual, at);
-            block.linear.store(&linear, at);
-            block.lambda.store(&lambda, at);
-            for r in 0..N {
-                let (most, error, accurate) = mode_residual(&linear, lambda[r], &vectors[r]);
-                flag = keep(flag, one.at_most(accurate));
-                most.store(&mut block.mode_residuals[r], at);
-                error.store(&mut block.mode_errors[r], at);
-                block.shapes[r].store(&vectors[r], at);
-            }
-            flag.store(&mut block.flags, at);
-        }
+        for_size(
+            block.coordinates.len(),
+            #[inline(always)]
+            |n| {
+                for at in (0..WIDTH).step_by(V::WIDTH) {
+                    let q: Row<V> = algebra::load(n, &block.coordinates, at);
+                    let inertia = algebra::load(n, &parts.inertia, at);
+                    let applied = algebra::load(n, &parts.applied, at);
+                    let mass = load_matrix(n, &block.linear.mass, at);
+                    let stiffness = load_matrix(n, &block.linear.stiffness, at);
+                    let mut residual = inertia;
+                    for i in 0..n {
+                        residual[i] = residual[i] - applied[i];
+                    }
+                    let (relative, rest) =
+                        remainder(n, &q, [&inertia, &applied, &residual], &stiffness);
+                    let mut flag = keep(V::load(&block.flags, at), one.at_most(rest));
+                    flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
+                    let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
+                    flag = keep(flag, one.at_most(found));
+                    algebra::store(n, &residual, &mut block.residual, at);
+                    relative.store(&mut block.relative_residual, at);
+                    algebra::store(n, &lambda, &mut block.lambda, at);
+                    for r in 0..n {
+                        let (most, error, accurate) =
+                            mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
+                        flag = keep(flag, one.at_most(accurate));
+                        most.store(&mut block.mode_residuals[r], at);
+                        error.store(&mut block.mode_errors[r], at);
+                        algebra::store(n, &vectors[r], &mut block.shapes[r], at);
+                    }
+                    flag.store(&mut block.flags, at);
+                }
+            },
+        );
     }
 }
 
 /// Greatest residual relative to the forces of its equation and what small motions restore there; the flag says that it, and
 /// the displacement behind it, are rounding, and that the stiffness is positive definite.
 #[inline(always)]
-fn remainder<V: Vector, const N: usize>(
-    q: &[V; N],
-    parts: &RestParts<V, N>,
-    residual: &[V; N],
-    stiffness: &[[V; N]; N],
+fn remainder<V: Lanes>(
+    n: usize,
+    q: &Row<V>,
+    [inertia, applied, residual]: [&Row<V>; 3],
+    stiffness: &Square<V>,
 ) -> (V, V) {
-    let mut small = [V::constant(SMALL_MOTION); N];
-    for (small, q) in small.iter_mut().zip(q) {
-        *small = *small + V::constant(ROUNDED) * q.abs();
+    let mut small = [V::constant(SMALL_MOTION); LARGEST];
+    for i in 0..n {
+        small[i] = small[i] + V::constant(ROUNDED) * q[i].abs();
     }
     let mut most = V::constant(0.0);
-    for i in 0..N {
-        let (inertia, applied) = (parts.inertia[i].abs(), parts.applied[i].abs());
+    for i in 0..n {
+        let (inertia, applied) = (inertia[i].abs(), applied[i].abs());
         let mut scale = V::choose(inertia.at_most(applied), applied, inertia);
-        for j in 0..N {
+        for j in 0..n {
             scale = scale + stiffness[i][j].abs() * small[j];
         }
         let own = residual[i].abs() / scale;
         most = V::choose(own.at_most(most), most, own);
     }
-    let (solver, mut flag) = Solver::new(stiffness, POSITIVE);
+    let (solver, mut flag) = Solver::new(n, stiffness, POSITIVE);
     flag = keep(flag, most.at_most(V::constant(TOLERANCE)));
-    for (rest, q) in solver.solve(residual).iter().zip(q) {
+    let rest = solver.solve(n, residual);
+    for i in 0..n {
+        let (rest, q) = (rest[i], q[i]);
         let scale = V::constant(ROUNDING) * (q.abs() + V::constant(SMALL_MOTION));
         flag = keep(flag, rest.abs().at_most(scale));
     }
@@ -97,31 +143,34 @@ fn remainder<V: Vector, const N: usize>(
 
 /// `lambda` and vectors, by those near by; the flag says that each is recognised and clear of zero and of the others.
 #[inline(always)]
-fn modes<V: Vector, const N: usize>(
-    linear: &Linear<V, N>,
-    shapes: &[[f64; N]; N],
-) -> ([V; N], [[V; N]; N], V) {
-    let mass = congruent(&linear.mass, shapes);
-    let stiffness = congruent(&linear.stiffness, shapes);
-    let (lambda, local, mut flag) = closed::eigenpairs(&stiffness, &mass);
+fn modes<V: Lanes>(
+    n: usize,
+    mass: &Square<V>,
+    stiffness: &Square<V>,
+    shapes: &Square<f64>,
+) -> (Row<V>, Square<V>, V) {
+    let mass = congruent(n, mass, shapes);
+    let stiffness = congruent(n, stiffness, shapes);
+    let (lambda, local, mut flag) = closed::eigenpairs(n, &stiffness, &mass);
     let zero = V::constant(0.0);
-    let mut vectors = [[zero; N]; N];
+    let mut vectors = [[zero; LARGEST]; LARGEST];
     let mut greatest = zero;
-    for lambda in lambda {
+    for i in 0..n {
+        let lambda = lambda[i];
         greatest = V::choose(lambda.at_most(greatest), greatest, lambda);
     }
     let (positive, slow) = (
-        V::constant(2.0 * of_elements(N)) * greatest,
+        V::constant(2.0 * of_elements(n)) * greatest,
         V::constant(SLOW),
     );
     let least = V::choose(slow.at_most(positive), positive, slow);
-    for r in 0..N {
-        for s in 0..N {
-            for i in 0..N {
+    for r in 0..n {
+        for s in 0..n {
+            for i in 0..n {
                 vectors[r][i] = vectors[r][i] + local[r][s] * V::constant(shapes[s][i]);
             }
         }
-        positive_lead(&mut vectors[r]);
+        positive_lead(n, &mut vectors[r]);
         // What is nearer to zero the solver for one state decides.
         flag = keep(flag, least.at_most(lambda[r]));
         for s in 0..r {
@@ -135,36 +184,35 @@ fn modes<V: Vector, const N: usize>(
 
 /// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
 #[inline(always)]
-fn positive_lead<V: Vector, const N: usize>(vector: &mut [V; N]) {
+fn positive_lead<V: Lanes>(n: usize, vector: &mut Row<V>) {
     let mut lead = vector[0];
-    for value in &vector[1..] {
+    for i in 1..n {
         let margin = lead.abs() * V::constant(1.0 + 1e-9);
-        lead = V::choose(value.abs().at_most(margin), lead, *value);
+        lead = V::choose(vector[i].abs().at_most(margin), lead, vector[i]);
     }
     let positive = V::constant(0.0).at_most(lead);
-    for value in vector {
-        *value = V::choose(positive, *value, -*value);
+    for i in 0..n {
+        vector[i] = V::choose(positive, vector[i], -vector[i]);
     }
 }
 
 /// Greatest component of `Khat phi - lambda Mhat phi` relative to the greatest sum of terms in a row, the error of `lambda`, and
 /// whether the first is as small as no refinement makes it.
 #[inline(always)]
-fn mode_residual<V: Vector, const N: usize>(
-    linear: &Linear<V, N>,
+fn mode_residual<V: Lanes>(
+    n: usize,
+    mass: &Square<V>,
+    stiffness: &Square<V>,
     lambda: V,
-    vector: &[V; N],
+    vector: &Row<V>,
 ) -> (V, V, V) {
     let zero = V::constant(0.0);
     let (mut most, mut size) = (zero, zero);
     let (mut along, mut weighted) = (zero, zero);
-    for i in 0..N {
+    for i in 0..n {
         let (mut sum, mut terms) = (zero, zero);
-        for j in 0..N {
-            let (k, m) = (
-                linear.stiffness[i][j] * vector[j],
-                lambda * linear.mass[i][j] * vector[j],
-            );
+        for j in 0..n {
+            let (k, m) = (stiffness[i][j] * vector[j], lambda * mass[i][j] * vector[j]);
             sum = sum + (k - m);
             terms = terms + (k.abs() + m.abs());
         }
@@ -176,6 +224,6 @@ fn mode_residual<V: Vector, const N: usize>(
     }
     let relative = most / size;
     let flag = keep(V::constant(1.0), relative.at_most(V::constant(INACCURATE)));
-    let error = V::constant(of_elements(N)) * weighted + V::constant(2.0) * along.abs();
+    let error = V::constant(of_elements(n)) * weighted + V::constant(2.0) * along.abs();
     (relative, error, flag)
 }

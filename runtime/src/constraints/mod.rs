@@ -8,7 +8,7 @@ mod tangent;
 pub(crate) use rows::{NEARLY, Rows};
 pub use state::ConstraintState;
 pub(crate) use structure::Structure;
-pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, reduce, redundant_rows};
+pub(crate) use tangent::{Tangent, all_rows, fix_gauge, inertias, placed, redundant_rows};
 
 #[cfg(test)]
 mod tests;

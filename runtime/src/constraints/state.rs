@@ -1,19 +1,19 @@
 //! What constraints are at one state: how much freedom they leave, which say the same, whether the state is singular.
 
-use super::Tangent;
-use crate::Mechanism;
-use crate::array::{Square, form, largest_element};
+use super::{Structure, Tangent};
+use crate::dense::{Matrix, Vector, add_to, form, largest_element};
+use crate::kernels::{Gradient, Kernels};
 
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConstraintState<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstraintState {
     /// Number of directions in which the coordinates can move: all of them for an open mechanism.
     pub freedom: usize,
     /// Number of constraints that follow from the others. Reactions of constraints that say the same are determined only
     /// together: given are those of which the squares, in terms of the forces they cause, have the least sum.
     pub redundant: usize,
     /// The rows that take part: of these, so many can go.
-    pub dependent: [bool; N],
+    pub dependent: Vector<bool>,
     /// Rows lose their independence here, or so near that rounding takes the state there, and nowhere else: a flat
     /// parallelogram, a chain stretched to its limit. The linearised mechanism does not say how it can move.
     pub singular: bool,
@@ -24,31 +24,28 @@ const TAKES_PART: f64 = 1e-8;
 /// Part of the curvatures of dependent constraints that rounding leaves where they say the same in a neighbourhood.
 const CURVED: f64 = 1e-6;
 
-impl<const N: usize> ConstraintState<N> {
-    /// Without constraints.
-    pub(crate) fn open() -> Self {
+impl ConstraintState {
+    /// Of `size` unknowns without constraints.
+    pub(crate) fn open(size: usize) -> Self {
         Self {
-            freedom: N,
+            freedom: size,
             redundant: 0,
-            dependent: [false; N],
+            dependent: Vector::filled(size, false),
             singular: false,
         }
     }
 
     /// Of a mechanism that is not open.
-    pub(crate) fn new<M, const U: usize, const P: usize, const O: usize>(
-        mechanism: &M,
-        (q, u, b): (&[f64; N], &[f64; U], &[f64; P]),
-        tangent: &Tangent<N>,
-    ) -> Self
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    pub(crate) fn new(
+        mechanism: &dyn Kernels,
+        (q, u, b): (&[f64], &[f64], &[f64]),
+        tangent: &Tangent,
+    ) -> Self {
         let structure = tangent.structure;
         let mut found = Self {
             freedom: tangent.freedom,
             redundant: tangent.redundant(),
-            ..Self::open()
+            ..Self::open(structure.size())
         };
         let first = structure.constraint_rows().start;
         for k in 0..tangent.redundant() {
@@ -64,47 +61,56 @@ impl<const N: usize> ConstraintState<N> {
 
 /// Whether dependent constraints on positions curve apart: `n . Phi_qq`, `n^T H = 0`, is zero on the null space of `H` where
 /// they say the same in a neighbourhood (the second derivative of `Phi = 0` along a motion, times `n`).
-fn singular<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    (q, u, b): (&[f64; N], &[f64; U], &[f64; P]),
-    tangent: &Tangent<N>,
-) -> bool
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let rows = tangent.structure.position_rows();
-    let size = tangent.basis.map(|vector| vector.map(f64::abs));
-    // `Phi_qq` of one row on the null space, and the size of what it is summed from.
-    let curvature = |row: usize| -> (Square<N>, f64) {
-        let along = core::array::from_fn(|i| if i == row { 1.0 } else { 0.0 });
-        let change = mechanism.linear_along(q, u, b, &along, &[0.0; U], &[0.0; P]);
-        let terms = change.stiffness.map(|row| row.map(f64::abs));
-        let mut most = 0.0_f64;
-        let bent = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                if i < tangent.freedom && j < tangent.freedom {
-                    most = most.max(form(&size[i], &terms, &size[j]));
-                    form(&tangent.basis[i], &change.stiffness, &tangent.basis[j])
-                } else {
-                    0.0
-                }
-            })
-        });
-        (bent, most)
+fn singular(
+    mechanism: &dyn Kernels,
+    (q, u, b): (&[f64], &[f64], &[f64]),
+    tangent: &Tangent,
+) -> bool {
+    let dependent = tangent.positions.dependent();
+    if dependent == 0 {
+        return false;
+    }
+    let (f, basis) = (tangent.freedom, &tangent.basis);
+    let size: Vec<Vector> = basis.iter().map(|vector| vector.map(f64::abs)).collect();
+    // `Phi_qq` of each row on the null space, and the size of what it is summed from.
+    let on_null_space = |row: usize| {
+        let curvature = curvature(mechanism, (q, u, b), tangent.structure, row);
+        let terms = curvature.map(f64::abs);
+        let bent = Matrix::from_fn(f, f, |i, j| form(&basis[i], &curvature, &basis[j]));
+        let most = Matrix::from_fn(f, f, |i, j| form(&size[i], &terms, &size[j]));
+        (bent, largest_element(&most))
     };
-    (0..tangent.positions.dependent()).any(|k| {
-        let n = tangent.positions.null_left(k);
-        let mut sum = [[0.0; N]; N];
+    let curvatures: Vec<_> = tangent
+        .structure
+        .position_rows()
+        .map(on_null_space)
+        .collect();
+    (0..dependent).any(|k| {
+        let mut sum = Matrix::zeros(f, f);
         let mut terms = 0.0;
-        for (i, row) in rows.clone().enumerate() {
-            if n[i] != 0.0 {
-                let (bent, size) = curvature(row);
-                terms += n[i].abs() * size;
-                for (total, part) in sum.iter_mut().flatten().zip(bent.iter().flatten()) {
-                    *total += n[i] * part;
-                }
-            }
+        for (share, (bent, size)) in tangent.positions.null_left(k).iter().zip(&curvatures) {
+            terms += share.abs() * size;
+            add_to(sum.as_flattened_mut(), *share, bent.as_flattened());
         }
         largest_element(&sum) > CURVED * terms
     })
+}
+
+/// `Phi_qq` of a constraint on positions, from its gradient along each coordinate.
+fn curvature(
+    mechanism: &dyn Kernels,
+    (q, u, b): (&[f64], &[f64], &[f64]),
+    structure: Structure,
+    row: usize,
+) -> Matrix {
+    let unit = |k: usize| Vector::from_fn(q.len(), |i| if i == k { 1.0 } else { 0.0 });
+    let (constraint, none) = (unit(row), Vector::zeros(q.len()));
+    let mut gradient = Gradient::zeros(mechanism.sizes());
+    let mut curvature = Matrix::zeros(q.len(), q.len());
+    for j in 0..structure.coordinates {
+        let vectors = [&constraint[..], &none, &none, &unit(j)];
+        mechanism.pencil_gradient_into(q, u, b, vectors, &mut gradient);
+        curvature[j].copy_from_slice(&gradient.coordinates);
+    }
+    curvature
 }

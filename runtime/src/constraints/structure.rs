@@ -14,63 +14,66 @@ pub(crate) struct Structure {
 }
 
 impl Structure {
-    pub(crate) const fn of(description: &Description) -> Self {
+    pub(crate) fn of(description: &Description) -> Self {
         let mut found = Self {
             coordinates: 0,
             speeds: 0,
             position_constraints: 0,
             velocity_constraints: 0,
         };
-        let mut i = 0;
-        while i < description.coordinates.len() {
-            match description.coordinates[i].role {
+        for unknown in description.coordinates.iter() {
+            match unknown.role {
                 Role::Position => found.coordinates += 1,
                 Role::Speed => found.speeds += 1,
                 Role::PositionReaction => found.position_constraints += 1,
                 Role::VelocityReaction => found.velocity_constraints += 1,
             }
-            i += 1;
         }
         found
     }
 
+    /// Number of all unknowns.
+    pub(crate) fn size(&self) -> usize {
+        self.motions() + self.constraints()
+    }
+
     /// Every unknown is a coordinate: no speeds, no constraints.
-    pub(crate) const fn open(&self) -> bool {
+    pub(crate) fn open(&self) -> bool {
         self.speeds == 0 && self.constraints() == 0
     }
 
     /// Neither speeds nor constraints on velocities: the free directions are those of the coordinates alone.
-    pub(crate) const fn holonomic(&self) -> bool {
+    pub(crate) fn holonomic(&self) -> bool {
         self.speeds == 0 && self.velocity_constraints == 0
     }
 
-    pub(crate) const fn constraints(&self) -> usize {
+    pub(crate) fn constraints(&self) -> usize {
         self.position_constraints + self.velocity_constraints
     }
 
     /// Number of coordinates and speeds: the unknowns that are no reactions.
-    pub(crate) const fn motions(&self) -> usize {
+    pub(crate) fn motions(&self) -> usize {
         self.coordinates + self.speeds
     }
 
     /// Places of the speeds.
-    pub(crate) const fn speed_range(&self) -> Range<usize> {
+    pub(crate) fn speed_range(&self) -> Range<usize> {
         self.coordinates..self.motions()
     }
 
     /// Places of the constraints on positions and of their reactions.
-    pub(crate) const fn position_rows(&self) -> Range<usize> {
+    pub(crate) fn position_rows(&self) -> Range<usize> {
         self.motions()..self.motions() + self.position_constraints
     }
 
     /// Places of the constraints on velocities and of their reactions.
-    pub(crate) const fn velocity_rows(&self) -> Range<usize> {
+    pub(crate) fn velocity_rows(&self) -> Range<usize> {
         let start = self.motions() + self.position_constraints;
         start..start + self.velocity_constraints
     }
 
     /// Places of all constraints and reactions.
-    pub(crate) const fn constraint_rows(&self) -> Range<usize> {
+    pub(crate) fn constraint_rows(&self) -> Range<usize> {
         self.motions()..self.motions() + self.constraints()
     }
 }

@@ -11,43 +11,42 @@
 )]
 
 use super::{Rows, Structure};
-use crate::Linear;
-use crate::array::{Cholesky, Square, largest_element};
+use crate::dense::{Cholesky, Matrix, Vector, add_to, dot, largest, times};
+use crate::kernels::Linear;
 
 /// What constraints leave free at one state.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tangent<const N: usize> {
+#[derive(Clone, Debug)]
+pub(crate) struct Tangent {
     pub(crate) structure: Structure,
     /// Number of directions in which the coordinates can move, `f`.
     pub(crate) freedom: usize,
-    /// The first `freedom` rows span the null space of `H`: `delta q = sum_i y_i basis[i]`. Orthonormal in the metric of
-    /// the diagonal of `Mhat`, so that the reduced masses are of order one; zero in all places but those of coordinates.
-    pub(crate) basis: Square<N>,
+    /// They span the null space of `H`: `delta q = sum_i y_i basis[i]`. Orthonormal in the metric of the diagonal of
+    /// `Mhat`, so that the reduced masses are of order one; zero in all places but those of coordinates.
+    pub(crate) basis: Vec<Vector>,
     /// The rows of `H` over the coordinates, numbered from zero.
-    pub(crate) positions: Rows<N>,
+    pub(crate) positions: Rows,
     /// The independent rows of `H` in the metric of `basis`, in the order `positions.order`.
-    pub(crate) normal: Rows<N>,
+    pub(crate) normal: Rows,
     /// The rows of `[[H, 0], [A_q, A_v]]` over coordinates and speeds, numbered from zero: all constraints.
-    pub(crate) all: Rows<N>,
+    pub(crate) all: Rows,
 }
 
 /// Least mass in the metric of the basis, relative to the greatest: what a massless coordinate gets.
 const LIGHT: f64 = 1e-8;
 
-impl<const N: usize> Tangent<N> {
+impl Tangent {
     /// At a state with these matrices, before or after [`fix_gauge`].
-    pub(crate) fn new(linear: &Linear<f64, N>, structure: Structure) -> Self {
+    pub(crate) fn new(linear: &Linear, structure: Structure) -> Self {
         let all = all_rows(&linear.stiffness, structure);
         let positions = if structure.velocity_constraints == 0 {
-            all
+            all.clone()
         } else {
-            position_rows(&linear.stiffness, structure)
+            first_rows(&linear.stiffness, structure, structure.position_constraints)
         };
-        let normal = Rows::independent(
-            positions.rank,
-            |i| gradient(&linear.stiffness, structure, positions.order[i]),
-            inertias(linear, structure).map(f64::sqrt),
-        );
+        let independent = Matrix::from_fn(positions.rank, structure.size(), |i, j| {
+            gradient(&linear.stiffness, structure, positions.order[i], j)
+        });
+        let normal = Rows::independent(independent, inertias(linear, structure).map(f64::sqrt));
         Self {
             structure,
             freedom: structure.coordinates - normal.rank,
@@ -64,22 +63,22 @@ impl<const N: usize> Tangent<N> {
     }
 
     /// Left null vector `k` of all constraints, in the places of their rows: `n^T [[H, 0], [A_q, A_v]] = 0`.
-    pub(crate) fn null_left(&self, k: usize) -> [f64; N] {
+    pub(crate) fn null_left(&self, k: usize) -> Vector {
         placed(self.structure, &self.all.null_left(k))
     }
 
     /// Multipliers, in their places, that balance a force by coordinate and speed: `H^T mu_1 + A_q^T mu_2 = force` by
     /// coordinate, `A_v^T mu_2 = force` by speed. Exact where it can be, else in the sense of least squares; undetermined
     /// parts are zero, as [`fix_gauge`] has them.
-    pub(crate) fn multipliers(&self, force: &[f64; N]) -> [f64; N] {
-        let motions = self.structure.motions();
-        let force = core::array::from_fn(|j| if j < motions { force[j] } else { 0.0 });
+    pub(crate) fn multipliers(&self, force: &[f64]) -> Vector {
+        let mut force = Vector::from(force);
+        force[self.structure.motions()..].fill(0.0);
         placed(self.structure, &self.all.multipliers(&force))
     }
 
     /// The coordinate that moves most along the first free direction without a mass of its own.
-    pub(crate) fn massless(&self, linear: &Linear<f64, N>) -> usize {
-        match Cholesky::new(&self.reduce_mass(&linear.mass)) {
+    pub(crate) fn massless(&self, linear: &Linear) -> usize {
+        match Cholesky::new(&self.reduce(&linear.mass)) {
             Err(direction) => self.foremost(direction),
             Ok(_) => 0,
         }
@@ -88,7 +87,7 @@ impl<const N: usize> Tangent<N> {
     /// The coordinate that moves most along free direction `i`.
     pub(crate) fn foremost(&self, i: usize) -> usize {
         let along = &self.basis[i];
-        (0..N).fold(0, |most, j| {
+        (0..along.len()).fold(0, |most, j| {
             if along[j].abs() > along[most].abs() {
                 j
             } else {
@@ -98,100 +97,69 @@ impl<const N: usize> Tangent<N> {
     }
 
     /// `P y`, by coordinate; zero elsewhere.
-    pub(crate) fn lift(&self, y: &[f64; N]) -> [f64; N] {
-        core::array::from_fn(|j| {
-            (0..self.freedom).fold(0.0, |sum, i| sum + y[i] * self.basis[i][j])
-        })
+    pub(crate) fn lift(&self, y: &[f64]) -> Vector {
+        let mut x = Vector::zeros(self.structure.size());
+        for (y, direction) in y.iter().zip(&self.basis) {
+            add_to(&mut x, *y, direction);
+        }
+        x
     }
 
-    /// `P^T force` in the first `freedom` places, zero elsewhere.
-    pub(crate) fn project(&self, force: &[f64; N]) -> [f64; N] {
-        let mut reduced = [0.0; N];
-        for i in 0..self.freedom {
-            reduced[i] = crate::array::dot(&self.basis[i], force);
+    /// `P^T force`.
+    pub(crate) fn project(&self, force: &[f64]) -> Vector {
+        self.basis
+            .iter()
+            .map(|direction| dot(direction, force))
+            .collect()
+    }
+
+    /// `P^T matrix P`; of a symmetric matrix exactly symmetric.
+    pub(crate) fn reduce(&self, matrix: &Matrix) -> Matrix {
+        let images: Vec<Vector> = self.basis.iter().map(|x| times(matrix, x)).collect();
+        let mut reduced = Matrix::from_fn(self.freedom, self.freedom, |i, j| {
+            dot(&self.basis[i], &images[j])
+        });
+        if is_symmetric(matrix) {
+            for i in 0..self.freedom {
+                for j in 0..i {
+                    let mean = 0.5 * (reduced[i][j] + reduced[j][i]);
+                    (reduced[i][j], reduced[j][i]) = (mean, mean);
+                }
+            }
         }
         reduced
     }
 
-    /// The mass matrix of [`reduce`].
-    pub(crate) fn reduce_mass(&self, mass: &Square<N>) -> Square<N> {
-        self.filled(reduce_matrix(mass, self), 1.0)
-    }
-
-    /// The stiffness matrix of [`reduce`].
-    pub(crate) fn reduce_stiffness(&self, stiffness: &Square<N>) -> Square<N> {
-        let reduced = reduce_matrix(stiffness, self);
-        let size = largest_element(&reduced);
-        self.filled(reduced, if size > 0.0 { size } else { 1.0 })
-    }
-
-    fn filled(&self, mut reduced: Square<N>, value: f64) -> Square<N> {
-        for i in self.freedom..N {
-            reduced[i][i] = value;
+    /// `P^T M P`, `P^T C P`, `P^T K_c P`. Complete where there are neither speeds nor constraints on velocities.
+    pub(crate) fn reduce_linear(&self, linear: &Linear) -> Linear {
+        Linear {
+            mass: self.reduce(&linear.mass),
+            damping: self.reduce(&linear.damping),
+            stiffness: self.reduce(&linear.stiffness),
         }
-        reduced
     }
+}
+
+fn is_symmetric(matrix: &Matrix) -> bool {
+    (0..matrix.row_count()).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]))
 }
 
 /// Values by constraint, numbered from zero, in the places of their rows; zero elsewhere.
-pub(crate) fn placed<const N: usize>(structure: Structure, by_constraint: &[f64; N]) -> [f64; N] {
-    let rows = structure.constraint_rows();
-    core::array::from_fn(|i| {
-        if rows.contains(&i) {
-            by_constraint[i - rows.start]
-        } else {
-            0.0
-        }
-    })
-}
-
-/// `P^T M P`, `P^T C P`, `P^T K_c P` in the leading `freedom` rows and columns. The remaining diagonal holds masses of one
-/// and one positive stiffness of the size of the others, so that factors and eigenvalues of the whole exist and have the
-/// signs of the reduced ones: the last `N - freedom` unit vectors are modes that mean nothing. Complete where there are
-/// neither speeds nor constraints on velocities.
-pub(crate) fn reduce<const N: usize>(
-    linear: &Linear<f64, N>,
-    tangent: &Tangent<N>,
-) -> Linear<f64, N> {
-    Linear {
-        mass: tangent.reduce_mass(&linear.mass),
-        damping: reduce_matrix(&linear.damping, tangent),
-        stiffness: tangent.reduce_stiffness(&linear.stiffness),
-    }
-}
-
-/// `P^T matrix P` in the leading rows and columns, zero elsewhere; of a symmetric matrix exactly symmetric.
-fn reduce_matrix<const N: usize>(matrix: &Square<N>, tangent: &Tangent<N>) -> Square<N> {
-    let mut reduced = [[0.0; N]; N];
-    let symmetric = (0..N).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-    for j in 0..tangent.freedom {
-        let image = crate::array::times(matrix, &tangent.basis[j]);
-        for i in 0..tangent.freedom {
-            reduced[i][j] = crate::array::dot(&tangent.basis[i], &image);
-        }
-    }
-    if symmetric {
-        for i in 0..tangent.freedom {
-            for j in 0..i {
-                let mean = 0.5 * (reduced[i][j] + reduced[j][i]);
-                (reduced[i][j], reduced[j][i]) = (mean, mean);
-            }
-        }
-    }
-    reduced
+pub(crate) fn placed(structure: Structure, by_constraint: &[f64]) -> Vector {
+    let mut placed = Vector::zeros(structure.size());
+    placed[structure.constraint_rows()].copy_from_slice(by_constraint);
+    placed
 }
 
 /// Fixes the multipliers that redundant constraints leave undetermined.
-pub(crate) fn fix_gauge<const N: usize>(stiffness: &mut Square<N>, structure: Structure) {
+pub(crate) fn fix_gauge(stiffness: &mut Matrix, structure: Structure) {
     let rows = all_rows(stiffness, structure);
     let places = structure.constraint_rows();
-    let greatest = rows.size[..rows.count]
-        .iter()
-        .fold(0.0, |a: f64, &b| a.max(b));
+    let greatest = largest(&rows.size);
     for k in 0..rows.dependent() {
         let m = rows.null_left_scaled(k);
-        for i in 0..rows.count {
-            for j in 0..rows.count {
+        for i in 0..rows.count() {
+            for j in 0..rows.count() {
                 stiffness[places.start + i][places.start + j] -= m[i] * m[j] / greatest;
             }
         }
@@ -199,48 +167,41 @@ pub(crate) fn fix_gauge<const N: usize>(stiffness: &mut Square<N>, structure: St
 }
 
 /// A choice of constraints, in the places of their rows, that follow from the others.
-pub(crate) fn redundant_rows<const N: usize>(
-    stiffness: &Square<N>,
-    structure: Structure,
-) -> [bool; N] {
+pub(crate) fn redundant_rows(stiffness: &Matrix, structure: Structure) -> Vec<bool> {
     let rows = all_rows(stiffness, structure);
-    let mut redundant = [false; N];
-    for &k in &rows.order[rows.rank..rows.count] {
+    let mut redundant = vec![false; structure.size()];
+    for &k in &rows.order[rows.rank..] {
         redundant[structure.motions() + k] = true;
     }
     redundant
 }
 
 /// All constraints over coordinates and speeds, in the balanced metric.
-pub(crate) fn all_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
-    Rows::balanced(structure.constraints(), |k| {
-        gradient(stiffness, structure, k)
-    })
+pub(crate) fn all_rows(stiffness: &Matrix, structure: Structure) -> Rows {
+    first_rows(stiffness, structure, structure.constraints())
 }
 
-/// The constraints on positions over the coordinates, in the balanced metric.
-fn position_rows<const N: usize>(stiffness: &Square<N>, structure: Structure) -> Rows<N> {
-    Rows::balanced(structure.position_constraints, |k| {
-        gradient(stiffness, structure, k)
-    })
+/// So many constraints: those on positions come first.
+fn first_rows(stiffness: &Matrix, structure: Structure, count: usize) -> Rows {
+    Rows::balanced(Matrix::from_fn(count, structure.size(), |k, j| {
+        gradient(stiffness, structure, k, j)
+    }))
 }
 
-/// Row `k` of `[[H, 0], [A_q, A_v]]`: the column of `Khat` that belongs to its multiplier.
-fn gradient<const N: usize>(stiffness: &Square<N>, structure: Structure, k: usize) -> [f64; N] {
-    let column = structure.motions() + k;
-    core::array::from_fn(|j| {
-        if j < structure.motions() {
-            stiffness[j][column]
-        } else {
-            0.0
-        }
-    })
+/// Column `j` of row `k` of `[[H, 0], [A_q, A_v]]`, from the column of `Khat` that belongs to its multiplier.
+fn gradient(stiffness: &Matrix, structure: Structure, k: usize, j: usize) -> f64 {
+    let motions = structure.motions();
+    if j < motions {
+        stiffness[j][motions + k]
+    } else {
+        0.0
+    }
 }
 
 /// Masses of coordinates (the diagonal of `Mhat`) and of speeds (of `Chat`), none far below the greatest; one where there
 /// are none, and in the places of reactions.
-pub(crate) fn inertias<const N: usize>(linear: &Linear<f64, N>, structure: Structure) -> [f64; N] {
-    let mut mass = [1.0_f64; N];
+pub(crate) fn inertias(linear: &Linear, structure: Structure) -> Vector {
+    let mut mass = Vector::filled(structure.size(), 1.0_f64);
     for block in [0..structure.coordinates, structure.speed_range()] {
         let diagonal = |j: usize| {
             let matrix = if j < structure.coordinates {

@@ -2,9 +2,10 @@
 
 use super::closing::{close, close_speeds, free, gaps};
 use super::problem::{Failure, Problem};
-use crate::array::{Lu, Square};
-use crate::constraints::{ConstraintState, Rows, Structure, Tangent, all_rows, placed};
-use crate::{Coordinate, Description, Error, Mechanism};
+use crate::constraints::{ConstraintState, Rows, Structure, Tangent, all_rows};
+use crate::dense::{Lu, Matrix, Vector, add_scaled};
+use crate::kernels::Kernels;
+use crate::{Coordinate, Description, Error, Shared, Text};
 
 /// On which side of the dead centres a mechanism is assembled: the sign of the determinant of `Phi_q` by the coordinates
 /// that are not held, constraints and coordinates in the order of their declaration (of constraints that depend on each other
@@ -19,22 +20,22 @@ pub enum AssemblyMode {
 }
 
 /// An assembled mechanism.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Assembly<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
     /// Coordinates that meet the constraints, rad or m; speeds that do as far as speeds can; reactions that balance the
     /// forces there as well as reactions can. SI.
-    pub coordinates: [f64; N],
+    pub coordinates: Vector,
     /// Which coordinates were held.
-    pub held: [bool; N],
+    pub held: Vec<bool>,
     /// How far each coordinate and speed moved from its start value; zero in the places of reactions.
-    pub moved: [f64; N],
+    pub moved: Vector,
     /// What each constraint stays open by, in the direction of its reaction and in its place, m or rad (on velocities m/s or
     /// rad/s): rounding.
-    pub gaps: [f64; N],
+    pub gaps: Vector,
     /// Iterations spent.
     pub iterations: usize,
     /// What the constraints leave free, and which say the same.
-    pub constraints: ConstraintState<N>,
+    pub constraints: ConstraintState,
     /// The assembly mode, when as many coordinates are held as are free, and the state is no dead centre.
     pub mode: Option<AssemblyMode>,
     /// How independent the constraints are by the coordinates that are not held: one at best, zero at a dead centre.
@@ -42,18 +43,18 @@ pub struct Assembly<const N: usize> {
     /// A dead centre, or a singular configuration: coordinates that are not held can move, or cannot follow, to first order.
     pub singular: bool,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize> Assembly<N> {
+impl Assembly {
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
-    pub fn dependent_constraints(&self) -> impl Iterator<Item = &'static str> {
-        super::dependent_names(self.description, self.constraints.dependent)
+    pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
+        super::dependent_names(&self.description, &self.constraints.dependent)
     }
 
     /// Of coordinates and speeds the motions, of constraints the gaps.
-    pub(crate) fn changes(&self) -> [f64; N] {
-        core::array::from_fn(|i| self.moved[i] + self.gaps[i])
+    pub(crate) fn changes(&self) -> Vector {
+        add_scaled(&self.moved, 1.0, &self.gaps)
     }
 }
 
@@ -70,59 +71,48 @@ const DEAD_CENTRE: f64 = 1e-6;
 ///
 /// # Errors
 /// [`Error::NotAssembled`] with the gaps that remain: too many coordinates held, lengths that do not reach, constraints that
-/// contradict each other. [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`], [`Error::UnknownHandle`].
-pub fn assemble<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+/// contradict each other. [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`], [`Error::UnknownHandle`].
+pub fn assemble(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     held: &[Coordinate],
-) -> Result<Assembly<N>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<Assembly, Error> {
     let problem = Problem::new(mechanism, u, b)?;
     problem.check_start(start)?;
-    let mut fixed = [false; N];
+    let mut fixed = vec![false; problem.size()];
     for coordinate in held {
-        match fixed.get_mut(coordinate.0) {
+        match fixed.get_mut(coordinate.index()) {
             Some(place) => *place = true,
             None => {
                 return Err(Error::UnknownHandle {
                     kind: "coordinate",
-                    index: coordinate.0,
-                    mechanism: M::DESCRIPTION.name,
-                    count: N,
+                    index: coordinate.index(),
+                    mechanism: problem.description.name.clone(),
+                    count: problem.size(),
                 });
             }
         }
     }
-    assembled(&problem, start, &fixed).map_err(|failure| failure.explain(problem.description()))
+    assembled(&problem, start, &fixed).map_err(|failure| failure.explain(&problem.description))
 }
 
-fn assembled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    held: &[bool; N],
-) -> Result<Assembly<N>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+fn assembled(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Result<Assembly, Failure> {
+    let structure = problem.structure;
     let (x, iterations) = closed(problem, start, held)?;
-    let outside = Failure::OutsideDomain {
+    let (residual, _) = problem.evaluate_start(&x)?;
+    let motions = problem.motions();
+    let at = gaps(problem, &x).ok_or_else(|| Failure::OutsideDomain {
         what: "the residual",
-        coordinates: x,
-    };
-    let (residual, _) = problem.evaluate(&x).ok_or(outside)?;
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let at = gaps(problem, &x).ok_or(outside)?;
-    let free_rows = Rows::balanced(structure.position_constraints, |k| free(&at.rows[k], held));
-    let all = Rows::balanced(structure.position_constraints, |k| at.rows[k]);
+        coordinates: x.to_vec(),
+    })?;
+    let free_rows = Rows::balanced(free(&at.rows, held));
+    let all = Rows::balanced(at.rows.clone());
     let linear = problem.linear(&x)?;
-    let place = (&x, problem.inputs, problem.design);
+    let place = (&x[..], problem.inputs, problem.design);
     let constraints = if structure.open() {
-        ConstraintState::open()
+        ConstraintState::open(problem.size())
     } else {
         ConstraintState::new(problem.mechanism, place, &Tangent::new(&linear, structure))
     };
@@ -137,82 +127,69 @@ where
     } else {
         mode(&at.rows, all.rank, held, structure)
     };
+    let mut moved = add_scaled(&x, -1.0, start);
+    moved[motions..].fill(0.0);
+    let mut gaps = residual;
+    gaps[..motions].fill(0.0);
     Ok(Assembly {
         coordinates: x,
-        held: *held,
-        moved: core::array::from_fn(|j| if j < motions { x[j] - start[j] } else { 0.0 }),
-        gaps: core::array::from_fn(|i| if i < motions { 0.0 } else { residual[i] }),
+        held: held.to_vec(),
+        moved,
+        gaps,
         iterations,
+        singular: dead || constraints.singular,
         constraints,
         mode,
         margin,
-        singular: dead || constraints.singular,
-        description: problem.description(),
+        description: problem.description.clone(),
     })
 }
 
 /// The state nearest to `start` that meets the constraints, with the reactions that balance best, and the iterations it
 /// took.
-pub(super) fn closed<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    held: &[bool; N],
-) -> Result<([f64; N], usize), Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let start = core::array::from_fn(|j| if j < motions { start[j] } else { 0.0 });
+pub(super) fn closed(
+    problem: &Problem<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<(Vector, usize), Failure> {
+    let structure = problem.structure;
+    let motions = problem.motions();
+    let mut start = Vector::from(start);
+    start[motions..].fill(0.0);
     let (mut x, iterations) = close(problem, &start, held)?;
     if structure.velocity_constraints > 0 {
         x = close_speeds(problem, &x, held).unwrap_or(x);
     }
     let (residual, stiffness) = problem.evaluate_start(&x)?;
-    let force = core::array::from_fn(|j| if j < motions { -residual[j] } else { 0.0 });
-    let reactions = placed(
-        structure,
-        &all_rows(&stiffness, structure).multipliers(&force),
-    );
-    for (place, reaction) in x.iter_mut().zip(reactions).skip(motions) {
-        *place = reaction;
-    }
+    let mut force = residual.map(|value| -value);
+    force[motions..].fill(0.0);
+    let reactions = all_rows(&stiffness, structure).multipliers(&force);
+    x[motions..].copy_from_slice(&reactions);
     Ok((x, iterations))
 }
 
 /// The sign of the determinant of the first independent rows by the coordinates that are not held; `None` where their
 /// numbers differ.
-fn mode<const N: usize>(
-    rows: &Square<N>,
-    rank: usize,
-    held: &[bool; N],
-    structure: Structure,
-) -> Option<AssemblyMode> {
-    let columns = (0..structure.coordinates).filter(|&j| !held[j]);
-    if rank == 0 || columns.clone().count() != rank {
+fn mode(rows: &Matrix, rank: usize, held: &[bool], structure: Structure) -> Option<AssemblyMode> {
+    let columns: Vec<usize> = (0..structure.coordinates).filter(|&j| !held[j]).collect();
+    if rank == 0 || columns.len() != rank {
         return None;
     }
-    let mut chosen = [0; N];
-    let mut count = 0;
+    let mut chosen: Vec<usize> = Vec::new();
     for k in 0..structure.position_constraints {
-        chosen[count] = k;
-        if Rows::balanced(count + 1, |i| rows[chosen[i]]).rank == count + 1 {
-            count += 1;
+        chosen.push(k);
+        let first = Matrix::from_fn(chosen.len(), rows.column_count(), |i, j| rows[chosen[i]][j]);
+        if Rows::balanced(first).dependent() > 0 {
+            chosen.pop();
         }
-        if count == rank {
+        if chosen.len() == rank {
             break;
         }
     }
-    let mut block = [[0.0; N]; N];
-    for (i, row) in block.iter_mut().enumerate() {
-        if i < rank {
-            for (place, j) in row.iter_mut().zip(columns.clone()) {
-                *place = rows[chosen[i]][j];
-            }
-        } else {
-            row[i] = 1.0;
-        }
+    if chosen.len() < rank {
+        return None;
     }
+    let block = Matrix::from_fn(rank, rank, |i, j| rows[chosen[i]][columns[j]]);
     Lu::new(&block).map(|lu| {
         if lu.negative_determinant() {
             AssemblyMode::Negative

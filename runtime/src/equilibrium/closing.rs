@@ -5,9 +5,8 @@ mod step;
 
 use super::convergence::{TOLERANCE, largest_of, relative_gap};
 use super::problem::{Failure, Problem};
-use crate::Mechanism;
-use crate::array::{Square, add_scaled, dot};
 use crate::constraints::{Rows, Structure, inertias};
+use crate::dense::{Matrix, Vector, add_to, dot};
 use step::{Aim, LEAST_DAMPING, damped, plain, scaled, without_dependent};
 
 const MAX_ITERATIONS: usize = 200;
@@ -23,36 +22,29 @@ const KICK: f64 = 0.02;
 const BETTER: f64 = 0.9;
 
 /// Constraints on positions at a state, numbered from zero.
-pub(super) struct Gaps<const N: usize> {
-    pub(super) gaps: [f64; N],
+pub(super) struct Gaps {
+    pub(super) gaps: Vector,
     /// `Phi_q`.
-    pub(super) rows: Square<N>,
+    pub(super) rows: Matrix,
     /// Greatest gap relative to what small motions open.
     pub(super) relative: f64,
     worst: usize,
 }
 
 /// The constraints on positions; `None` where they are not finite.
-pub(super) fn gaps<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-) -> Option<Gaps<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+pub(super) fn gaps(problem: &Problem<'_>, x: &[f64]) -> Option<Gaps> {
+    let structure = problem.structure;
     let (residual, stiffness) =
         problem
             .mechanism
             .residual_and_stiffness(x, problem.inputs, problem.design);
     let mut found = Gaps {
-        gaps: [0.0; N],
-        rows: [[0.0; N]; N],
+        gaps: residual[structure.position_rows()].into(),
+        rows: Matrix::zeros(structure.position_constraints, x.len()),
         relative: 0.0,
         worst: 0,
     };
     for (k, row) in structure.position_rows().enumerate() {
-        found.gaps[k] = residual[row];
         found.rows[k][..structure.coordinates]
             .copy_from_slice(&stiffness[row][..structure.coordinates]);
         let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
@@ -68,33 +60,32 @@ where
     Some(found)
 }
 
-/// A row over the coordinates that are not held.
-pub(super) fn free<const N: usize>(row: &[f64; N], held: &[bool; N]) -> [f64; N] {
-    core::array::from_fn(|j| if held[j] { 0.0 } else { row[j] })
+/// Rows over the coordinates that are not held.
+pub(super) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
+    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
+        if held[j] { 0.0 } else { rows[k][j] }
+    })
 }
 
 /// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
 /// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left
 /// by a kick.
-pub(super) fn close<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    held: &[bool; N],
-) -> Result<([f64; N], usize), Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(super) fn close(
+    problem: &Problem<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<(Vector, usize), Failure> {
     let first = match close_from(problem, start, held) {
         Err(failure @ (Failure::NotAssembled { .. } | Failure::OutsideDomain { .. })) => failure,
         other => return other,
     };
     let mut best = first;
     for kick in 1..=KICKS {
-        let from = match best {
+        let from = match &best {
             Failure::NotAssembled { coordinates, .. } => coordinates,
-            _ => *start,
+            _ => start,
         };
-        let from = kicked(&from, held, kick, Problem::<M, N, U, P, O>::STRUCTURE);
+        let from = kicked(from, held, kick, problem.structure);
         match close_from(problem, &from, held) {
             Ok(found) => return Ok(found),
             Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
@@ -105,13 +96,8 @@ where
 }
 
 /// Some displacement without symmetry.
-fn kicked<const N: usize>(
-    x: &[f64; N],
-    held: &[bool; N],
-    kick: usize,
-    structure: Structure,
-) -> [f64; N] {
-    core::array::from_fn(|j| {
+fn kicked(x: &[f64], held: &[bool], kick: usize, structure: Structure) -> Vector {
+    Vector::from_fn(x.len(), |j| {
         if held[j] || j >= structure.coordinates {
             x[j]
         } else {
@@ -120,26 +106,23 @@ fn kicked<const N: usize>(
     })
 }
 
-fn open_by<const N: usize>(failure: &Failure<N>) -> f64 {
+fn open_by(failure: &Failure) -> f64 {
     match failure {
         Failure::NotAssembled { gaps, .. } => largest_of(gaps),
         _ => f64::INFINITY,
     }
 }
 
-fn close_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    held: &[bool; N],
-) -> Result<([f64; N], usize), Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
-    let mut x = *start;
-    let mut at = gaps(problem, &x).ok_or(Failure::OutsideDomain {
+fn close_from(
+    problem: &Problem<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<(Vector, usize), Failure> {
+    let structure = problem.structure;
+    let mut x = Vector::from(start);
+    let mut at = gaps(problem, &x).ok_or_else(|| Failure::OutsideDomain {
         what: "the constraints",
-        coordinates: x,
+        coordinates: start.into(),
     })?;
     let metric = metric(problem, &x);
     let mut radius = FIRST_RADIUS;
@@ -151,8 +134,7 @@ where
             return Ok((x, iterations));
         }
         last = at.relative;
-        let count = structure.position_constraints;
-        let rows = Rows::new(count, |k| free(&at.rows[k], held), metric);
+        let rows = Rows::new(free(&at.rows, held), metric.clone());
         if iterations == 0 {
             dependent_at_start = rows.dependent();
         }
@@ -160,7 +142,7 @@ where
         let next = if aim.minimal() {
             None
         } else {
-            without_dependent(problem, &x, &at, held, metric)
+            without_dependent(problem, &x, &at, held, &metric)
                 .or_else(|| plain(problem, &x, &aim, &mut radius))
                 .or_else(|| damped(problem, &x, &aim, (&mut radius, &mut damping)))
         };
@@ -168,7 +150,7 @@ where
             Some((coordinates, there)) => (x, at) = (coordinates, there),
             None if at.relative <= TOLERANCE => return Ok((x, iterations)),
             None => {
-                let reason = reason(&at, &rows, dependent_at_start, held);
+                let reason = reason(&at, dependent_at_start, held);
                 return Err(not_assembled(structure, &x, &at, reason, iterations));
             }
         }
@@ -178,25 +160,14 @@ where
 }
 
 /// What makes motions comparable: the roots of the masses that move.
-fn metric<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-) -> [f64; N]
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn metric(problem: &Problem<'_>, x: &[f64]) -> Vector {
     let linear = problem.mechanism.linear(x, problem.inputs, problem.design);
-    inertias(&linear, Problem::<M, N, U, P, O>::STRUCTURE).map(f64::sqrt)
+    inertias(&linear, problem.structure).map(f64::sqrt)
 }
 
 /// Why the gaps have a minimum.
-fn reason<const N: usize>(
-    at: &Gaps<N>,
-    rows: &Rows<N>,
-    dependent_at_start: usize,
-    held: &[bool; N],
-) -> &'static str {
-    let all = Rows::balanced(rows.count, |k| at.rows[k]);
+fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> &'static str {
+    let all = Rows::balanced(at.rows.clone());
     let slope = all.descent(&scaled(&at.gaps, &all));
     let gaps = scaled(&at.gaps, &all);
     if held.contains(&true) && dot(&slope, &slope) > 1e-8 * dot(&gaps, &gaps) {
@@ -208,16 +179,16 @@ fn reason<const N: usize>(
     }
 }
 
-fn not_assembled<const N: usize>(
+fn not_assembled(
     structure: Structure,
-    x: &[f64; N],
-    at: &Gaps<N>,
+    x: &[f64],
+    at: &Gaps,
     reason: &'static str,
     iterations: usize,
-) -> Failure<N> {
+) -> Failure {
     let first = structure.position_rows().start;
     let motions = &x[..structure.coordinates];
-    let mut left = [0.0; N];
+    let mut left = Vector::zeros(x.len());
     for k in 0..structure.position_constraints {
         if relative_gap(at.gaps[k], motions, &at.rows[k]) > TOLERANCE {
             left[first + k] = at.gaps[k];
@@ -225,47 +196,29 @@ fn not_assembled<const N: usize>(
     }
     Failure::NotAssembled {
         reason,
-        coordinates: *x,
-        gaps: left,
+        coordinates: x.into(),
+        gaps: left.into(),
         worst: first + at.worst,
         iterations,
     }
 }
 
 /// Speeds that meet the constraints on velocities as far as speeds can, those held fixed: the least change.
-pub(super) fn close_speeds<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    held: &[bool; N],
-) -> Option<[f64; N]>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+pub(super) fn close_speeds(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Option<Vector> {
+    let structure = problem.structure;
     let places = structure.velocity_rows();
-    let mut x = *start;
+    let mut x = Vector::from(start);
     // The constraints are linear in the speeds: the second round removes rounding.
     for _ in 0..2 {
         let (residual, stiffness) = problem.evaluate_plain(&x)?;
-        let row = |k: usize| -> [f64; N] {
-            let row = free(&stiffness[places.start + k], held);
-            core::array::from_fn(|j| {
-                if structure.speed_range().contains(&j) {
-                    row[j]
-                } else {
-                    0.0
-                }
-            })
-        };
-        let rows = Rows::balanced(structure.velocity_constraints, row);
-        let rates = core::array::from_fn(|k| {
-            if k < structure.velocity_constraints {
-                residual[places.start + k]
+        let rows = Rows::balanced(Matrix::from_fn(places.len(), x.len(), |k, j| {
+            if structure.speed_range().contains(&j) && !held[j] {
+                stiffness[places.start + k][j]
             } else {
                 0.0
             }
-        });
-        x = add_scaled(&x, -1.0, &rows.shortest(&rates));
+        }));
+        add_to(&mut x, -1.0, &rows.shortest(&residual[places.clone()]));
     }
     Some(x)
 }

@@ -4,8 +4,8 @@
 //! constraint is measured by motions too, and a reaction by the largest.
 
 use super::problem::Problem;
-use crate::array::{Square, greater, largest};
-use crate::{Mechanism, RestParts};
+use crate::dense::{Matrix, Values, Vector, greater, largest};
+use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
 pub(crate) const TOLERANCE: f64 = 1e-10;
@@ -40,40 +40,37 @@ pub(super) enum Progress {
 }
 
 /// Watches a residual fall and tells when it has reached rounding.
-pub(super) struct Watch<const N: usize> {
+pub(super) struct Watch {
     previous: f64,
     /// Where the residual last fell.
-    fell_at: [f64; N],
+    fell_at: Vector,
 }
 
-impl<const N: usize> Watch<N> {
-    pub(super) fn new(start: &[f64; N]) -> Self {
+impl Watch {
+    pub(super) fn new(start: &[f64]) -> Self {
         Self {
             previous: f64::INFINITY,
-            fell_at: *start,
+            fell_at: start.into(),
         }
     }
 
     /// Judges a state by its residual and by the full step that would come next; without a step only the residual
     /// counts.
     #[inline]
-    pub(super) fn judge<M, const U: usize, const P: usize, const O: usize>(
+    pub(super) fn judge(
         &mut self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-        (residual, stiffness): (&[f64; N], &Square<N>),
-        step: Option<&[f64; N]>,
-    ) -> Progress
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+        problem: &Problem<'_>,
+        q: &[f64],
+        (residual, stiffness): (&[f64], &Matrix),
+        step: Option<&[f64]>,
+    ) -> Progress {
         let size = largest(residual);
         let stalled = size >= STALLED * self.previous;
         self.previous = size;
         if !stalled {
-            self.fell_at = *q;
+            self.fell_at.copy_from_slice(q);
         }
-        let motions = Problem::<M, N, U, P, O>::MOTIONS;
+        let motions = problem.motions();
         let last = step.map_or(Last::More, |step| last(step, q, motions));
         let solved = |tolerance| settled(problem, q, residual, stiffness, tolerance);
         if (last == Last::Reached && solved(ACCEPTED))
@@ -109,7 +106,7 @@ pub(super) enum Last {
 
 /// How many steps are left, by the next one from `q`.
 #[inline]
-pub(super) fn last<const N: usize>(step: &[f64; N], q: &[f64; N], motions: usize) -> Last {
+pub(super) fn last(step: &[f64], q: &[f64], motions: usize) -> Last {
     if !within(LAST_STEP, step, q, motions) {
         Last::More
     } else if within(FLOOR, step, q, motions) {
@@ -121,77 +118,64 @@ pub(super) fn last<const N: usize>(step: &[f64; N], q: &[f64; N], motions: usize
 
 /// Whether a displacement of the unknowns is of the size of rounding.
 #[inline]
-pub(super) fn is_rounding<const N: usize>(
-    displacement: &[f64; N],
-    q: &[f64; N],
-    motions: usize,
-) -> bool {
+pub(super) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bool {
     within(ROUNDING, displacement, q, motions)
 }
 
 /// Whether every change of a coordinate is within `tolerance` of the coordinate or of a small motion, and every change of a
 /// reaction within that of the reaction or of the greatest one.
 #[inline]
-fn within<const N: usize>(tolerance: f64, step: &[f64; N], q: &[f64; N], motions: usize) -> bool {
+fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
     let reaction = largest_of(&q[motions..]);
-    (0..N).all(|j| {
+    (0..q.len()).all(|j| {
         let unit = if j < motions { 1.0 } else { reaction };
         step[j].abs() <= tolerance * (q[j].abs() + SMALL_MOTION * unit)
     })
 }
 
 /// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
-pub(super) fn settled<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
+pub(super) fn settled(
+    problem: &Problem<'_>,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
     tolerance: f64,
-) -> bool
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    (0..N).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
+) -> bool {
+    let motions = problem.motions();
+    (0..q.len()).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
         || relative_residual(problem, q, residual, stiffness) <= tolerance
 }
 
 /// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, one that is nothing
 /// but rounding as a small share of the greatest; the gap of a constraint is relative to what those motions open.
-pub(super) fn relative_residual<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
-) -> f64
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(super) fn relative_residual(
+    problem: &Problem<'_>,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> f64 {
     relative_to(problem, &problem.parts(q), q, residual, stiffness)
 }
 
 /// As [`relative_residual`] with the parts of the residual at `q`.
 #[inline]
-pub(super) fn relative_to<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    _: &Problem<'_, M, N, U, P, O>,
-    parts: &RestParts<f64, N>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
-) -> f64
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
+pub(super) fn relative_to(
+    problem: &Problem<'_>,
+    parts: &RestParts,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> f64 {
+    let motions = problem.motions();
     let reaction = largest_of(&q[motions..]);
-    let small: [f64; N] = core::array::from_fn(|j| small_motion(q[j]));
+    let small: Vector = q.map(small_motion);
     let mut most = 0.0;
-    for i in 0..N {
+    for i in 0..q.len() {
         let mut force = 0.0;
         if i < motions {
             force = greater(parts.inertia[i].abs(), parts.applied[i].abs());
-            for j in motions..N {
+            for j in motions..q.len() {
                 let size = greater(SMALL_MOTION * reaction, q[j].abs());
                 force = greater(force, stiffness[i][j].abs() * size);
             }
@@ -215,14 +199,14 @@ fn small_motion(q: f64) -> f64 {
 }
 
 /// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
-pub(super) fn relative_gap<const N: usize>(gap: f64, motions: &[f64], row: &[f64; N]) -> f64 {
+pub(super) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
     relative(gap, 0.0, motions, row)
 }
 
 /// One equation's residual relative to `force` and the row of stiffnesses against motions `q`; a scale that overflows is
 /// formed anew from smaller numbers.
 #[inline]
-fn relative<const N: usize>(residual: f64, force: f64, q: &[f64], row: &[f64; N]) -> f64 {
+fn relative(residual: f64, force: f64, q: &[f64], row: &[f64]) -> f64 {
     let scale = |unit: f64| {
         q.iter().zip(row).fold(unit * force, |sum, (q, slope)| {
             sum + unit * slope.abs() * small_motion(*q)

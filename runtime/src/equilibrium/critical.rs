@@ -4,11 +4,13 @@ use super::branch::{BranchEnd, Continuation, Curve, SpecialKind, SpecialPoint, S
 use super::range::Range;
 use super::track::Following;
 use super::{Policy, equilibrium};
-use crate::{Equilibrium, Error, Input, Mechanism};
+use crate::dense::Vector;
+use crate::kernels::DirectionalKernels;
+use crate::{Equilibrium, Error, Input, Text};
 
 /// A state where `Khat` is singular.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CriticalState<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriticalState {
     /// The input that was varied.
     pub input: Input,
     /// Its critical value, SI.
@@ -16,11 +18,11 @@ pub struct CriticalState<const N: usize, const U: usize, const P: usize> {
     /// What happens to the branch there.
     pub kind: SpecialKind,
     /// The equilibrium there, on the branch that is stable below; its critical mode counts as neutral.
-    pub equilibrium: Equilibrium<N, U, P>,
+    pub equilibrium: Equilibrium,
     /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
-    pub v: [f64; N],
+    pub v: Vector,
     /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
-    pub w: [f64; N],
+    pub w: Vector,
 }
 
 /// Least and greatest step of the continuation, whatever the number of steps that is asked for.
@@ -39,33 +41,29 @@ const MOST_POINTS: usize = 50_000;
 /// # Errors
 /// [`Error::NotInRange`] when the branch keeps its stiffness; where it cannot be followed so far, the reason;
 /// otherwise as [`equilibrium`].
-pub fn critical_state<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn critical_state(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     range: Range,
-) -> Result<CriticalState<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    range.check::<U>(M::DESCRIPTION.name)?;
+) -> Result<CriticalState, Error> {
+    range.check(&mechanism.description())?;
     let settings = Continuation {
         max_step: (1.0 / range.steps as f64).clamp(FINEST_STEP, COARSEST_STEP),
         max_points: MOST_POINTS,
         ..Continuation::new(range.input, range.low, range.high)
     };
-    settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve::new(mechanism, u, b, &settings);
+    let curve = Curve::new(mechanism, u, b, &settings)?;
     let inputs = curve.inputs_at(range.low);
     let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
     let curve = curve.about(&state);
     let mut found = None;
-    let end = match curve.begin(state) {
+    let end = match curve.begin(&state) {
         Ok(station) => {
-            let stop = |special: &SpecialPoint<N, U, P>, before: &Station<N, U, P>| {
+            let stop = |special: &SpecialPoint, before: &Station| {
                 if before.stiff() {
-                    found = Some(*special);
+                    found = Some(special.clone());
                 }
                 found.is_some()
             };
@@ -85,7 +83,7 @@ where
         (None, BranchEnd::Domain(error) | BranchEnd::Lost(error)) => Err(error),
         (None, _) => Err(not_in_range(
             "critical value",
-            M::DESCRIPTION.inputs,
+            &curve.description.inputs,
             &range,
         )),
     }
@@ -97,30 +95,20 @@ const MOST_STATES: usize = 32;
 /// The critical states on a path of stable equilibria, each on the branch that the path follows up to it. None where
 /// stable equilibria are not what is followed, or the values neither ascend nor descend. With each state, whether the path
 /// leads to it from the one before so smoothly that there is none between the two: it is not looked for there.
-pub(crate) fn critical_states_on<
-    'a,
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
-    mechanism: &M,
-    (u, b): (&[f64; U], &[f64; P]),
+pub(crate) fn critical_states_on<'a>(
+    mechanism: &dyn DirectionalKernels,
+    (u, b): (&[f64], &[f64]),
     following: Following,
     input: Input,
-    path: impl Iterator<Item = (f64, &'a Result<Equilibrium<N, U, P>, Error>, bool)>,
-) -> Vec<CriticalState<N, U, P>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+    path: impl Iterator<Item = (f64, &'a Result<Equilibrium, Error>, bool)>,
+) -> Vec<CriticalState> {
     let mut found = Vec::new();
     if following.policy != Policy::Stable {
         return found;
     }
     let solved = path.filter_map(|(value, state, smooth)| {
         let state = state.as_ref().ok()?;
-        Some((value, state.coordinates, smooth))
+        Some((value, &*state.coordinates, smooth))
     });
     let path: Vec<_> = solved.collect();
     let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
@@ -148,8 +136,7 @@ where
             rest = &rest[steps..];
             continue;
         };
-        let beyond =
-            |(value, ..): &(f64, [f64; N], bool)| (value - critical.value) * direction > 0.0;
+        let beyond = |(value, ..): &(f64, &[f64], bool)| (value - critical.value) * direction > 0.0;
         let next = rest.iter().position(beyond).unwrap_or(rest.len());
         rest = &rest[next.max(1)..];
         found.push(critical);
@@ -160,7 +147,9 @@ where
 fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {
     Error::NotInRange {
         what,
-        input: inputs.get(range.input.0).map_or("?", |info| info.name),
+        input: inputs
+            .get(range.input.index())
+            .map_or(Text::Static("?"), |info| info.name.clone()),
         low: range.low,
         high: range.high,
     }

@@ -4,9 +4,10 @@
 use super::range::Range;
 use super::root::{Bracket, refine};
 use super::track::{Following, Tracked, Tracker};
+use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
-use crate::{Equilibrium, Error, Input, Mechanism, Mode, Modes};
+use crate::{Equilibrium, Error, Input, Mode, Modes};
 
 /// A line `ratio u + offset` that a frequency is compared with: an engine order, or a fixed excitation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +35,8 @@ pub enum Condition {
 }
 
 /// A state where a mode meets a condition.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
     /// The input that was varied.
     pub input: Input,
     /// Its value there, SI.
@@ -45,14 +46,14 @@ pub struct Crossing<const N: usize, const U: usize, const P: usize> {
     /// Position of the mode in `modes`.
     pub mode: usize,
     /// The equilibrium there.
-    pub equilibrium: Equilibrium<N, U, P>,
+    pub equilibrium: Equilibrium,
     /// The modes there, in the order they have at the start of the range.
-    pub modes: Modes<N>,
+    pub modes: Modes,
 }
 
 impl Condition {
     /// What is zero where the condition is met.
-    fn excess<const N: usize>(self, modes: &Modes<N>, label: usize, value: f64) -> Option<f64> {
+    fn excess(self, modes: &Modes, label: usize, value: f64) -> Option<f64> {
         let mode = modes.modes.iter().find(|mode| mode.label == label)?;
         let omega = mode.frequency()?;
         Some(match self {
@@ -65,7 +66,7 @@ impl Condition {
 
     /// Whether a mode meets the condition, but for rounding: where the equilibrium jumps to another branch, its frequency
     /// jumps across a line without meeting it.
-    fn is_met<const N: usize>(self, mode: &Mode<N>, value: f64) -> bool {
+    fn is_met(self, mode: &Mode, value: f64) -> bool {
         const ROUNDING: f64 = 1e-6;
         let Some(omega) = mode.frequency() else {
             return false;
@@ -89,21 +90,18 @@ impl Condition {
     }
 
     /// Derivative of the excess by the input along the equilibria; `None` where there is none.
-    fn slope<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn slope(
         self,
-        mechanism: &M,
-        at: &Tracked<N, U, P>,
+        mechanism: &dyn Kernels,
+        at: &Tracked,
         label: usize,
         input: Input,
-    ) -> Option<f64>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Option<f64> {
         let position = at.modes.modes.iter().position(|mode| mode.label == label)?;
         let all = sensitivities(mechanism, &at.equilibrium, &at.modes).ok()?;
         let own = all.modes.get(position).filter(|own| !own.clustered)?;
         let (quantity, other) = self.sides();
-        Some(own.of(quantity)?.by_input.get(input.0)? - other)
+        Some(own.of(quantity)?.by_input.get(input.index())? - other)
     }
 }
 
@@ -113,18 +111,15 @@ impl Condition {
 ///
 /// # Errors
 /// [`Error::UnknownHandle`], [`Error::Setting`], and those of the first point.
-pub fn crossings<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn crossings(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     following: impl Into<Following>,
     range: Range,
     line: impl Into<Line>,
-) -> Result<Vec<Crossing<N, U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<Vec<Crossing>, Error> {
     let condition = Condition::Line(line.into());
     meetings(mechanism, (u, b), start, following.into(), range, condition)
 }
@@ -134,17 +129,14 @@ where
 ///
 /// # Errors
 /// As [`crossings`].
-pub fn flutter_onsets<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn flutter_onsets(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     following: impl Into<Following>,
     range: Range,
-) -> Result<Vec<Crossing<N, U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<Vec<Crossing>, Error> {
     let general = Following {
         family: Some(Family::General),
         ..following.into()
@@ -153,43 +145,38 @@ where
     meetings(mechanism, (u, b), start, general, range, onset)
 }
 
-fn meetings<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    values: (&[f64; U], &[f64; P]),
-    start: &[f64; N],
+fn meetings(
+    mechanism: &dyn Kernels,
+    values: (&[f64], &[f64]),
+    start: &[f64],
     following: Following,
     range: Range,
     condition: Condition,
-) -> Result<Vec<Crossing<N, U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    range.check::<U>(M::DESCRIPTION.name)?;
+) -> Result<Vec<Crossing>, Error> {
+    range.check(&mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, values, start, following, range.input);
     tracker.advance(range.low)?.1?;
     let mut found = Vec::new();
     for value in range.steps() {
-        let before = tracker.last;
+        let before = tracker.last.clone();
         if !matches!(tracker.advance(value), Ok((_, Ok(_)))) {
             continue;
         }
-        if let (Some(before), Some(after)) = (before, tracker.last) {
-            between(&tracker, &before, &after, condition, &mut found);
+        if let (Some(before), Some(after)) = (&before, &tracker.last) {
+            between(&tracker, before, after, condition, &mut found);
         }
     }
     Ok(found)
 }
 
 /// Adds the meetings between two neighbouring points, by label of the modes.
-pub(crate) fn between<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    tracker: &Tracker<'_, M, N, U, P>,
-    before: &Tracked<N, U, P>,
-    after: &Tracked<N, U, P>,
+pub(crate) fn between(
+    tracker: &Tracker<'_>,
+    before: &Tracked,
+    after: &Tracked,
     condition: Condition,
-    found: &mut Vec<Crossing<N, U, P>>,
-) where
-    M: Mechanism<N, U, P, O>,
-{
+    found: &mut Vec<Crossing>,
+) {
     for label in before.modes.modes.iter().map(|mode| mode.label) {
         let (Some(at_low), Some(at_high)) = (
             condition.excess(&before.modes, label, before.value),

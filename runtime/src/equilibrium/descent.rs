@@ -7,8 +7,9 @@ use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relati
 use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
-use crate::Mechanism;
-use crate::array::{Cholesky, Square, add_scaled, dot, form, largest, times};
+use crate::dense::{
+    Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, form, largest, times,
+};
 use crate::modes::symmetric;
 use crate::rounding::{Sign, sign};
 
@@ -22,21 +23,20 @@ pub(super) const GROWTH: f64 = 4.0;
 pub(super) const DEPARTURE: f64 = 1e-3;
 
 /// Where a search has come to.
-#[derive(Clone, Copy)]
-pub(super) struct Place<const N: usize> {
-    pub(super) q: [f64; N],
+pub(super) struct Place {
+    pub(super) q: Vector,
     /// Greatest change of a coordinate in the next step, rad or m.
     pub(super) radius: f64,
     /// Spent so far.
     pub(super) iterations: usize,
 }
 
-impl<const N: usize> Place<N> {
+impl Place {
     /// The start.
     #[inline]
-    pub(super) fn first(q: &[f64; N]) -> Self {
+    pub(super) fn first(q: &[f64]) -> Self {
         Self {
-            q: *q,
+            q: q.into(),
             radius: FIRST_RADIUS,
             iterations: 0,
         }
@@ -44,24 +44,23 @@ impl<const N: usize> Place<N> {
 }
 
 /// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints.
-pub(super) fn stable<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    from: &Place<N>,
-) -> Result<Found<N>, Failure<N>>
+pub(super) fn stable<S>(
+    problem: &Problem<'_>,
+    start: &[f64],
+    from: &Place,
+) -> Result<Found, Failure>
 where
-    S: Space<N>,
-    M: Mechanism<N, U, P, O>,
+    S: Space,
 {
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, &from.q)?;
+    let motions = problem.motions();
+    let mut base: Base<S> = S::base(problem, &from.q)?;
     let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
     for iterations in from.iterations..MAX_ITERATIONS {
-        let at = (&base.residual, &base.stiffness);
+        let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
         let convex = Cholesky::new(&stiffness).ok();
@@ -73,14 +72,11 @@ where
                 (curved_step(&curved.pairs, &slopes), Some(curved))
             }
         };
-        let found = |end: End<N>, iterations| Found {
-            coordinates: end.coordinates,
-            residual: end.residual,
-            measured: end.measured,
-            iterations,
+        let found = |end: End, iterations| Found {
             left_unstable_region,
+            ..Found::new(end, iterations)
         };
-        let here = |base: &Base<N, S>| End {
+        let here = |base: Base<S>| End {
             coordinates: base.q,
             residual: base.residual,
             measured: None,
@@ -89,7 +85,7 @@ where
         let progress = watch.judge(problem, &base.q, at, Some(&step));
         if progress == Progress::Finished {
             let Some(curved) = curved.filter(|curved| curved.unstable) else {
-                return Ok(found(here(&base), iterations));
+                return Ok(found(here(base), iterations));
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
@@ -121,7 +117,7 @@ where
         let Some(next) = search(problem, &base, &step) else {
             let relative = relative_residual(problem, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex.is_some() {
-                return Ok(found(here(&base), iterations));
+                return Ok(found(here(base), iterations));
             }
             let reason = "no descent from the last state";
             return Err(failure(problem, reason, &base.q, iterations));
@@ -142,23 +138,18 @@ where
 }
 
 /// The modes at a state where the potential is not convex.
-struct Curved<const N: usize> {
-    pairs: symmetric::Pairs<N>,
-    mass: Square<N>,
+struct Curved {
+    pairs: symmetric::Pairs,
+    mass: Matrix,
     /// The potential falls along the first mode.
     unstable: bool,
 }
 
-impl<const N: usize> Curved<N> {
+impl Curved {
     #[cold]
-    fn new<S, M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        base: &Base<N, S>,
-        stiffness: &Square<N>,
-    ) -> Result<Self, Failure<N>>
+    fn new<S>(problem: &Problem<'_>, base: &Base<S>, stiffness: &Matrix) -> Result<Self, Failure>
     where
-        S: Space<N>,
-        M: Mechanism<N, U, P, O>,
+        S: Space,
     {
         let mass = problem.linear(&base.q)?.mass;
         let pairs = symmetric::solve(stiffness, &base.space.mass(&mass))?;
@@ -171,35 +162,30 @@ impl<const N: usize> Curved<N> {
     }
 }
 
-fn outside<const N: usize>(q: &[f64; N]) -> Failure<N> {
+fn outside(q: &[f64]) -> Failure {
     Failure::OutsideDomain {
         what: "the residual",
-        coordinates: *q,
+        coordinates: q.into(),
     }
 }
 
 /// Descent along every mode with the size of its curvature, so that the unstable ones are left, not approached.
-fn curved_step<const N: usize>(pairs: &symmetric::Pairs<N>, residual: &[f64; N]) -> [f64; N] {
+fn curved_step(pairs: &symmetric::Pairs, residual: &[f64]) -> Vector {
     let floor = 1e-8 * largest(&pairs.lambda);
-    let mut step = [0.0; N];
-    for r in 0..N {
+    let mut step = Vector::zeros(residual.len());
+    for r in 0..pairs.lambda.len() {
         let slope = dot(&pairs.shapes[r], residual);
         if slope != 0.0 {
             let curvature = pairs.lambda[r].abs().max(floor).max(f64::MIN_POSITIVE);
             let amount = (slope / curvature).clamp(-1e100, 1e100);
-            step = add_scaled(&step, -amount, &pairs.shapes[r]);
+            add_to(&mut step, -amount, &pairs.shapes[r]);
         }
     }
     step
 }
 
 /// A small step along the unstable mode, towards the user's start value when that tells a side.
-fn departure<const N: usize>(
-    shape: &[f64; N],
-    mass: &Square<N>,
-    q: &[f64; N],
-    start: &[f64; N],
-) -> [f64; N] {
+fn departure(shape: &[f64], mass: &Matrix, q: &[f64], start: &[f64]) -> Vector {
     let offset = add_scaled(start, -1.0, q);
     let side = dot(&offset, &times(mass, shape));
     let size = form(&offset, mass, &offset).max(0.0).sqrt();
@@ -213,8 +199,8 @@ fn departure<const N: usize>(
     shape.map(|value| value * scale)
 }
 
-struct Next<const N: usize> {
-    trial: Trial<N>,
+struct Next {
+    trial: Trial,
     /// Accepted fraction of the step.
     length: f64,
     /// The linear model predicted the slope at the end.
@@ -247,14 +233,9 @@ impl Way {
 }
 
 /// Line search on the change of the potential.
-fn search<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    base: &Base<N, S>,
-    step: &[f64; N],
-) -> Option<Next<N>>
+fn search<S>(problem: &Problem<'_>, base: &Base<S>, step: &[f64]) -> Option<Next>
 where
-    S: Space<N>,
-    M: Mechanism<N, U, P, O>,
+    S: Space,
 {
     let way = Way {
         slope: dot(step, &base.residual),
@@ -288,15 +269,7 @@ where
 }
 
 #[cold]
-fn failure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    reason: &'static str,
-    q: &[f64; N],
-    iterations: usize,
-) -> Failure<N>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn failure(problem: &Problem<'_>, reason: &'static str, q: &[f64], iterations: usize) -> Failure {
     let relative = problem
         .evaluate(q)
         .map_or(f64::INFINITY, |(residual, stiffness)| {
@@ -304,7 +277,7 @@ where
         });
     Failure::NotFound {
         reason,
-        coordinates: *q,
+        coordinates: q.into(),
         iterations,
         relative,
     }

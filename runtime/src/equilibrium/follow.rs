@@ -3,45 +3,40 @@
 
 use super::SweepPoint;
 use super::track::{Tracked, Tracker, even};
-use crate::batched::Block;
+use crate::batched::{self, Block};
+use crate::kernels::BatchKernels;
 use crate::lanes::WIDTH;
 use crate::sensitivity::{Method, sensitivities};
-use crate::{Error, Mechanism, Sensitivities};
+use crate::{Error, Sensitivities};
 
 /// What is known at one value.
-pub(crate) struct Station<const N: usize, const U: usize, const P: usize> {
-    pub(crate) point: SweepPoint<N, U, P>,
+pub(crate) struct Station {
+    pub(crate) point: SweepPoint,
     /// Derivatives of the modes, if they are wanted.
-    pub(crate) slopes: Option<Result<Sensitivities<N, U, P>, Error>>,
+    pub(crate) slopes: Option<Result<Sensitivities, Error>>,
     /// No critical state lies between it and the value before.
     pub(crate) smooth: bool,
 }
 
-/// Goes on to each of `values`; `each` sees what is there, in order. With `SLOPES`, modes have derivatives: known when a user's
-/// code is compiled, so that who does not ask for them does not compile them.
-pub(crate) fn follow<
-    const SLOPES: bool,
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
-    tracker: &mut Tracker<'_, M, N, U, P>,
+/// Goes on to each of `values`; `each` sees what is there, in order, with derivatives of the modes if they are wanted.
+pub(crate) fn follow(
+    tracker: &mut Tracker<'_>,
+    kernels: &dyn BatchKernels,
     values: &[f64],
-    mut each: impl FnMut(&Station<N, U, P>),
-) where
-    M: Mechanism<N, U, P, O>,
-{
-    let (mut block, mut rest) = (None, values);
+    with_slopes: bool,
+    mut each: impl FnMut(&Station),
+) {
+    let (mut room, mut rest) = (None, values);
     // Values to be solved one by one before a block is tried again; three tell a way.
     let mut alone = 3;
+    let possible = batched::possible(&tracker.description, &batched::KERNELS);
     while let Some((&value, behind)) = rest.split_first() {
-        if const { Block::<N, U, P>::possible::<M, O>() } && alone == 0 && !behind.is_empty() {
-            let block = block.get_or_insert_with(|| tracker.block());
-            let number = tracker.ahead::<SLOPES, O>(block, rest);
+        if possible && alone == 0 && !behind.is_empty() {
+            let room = room.get_or_insert_with(|| tracker.block(with_slopes));
+            let number = tracker.ahead(kernels, room, rest);
+            let (block, _) = room;
             if let (Some(last), true) = (&tracker.last, number > 0) {
-                let mut station = Station::shared(last, SLOPES);
+                let mut station = Station::shared(last, with_slopes);
                 for lane in 0..number {
                     station.go(tracker, block, lane);
                     each(&station);
@@ -54,31 +49,21 @@ pub(crate) fn follow<
             continue;
         }
         alone = alone.saturating_sub(1);
-        each(&solve::<SLOPES, M, N, U, P, O>(tracker, value));
+        each(&solve(tracker, value, with_slopes));
         rest = behind;
     }
 }
 
 /// One value alone.
-fn solve<const SLOPES: bool, M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    tracker: &mut Tracker<'_, M, N, U, P>,
-    value: f64,
-) -> Station<N, U, P>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn solve(tracker: &mut Tracker<'_>, value: f64, with_slopes: bool) -> Station {
     let (equilibrium, modes) = match tracker.advance(value) {
         Ok((state, modes)) => (Ok(state), modes),
         Err(error) => (Err(error.clone()), Err(error)),
     };
-    let slopes = if const { SLOPES } {
-        Some(match (&equilibrium, &modes) {
-            (Ok(state), Ok(modes)) => sensitivities(tracker.mechanism, state, modes),
-            (_, Err(error)) | (Err(error), _) => Err(error.clone()),
-        })
-    } else {
-        None
-    };
+    let slopes = with_slopes.then(|| match (&equilibrium, &modes) {
+        (Ok(state), Ok(modes)) => sensitivities(tracker.mechanism, state, modes),
+        (_, Err(error)) | (Err(error), _) => Err(error.clone()),
+    });
     Station {
         smooth: tracker.smooth && modes.is_ok(),
         point: SweepPoint {
@@ -90,14 +75,14 @@ where
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
+impl Station {
     /// What states side by side share with the one before them.
-    fn shared(last: &Tracked<N, U, P>, slopes: bool) -> Self {
+    fn shared(last: &Tracked, slopes: bool) -> Self {
         Self {
             point: SweepPoint {
                 value: last.value,
-                equilibrium: Ok(last.equilibrium),
-                modes: Ok(last.modes),
+                equilibrium: Ok(last.equilibrium.clone()),
+                modes: Ok(last.modes.clone()),
             },
             slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes, Method::Adjoint))),
             smooth: true,
@@ -105,14 +90,7 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
     }
 
     /// Goes on to a lane of a block.
-    fn go<M, const O: usize>(
-        &mut self,
-        tracker: &Tracker<'_, M, N, U, P>,
-        block: &Block<N, U, P>,
-        lane: usize,
-    ) where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn go(&mut self, tracker: &Tracker<'_>, block: &Block, lane: usize) {
         let SweepPoint {
             value,
             equilibrium,
@@ -120,7 +98,7 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
         } = &mut self.point;
         *value = block.values.0[lane];
         if let (Ok(state), Ok(modes)) = (equilibrium, modes) {
-            state.inputs = tracker.inputs_at(*value);
+            state.inputs[tracker.input.index()] = *value;
             block.read_state(lane, tracker.mechanism, state);
             let before = modes.least_lambda();
             block.read_modes(lane, modes);

@@ -43,12 +43,14 @@ pub use sweep::{Sweep, SweepPoint, sweep};
 pub use track::Following;
 pub(crate) use track::Tracker;
 
-pub(crate) use problem::{Failure, Problem};
+pub(crate) use problem::{Failure, Problem, check_count, name};
 pub(crate) use settle::settle;
 
 pub use crate::constraints::ConstraintState;
 
-use crate::{Description, Error, Linear, Mechanism, PoseMargin};
+use crate::dense::Vector;
+use crate::kernels::{Kernels, Linear};
+use crate::{Description, Error, PoseMargin, Shared, Text};
 
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,15 +65,15 @@ pub enum Policy {
 }
 
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
     /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints, SI: what `from`
     /// exerts on `to`, of a distance the tension; with the sign that outputs have ([`Role`](crate::Role)).
-    pub coordinates: [f64; N],
+    pub coordinates: Vector,
     /// The inputs it belongs to, SI.
-    pub inputs: [f64; U],
+    pub inputs: Vector,
     /// The design variables it belongs to, SI.
-    pub design: [f64; P],
+    pub design: Vector,
     /// Whether the mechanism would stay there.
     pub stability: Stability,
     /// Eigenvalues `lambda` up to this size cannot be told from zero, 1/s^2: what rounding of inputs, design and coordinates
@@ -79,10 +81,10 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     /// eigenvalue is so small that it matters, and where `Khat` is not symmetric.
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
-    pub linear: Linear<f64, N>,
+    pub linear: Linear,
     /// Remaining residual, N or N m; in the places of reactions what their constraints are open by, in the direction of the
     /// reaction.
-    pub residual: [f64; N],
+    pub residual: Vector,
     /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
     /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.
     pub relative_residual: f64,
@@ -91,17 +93,17 @@ pub struct Equilibrium<const N: usize, const U: usize, const P: usize> {
     /// The joint nearest to its singular pose, if the mechanism has joints of three turns.
     pub pose: Option<PoseMargin<f64>>,
     /// What the constraints leave free there, and which say the same.
-    pub constraints: ConstraintState<N>,
+    pub constraints: ConstraintState,
     /// The solver met an unstable region on its way: the start value was not in the valley of the answer.
     pub left_unstable_region: bool,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Equilibrium<N, U, P> {
+impl Equilibrium {
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
-    pub fn dependent_constraints(&self) -> impl Iterator<Item = &'static str> {
-        dependent_names(self.description, self.constraints.dependent)
+    pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
+        dependent_names(&self.description, &self.constraints.dependent)
     }
 
     /// Refuses a singular configuration, of which the linearised mechanism says nothing.
@@ -116,14 +118,11 @@ impl<const N: usize, const U: usize, const P: usize> Equilibrium<N, U, P> {
     }
 }
 
-fn dependent_names<const N: usize>(
-    description: &'static Description,
-    dependent: [bool; N],
-) -> impl Iterator<Item = &'static str> {
+fn dependent_names(description: &Description, dependent: &[bool]) -> impl Iterator<Item = Text> {
     let infos = description.coordinates.iter().zip(dependent);
     infos
-        .filter(|(_, takes_part)| *takes_part)
-        .map(|(info, _)| info.name)
+        .filter(|(_, takes_part)| **takes_part)
+        .map(|(info, _)| info.name.clone())
 }
 
 /// Finds a dynamic equilibrium from the start value `start`.
@@ -135,19 +134,16 @@ fn dependent_names<const N: usize>(
 /// coordinates held); the reactions in `start` do not matter.
 ///
 /// # Errors
-/// [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
+/// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],
 /// [`Error::NotAssembled`], [`Error::NoEquilibrium`].
-pub fn equilibrium<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn equilibrium(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     policy: Policy,
-) -> Result<Equilibrium<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<Equilibrium, Error> {
     let problem = Problem::new(mechanism, u, b)?;
     problem.check_start(start)?;
-    settle(&problem, start, policy).map_err(|failure| failure.explain(problem.description()))
+    settle(&problem, start, policy).map_err(|failure| failure.explain(&problem.description))
 }

@@ -5,15 +5,17 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Policy, Problem, settle};
-use crate::{Equilibrium, Error, Mechanism, Stability};
+use crate::dense::Vector;
+use crate::kernels::Kernels;
+use crate::{Equilibrium, Error, Stability};
 
 /// Where to start from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Search<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
     /// Least start value of each coordinate, rad or m.
-    pub lower: [f64; N],
+    pub lower: Vector,
     /// Greatest start value of each coordinate, rad or m.
-    pub upper: [f64; N],
+    pub upper: Vector,
     /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until what was
     /// found says that no other is to be expected.
     pub starts: usize,
@@ -35,24 +37,21 @@ const MOST_STARTS: usize = 2000;
 /// start led to an equilibrium; completeness is not promised.
 ///
 /// # Errors
-/// [`Error::NotFinite`], [`Error::Unphysical`].
-pub fn find_equilibria<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
-    search: &Search<N>,
-) -> Result<Vec<Equilibrium<N, U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+/// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`].
+pub fn find_equilibria(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    search: &Search,
+) -> Result<Vec<Equilibrium>, Error> {
     let problem = Problem::new(mechanism, u, b)?;
     problem.check_start(start)?;
     problem.check_start(&search.lower)?;
     problem.check_start(&search.upper)?;
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
-    let mut found: Vec<Equilibrium<N, U, P>> = Vec::new();
-    let mut from = *start;
+    let mut found: Vec<Equilibrium> = Vec::new();
+    let mut from = Vector::from(start);
     let (mut isolated, mut met) = (0, 0);
     for done in 0.. {
         let further = search.starts > 0 && done <= search.starts + MOST_STARTS;
@@ -70,7 +69,7 @@ where
                 found.push(state);
             }
         }
-        from = core::array::from_fn(|i| {
+        from = Vector::from_fn(start.len(), |i| {
             let fraction = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
             search.lower[i] + fraction * (search.upper[i] - search.lower[i])
         });
@@ -84,15 +83,8 @@ fn more_expected(found: usize, met: usize) -> bool {
 }
 
 /// Whether two equilibria are one place.
-fn same<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    known: &Equilibrium<N, U, P>,
-    state: &Equilibrium<N, U, P>,
-) -> bool
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let description = problem.description();
+fn same(problem: &Problem<'_>, known: &Equilibrium, state: &Equilibrium) -> bool {
+    let description = &problem.description;
     let (q, other) = (&known.coordinates, &state.coordinates);
     let turned = turned_towards(q, other, description);
     let singular = known.constraints.singular && state.constraints.singular;

@@ -1,50 +1,37 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
-use super::end::{Found, last_step};
+use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
-use crate::Mechanism;
-use crate::array::{Cholesky, Lu, Square, times, transpose};
+use crate::dense::{Cholesky, Lu, Matrix, Vector, times};
 
 const MAX_ITERATIONS: usize = 300;
 /// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.
 const FIRST_RADIUS: f64 = 1.0;
 
 /// Solves `g = 0` from `start`, which lies in the space.
-pub(super) fn nearest<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-) -> Result<Found<N>, Failure<N>>
+pub(super) fn nearest<S>(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Failure>
 where
-    S: Space<N>,
-    M: Mechanism<N, U, P, O>,
+    S: Space,
 {
-    let motions = Problem::<M, N, U, P, O>::MOTIONS;
-    let mut base: Base<N, S> = S::base(problem, start)?;
+    let motions = problem.motions();
+    let mut base: Base<S> = S::base(problem, start)?;
     let weight = S::weights(problem, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
     for iterations in 0..MAX_ITERATIONS {
-        let found = Found {
-            coordinates: base.q,
-            residual: base.residual,
-            measured: None,
-            iterations,
-            left_unstable_region: false,
-        };
-        let at = (&base.residual, &base.stiffness);
+        let at = (&base.residual[..], &base.stiffness);
         let slopes = base.space.slopes(&base.residual);
         let stiffness = base.space.stiffness(&base.stiffness);
         let factors = Lu::new(&stiffness);
-        let displacement = |lu: &Lu<f64, N>, slopes: &[f64; N]| {
-            base.space.lift(&lu.solve(slopes).map(|value| -value))
-        };
+        let displacement =
+            |lu: &Lu, slopes: &[f64]| base.space.lift(&lu.solve(slopes).map(|value| -value));
         let newton = factors.as_ref().map(|lu| displacement(lu, &slopes));
-        let progress = watch.judge(problem, &base.q, at, newton.as_ref());
+        let progress = watch.judge(problem, &base.q, at, newton.as_deref());
         if progress == Progress::Finished {
-            return Ok(found);
+            return Ok(found(base, iterations));
         }
         let mut step =
             newton.unwrap_or_else(|| base.space.lift(&damped_step(&slopes, &stiffness, &weight)));
@@ -54,13 +41,7 @@ where
                 displacement(lu, &base.space.slopes(rest))
             })
         {
-            return Ok(Found {
-                coordinates: end.coordinates,
-                residual: end.residual,
-                measured: end.measured,
-                iterations: iterations + 1,
-                ..found
-            });
+            return Ok(Found::new(end, iterations + 1));
         }
         let size = largest_of(&step[..motions]);
         let limited = size > radius;
@@ -70,7 +51,7 @@ where
         let Some((next, length)) = search(problem, &base, &slopes, &step, &weight) else {
             let relative = relative_residual(problem, &base.q, at.0, at.1);
             if relative <= TOLERANCE {
-                return Ok(found);
+                return Ok(found(base, iterations));
             }
             let reason = "the residual has a minimum that is not zero";
             return Err(failure(reason, &base.q, iterations, relative));
@@ -94,53 +75,60 @@ where
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
 
-fn failure<const N: usize>(
-    reason: &'static str,
-    q: &[f64; N],
-    iterations: usize,
-    relative: f64,
-) -> Failure<N> {
+/// The state at a base as the result.
+fn found<S>(base: Base<S>, iterations: usize) -> Found {
+    let end = End {
+        coordinates: base.q,
+        residual: base.residual,
+        measured: None,
+    };
+    Found::new(end, iterations)
+}
+
+fn failure(reason: &'static str, q: &[f64], iterations: usize, relative: f64) -> Failure {
     Failure::NotFound {
         reason,
-        coordinates: *q,
+        coordinates: q.into(),
         iterations,
         relative,
     }
 }
 
-fn merit<const N: usize>(residual: &[f64; N], weight: &[f64; N]) -> f64 {
-    (0..N).fold(0.0, |sum, i| sum + weight[i] * residual[i] * residual[i])
+fn merit(residual: &[f64], weight: &[f64]) -> f64 {
+    let pairs = residual.iter().zip(weight);
+    pairs.fold(0.0, |sum, (residual, weight)| {
+        sum + weight * residual * residual
+    })
 }
 
 /// A damped least-squares step, for where `Khat` is singular.
-fn damped_step<const N: usize>(
-    residual: &[f64; N],
-    stiffness: &Square<N>,
-    weight: &[f64; N],
-) -> [f64; N] {
-    let weighted: Square<N> = core::array::from_fn(|i| stiffness[i].map(|value| value * weight[i]));
-    let right = times(&transpose(&weighted), residual).map(|value| -value);
-    let columns = transpose(stiffness);
-    let mut normal: Square<N> = core::array::from_fn(|i| {
-        core::array::from_fn(|j| (0..N).fold(0.0, |sum, k| sum + columns[i][k] * weighted[k][j]))
+fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
+    let n = residual.len();
+    let weighted = Matrix::from_fn(n, n, |i, j| stiffness[i][j] * weight[i]);
+    let right = times(&weighted.transpose(), residual).map(|value| -value);
+    let columns = stiffness.transpose();
+    let mut normal = Matrix::from_fn(n, n, |i, j| {
+        (0..n).fold(0.0, |sum, k| sum + columns[i][k] * weighted[k][j])
     });
-    let trace = (0..N).fold(0.0, |sum, i| sum + normal[i][i]);
+    let trace = (0..n).fold(0.0, |sum, i| sum + normal[i][i]);
     for (i, row) in normal.iter_mut().enumerate() {
         row[i] += 1e-8 * trace + f64::MIN_POSITIVE;
     }
-    Cholesky::new(&normal).map_or(right, |cholesky| cholesky.solve(&right))
+    match Cholesky::new(&normal) {
+        Ok(factors) => factors.solve(&right),
+        Err(_) => right,
+    }
 }
 
-fn search<S, M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    base: &Base<N, S>,
-    slopes: &[f64; N],
-    step: &[f64; N],
-    weight: &[f64; N],
-) -> Option<(Trial<N>, f64)>
+fn search<S>(
+    problem: &Problem<'_>,
+    base: &Base<S>,
+    slopes: &[f64],
+    step: &[f64],
+    weight: &[f64],
+) -> Option<(Trial, f64)>
 where
-    S: Space<N>,
-    M: Mechanism<N, U, P, O>,
+    S: Space,
 {
     let before = merit(slopes, weight);
     let mut length = 1.0;

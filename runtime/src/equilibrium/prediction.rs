@@ -1,6 +1,6 @@
 //! Where an equilibrium goes along an input, by the last states on its way.
 
-use crate::array::{greater, largest};
+use crate::dense::{Vector, all_finite, greater, largest};
 
 /// Share of the way that a prediction may miss.
 pub(crate) const MISSED: f64 = 0.25;
@@ -8,60 +8,57 @@ pub(crate) const MISSED: f64 = 0.25;
 pub(crate) const STILL: f64 = 1e-9;
 
 /// The last states on the way: at most three, the latest first.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Path<const N: usize> {
-    states: [(f64, [f64; N]); 3],
+#[derive(Clone, Debug, Default)]
+pub(super) struct Path {
+    states: [(f64, Vector); 3],
     count: usize,
 }
 
-impl<const N: usize> Default for Path<N> {
-    fn default() -> Self {
-        Self {
-            states: [(0.0, [0.0; N]); 3],
-            count: 0,
-        }
-    }
-}
-
-impl<const N: usize> Path<N> {
+impl Path {
     /// Goes on to a state at another value of the input.
-    pub(super) fn go(&mut self, value: f64, q: &[f64; N]) {
-        self.states = [(value, *q), self.states[0], self.states[1]];
+    pub(super) fn go(&mut self, value: f64, q: &[f64]) {
+        self.states.rotate_right(1);
+        let (last, state) = &mut self.states[0];
+        *last = value;
+        if state.len() == q.len() {
+            state.copy_from_slice(q);
+        } else {
+            *state = q.into();
+        }
         self.count = (self.count + 1).min(3);
     }
 
     /// The last three states; `None` with fewer.
-    pub(super) fn last_three(&self) -> Option<&[(f64, [f64; N]); 3]> {
+    pub(super) fn last_three(&self) -> Option<&[(f64, Vector); 3]> {
         (self.count == 3).then_some(&self.states)
     }
 
     /// The state at a value of the input: by the parabola or the straight line through the last states. `None` with fewer
     /// than two states, or where values of the input repeat.
-    pub(super) fn at(&self, value: f64) -> Option<[f64; N]> {
+    pub(super) fn at(&self, value: f64) -> Option<Vector> {
         let [(u0, q0), (u1, q1), (u2, q2)] = &self.states;
         if self.count < 2 {
             return None;
         }
         let (first, second) = ((value - u0) / (u0 - u1), (value - u1) / (u0 - u2));
         let curved = self.count == 3 && second.is_finite();
+        let q2 = if curved { q2 } else { q1 };
         let bend = if curved { first * second } else { 0.0 };
         let ratio = if curved { (u0 - u1) / (u1 - u2) } else { 0.0 };
-        let predicted = core::array::from_fn(|i| {
+        let predicted = Vector::from_fn(q0.len(), |i| {
             let slope = q0[i] - q1[i];
             q0[i] + first * slope + bend * (slope - ratio * (q1[i] - q2[i]))
         });
-        crate::array::all_finite(&predicted).then_some(predicted)
+        all_finite(&predicted).then_some(predicted)
     }
 }
 
 /// Whether a state found from a predicted one is what the prediction meant: much nearer to it than to the last state.
-pub(super) fn confirmed<const N: usize>(
-    found: &[f64; N],
-    predicted: &[f64; N],
-    last: &[f64; N],
-) -> bool {
-    let distance =
-        |from: &[f64; N]| largest(&core::array::from_fn::<_, N, _>(|i| found[i] - from[i]));
+pub(super) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
+    let distance = |from: &[f64]| {
+        let pairs = found.iter().zip(from);
+        pairs.fold(0.0, |most, (a, b)| greater(most, (a - b).abs()))
+    };
     let still = STILL * greater(1.0, largest(found));
     distance(predicted) <= MISSED * distance(last) + still
 }

@@ -1,55 +1,39 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
 use super::dependent_names;
-use crate::array::{Square, all_finite, all_finite_square};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
+use crate::dense::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::kernels::{Kernels, Linear, RestParts};
 use crate::modes::symmetric::Trouble;
-use crate::{DampingKind, Description, Error, Linear, Mechanism, Real, RestParts, Role};
+use crate::{DampingKind, Description, Error, Role, Shared, Text};
 
 /// A mechanism at given inputs and design variables.
-pub(crate) struct Problem<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    pub(crate) mechanism: &'a M,
-    pub(crate) inputs: &'a [f64; U],
-    pub(crate) design: &'a [f64; P],
+#[derive(Clone)]
+pub(crate) struct Problem<'a> {
+    pub(crate) mechanism: &'a dyn Kernels,
+    pub(crate) description: Shared<Description>,
+    pub(crate) structure: Structure,
+    pub(crate) inputs: &'a [f64],
+    pub(crate) design: &'a [f64],
     /// Constraints that are left out, because the others imply them where they are met: rows with a zero residual and minus
-    /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look dependent, and only hinder each other.
-    dropped: [bool; N],
+    /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look
+    /// dependent, and only hinder each other. Empty where none is left out.
+    dropped: Vec<bool>,
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Clone
-    for Problem<'_, M, N, U, P, O>
-{
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Copy
-    for Problem<'_, M, N, U, P, O>
-{
-}
-
-impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize>
-    Problem<'a, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    const DESCRIPTION: &'static Description = &M::DESCRIPTION;
-    pub(crate) const STRUCTURE: Structure = Structure::of(&M::DESCRIPTION);
-    /// Number of coordinates and speeds: they come first, and reactions after them.
-    pub(crate) const MOTIONS: usize = N.saturating_sub(Self::STRUCTURE.constraints());
-
-    /// Checks that the values are finite and describe bodies that can exist.
+impl<'a> Problem<'a> {
+    /// Checks that the values are as many as they have to be, finite, and describe bodies that can exist.
     pub(crate) fn new(
-        mechanism: &'a M,
-        inputs: &'a [f64; U],
-        design: &'a [f64; P],
+        mechanism: &'a dyn Kernels,
+        inputs: &'a [f64],
+        design: &'a [f64],
     ) -> Result<Self, Error> {
-        let names = Self::DESCRIPTION;
-        let input = |index: usize| names.inputs.get(index).map(|info| info.name);
-        let variable = |index: usize| names.design.get(index).map(|info| info.name);
-        finite("input", input, inputs)?;
-        finite("design variable", variable, design)?;
+        let problem = Self::unchecked(mechanism, inputs, design);
+        let names = &problem.description;
+        check_count("inputs", inputs, names.inputs.len())?;
+        check_count("design variables", design, names.design.len())?;
+        finite("input", |k| &names.inputs[k].name, inputs)?;
+        finite("design variable", |k| &names.design[k].name, design)?;
         if let Some(violation) = mechanism.violation(inputs, design) {
             return Err(Error::Unphysical {
                 quantity: violation.quantity,
@@ -57,86 +41,95 @@ where
                 value: violation.value,
             });
         }
-        Ok(Self {
-            mechanism,
-            inputs,
-            design,
-            dropped: [false; N],
-        })
+        Ok(problem)
     }
 
     /// For values that a caller has checked itself.
-    pub(crate) fn unchecked(mechanism: &'a M, inputs: &'a [f64; U], design: &'a [f64; P]) -> Self {
+    pub(crate) fn unchecked(
+        mechanism: &'a dyn Kernels,
+        inputs: &'a [f64],
+        design: &'a [f64],
+    ) -> Self {
+        let description = mechanism.description();
         Self {
             mechanism,
+            structure: Structure::of(&description),
+            description,
             inputs,
             design,
-            dropped: [false; N],
+            dropped: Vec::new(),
         }
     }
 
+    /// Number of unknowns.
+    pub(crate) fn size(&self) -> usize {
+        self.description.coordinates.len()
+    }
+
+    /// Number of coordinates and speeds: they come first, and reactions after them.
+    pub(crate) fn motions(&self) -> usize {
+        self.structure.motions()
+    }
+
     /// The same without the constraints that are redundant at `x`, which meets them.
-    pub(crate) fn without_redundant(&self, x: &[f64; N]) -> Self {
-        let plain = if const { Self::STRUCTURE.constraints() > 1 } {
+    pub(crate) fn without_redundant(&self, x: &[f64]) -> Self {
+        let plain = if self.structure.constraints() > 1 {
             self.evaluate_plain(x)
         } else {
             None
         };
-        plain.map_or(*self, |(_, stiffness)| {
-            self.without(&redundant_rows(&stiffness, Self::STRUCTURE))
-        })
+        plain.map_or_else(
+            || self.clone(),
+            |(_, stiffness)| self.without(&redundant_rows(&stiffness, self.structure)),
+        )
     }
 
     /// The same without these constraints.
-    pub(crate) fn without(&self, dropped: &[bool; N]) -> Self {
+    pub(crate) fn without(&self, dropped: &[bool]) -> Self {
         Self {
-            dropped: *dropped,
-            ..*self
+            dropped: dropped.to_vec(),
+            ..self.clone()
         }
     }
 
-    pub(crate) fn description(&self) -> &'static Description {
-        Self::DESCRIPTION
-    }
-
-    pub(crate) fn check_start(&self, start: &[f64; N]) -> Result<(), Error> {
-        let unknowns = Self::DESCRIPTION.coordinates;
-        let name = |index: usize| unknowns.get(index).map(|info| info.name);
-        finite("start value of coordinate", name, start)
+    pub(crate) fn check_start(&self, start: &[f64]) -> Result<(), Error> {
+        let unknowns = &self.description.coordinates;
+        check_count("start values", start, unknowns.len())?;
+        finite("start value of coordinate", |k| &unknowns[k].name, start)
     }
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
-    pub(crate) fn evaluate(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
+    pub(crate) fn evaluate(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let (mut residual, mut stiffness) = self.evaluate_plain(q)?;
-        if const { !Self::STRUCTURE.open() } {
+        if !self.structure.open() {
             if self.dropped.contains(&true) {
                 self.drop_rows(&mut residual, Some(&mut stiffness));
             } else {
-                fix_gauge(&mut stiffness, Self::STRUCTURE);
+                fix_gauge(&mut stiffness, self.structure);
             }
         }
         Some((residual, stiffness))
     }
 
     /// The residual alone; it may not be finite.
-    pub(crate) fn residual(&self, q: &[f64; N]) -> [f64; N] {
+    pub(crate) fn residual(&self, q: &[f64]) -> Vector {
         let mut residual = self.mechanism.residual(q, self.inputs, self.design);
-        if const { !Self::STRUCTURE.open() } {
+        if !self.structure.open() {
             self.drop_rows(&mut residual, None);
         }
         residual
     }
 
     /// Inertia and applied forces at rest; they may not be finite.
-    pub(crate) fn parts(&self, q: &[f64; N]) -> RestParts<f64, N> {
+    pub(crate) fn parts(&self, q: &[f64]) -> RestParts {
         self.mechanism.residual_parts(q, self.inputs, self.design)
     }
 
-    fn drop_rows(&self, residual: &mut [f64; N], mut stiffness: Option<&mut Square<N>>) {
-        for k in (Self::MOTIONS..N).filter(|&k| self.dropped[k]) {
+    fn drop_rows(&self, residual: &mut [f64], mut stiffness: Option<&mut Matrix>) {
+        for k in (self.motions()..self.size()).filter(|&k| self.dropped.get(k) == Some(&true)) {
             residual[k] = 0.0;
             if let Some(stiffness) = &mut stiffness {
-                for j in 0..N {
+                for j in 0..self.size() {
                     stiffness[k][j] = 0.0;
                     stiffness[j][k] = 0.0;
                 }
@@ -146,26 +139,26 @@ where
     }
 
     /// As [`Self::evaluate`], with every constraint and the gauge as it is.
-    pub(crate) fn evaluate_plain(&self, q: &[f64; N]) -> Option<([f64; N], Square<N>)> {
+    pub(crate) fn evaluate_plain(&self, q: &[f64]) -> Option<(Vector, Matrix)> {
         let (residual, stiffness) =
             self.mechanism
                 .residual_and_stiffness(q, self.inputs, self.design);
-        (all_finite(&residual) && all_finite_square(&stiffness)).then_some((residual, stiffness))
+        (all_finite(&residual) && all_finite_matrix(&stiffness)).then_some((residual, stiffness))
     }
 
-    pub(crate) fn evaluate_start(&self, q: &[f64; N]) -> Result<([f64; N], Square<N>), Failure<N>> {
-        self.evaluate(q).ok_or(Failure::OutsideDomain {
+    pub(crate) fn evaluate_start(&self, q: &[f64]) -> Result<(Vector, Matrix), Failure> {
+        self.evaluate(q).ok_or_else(|| Failure::OutsideDomain {
             what: "the residual",
-            coordinates: *q,
+            coordinates: q.into(),
         })
     }
 
     /// The linearised mechanism, its gauge fixed.
-    pub(crate) fn linear(&self, q: &[f64; N]) -> Result<Linear<f64, N>, Failure<N>> {
+    pub(crate) fn linear(&self, q: &[f64]) -> Result<Linear, Failure> {
         let mut linear = self.mechanism.linear(q, self.inputs, self.design);
         self.check(q, &linear)?;
-        if const { !Self::STRUCTURE.open() } {
-            fix_gauge(&mut linear.stiffness, Self::STRUCTURE);
+        if !self.structure.open() {
+            fix_gauge(&mut linear.stiffness, self.structure);
         }
         Ok(linear)
     }
@@ -173,50 +166,48 @@ where
     /// [`Self::parts`] and the linearised mechanism, neither of which may be finite, its gauge as it is. Of a small mechanism
     /// the sines, and what else both need, are computed once.
     #[inline]
-    pub(crate) fn parts_and_linear(&self, q: &[f64; N]) -> (RestParts<f64, N>, Linear<f64, N>) {
-        let (mechanism, u, b) = (self.mechanism, self.inputs, self.design);
-        if const { N <= FEW_COORDINATES } {
-            <f64 as Real>::run(
-                #[inline(always)]
-                || {
-                    let parts = mechanism.residual_parts_inlined(q, u, b);
-                    (parts, mechanism.linear_inlined(q, u, b))
-                },
-            )
-        } else {
-            (self.parts(q), mechanism.linear(q, u, b))
-        }
+    pub(crate) fn parts_and_linear(&self, q: &[f64]) -> (RestParts, Linear) {
+        self.mechanism.parts_and_linear(q, self.inputs, self.design)
     }
 
     /// Refuses matrices that are not finite.
     #[inline]
-    pub(crate) fn check(&self, q: &[f64; N], linear: &Linear<f64, N>) -> Result<(), Failure<N>> {
-        let undamped = const { matches!(M::DESCRIPTION.damping, DampingKind::Zero) };
-        let what = if !all_finite_square(&linear.mass) {
+    pub(crate) fn check(&self, q: &[f64], linear: &Linear) -> Result<(), Failure> {
+        let undamped = matches!(self.description.damping, DampingKind::Zero);
+        let what = if !all_finite_matrix(&linear.mass) {
             "the mass matrix"
-        } else if !undamped && !all_finite_square(&linear.damping) {
+        } else if !undamped && !all_finite_matrix(&linear.damping) {
             "the damping matrix"
-        } else if !all_finite_square(&linear.stiffness) {
+        } else if !all_finite_matrix(&linear.stiffness) {
             "the stiffness matrix"
         } else {
             return Ok(());
         };
         Err(Failure::OutsideDomain {
             what,
-            coordinates: *q,
+            coordinates: q.into(),
         })
     }
 }
 
-/// Coordinates up to which two kernels in one function pay: code for more is long.
-pub(super) const FEW_COORDINATES: usize = 4;
+/// Refuses a list that has not one value for each of what it belongs to.
+pub(crate) fn check_count(kind: &'static str, values: &[f64], count: usize) -> Result<(), Error> {
+    if values.len() == count {
+        return Ok(());
+    }
+    Err(Error::WrongLength {
+        kind,
+        found: values.len(),
+        expected: count,
+    })
+}
 
 /// Refuses the first value that is not finite, under its name.
 #[inline]
-fn finite<const K: usize>(
+fn finite<'n>(
     kind: &'static str,
-    name: impl Fn(usize) -> Option<&'static str>,
-    values: &[f64; K],
+    name: impl Fn(usize) -> &'n Text,
+    values: &[f64],
 ) -> Result<(), Error> {
     if all_finite(values) {
         return Ok(());
@@ -225,41 +216,41 @@ fn finite<const K: usize>(
         None => Ok(()),
         Some(index) => Err(Error::NotFinite {
             kind,
-            name: name(index).unwrap_or("?"),
+            name: name(index).clone(),
             value: values[index],
         }),
     }
 }
 
-/// Why a solve failed; owns nothing, so that a failing sample costs no allocation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Failure<const N: usize> {
+/// Why a solve failed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Failure {
     OutsideDomain {
         what: &'static str,
-        coordinates: [f64; N],
+        coordinates: Vec<f64>,
     },
     NotFound {
         reason: &'static str,
-        coordinates: [f64; N],
+        coordinates: Vec<f64>,
         iterations: usize,
         relative: f64,
     },
     /// The constraints stay open by `gaps`, in the places of their rows; zero where they are met.
     NotAssembled {
         reason: &'static str,
-        coordinates: [f64; N],
-        gaps: [f64; N],
+        coordinates: Vec<f64>,
+        gaps: Vec<f64>,
         /// The row that stays open most, relative to what motions can close.
         worst: usize,
         iterations: usize,
     },
     /// Beside a singular configuration, in which the forces do not balance.
     Unbalanced {
-        coordinates: [f64; N],
+        coordinates: Vec<f64>,
         /// The direction that constraints do not hold there, down the applied forces; its greatest component is one.
-        downhill: [f64; N],
+        downhill: Vec<f64>,
         /// The constraints that lose their independence.
-        dependent: [bool; N],
+        dependent: Vector<bool>,
     },
     SingularMass(usize),
     Mode {
@@ -268,7 +259,7 @@ pub(crate) enum Failure<const N: usize> {
     },
 }
 
-impl<const N: usize> From<Trouble> for Failure<N> {
+impl From<Trouble> for Failure {
     fn from(trouble: Trouble) -> Self {
         match trouble {
             Trouble::SingularMass(row) => Self::SingularMass(row),
@@ -277,14 +268,14 @@ impl<const N: usize> From<Trouble> for Failure<N> {
     }
 }
 
-impl<const N: usize> Failure<N> {
+impl Failure {
     #[cold]
-    pub(crate) fn explain(self, description: &'static Description) -> Error {
+    pub(crate) fn explain(self, description: &Description) -> Error {
         match self {
             Self::OutsideDomain { what, coordinates } => Error::OutsideDomain {
-                mechanism: description.name,
+                mechanism: description.name.clone(),
                 what,
-                coordinates: coordinates.to_vec(),
+                coordinates,
             },
             Self::NotFound {
                 reason,
@@ -294,7 +285,7 @@ impl<const N: usize> Failure<N> {
             } => Error::NoEquilibrium {
                 reason,
                 iterations,
-                coordinates: coordinates.to_vec(),
+                coordinates,
                 relative_residual: relative,
             },
             Self::NotAssembled {
@@ -308,11 +299,11 @@ impl<const N: usize> Failure<N> {
                 constraint: name(description, worst),
                 gap: gaps[worst],
                 unit: gap_unit(description, worst),
-                others: (0..N)
+                others: (0..gaps.len())
                     .filter(|&row| row != worst && gaps[row] != 0.0)
                     .map(|row| (name(description, row), gaps[row]))
                     .collect(),
-                coordinates: coordinates.to_vec(),
+                coordinates,
                 iterations,
             },
             Self::Unbalanced {
@@ -320,8 +311,8 @@ impl<const N: usize> Failure<N> {
                 dependent,
                 ..
             } => Error::UnboundedReactions {
-                constraints: dependent_names(description, dependent).collect(),
-                coordinates: coordinates.to_vec(),
+                constraints: dependent_names(description, &dependent).collect(),
+                coordinates,
             },
             Self::SingularMass(row) => Error::SingularMass {
                 coordinate: name(description, row),
@@ -332,9 +323,9 @@ impl<const N: usize> Failure<N> {
 }
 
 /// Name of an unknown.
-pub(crate) fn name(description: &Description, index: usize) -> &'static str {
+pub(crate) fn name(description: &Description, index: usize) -> Text {
     let found = description.coordinates.get(index);
-    found.map_or("?", |info| info.name)
+    found.map_or(Text::Static("?"), |info| info.name.clone())
 }
 
 /// Unit of the gap of a constraint: what its reaction does work on.
@@ -342,7 +333,7 @@ pub(crate) fn gap_unit(description: &Description, row: usize) -> &'static str {
     let Some(info) = description.coordinates.get(row) else {
         return "";
     };
-    match (info.unit.symbol, info.role) {
+    match (&*info.unit.symbol, info.role) {
         ("N", Role::VelocityReaction) => "m/s",
         ("N*m", Role::VelocityReaction) => "rad/s",
         ("N", _) => "m",

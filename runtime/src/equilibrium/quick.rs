@@ -5,88 +5,55 @@
 use super::convergence::{Last, last};
 use super::descent::{GROWTH, Place, Way};
 use super::end::{Found, last_step};
-use super::problem::{FEW_COORDINATES, Problem};
-use crate::array::{Cholesky, Square, add_scaled, dot, form, largest};
-use crate::{Mechanism, Real};
+use super::problem::Problem;
+use crate::dense::{Cholesky, Matrix, Vector, dot, form, largest};
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
 
 /// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
 /// convex; otherwise where that ended: at the last such state, or at the start. For mechanisms without constraints.
-#[inline]
-pub(super) fn quick<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-) -> Result<Found<N>, Place<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (mechanism, u, b) = (problem.mechanism, problem.inputs, problem.design);
-    if const { N <= FEW_COORDINATES } {
-        <f64 as Real>::run(
-            #[inline(always)]
-            || {
-                steps(
-                    problem,
-                    start,
-                    #[inline(always)]
-                    |q| mechanism.residual_and_stiffness_inlined(q, u, b),
-                )
-            },
-        )
-    } else {
-        steps(problem, start, |q| {
-            mechanism.residual_and_stiffness(q, u, b)
-        })
-    }
-}
-
-#[inline(always)]
-fn steps<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    evaluate: impl Fn(&[f64; N]) -> ([f64; N], Square<N>),
-) -> Result<Found<N>, Place<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(super) fn quick(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Place> {
+    let n = problem.size();
+    let evaluate = |q: &[f64], residual: &mut Vector, stiffness: &mut Matrix| {
+        let (u, b) = (problem.inputs, problem.design);
+        problem
+            .mechanism
+            .residual_and_stiffness_into(q, u, b, residual, stiffness);
+    };
     let mut place = Place::first(start);
-    let (mut residual, mut stiffness) = evaluate(start);
+    let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
+    let mut factors = Cholesky::zeros(n);
+    let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
+    evaluate(start, &mut residual, &mut stiffness);
     while place.iterations < MAX_ITERATIONS {
-        let Ok(factors) = Cholesky::new(&stiffness) else {
+        if factors.factor(&stiffness).is_err() {
             return Err(place);
-        };
-        let mut step = factors.solve(&residual).map(|value| -value);
-        let left = last(&step, &place.q, N);
+        }
+        step.copy_from_slice(&residual);
+        factors.solve_in_place(&mut step);
+        step.iter_mut().for_each(|value| *value = -*value);
+        let left = last(&step, &place.q, n);
         if left != Last::More {
             // A step that changes nothing is not taken.
-            let (step, taken) = match left {
-                Last::Reached => ([0.0; N], 0),
-                _ => (step, 1),
+            let taken = left != Last::Reached;
+            if !taken {
+                step.fill(0.0);
+            }
+            let at = (&residual[..], &stiffness);
+            let displacement = |rest: &[f64]| factors.solve(rest);
+            return match last_step(problem, &place.q, at, &step, displacement) {
+                Some(end) => Ok(Found::new(end, place.iterations + usize::from(taken))),
+                None => Err(place),
             };
-            let displacement = |rest: &[f64; N]| factors.solve(rest);
-            let end = last_step(
-                problem,
-                &place.q,
-                (&residual, &stiffness),
-                &step,
-                displacement,
-            );
-            return end.ok_or(place).map(|end| Found {
-                coordinates: end.coordinates,
-                residual: end.residual,
-                measured: end.measured,
-                iterations: place.iterations + taken,
-                left_unstable_region: false,
-            });
         }
         let size = largest(&step);
         let limited = size > place.radius;
         let mut share = 1.0;
         if limited {
             share = place.radius / size;
-            step = step.map(|value| value * place.radius / size);
+            step.iter_mut()
+                .for_each(|value| *value = *value * place.radius / size);
         }
         let slope = dot(&step, &residual);
         // A Newton step has as much curvature as it has slope.
@@ -94,8 +61,10 @@ where
             slope,
             curvature: -share * slope,
         };
-        let next = add_scaled(&place.q, 1.0, &step);
-        (residual, stiffness) = evaluate(&next);
+        for ((next, q), step) in next.iter_mut().zip(&place.q).zip(&step) {
+            *next = q + step;
+        }
+        evaluate(&next, &mut residual, &mut stiffness);
         // NaN, infinite and overflowing values fail one of the two.
         let slope = dot(&step, &residual);
         let curvature = form(&step, &stiffness, &step);
@@ -106,7 +75,7 @@ where
         if limited && way.predicts(1.0, slope) {
             place.radius *= GROWTH;
         }
-        place.q = next;
+        core::mem::swap(&mut place.q, &mut next);
         place.iterations += 1;
     }
     Err(place)
@@ -117,6 +86,7 @@ mod tests {
     use super::super::descent::stable;
     use super::super::space::Whole;
     use super::*;
+    use crate::dense::add_scaled;
     use crate::mechanism;
 
     mechanism! {
@@ -140,9 +110,7 @@ mod tests {
             let problem = Problem::unchecked(&DoublePendulum, &inputs, &[]);
             for k in 0..400_i32 {
                 let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
-                let Ok(expected) =
-                    stable::<Whole, _, 2, 1, 0, 0>(&problem, &start, &Place::first(&start))
-                else {
+                let Ok(expected) = stable::<Whole>(&problem, &start, &Place::first(&start)) else {
                     panic!("no state from {start:?}")
                 };
                 let found = match quick(&problem, &start) {
@@ -151,7 +119,7 @@ mod tests {
                         assert!(!expected.left_unstable_region, "{omega} {start:?}");
                         Ok(found)
                     }
-                    Err(place) => stable::<Whole, _, 2, 1, 0, 0>(&problem, &start, &place),
+                    Err(place) => stable::<Whole>(&problem, &start, &place),
                 };
                 let Ok(found) = found else {
                     panic!("nothing from {start:?}")

@@ -1,18 +1,30 @@
 //! A range of one input in which something is looked for.
 
-use crate::{Error, Input};
+use crate::{Any, Description, Error, Input};
 
 /// Where to look: `steps` equal steps of one input from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct Range<M = Any> {
     /// The input that varies.
-    pub input: Input,
+    pub input: Input<M>,
     /// Where the search starts, SI.
     pub low: f64,
     /// Where it ends, SI; below `low` to search downwards.
     pub high: f64,
     /// Number of steps; two events within one step are not told apart.
     pub steps: usize,
+}
+
+impl<M> Range<M> {
+    /// The same, of any mechanism.
+    pub fn any(&self) -> Range {
+        Range {
+            input: self.input.any(),
+            low: self.low,
+            high: self.high,
+            steps: self.steps,
+        }
+    }
 }
 
 impl Range {
@@ -22,8 +34,8 @@ impl Range {
         (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
     }
 
-    pub(super) fn check<const U: usize>(&self, mechanism: &'static str) -> Result<(), Error> {
-        check_input::<U>(self.input, mechanism)?;
+    pub(super) fn check(&self, description: &Description) -> Result<(), Error> {
+        check_input(self.input, description)?;
         let refused = if !(self.low.is_finite() && self.high.is_finite()) {
             "its ends must be finite"
         } else if self.low == self.high {
@@ -40,18 +52,15 @@ impl Range {
     }
 }
 
-pub(crate) fn check_input<const U: usize>(
-    input: Input,
-    mechanism: &'static str,
-) -> Result<(), Error> {
-    if input.0 < U {
-        Ok(())
-    } else {
-        Err(Error::UnknownHandle {
-            kind: "input",
-            index: input.0,
-            mechanism,
-            count: U,
-        })
+pub(crate) fn check_input(input: Input, description: &Description) -> Result<(), Error> {
+    let (index, count) = (input.index(), description.inputs.len());
+    if index < count {
+        return Ok(());
     }
+    Err(Error::UnknownHandle {
+        kind: "input",
+        index,
+        mechanism: description.name.clone(),
+        count,
+    })
 }

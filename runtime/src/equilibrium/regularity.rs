@@ -9,9 +9,9 @@
 
 use super::convergence::FLOOR;
 use super::problem::{Failure, Problem};
-use crate::array::{Lu, dot, greater, largest, transpose};
 use crate::constraints::{ConstraintState, NEARLY, Tangent, placed};
-use crate::{Linear, Mechanism};
+use crate::dense::{Lu, Vector, dot, greater, largest};
+use crate::kernels::Linear;
 
 /// Share of the distance from a singular configuration by which rounding may move an equilibrium: beyond it, reactions and
 /// stiffness have less than three digits.
@@ -26,18 +26,15 @@ const TAKES_PART: f64 = 1e-3;
 ///
 /// # Errors
 /// [`Failure::Unbalanced`] where they do not.
-pub(super) fn constraint_state<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    linear: &Linear<f64, N>,
-) -> Result<ConstraintState<N>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+pub(super) fn constraint_state(
+    problem: &Problem<'_>,
+    q: &[f64],
+    residual: &[f64],
+    linear: &Linear,
+) -> Result<ConstraintState, Failure> {
+    let structure = problem.structure;
     if structure.open() {
-        return Ok(ConstraintState::open());
+        return Ok(ConstraintState::open(problem.size()));
     }
     let tangent = Tangent::new(linear, structure);
     let place = (q, problem.inputs, problem.design);
@@ -60,21 +57,15 @@ where
     }
     let downhill = -force.signum() / largest(&weakest.direction);
     Err(Failure::Unbalanced {
-        coordinates: *q,
-        downhill: weakest.direction.map(|value| downhill * value),
+        coordinates: q.into(),
+        downhill: weakest.direction.map(|value| downhill * value).into(),
         dependent: found.dependent,
     })
 }
 
 /// Why a search that ended at `q` found nothing, if that is a singular configuration beside it in which forces do not balance.
 #[cold]
-pub(super) fn unbalanced<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-) -> Option<Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(super) fn unbalanced(problem: &Problem<'_>, q: &[f64]) -> Option<Failure> {
     let linear = problem.linear(q).ok()?;
     let residual = problem.residual(q);
     let state = match constraint_state(problem, q, &residual, &linear) {
@@ -85,72 +76,58 @@ where
         return None;
     }
     // In the singular configuration itself all its directions are free.
-    let tangent = Tangent::new(&linear, Problem::<M, N, U, P, O>::STRUCTURE);
+    let tangent = Tangent::new(&linear, problem.structure);
     let uphill = tangent.lift(&tangent.project(&residual));
     let steepest = largest(&uphill);
     (steepest > 0.0).then(|| Failure::Unbalanced {
-        coordinates: *q,
-        downhill: uphill.map(|value| -value / steepest),
+        coordinates: q.into(),
+        downhill: uphill.map(|value| -value / steepest).into(),
         dependent: state.dependent,
     })
 }
 
 /// The direction of motion that constraints hold least.
-struct Weakest<const N: usize> {
-    direction: [f64; N],
+struct Weakest {
+    direction: Vector,
     /// Multipliers of constraints that together hold it: the force of one in it, and no force across.
-    combination: [f64; N],
+    combination: Vector,
     /// Derivative by every unknown of what they hold it by, relative to that: the inverse of the distance from where they do not.
-    approach: [f64; N],
+    approach: Vector,
 }
 
-impl<const N: usize> Weakest<N> {
-    fn new<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-        tangent: &Tangent<N>,
-    ) -> Self
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+impl Weakest {
+    fn new(problem: &Problem<'_>, q: &[f64], tangent: &Tangent) -> Self {
         let (direction, combination) = tangent.all.weakest();
         let combination = placed(tangent.structure, &combination);
-        let curvature = problem.mechanism.linear_along(
+        // What they hold it by is `combination^T Khat direction`.
+        let none = Vector::zeros(problem.size());
+        let approach = problem.mechanism.pencil_gradient(
             q,
             problem.inputs,
             problem.design,
-            &combination,
-            &[0.0; U],
-            &[0.0; P],
+            [&combination, &none, &none, &direction],
         );
-        let columns = transpose(&curvature.stiffness);
         Self {
             direction,
             combination,
-            approach: columns.map(|column| dot(&column, &direction)),
+            approach: approach.coordinates,
         }
     }
 
     /// The greatest share of the distance by which residuals of this size move a state; infinite where its stiffness is singular.
-    fn moved(&self, linear: &Linear<f64, N>, residual: &[f64; N]) -> f64 {
-        Lu::new(&transpose(&linear.stiffness)).map_or(f64::INFINITY, |lu| {
+    fn moved(&self, linear: &Linear, residual: &[f64]) -> f64 {
+        Lu::new(&linear.stiffness.transpose()).map_or(f64::INFINITY, |lu| {
             let by_residual = lu.solve(&self.approach);
-            (0..N).fold(0.0, |sum, i| sum + by_residual[i].abs() * residual[i])
+            (0..residual.len()).fold(0.0, |sum, i| sum + by_residual[i].abs() * residual[i])
         })
     }
 
     /// The force in the direction that is left to reactions; zero where it may be the stiffness over the distance from the singular
     /// configuration that makes it.
-    fn force<M, const U: usize, const P: usize, const O: usize>(
-        &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> f64
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let motions = Problem::<M, N, U, P, O>::MOTIONS;
-        let released = core::array::from_fn(|j| if j < motions { q[j] } else { 0.0 });
+    fn force(&self, problem: &Problem<'_>, q: &[f64]) -> f64 {
+        let motions = problem.motions();
+        let mut released = Vector::from(q);
+        released[motions..].fill(0.0);
         let Some((residual, stiffness)) = problem.evaluate_plain(&released) else {
             return f64::INFINITY;
         };
@@ -171,22 +148,12 @@ impl<const N: usize> Weakest<N> {
 }
 
 /// What a residual cannot tell from zero: what is left of it, or the rounding of what it is summed from.
-fn noise<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    linear: &Linear<f64, N>,
-) -> [f64; N]
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn noise(problem: &Problem<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
     let parts = problem.parts(q);
-    let unknowns = problem.description().coordinates;
-    core::array::from_fn(|i| {
-        let terms = (0..N).fold(parts.inertia[i].abs() + parts.applied[i].abs(), |sum, j| {
-            let angle = unknowns
-                .get(j)
-                .is_some_and(|info| info.unit.symbol == "rad");
+    let unknowns = &problem.description.coordinates;
+    Vector::from_fn(q.len(), |i| {
+        let terms = (0..q.len()).fold(parts.inertia[i].abs() + parts.applied[i].abs(), |sum, j| {
+            let angle = unknowns[j].unit.symbol == *"rad";
             // A length that turns is rounded as a whole.
             let size = if angle {
                 greater(1.0, q[j].abs())

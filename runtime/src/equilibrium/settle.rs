@@ -7,33 +7,31 @@ use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
 use super::regularity::{constraint_state, unbalanced};
 use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
-use crate::array::{Cholesky, add_scaled, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
+use crate::dense::{Cholesky, Vector, add_scaled, add_to, dot};
+use crate::kernels::Linear;
 use crate::rounding::Place;
-use crate::{DampingKind, Description, Linear, Mechanism, Stability};
+use crate::{DampingKind, Stability};
 
-/// As [`equilibrium`], for values already checked; a failure owns nothing.
-pub(crate) fn settle<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
+/// As [`equilibrium`](super::equilibrium), for values already checked.
+pub(crate) fn settle(
+    problem: &Problem<'_>,
+    start: &[f64],
     policy: Policy,
-) -> Result<Equilibrium<N, U, P>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = const { Structure::of(&M::DESCRIPTION) };
+) -> Result<Equilibrium, Failure> {
+    let structure = problem.structure;
     let closed;
     let start = if structure.open() {
         start
     } else {
-        closed = assembly::closed(problem, start, &[false; N])?.0;
+        closed = assembly::closed(problem, start, &vec![false; problem.size()])?.0;
         &closed
     };
-    let potential = M::DESCRIPTION.symmetric_stiffness && structure.holonomic();
+    let potential = problem.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
         return nearest(problem, start).and_then(|found| finish(problem, found));
     }
-    if const { Structure::of(&M::DESCRIPTION).open() } {
+    if structure.open() {
         return match quick::quick(problem, start) {
             Ok(found) => finish(problem, found),
             Err(place) => from_afar(problem, start, &place),
@@ -61,35 +59,19 @@ where
 
 /// Beside a singular configuration, on the way that the forces take there.
 #[cold]
-fn departed<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    from: &[f64; N],
-    downhill: &[f64; N],
-) -> Result<[f64; N], Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn departed(problem: &Problem<'_>, from: &[f64], downhill: &[f64]) -> Result<Vector, Failure> {
     let beside = add_scaled(from, descent::DEPARTURE, downhill);
-    assembly::closed(problem, &beside, &[false; N]).map(|(start, _)| start)
+    assembly::closed(problem, &beside, &vec![false; problem.size()]).map(|(start, _)| start)
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
 /// it is what was predicted. For mechanisms with a potential and without constraints.
-pub(super) fn settle_from_prediction<
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
-    problem: &Problem<'_, M, N, U, P, O>,
-    last: &[f64; N],
-    predicted: &[f64; N],
-) -> Option<Equilibrium<N, U, P>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    if const { !(M::DESCRIPTION.symmetric_stiffness && Structure::of(&M::DESCRIPTION).open()) } {
+pub(super) fn settle_from_prediction(
+    problem: &Problem<'_>,
+    last: &[f64],
+    predicted: &[f64],
+) -> Option<Equilibrium> {
+    if !(problem.description.symmetric_stiffness && problem.structure.open()) {
         return None;
     }
     let found = quick::quick(problem, predicted).ok()?;
@@ -101,22 +83,19 @@ where
 
 /// As [`settle`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
 #[cold]
-fn from_afar<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-    place: &descent::Place<N>,
-) -> Result<Equilibrium<N, U, P>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = const { Structure::of(&M::DESCRIPTION) };
+fn from_afar(
+    problem: &Problem<'_>,
+    start: &[f64],
+    place: &descent::Place,
+) -> Result<Equilibrium, Failure> {
+    let structure = problem.structure;
     if let Some(state) = held(problem, start) {
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole, _, N, U, P, O>(problem, start, place)
+        descent::stable::<space::Whole>(problem, start, place)
     } else {
-        descent::stable::<space::Constrained<N>, _, N, U, P, O>(problem, start, place)
+        descent::stable::<space::Constrained>(problem, start, place)
             .and_then(|found| polished(problem, found))
     };
     found
@@ -126,45 +105,33 @@ where
         })
         .and_then(|found| finish(problem, found))
         .map_err(|failure| match failure {
-            Failure::NotFound { coordinates, .. } if !structure.open() => {
-                unbalanced(problem, &coordinates).unwrap_or(failure)
-            }
+            Failure::NotFound {
+                ref coordinates, ..
+            } if !structure.open() => unbalanced(problem, coordinates).unwrap_or(failure),
             _ => failure,
         })
 }
 
 /// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
 /// to it, else on all unknowns together.
-fn nearest<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-) -> Result<Found<N>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = const { Structure::of(&M::DESCRIPTION) };
+fn nearest(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Failure> {
+    let structure = problem.structure;
     let whole = || {
         let independent = problem.without_redundant(start);
-        newton::nearest::<space::Whole, _, N, U, P, O>(&independent, start)
+        newton::nearest::<space::Whole>(&independent, start)
     };
     if structure.open() || !structure.holonomic() {
         return whole();
     }
-    newton::nearest::<space::Constrained<N>, _, N, U, P, O>(problem, start)
+    newton::nearest::<space::Constrained>(problem, start)
         .and_then(|found| polished(problem, found))
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// The last steps on coordinates and reactions together.
-fn polished<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    found: Found<N>,
-) -> Result<Found<N>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn polished(problem: &Problem<'_>, found: Found) -> Result<Found, Failure> {
     let independent = problem.without_redundant(&found.coordinates);
-    let last = newton::nearest::<space::Whole, _, N, U, P, O>(&independent, &found.coordinates)?;
+    let last = newton::nearest::<space::Whole>(&independent, &found.coordinates)?;
     Ok(Found {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
@@ -173,22 +140,16 @@ where
 }
 
 /// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
-fn held<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    start: &[f64; N],
-) -> Option<Equilibrium<N, U, P>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    if M::DESCRIPTION.damping == DampingKind::Zero {
+fn held(problem: &Problem<'_>, start: &[f64]) -> Option<Equilibrium> {
+    if problem.description.damping == DampingKind::Zero {
         return None;
     }
-    let structure = const { Structure::of(&M::DESCRIPTION) };
+    let structure = problem.structure;
     let stiffness = if structure.open() {
         problem.evaluate(start)?.1
     } else {
         let linear = problem.linear(start).ok()?;
-        Tangent::new(&linear, structure).reduce_stiffness(&linear.stiffness)
+        Tangent::new(&linear, structure).reduce(&linear.stiffness)
     };
     if Cholesky::new(&stiffness).is_ok() {
         return None;
@@ -198,13 +159,7 @@ where
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
 
-fn finish<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    mut found: Found<N>,
-) -> Result<Equilibrium<N, U, P>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
@@ -215,7 +170,7 @@ where
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
             reason: "the residual stays larger than rounding explains",
-            coordinates: found.coordinates,
+            coordinates: found.coordinates.into(),
             iterations: found.iterations,
             relative,
         });
@@ -223,7 +178,7 @@ where
     let constraints = constraint_state(problem, &found.coordinates, &found.residual, &linear)?;
     let (stability, rounding) = if constraints.singular {
         (Stability::Undecided, 0.0)
-    } else if const { at_rest_by_stiffness(&M::DESCRIPTION) }
+    } else if at_rest_by_stiffness(problem)
         && Cholesky::new(&linear.mass).is_ok()
         && stability::clearly_definite(&linear)
     {
@@ -237,36 +192,31 @@ where
         };
         stability::judge(problem.mechanism, &place, &linear)?
     };
+    let pose = problem
+        .mechanism
+        .pose_margin(&found.coordinates, problem.inputs, problem.design);
     Ok(Equilibrium {
         coordinates: found.coordinates,
-        inputs: *problem.inputs,
-        design: *problem.design,
+        inputs: problem.inputs.into(),
+        design: problem.design.into(),
         stability,
         rounding,
         linear,
         constraints,
         residual: found.residual,
         relative_residual: relative,
-        pose: problem
-            .mechanism
-            .pose_margin(&found.coordinates, problem.inputs, problem.design),
+        pose,
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
-        description: problem.description(),
+        description: problem.description.clone(),
     })
 }
 
 /// Determines the reactions of a state and measures it.
-fn measure<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    found: &mut Found<N>,
-) -> Result<Measured<N>, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn measure(problem: &Problem<'_>, found: &mut Found) -> Result<Measured, Failure> {
     let mut linear = problem.linear(&found.coordinates)?;
-    if const { Structure::of(&M::DESCRIPTION).constraints() > 1 } {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, M::DESCRIPTION) {
+    if problem.structure.constraints() > 1 {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, problem.structure) {
             linear = problem.linear(&least)?;
             found.coordinates = least;
         }
@@ -281,24 +231,19 @@ where
 }
 
 /// Whether positive masses and stiffnesses alone make a state stable.
-const fn at_rest_by_stiffness(description: &Description) -> bool {
-    let undamped = matches!(description.damping, DampingKind::Zero);
-    undamped && description.symmetric_stiffness && Structure::of(description).open()
+fn at_rest_by_stiffness(problem: &Problem<'_>) -> bool {
+    let undamped = problem.description.damping == DampingKind::Zero;
+    undamped && problem.description.symmetric_stiffness && problem.structure.open()
 }
 
 /// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.
-fn least_reactions<const N: usize>(
-    x: &[f64; N],
-    linear: &Linear<f64, N>,
-    description: Description,
-) -> Option<[f64; N]> {
-    let structure = Structure::of(&description);
+fn least_reactions(x: &[f64], linear: &Linear, structure: Structure) -> Option<Vector> {
     let rows = all_rows(&linear.stiffness, structure);
-    let mut least = *x;
+    let mut least = Vector::from(x);
     for k in 0..rows.dependent() {
         let along = placed(structure, &rows.null_left(k));
         let amount = dot(x, &placed(structure, &rows.null_left_scaled(k)));
-        least = add_scaled(&least, -amount, &along);
+        add_to(&mut least, -amount, &along);
     }
     (rows.dependent() > 0).then_some(least)
 }

@@ -13,105 +13,69 @@
 use super::convergence::{TOLERANCE, relative_gap};
 use super::problem::{Failure, Problem};
 use super::weights::weights;
-use crate::Mechanism;
-use crate::array::{Lu, Square, add_scaled, all_finite_square, dot, times, transpose};
 use crate::constraints::Tangent;
+use crate::dense::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 
 /// A state with what a step from it needs.
-pub(super) struct Base<const N: usize, S> {
-    pub(super) q: [f64; N],
-    pub(super) residual: [f64; N],
-    pub(super) stiffness: Square<N>,
+pub(super) struct Base<S> {
+    pub(super) q: Vector,
+    pub(super) residual: Vector,
+    pub(super) stiffness: Matrix,
     pub(super) space: S,
 }
 
 /// A state at the end of a step.
-pub(super) struct Trial<const N: usize> {
-    pub(super) q: [f64; N],
+pub(super) struct Trial {
+    pub(super) q: Vector,
     /// Its product with the step is the slope of the potential along the step.
-    pub(super) residual: [f64; N],
-    pub(super) stiffness: Square<N>,
+    pub(super) residual: Vector,
+    pub(super) stiffness: Matrix,
     /// Direction of the way at its end: its form with the stiffness is the curvature of the potential along the way.
-    pub(super) direction: [f64; N],
+    pub(super) direction: Vector,
 }
 
 /// The positions in the neighbourhood of a base.
-pub(super) trait Space<const N: usize>: Sized {
+pub(super) trait Space: Sized {
     /// The base at a state that meets the constraints.
-    fn base<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>;
+    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure>;
 
     /// The base at the end of a step.
-    fn arrive<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        trial: Trial<N>,
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>;
+    fn arrive(problem: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure>;
 
     /// Slopes of the potential by free direction.
-    fn slopes(&self, residual: &[f64; N]) -> [f64; N];
+    fn slopes(&self, residual: &[f64]) -> Vector;
 
-    /// Stiffness over free directions; unused rows are diagonal and positive.
-    fn stiffness(&self, stiffness: &Square<N>) -> Square<N>;
+    /// Stiffness over free directions.
+    fn stiffness(&self, stiffness: &Matrix) -> Matrix;
 
-    /// Masses over free directions; unused rows are diagonal and positive.
-    fn mass(&self, mass: &Square<N>) -> Square<N>;
+    /// Masses over free directions.
+    fn mass(&self, mass: &Matrix) -> Matrix;
 
     /// Weights that make the squares of the slopes comparable.
-    fn weights<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Result<[f64; N], Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>;
+    fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure>;
 
     /// Displacement of all unknowns for a displacement along free directions.
-    fn lift(&self, y: &[f64; N]) -> [f64; N];
+    fn lift(&self, y: &[f64]) -> Vector;
 
     /// The state at a share `length` of `step`; `None` where there is none.
-    fn trial<M, const U: usize, const P: usize, const O: usize>(
-        &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-        step: &[f64; N],
-        length: f64,
-    ) -> Option<Trial<N>>
-    where
-        M: Mechanism<N, U, P, O>;
+    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial>;
 }
 
 /// All unknowns, constraints equations like the others.
 pub(super) struct Whole;
 
-impl<const N: usize> Space<N> for Whole {
-    fn base<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+impl Space for Whole {
+    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
         let (residual, stiffness) = problem.evaluate_start(q)?;
         Ok(Base {
-            q: *q,
+            q: q.into(),
             residual,
             stiffness,
             space: Self,
         })
     }
 
-    fn arrive<M, const U: usize, const P: usize, const O: usize>(
-        _: &Problem<'_, M, N, U, P, O>,
-        trial: Trial<N>,
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn arrive(_: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
         Ok(Base {
             q: trial.q,
             residual: trial.residual,
@@ -120,56 +84,43 @@ impl<const N: usize> Space<N> for Whole {
         })
     }
 
-    fn slopes(&self, residual: &[f64; N]) -> [f64; N] {
-        *residual
+    fn slopes(&self, residual: &[f64]) -> Vector {
+        residual.into()
     }
 
-    fn stiffness(&self, stiffness: &Square<N>) -> Square<N> {
-        *stiffness
+    fn stiffness(&self, stiffness: &Matrix) -> Matrix {
+        stiffness.clone()
     }
 
-    fn mass(&self, mass: &Square<N>) -> Square<N> {
-        *mass
+    fn mass(&self, mass: &Matrix) -> Matrix {
+        mass.clone()
     }
 
-    fn weights<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Result<[f64; N], Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
         weights(problem, q)
     }
 
-    fn lift(&self, y: &[f64; N]) -> [f64; N] {
-        *y
+    fn lift(&self, y: &[f64]) -> Vector {
+        y.into()
     }
 
-    fn trial<M, const U: usize, const P: usize, const O: usize>(
-        &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-        step: &[f64; N],
-        length: f64,
-    ) -> Option<Trial<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial> {
         let q = add_scaled(q, length, step);
         let (residual, stiffness) = problem.evaluate(&q)?;
         Some(Trial {
             q,
             residual,
             stiffness,
-            direction: *step,
+            direction: step.into(),
         })
     }
 }
 
 /// With constraints on positions.
-pub(super) struct Constrained<const N: usize> {
-    tangent: Tangent<N>,
+pub(super) struct Constrained {
+    tangent: Tangent,
+    /// `n_k`.
+    normals: Vec<Vector>,
 }
 
 /// Most Newton steps back onto the constraints.
@@ -177,53 +128,47 @@ const MAX_RETURNS: usize = 12;
 /// A step back must leave less than this share of the gaps, or rounding.
 const CONTRACTION: f64 = 0.5;
 
-impl<const N: usize> Constrained<N> {
+impl Constrained {
     /// The place among the unknowns of independent constraint `i`.
     fn row(&self, i: usize) -> usize {
         self.tangent.structure.motions() + self.tangent.positions.order[i]
     }
 
-    /// `a_ik = h_i . n_k` of the independent constraints at a state and the normals at the base, unit beyond.
-    fn crossed(&self, stiffness: &Square<N>) -> Square<N> {
-        let rank = self.tangent.normal.rank;
-        core::array::from_fn(|i| {
-            core::array::from_fn(|k| match (i < rank, k < rank) {
-                (true, true) => dot(&stiffness[self.row(i)], &self.tangent.normal.normal(k)),
-                _ if i == k => 1.0,
-                _ => 0.0,
-            })
+    /// `a_ik = h_i . n_k` of the independent constraints at a state and the normals at the base.
+    fn crossed(&self, stiffness: &Matrix) -> Matrix {
+        let rank = self.normals.len();
+        Matrix::from_fn(rank, rank, |i, k| {
+            dot(&stiffness[self.row(i)], &self.normals[k])
         })
     }
 
     /// Values by independent constraint.
-    fn independent(&self, values: &[f64; N]) -> [f64; N] {
-        let rank = self.tangent.normal.rank;
-        core::array::from_fn(|i| if i < rank { values[self.row(i)] } else { 0.0 })
+    fn independent(&self, values: &[f64]) -> Vector {
+        Vector::from_fn(self.normals.len(), |i| values[self.row(i)])
     }
 
     /// `sum_k c_k n_k` over the normals at the base.
-    fn along_normals(&self, c: &[f64; N]) -> [f64; N] {
-        (0..self.tangent.normal.rank).fold([0.0; N], |sum, k| {
-            add_scaled(&sum, c[k], &self.tangent.normal.normal(k))
-        })
+    fn along_normals(&self, c: &[f64]) -> Vector {
+        let mut sum = Vector::zeros(self.tangent.structure.size());
+        for (c, normal) in c.iter().zip(&self.normals) {
+            add_to(&mut sum, *c, normal);
+        }
+        sum
     }
 
     /// Displacement along the normals at the base that brings `from` back onto the constraints; not longer than `reach` in
     /// the metric. Also the residual and the stiffness there.
-    fn back<M, const U: usize, const P: usize, const O: usize>(
+    fn back(
         &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        from: &[f64; N],
+        problem: &Problem<'_>,
+        from: &[f64],
         reach: f64,
-    ) -> Option<([f64; N], [f64; N], Square<N>)>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        let mut c = [0.0; N];
+    ) -> Option<(Vector, Vector, Matrix)> {
+        let mut c = Vector::zeros(self.normals.len());
         let mut last = f64::INFINITY;
         for _ in 0..MAX_RETURNS {
             let q = add_scaled(from, 1.0, &self.along_normals(&c));
-            let (residual, stiffness) = problem.evaluate(&q)?;
+            let (residual, stiffness) = problem.evaluate_plain(&q)?;
             let gap = greatest_gap(problem, &q, &residual, &stiffness);
             if gap >= CONTRACTION * last && gap <= TOLERANCE {
                 return Some((q, residual, stiffness));
@@ -233,7 +178,7 @@ impl<const N: usize> Constrained<N> {
             }
             last = gap;
             let lu = Lu::new(&self.crossed(&stiffness))?;
-            c = add_scaled(&c, -1.0, &lu.solve(&self.independent(&residual)));
+            add_to(&mut c, -1.0, &lu.solve(&self.independent(&residual)));
             if dot(&c, &c).sqrt() > reach {
                 return None;
             }
@@ -243,38 +188,33 @@ impl<const N: usize> Constrained<N> {
 }
 
 /// Greatest gap of the constraints on positions, relative to what small motions open.
-pub(super) fn greatest_gap<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    _: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    residual: &[f64; N],
-    stiffness: &Square<N>,
-) -> f64
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+pub(super) fn greatest_gap(
+    problem: &Problem<'_>,
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &Matrix,
+) -> f64 {
+    let structure = problem.structure;
     structure.position_rows().fold(0.0, |most: f64, row| {
         let motions = &q[..structure.coordinates];
         most.max(relative_gap(residual[row], motions, &stiffness[row]))
     })
 }
 
-impl<const N: usize> Space<N> for Constrained<N> {
-    fn base<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+impl Space for Constrained {
+    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
         let (residual, _) = problem.evaluate_start(q)?;
         let linear = problem.linear(q)?;
-        let tangent = Tangent::new(&linear, Problem::<M, N, U, P, O>::STRUCTURE);
-        let mut q = *q;
-        let space = Self { tangent };
-        let change = tangent.normal.multipliers(&residual);
-        for i in 0..tangent.normal.rank {
-            q[space.row(i)] -= change[i];
+        let tangent = Tangent::new(&linear, problem.structure);
+        let normals = (0..tangent.normal.rank).map(|k| tangent.normal.normal(k));
+        let space = Self {
+            normals: normals.collect(),
+            tangent,
+        };
+        let mut q = Vector::from(q);
+        let change = space.tangent.normal.multipliers(&residual);
+        for (i, change) in change.iter().enumerate() {
+            q[space.row(i)] -= change;
         }
         let (residual, stiffness) = problem.evaluate_start(&q)?;
         Ok(Base {
@@ -285,76 +225,52 @@ impl<const N: usize> Space<N> for Constrained<N> {
         })
     }
 
-    fn arrive<M, const U: usize, const P: usize, const O: usize>(
-        problem: &Problem<'_, M, N, U, P, O>,
-        trial: Trial<N>,
-    ) -> Result<Base<N, Self>, Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn arrive(problem: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
         Self::base(problem, &trial.q)
     }
 
-    fn slopes(&self, residual: &[f64; N]) -> [f64; N] {
+    fn slopes(&self, residual: &[f64]) -> Vector {
         self.tangent.project(residual)
     }
 
-    fn stiffness(&self, stiffness: &Square<N>) -> Square<N> {
-        self.tangent.reduce_stiffness(stiffness)
+    fn stiffness(&self, stiffness: &Matrix) -> Matrix {
+        self.tangent.reduce(stiffness)
     }
 
-    fn mass(&self, mass: &Square<N>) -> Square<N> {
-        self.tangent.reduce_mass(mass)
+    fn mass(&self, mass: &Matrix) -> Matrix {
+        self.tangent.reduce(mass)
     }
 
     /// The basis is orthonormal in the metric of masses.
-    fn weights<M, const U: usize, const P: usize, const O: usize>(
-        _: &Problem<'_, M, N, U, P, O>,
-        _: &[f64; N],
-    ) -> Result<[f64; N], Failure<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
-        Ok([1.0; N])
+    fn weights(_: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
+        Ok(Vector::filled(q.len(), 1.0))
     }
 
-    fn lift(&self, y: &[f64; N]) -> [f64; N] {
+    fn lift(&self, y: &[f64]) -> Vector {
         self.tangent.lift(y)
     }
 
-    fn trial<M, const U: usize, const P: usize, const O: usize>(
-        &self,
-        problem: &Problem<'_, M, N, U, P, O>,
-        q: &[f64; N],
-        step: &[f64; N],
-        length: f64,
-    ) -> Option<Trial<N>>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial> {
         let scaled = self.tangent.normal.scaled(step);
         let reach = length * dot(&scaled, &scaled).sqrt();
         let from = add_scaled(q, length, step);
         let (mut q, residual, stiffness) = self.back(problem, &from, reach)?;
         let crossed = self.crossed(&stiffness);
         // Multipliers that balance the forces along the normals at the base.
-        let rank = self.tangent.normal.rank;
-        let forces = core::array::from_fn(|k| {
-            if k < rank {
-                dot(&self.tangent.normal.normal(k), &residual)
-            } else {
-                0.0
-            }
-        });
-        let change = Lu::new(&transpose(&crossed))?.solve(&forces);
-        for i in 0..rank {
-            q[self.row(i)] -= change[i];
+        let forces: Vector = self
+            .normals
+            .iter()
+            .map(|normal| dot(normal, &residual))
+            .collect();
+        let change = Lu::new(&crossed.transpose())?.solve(&forces);
+        for (i, change) in change.iter().enumerate() {
+            q[self.row(i)] -= change;
         }
-        let (residual, stiffness) = problem.evaluate(&q)?;
+        let (residual, stiffness) = problem.evaluate_plain(&q)?;
         let off = self.independent(&times(&stiffness, step));
         let bend = Lu::new(&crossed)?.solve(&off);
         let direction = add_scaled(step, -1.0, &self.along_normals(&bend));
-        all_finite_square(&stiffness).then_some(Trial {
+        all_finite_matrix(&stiffness).then_some(Trial {
             q,
             residual,
             stiffness,

@@ -1,11 +1,12 @@
 //! What the linearised mechanism says about the stability of an equilibrium.
 
 use super::problem::Failure;
-use crate::array::{Cholesky, Lu, Square, asymmetry};
-use crate::constraints::{Structure, Tangent, reduce};
+use crate::constraints::{Structure, Tangent};
+use crate::dense::{Cholesky, Lu, Matrix, asymmetry, largest_element};
+use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes, symmetric};
 use crate::rounding::{self, Place, Sign, of_form, sign};
-use crate::{Behaviour, DampingKind, Description, Linear, Mechanism};
+use crate::{Behaviour, DampingKind, Description, Shared};
 
 /// Stability of an equilibrium against small disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +57,7 @@ pub(super) type Verdict = (Stability, f64);
 
 /// Whether `Khat` is positive definite beyond any doubt.
 #[inline]
-pub(super) fn clearly_definite<const N: usize>(linear: &Linear<f64, N>) -> bool {
+pub(super) fn clearly_definite(linear: &Linear) -> bool {
     Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
 }
 
@@ -64,17 +65,14 @@ pub(super) fn clearly_definite<const N: usize>(linear: &Linear<f64, N>) -> bool 
 /// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
 /// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
 /// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
-pub(super) fn judge<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Place<'_, N, U, P>,
-    linear: &Linear<f64, N>,
-) -> Result<Verdict, Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let description: &'static Description = &M::DESCRIPTION;
+pub(super) fn judge(
+    mechanism: &dyn Kernels,
+    at: &Place<'_>,
+    linear: &Linear,
+) -> Result<Verdict, Failure> {
+    let description = &mechanism.description();
     let structure = Structure::of(description);
-    let doubt = |lambda, phi: &[f64; N]| rounding::of_data(mechanism, at, linear, (lambda, phi));
+    let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, linear, (lambda, phi));
     if structure.open() {
         return judge_free(description, linear, linear, &doubt);
     }
@@ -85,7 +83,7 @@ where
     if !structure.holonomic() {
         return Ok((by_eigenvalues(description, linear, (0, 0), 0.0), 0.0));
     }
-    let reduced = reduce(linear, &tangent);
+    let reduced = tangent.reduce_linear(linear);
     judge_free(description, linear, &reduced, &doubt).map_err(|failure| match failure {
         Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
         other => other,
@@ -94,13 +92,12 @@ where
 
 /// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns, `doubt` tells how far rounding of the
 /// data moves an eigenvalue.
-fn judge_free<const N: usize>(
-    description: &'static Description,
-    whole: &Linear<f64, N>,
-    linear: &Linear<f64, N>,
-    // Of one type, so that the rest is compiled once for each size.
-    doubt: &dyn Fn(f64, &[f64; N]) -> f64,
-) -> Result<Verdict, Failure<N>> {
+fn judge_free(
+    description: &Shared<Description>,
+    whole: &Linear,
+    linear: &Linear,
+    doubt: &dyn Fn(f64, &[f64]) -> f64,
+) -> Result<Verdict, Failure> {
     if let Err(row) = Cholesky::new(&linear.mass) {
         return Err(Failure::SingularMass(row));
     }
@@ -117,13 +114,13 @@ fn judge_free<const N: usize>(
     let (mut negative, mut zero, mut floor) = (0, 0, 0.0_f64);
     if !clearly_definite(linear) {
         let pairs = free_pairs(whole, description)?;
-        for (&lambda, phi) in pairs.lambda().iter().zip(pairs.shapes()) {
+        for (&lambda, phi) in pairs.lambda.iter().zip(pairs.shapes.iter()) {
             if lambda.abs() < rounding::SLOW {
                 let moved = doubt(lambda, phi);
                 floor = floor.max(if moved.is_finite() { moved } else { 0.0 });
             }
         }
-        for (&lambda, &error) in pairs.lambda().iter().zip(pairs.errors()) {
+        for (&lambda, &error) in pairs.lambda.iter().zip(&pairs.errors) {
             match sign(lambda, error.max(floor)) {
                 Sign::Negative => negative += 1,
                 Sign::Zero => zero += 1,
@@ -132,7 +129,11 @@ fn judge_free<const N: usize>(
         }
     }
     let damped = description.damping != DampingKind::Zero
-        && linear.damping.iter().flatten().any(|&value| value != 0.0);
+        && linear
+            .damping
+            .as_flattened()
+            .iter()
+            .any(|&value| value != 0.0);
     let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
         Stability::Divergent { negative }
     } else if negative > 0 || (damped && feeds_energy(linear)?) {
@@ -147,9 +148,9 @@ fn judge_free<const N: usize>(
 
 /// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none; a `lambda` not
 /// beyond `floor` is zero.
-fn by_eigenvalues<const N: usize>(
-    description: &'static Description,
-    linear: &Linear<f64, N>,
+fn by_eigenvalues(
+    description: &Shared<Description>,
+    linear: &Linear,
     (negative, free): (usize, usize),
     floor: f64,
 ) -> Stability {
@@ -185,18 +186,19 @@ fn by_eigenvalues<const N: usize>(
 }
 
 /// Whether a matrix is skew-symmetric to rounding.
-fn skew<const N: usize>(matrix: &Square<N>) -> bool {
-    let threshold = SYMMETRIC * crate::array::largest_element(matrix);
-    (0..N).all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
+fn skew(matrix: &Matrix) -> bool {
+    let threshold = SYMMETRIC * largest_element(matrix);
+    (0..matrix.row_count())
+        .all(|i| (0..=i).all(|j| (matrix[i][j] + matrix[j][i]).abs() <= threshold))
 }
 
 /// Whether the symmetric part of `Chat` has a negative eigenvalue beyond rounding.
-fn feeds_energy<const N: usize>(linear: &Linear<f64, N>) -> Result<bool, Failure<N>> {
+fn feeds_energy(linear: &Linear) -> Result<bool, Failure> {
     let damping = &linear.damping;
-    let symmetric_part: Square<N> =
-        core::array::from_fn(|i| core::array::from_fn(|j| 0.5 * (damping[i][j] + damping[j][i])));
+    let n = damping.row_count();
+    let symmetric_part = Matrix::from_fn(n, n, |i, j| 0.5 * (damping[i][j] + damping[j][i]));
     let pairs = symmetric::solve(&symmetric_part, &linear.mass)?;
-    Ok((0..N).any(|r| {
+    Ok((0..n).any(|r| {
         let error = pairs.errors[r].max(of_form(damping, &pairs.shapes[r]));
         sign(pairs.lambda[r], error) == Sign::Negative
     }))

@@ -7,33 +7,34 @@ use super::critical::critical_states_on;
 use super::follow::follow;
 use super::range::check_input;
 use super::track::{Following, Tracker};
-use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
+use crate::kernels::BatchKernels;
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
 /// A sweep: its points read as a slice.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sweep<const N: usize, const U: usize, const P: usize> {
+pub struct Sweep {
     /// The swept input.
     pub input: Input,
     /// One point for each value.
-    pub points: Vec<SweepPoint<N, U, P>>,
+    pub points: Vec<SweepPoint>,
     /// Where the stable equilibrium that the sweep follows loses its stiffness: critical values of the input, located to
     /// rounding, each on the branch before it. Looked for when a stable equilibrium is wanted and the values ascend or
     /// descend.
-    pub critical: Vec<CriticalState<N, U, P>>,
+    pub critical: Vec<CriticalState>,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Deref for Sweep<N, U, P> {
-    type Target = [SweepPoint<N, U, P>];
+impl Deref for Sweep {
+    type Target = [SweepPoint];
 
     fn deref(&self) -> &Self::Target {
         &self.points
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> IntoIterator for Sweep<N, U, P> {
-    type Item = SweepPoint<N, U, P>;
+impl IntoIterator for Sweep {
+    type Item = SweepPoint;
     type IntoIter = std::vec::IntoIter<Self::Item>;
 
     fn into_iter(self) -> Self::IntoIter {
@@ -41,9 +42,9 @@ impl<const N: usize, const U: usize, const P: usize> IntoIterator for Sweep<N, U
     }
 }
 
-impl<'a, const N: usize, const U: usize, const P: usize> IntoIterator for &'a Sweep<N, U, P> {
-    type Item = &'a SweepPoint<N, U, P>;
-    type IntoIter = core::slice::Iter<'a, SweepPoint<N, U, P>>;
+impl<'a> IntoIterator for &'a Sweep {
+    type Item = &'a SweepPoint;
+    type IntoIter = core::slice::Iter<'a, SweepPoint>;
 
     fn into_iter(self) -> Self::IntoIter {
         self.points.iter()
@@ -52,13 +53,13 @@ impl<'a, const N: usize, const U: usize, const P: usize> IntoIterator for &'a Sw
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SweepPoint<const N: usize, const U: usize, const P: usize> {
+pub struct SweepPoint {
     /// Value of the swept input, SI.
     pub value: f64,
     /// The equilibrium, or why there is none.
-    pub equilibrium: Result<Equilibrium<N, U, P>, Error>,
+    pub equilibrium: Result<Equilibrium, Error>,
     /// The modes there: modes with one label are one motion along the whole sweep.
-    pub modes: Result<Modes<N>, Error>,
+    pub modes: Result<Modes, Error>,
 }
 
 /// Solves equilibrium and modes at each of `values` of one input; the others keep their value in `u`.
@@ -69,24 +70,22 @@ pub struct SweepPoint<const N: usize, const U: usize, const P: usize> {
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
-pub fn sweep<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn sweep(
+    mechanism: &dyn BatchKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     following: impl Into<Following>,
     input: Input,
     values: &[f64],
-) -> Result<Sweep<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    check_input::<U>(input, M::DESCRIPTION.name)?;
+) -> Result<Sweep, Error> {
+    let description = mechanism.description();
+    check_input(input, &description)?;
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut smooth = Vec::with_capacity(values.len());
     let mut points = Vec::with_capacity(values.len());
-    follow::<false, M, N, U, P, O>(&mut tracker, values, |station| {
+    follow(&mut tracker, mechanism, values, false, |station| {
         smooth.push(station.smooth);
         points.push(station.point.clone());
     });
@@ -97,6 +96,6 @@ where
         input,
         points,
         critical,
-        description: const { &M::DESCRIPTION },
+        description,
     })
 }

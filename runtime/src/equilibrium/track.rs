@@ -4,11 +4,13 @@
 use super::prediction::Path;
 use super::settle::settle_from_prediction;
 use super::{Policy, Problem, SweepPoint, settle};
-use crate::batched::Block;
+use crate::batched::{Block, Workspace};
+use crate::dense::Vector;
+use crate::kernels::{BatchKernels, Kernels};
 use crate::lanes::{Instructions, WIDTH};
 use crate::modes::{Family, match_with_assurance, merged, modes_at, near_another};
 use crate::sensitivity::CLUSTER_GAP;
-use crate::{Equilibrium, Error, Input, Mechanism, Modes, Stability};
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
 const RECOGNISED: f64 = 0.8;
@@ -44,54 +46,54 @@ impl From<Policy> for Following {
 }
 
 /// An equilibrium and its modes at a value of the input.
-#[derive(Clone, Copy)]
-pub(crate) struct Tracked<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone)]
+pub(crate) struct Tracked {
     pub(crate) value: f64,
-    pub(crate) equilibrium: Equilibrium<N, U, P>,
-    pub(crate) modes: Modes<N>,
+    pub(crate) equilibrium: Equilibrium,
+    pub(crate) modes: Modes,
 }
 
 /// Follows an equilibrium along an input.
-pub(crate) struct Tracker<'a, M, const N: usize, const U: usize, const P: usize> {
-    pub(crate) mechanism: &'a M,
+pub(crate) struct Tracker<'a> {
+    pub(crate) mechanism: &'a dyn Kernels,
+    pub(crate) description: Shared<Description>,
     pub(crate) input: Input,
-    inputs: [f64; U],
-    design: [f64; P],
+    inputs: Vector,
+    design: Vector,
     policy: Policy,
     family: Family,
     vectors: Option<Instructions>,
     /// Where the next solve starts.
-    from: [f64; N],
+    from: Vector,
     /// The way so far, which tells where it goes on.
-    path: Path<N>,
+    path: Path,
     /// The first label that no mode has had: one that has ended does not lend its label to another.
     unused: usize,
     /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
     pub(crate) smooth: bool,
     /// The last point that has modes.
-    pub(crate) last: Option<Tracked<N, U, P>>,
+    pub(crate) last: Option<Tracked>,
 }
 
-impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U, P> {
-    pub(crate) fn new<const O: usize>(
-        mechanism: &'a M,
-        (u, b): (&[f64; U], &[f64; P]),
-        start: &[f64; N],
+impl<'a> Tracker<'a> {
+    pub(crate) fn new(
+        mechanism: &'a dyn Kernels,
+        (u, b): (&[f64], &[f64]),
+        start: &[f64],
         following: Following,
         input: Input,
-    ) -> Self
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Self {
+        let description = mechanism.description();
         Self {
             mechanism,
             input,
-            inputs: *u,
-            design: *b,
+            inputs: u.into(),
+            design: b.into(),
             policy: following.policy,
-            family: following.family.unwrap_or(Family::of(&M::DESCRIPTION)),
+            family: following.family.unwrap_or(Family::of(&description)),
+            description,
             vectors: following.vectors,
-            from: *start,
+            from: start.into(),
             path: Path::default(),
             unused: 0,
             smooth: false,
@@ -105,9 +107,9 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
     }
 
     /// The inputs at a value of the one that varies.
-    pub(super) fn inputs_at(&self, value: f64) -> [f64; U] {
-        let mut inputs = self.inputs;
-        if let Some(place) = inputs.get_mut(self.input.0) {
+    pub(super) fn inputs_at(&self, value: f64) -> Vector {
+        let mut inputs = self.inputs.clone();
+        if let Some(place) = inputs.get_mut(self.input.index()) {
             *place = value;
         }
         inputs
@@ -115,15 +117,12 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
 
     /// The equilibrium at a value of the input, from `from`, or from where the way leads if it is found there at once: then
     /// true.
-    fn equilibrium<const O: usize>(
+    fn equilibrium(
         &self,
         value: f64,
-        from: &[f64; N],
-        predicted: Option<&[f64; N]>,
-    ) -> Result<(Equilibrium<N, U, P>, bool), Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+        from: &[f64],
+        predicted: Option<&[f64]>,
+    ) -> Result<(Equilibrium, bool), Error> {
         let inputs = self.inputs_at(value);
         let problem = Problem::new(self.mechanism, &inputs, &self.design)?;
         problem.check_start(from)?;
@@ -133,42 +132,34 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         }
         settle(&problem, from, self.policy)
             .map(|state| (state, false))
-            .map_err(|failure| failure.explain(problem.description()))
+            .map_err(|failure| failure.explain(&problem.description))
     }
 
     /// Equilibrium and modes near a point, in the order and with the labels of its modes.
-    pub(crate) fn near<const O: usize>(
-        &self,
-        value: f64,
-        point: &Tracked<N, U, P>,
-    ) -> Result<Tracked<N, U, P>, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    pub(crate) fn near(&self, value: f64, point: &Tracked) -> Result<Tracked, Error> {
         let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
         let found = modes_at(&equilibrium, self.family)?;
         Ok(Tracked {
             value,
-            equilibrium,
             modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
+            equilibrium,
         })
     }
 
     /// Room for values that are solved side by side.
-    pub(super) fn block(&self) -> Box<Block<N, U, P>> {
-        Block::new(&self.inputs, &self.design)
+    pub(super) fn block(&self, with_slopes: bool) -> (Block, Workspace) {
+        let block = Block::new(&self.description, &self.inputs, &self.design);
+        (block, Workspace::new(&self.description, with_slopes))
     }
 
     /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
-    /// them one by one would find. With `SLOPES`, modes have derivatives.
-    pub(super) fn ahead<const SLOPES: bool, const O: usize>(
+    /// them one by one would find.
+    pub(super) fn ahead(
         &self,
-        block: &mut Block<N, U, P>,
+        kernels: &dyn BatchKernels,
+        (block, workspace): &mut (Block, Workspace),
         values: &[f64],
-    ) -> usize
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> usize {
         let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
         let (Some(vectors), Some(last), Some(past), true) =
             (self.vectors, &self.last, self.path.last_three(), wanted)
@@ -176,7 +167,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             return 0;
         };
         let sound = last.equilibrium.stability == Stability::Stable
-            && last.modes.modes.len() == N
+            && last.modes.modes.len() == self.from.len()
             && last.value == past[0].0;
         if !sound {
             return 0;
@@ -187,39 +178,31 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes = core::array::from_fn(|r| last.modes.modes[r].real_shape());
-        block.solve::<SLOPES, M, O>(self.mechanism, vectors, values, past, &shapes)
+        let shapes = last.modes.real_shapes();
+        block.solve(workspace, (kernels, vectors), values, past, &shapes)
     }
 
     /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn arrive(
-        &mut self,
-        point: &SweepPoint<N, U, P>,
-        block: &Block<N, U, P>,
-        number: usize,
-    ) {
+    pub(super) fn arrive(&mut self, point: &SweepPoint, block: &Block, number: usize) {
         for lane in number.saturating_sub(3)..number {
             self.path.go(block.values.0[lane], &block.state_of(lane));
         }
         if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
-            self.from = state.coordinates;
+            self.from.clone_from(&state.coordinates);
             self.last = Some(Tracked {
                 value: point.value,
-                equilibrium: *state,
-                modes: *modes,
+                equilibrium: state.clone(),
+                modes: modes.clone(),
             });
         }
     }
 
     /// Goes on to a value of the input; the equilibrium comes back even where its modes fail. Modes that are not
     /// recognised at once are followed in smaller steps.
-    pub(crate) fn advance<const O: usize>(
+    pub(crate) fn advance(
         &mut self,
         value: f64,
-    ) -> Result<(Equilibrium<N, U, P>, Result<Modes<N>, Error>), Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) -> Result<(Equilibrium, Result<Modes, Error>), Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
@@ -240,7 +223,7 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
                     (Step::Arrived, None) => {
                         self.smooth = smooth;
                         if let Some(last) = &self.last {
-                            return Ok((last.equilibrium, Ok(last.modes)));
+                            return Ok((last.equilibrium.clone(), Ok(last.modes.clone())));
                         }
                     }
                 },
@@ -253,16 +236,13 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
         }
     }
 
-    fn step<const O: usize>(&mut self, value: f64, halvings: usize) -> Result<Step<N, U, P>, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+    fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
         let predicted = self.path.at(value);
-        let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_ref())?;
+        let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_deref())?;
         let mut found = match modes_at(&state, self.family) {
             Ok(found) => found,
             Err(error) => {
-                self.from = state.coordinates;
+                self.from.clone_from(&state.coordinates);
                 self.path.go(value, &state.coordinates);
                 return Ok(Step::WithoutModes(Box::new(state), error));
             }
@@ -284,10 +264,13 @@ impl<'a, M, const N: usize, const U: usize, const P: usize> Tracker<'a, M, N, U,
             if doubtful && halvings > 0 && between {
                 return Ok(Step::TooFar(middle));
             }
-            let order = order.map(|pair| pair.map(|(position, _)| position));
+            let positions = order.iter();
+            let order: Vec<_> = positions
+                .map(|pair| pair.map(|(position, _)| position))
+                .collect();
             found.arrange(&last.modes, &order, self.unused);
         }
-        self.from = state.coordinates;
+        self.from.clone_from(&state.coordinates);
         self.path.go(value, &state.coordinates);
         let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
@@ -308,11 +291,11 @@ pub(super) fn even(a: f64, b: f64) -> bool {
 }
 
 /// How a step ended.
-enum Step<const N: usize, const U: usize, const P: usize> {
+enum Step {
     /// At a state with modes: the last one.
     Arrived,
-    /// At a state without. On the heap: the state of a large mechanism would fill the stack.
-    WithoutModes(Box<Equilibrium<N, U, P>>, Error),
+    /// At a state without.
+    WithoutModes(Box<Equilibrium>, Error),
     /// Modes are not recognised; a value on the way.
     TooFar(f64),
 }

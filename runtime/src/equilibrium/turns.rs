@@ -1,9 +1,9 @@
 //! States that differ by full turns of angles: one place, if the mechanism is the same there.
 
 use super::problem::Problem;
-use crate::array::largest_element;
+use crate::Description;
 use crate::constraints::Structure;
-use crate::{Description, Mechanism};
+use crate::dense::{Vector, largest_element};
 
 /// Difference of coordinates, and share of the greatest stiffness, that counts as none.
 const CLOSE: f64 = 1e-6;
@@ -13,14 +13,9 @@ const CLOSE_SINGULAR: f64 = 1e-4;
 const ROUNDED: f64 = 1e-10;
 
 /// `q` with its angles turned to the side of `other` by full turns.
-pub(super) fn turned_towards<const N: usize>(
-    q: &[f64; N],
-    other: &[f64; N],
-    description: &Description,
-) -> [f64; N] {
-    core::array::from_fn(|i| {
-        let unknown = description.coordinates.get(i);
-        let angle = unknown.is_some_and(|info| info.unit.symbol == "rad");
+pub(super) fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Vector {
+    Vector::from_fn(q.len(), |i| {
+        let angle = description.coordinates[i].unit.symbol == *"rad";
         let turns = ((q[i] - other[i]) / core::f64::consts::TAU).round();
         if angle && turns != 0.0 {
             q[i] - turns * core::f64::consts::TAU
@@ -31,12 +26,7 @@ pub(super) fn turned_towards<const N: usize>(
 }
 
 /// Whether coordinates and speeds are equal but for rounding. Reactions follow from them, but not as well.
-pub(super) fn coincide<const N: usize>(
-    a: &[f64; N],
-    b: &[f64; N],
-    singular: bool,
-    description: &Description,
-) -> bool {
+pub(super) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
     let mut pairs = a.iter().zip(b).take(motions);
@@ -44,28 +34,15 @@ pub(super) fn coincide<const N: usize>(
 }
 
 /// Whether the mechanism is the same at two states that differ by full turns: no spring or screw counts the turns.
-pub(super) fn turns_do_not_count<
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-    turned: &[f64; N],
-) -> bool
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(super) fn turns_do_not_count(problem: &Problem<'_>, q: &[f64], turned: &[f64]) -> bool {
     let (Some(a), Some(b)) = (problem.evaluate_plain(q), problem.evaluate_plain(turned)) else {
         return false;
     };
     let same = |i: usize| {
-        let scale = (0..N).fold(0.0, |sum, j| sum + a.1[i][j].abs() * (1.0 + q[j].abs()));
+        let scale = (0..q.len()).fold(0.0, |sum, j| sum + a.1[i][j].abs() * (1.0 + q[j].abs()));
         (a.0[i] - b.0[i]).abs() <= ROUNDED * scale
     };
     let scale = CLOSE * largest_element(&a.1);
-    let mut stiffness = a.1.iter().flatten().zip(b.1.iter().flatten());
-    (0..N).all(same) && stiffness.all(|(a, b)| (a - b).abs() <= scale)
+    let mut stiffness = a.1.as_flattened().iter().zip(b.1.as_flattened());
+    (0..q.len()).all(same) && stiffness.all(|(a, b)| (a - b).abs() <= scale)
 }

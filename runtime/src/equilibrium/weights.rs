@@ -1,22 +1,16 @@
 //! What makes the equations of Newton's method on all unknowns comparable.
 
 use super::problem::{Failure, Problem};
-use crate::Mechanism;
 use crate::constraints::inertias;
+use crate::dense::Vector;
 
 /// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
 /// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it; a reaction is the
 /// stiffness against a motion of one unit, for mechanisms that have no other.
-pub(super) fn weights<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    q: &[f64; N],
-) -> Result<[f64; N], Failure<N>>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = Problem::<M, N, U, P, O>::STRUCTURE;
+pub(super) fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
+    let structure = problem.structure;
     let linear = &problem.linear(q)?;
-    let mut weight = [0.0; N];
+    let mut weight = Vector::zeros(q.len());
     if structure.open() {
         for (i, weight) in weight.iter_mut().enumerate() {
             let mass = linear.mass[i][i];
@@ -31,7 +25,8 @@ where
     let motions = structure.motions();
     let stiffest = (0..motions).fold(0.0, |most: f64, i| {
         let row = &linear.stiffness[i];
-        let reactions = (motions..N).fold(0.0, |most: f64, j| most.max((row[j] * q[j]).abs()));
+        let reactions =
+            (motions..q.len()).fold(0.0, |most: f64, j| most.max((row[j] * q[j]).abs()));
         most.max(row[i].abs().max(reactions) / mass[i])
     });
     let stiffest = if stiffest > 0.0 { stiffest } else { 1.0 };
@@ -54,7 +49,7 @@ where
     } else {
         Err(Failure::OutsideDomain {
             what: "the mass matrix",
-            coordinates: *q,
+            coordinates: q.into(),
         })
     }
 }

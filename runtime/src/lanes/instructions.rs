@@ -1,6 +1,6 @@
 //! Which vector instructions there are, asked of the processor at run time.
 
-use super::Vector;
+use super::Lanes;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 
@@ -53,7 +53,7 @@ impl Instructions {
 
     /// Runs a task with vectors of this kind.
     #[inline]
-    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+    pub fn run<T: Task>(self, task: T) -> T::Output {
         match self.0 {
             Set::Scalar => task.run::<f64>(),
             #[cfg(target_arch = "x86_64")]
@@ -65,10 +65,10 @@ impl Instructions {
 }
 
 /// Work that is written once for all vectors.
-pub(crate) trait Task {
+pub trait Task {
     /// What comes out.
     type Output;
     /// Does it; to be marked `#[inline(always)]`, as everything that it calls with vectors, or the instructions of
     /// the processor do not reach it.
-    fn run<V: Vector>(self) -> Self::Output;
+    fn run<V: Lanes>(self) -> Self::Output;
 }

@@ -4,8 +4,7 @@ use super::{Batch, WIDTH};
 use crate::Real;
 
 /// As many states as the processor computes at once. Every lane of every operation gives the bits that [`f64`] gives.
-#[cfg_attr(not(feature = "std"), allow(dead_code))]
-pub(crate) trait Vector: Real {
+pub trait Lanes: Real {
     /// Number of lanes; divides [`WIDTH`](super::WIDTH).
     const WIDTH: usize;
     /// A truth value in each lane.
@@ -40,7 +39,7 @@ pub(crate) trait Vector: Real {
     }
 }
 
-/// Bits of the least mantissa of [`Vector::split`], next to the root of 1/2.
+/// Bits of the least mantissa of [`Lanes::split`], next to the root of 1/2.
 pub(super) const LEAST: u64 = 0x3fe6_a09e_0000_0000;
 /// Added to the bits of a number it makes the bits above [`MANTISSA`] 1023 more than the exponent for that mantissa.
 pub(super) const SHIFT: u64 = (1023 << 52) - LEAST;
@@ -53,7 +52,7 @@ pub(super) const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 /// 2^52: what is added to its bits is added to its value.
 pub(super) const INTEGER: f64 = 4503599627370496.0;
 
-impl Vector for f64 {
+impl Lanes for f64 {
     const WIDTH: usize = 1;
     type Mask = bool;
 

@@ -1,48 +1,33 @@
 //! What a mechanism is made of: names, units, what the compiler proved, what its kernels cost.
 
+use super::shared::{List, Text};
+
 /// What a mechanism is made of, and what the compiler proved about it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// Name of the declared type.
-    pub name: &'static str,
+    pub name: Text,
     /// Unknowns, in the order of `q`: the free coordinates and, where there are any, speeds and reactions.
-    pub coordinates: &'static [CoordinateInfo],
+    pub coordinates: List<CoordinateInfo>,
     /// Inputs, in the order of `u`.
-    pub inputs: &'static [InputInfo],
+    pub inputs: List<InputInfo>,
     /// Design variables, in the order of `b`.
-    pub design: &'static [DesignInfo],
+    pub design: List<DesignInfo>,
     /// Outputs, in the order of [`Mechanism::outputs`](crate::Mechanism::outputs).
-    pub outputs: &'static [OutputInfo],
+    pub outputs: List<OutputInfo>,
     /// `Khat` is symmetric for every design, input and position.
     pub symmetric_stiffness: bool,
     /// What `Chat` can be.
     pub damping: DampingKind,
     /// The generated functions and their cost.
-    pub kernels: &'static [KernelInfo],
+    pub kernels: List<KernelInfo>,
 }
 
-#[cfg(any(feature = "std", feature = "libm"))]
 impl Description {
     /// The cost of a generated function; `None` where the compiler wrote none of this name.
-    pub(crate) const fn kernel(&self, name: &str) -> Option<&KernelInfo> {
-        let mut k = 0;
-        while k < self.kernels.len() {
-            if same(self.kernels[k].name.as_bytes(), name.as_bytes()) {
-                return Some(&self.kernels[k]);
-            }
-            k += 1;
-        }
-        None
+    pub fn kernel(&self, name: &str) -> Option<&KernelInfo> {
+        self.kernels.iter().find(|kernel| kernel.name == *name)
     }
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-const fn same(a: &[u8], b: &[u8]) -> bool {
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
 }
 
 /// What the compiler proved about `Chat`.
@@ -57,19 +42,19 @@ pub enum DampingKind {
 }
 
 /// A unit of measure: a value in SI is the value in this unit times `scale`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
     /// As declared, for example `mm` or `N*m/rad`; empty for a pure number.
-    pub symbol: &'static str,
+    pub symbol: Text,
     /// SI value of one unit.
     pub scale: f64,
 }
 
 /// An unknown of the steady motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CoordinateInfo {
     /// Declared name; of a reaction the constraint's, with the component where it has several: `pin.x`.
-    pub name: &'static str,
+    pub name: Text,
     /// Of a coordinate `rad` or `m`, of a speed `rad/s` or `m/s`, of a reaction `N` or `N*m`.
     pub unit: Unit,
     /// What it is.
@@ -111,19 +96,19 @@ pub enum Role {
 }
 
 /// An input: an operating parameter chosen at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InputInfo {
     /// Declared name.
-    pub name: &'static str,
+    pub name: Text,
     /// Declared unit; kernels take SI.
     pub unit: Unit,
 }
 
 /// A design variable.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DesignInfo {
     /// Declared name.
-    pub name: &'static str,
+    pub name: Text,
     /// Declared unit; kernels take SI.
     pub unit: Unit,
     /// Nominal value, SI.
@@ -133,37 +118,21 @@ pub struct DesignInfo {
 }
 
 /// A declared output.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OutputInfo {
     /// Declared name.
-    pub name: &'static str,
+    pub name: Text,
     /// SI unit of the value.
     pub unit: Unit,
 }
 
 /// The cost of one generated function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KernelInfo {
     /// Method name.
-    pub name: &'static str,
+    pub name: Text,
     /// Additions, subtractions and multiplications.
     pub operations: usize,
     /// Divisions, roots and elementary functions.
     pub functions: usize,
 }
-
-/// Index of a free coordinate of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Coordinate(pub usize);
-
-/// Index of an input of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Input(pub usize);
-
-/// Index of a design variable of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct DesignVariable(pub usize);
-
-/// Index of an output of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Output(pub usize);

@@ -1,18 +1,42 @@
 //! The contract between compile time and run time: what generated code provides.
 
+mod array;
 mod description;
+mod handles;
 mod results;
+mod shared;
 
+pub use array::Array;
 pub use description::{
-    Coordinate, CoordinateInfo, DampingKind, Description, DesignInfo, DesignVariable, Input,
-    InputInfo, KernelInfo, Output, OutputInfo, Role, Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, OutputInfo, Role,
+    Unit,
 };
+pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
 pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Violation};
-
-use core::array::from_fn;
+pub use shared::{List, Shared, Text};
 
 use crate::Real;
 use crate::dual::Dual;
+
+/// A matrix with a row and a column for each unknown.
+pub type Square<M, T> = <M as Mechanism>::Coordinates<<M as Mechanism>::Coordinates<T>>;
+/// [`LinearPartials`] of a mechanism.
+pub type PartialsOf<M, T> = LinearPartials<
+    <M as Mechanism>::Coordinates<Linear<Square<M, T>>>,
+    <M as Mechanism>::Inputs<Linear<Square<M, T>>>,
+    <M as Mechanism>::Design<Linear<Square<M, T>>>,
+>;
+/// Partial derivatives of the residual by every input and every design variable, a row for each unknown.
+pub type ResidualPartialsOf<M, T> = (
+    <M as Mechanism>::Coordinates<<M as Mechanism>::Inputs<T>>,
+    <M as Mechanism>::Coordinates<<M as Mechanism>::Design<T>>,
+);
+/// [`Gradient`] of a mechanism.
+pub type GradientOf<M, T> = Gradient<
+    <M as Mechanism>::Coordinates<T>,
+    <M as Mechanism>::Inputs<T>,
+    <M as Mechanism>::Design<T>,
+>;
 
 /// A compiled mechanism with `N` free coordinates, `U` inputs, `P` design variables and `O` outputs.
 ///
@@ -20,42 +44,59 @@ use crate::dual::Dual;
 /// branch, no panic. All quantities are SI, angles in radians. Arguments everywhere:
 ///
 /// - `q`: free coordinates, `u`: inputs, `b`: design variables, in the order of [`Mechanism::DESCRIPTION`];
-/// - matrices are `[[T; N]; N]`, `matrix[i][j]` the derivative of residual `i` by coordinate `j`;
+/// - matrices are arrays of rows, `matrix[i][j]` the derivative of residual `i` by coordinate `j`;
 /// - the residual is `g(qddot, qdot, q; u, b) = M* qddot + h` (eq. 12): equal to zero along a motion, positive
 ///   when inertia exceeds the applied forces.
 ///
 /// A method never fails: outside its domain (a negative length under a root, NaN in) it returns NaN or infinity, which
 /// the solvers of this crate turn into typed errors.
-pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usize>:
-    Clone + Sync
-{
+pub trait Mechanism: Clone + Sync + Sized {
+    /// A number for each of the `N` unknowns.
+    type Coordinates<T: Copy>: Array<T>;
+    /// A number for each of the `U` inputs.
+    type Inputs<T: Copy>: Array<T>;
+    /// A number for each of the `P` design variables.
+    type Design<T: Copy>: Array<T>;
+    /// A number for each of the `O` outputs.
+    type Outputs<T: Copy>: Array<T>;
+
     /// Names, units, nominal values and what the compiler proved.
     const DESCRIPTION: Description;
 
     /// Residual at rest, `g(0, 0, q; u, b)` (eq. 10): zero at a dynamic equilibrium.
-    fn residual<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; N];
+    fn residual<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
 
     /// The residual at rest split into inertia and applied forces: `g = inertia - applied` (eq. 10).
-    fn residual_parts<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> RestParts<T, N>;
+    fn residual_parts<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> RestParts<Self::Coordinates<T>>;
 
     /// The full nonlinear equations of motion, `g(qddot, qdot, q; u, b)` (eq. 12).
     fn motion_residual<T: Real>(
         &self,
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> [T; N];
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
 
     /// Generalised mass matrix `M*(q; b)` (eq. 8) and right-hand side `Q* = -h(q, qdot, u; b)` (eq. 9).
     fn motion<T: Real>(
         &self,
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; N]; N], [T; N]);
+        velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> (Square<Self, T>, Self::Coordinates<T>);
 
     /// The equations of motion linearised along any motion: `dg/dqddot = M*` (`mass`), `dg/dqdot` (`damping`) and `dg/dq`
     /// (`stiffness`), what implicit integration and inverse dynamics with derivatives need. Without velocity and
@@ -64,51 +105,59 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// Generated up to some 50,000 operations; of a larger mechanism each column is differentiated by itself, as here.
     fn motion_linear<T: Real>(
         &self,
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> Linear<T, N> {
-        let fixed = |x: &[T; N]| x.map(Dual::fixed);
-        let still = (fixed(acceleration), u.map(Dual::fixed), b.map(Dual::fixed));
-        let column = |list: usize, k: usize| {
-            let mut arguments = [fixed(velocity), fixed(q)];
-            arguments[list][k].slope = T::constant(1.0);
-            let [velocity, q] = &arguments;
-            let (acceleration, u, b) = &still;
-            self.motion_residual(acceleration, velocity, q, u, b)
-                .map(|entry| entry.slope)
-        };
-        let matrix = |list: usize| {
-            let columns: [[T; N]; N] = from_fn(|j| column(list, j));
-            from_fn(|i| from_fn(|j| columns[j][i]))
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Linear<Square<Self, T>> {
+        let acceleration: Self::Coordinates<Dual<T>> = fixed(acceleration);
+        let (velocity, q) = (fixed(velocity), fixed(q));
+        let (u, b) = (fixed(u), fixed(b));
+        let columns = |of_velocity: bool| -> Square<Self, T> {
+            Array::from_fn(|k| {
+                let (mut velocity, mut q): (
+                    Self::Coordinates<Dual<T>>,
+                    Self::Coordinates<Dual<T>>,
+                ) = (velocity, q);
+                let moved = if of_velocity { &mut velocity } else { &mut q };
+                moved.as_mut()[k].slope = T::constant(1.0);
+                let residual = self.motion_residual(&acceleration, &velocity, &q, &u, &b);
+                slopes(&residual)
+            })
         };
         Linear {
-            mass: self.motion(velocity, q, u, b).0,
-            damping: matrix(0),
-            stiffness: matrix(1),
+            mass: self
+                .motion(&values(&velocity), &values(&q), &values(&u), &values(&b))
+                .0,
+            damping: transposed::<Self, T>(&columns(true)),
+            stiffness: transposed::<Self, T>(&columns(false)),
         }
     }
 
     /// Residual at rest and its Jacobian `Khat`: what a Newton step needs.
     fn residual_and_stiffness<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([T; N], [[T; N]; N]);
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> (Self::Coordinates<T>, Square<Self, T>);
 
     /// `Mhat`, `Chat` and `Khat` (eqs. 15-17).
-    fn linear<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N>;
+    fn linear<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Linear<Square<Self, T>>;
 
     /// Explicit partial derivatives of the residual at rest by every input and design variable.
     fn residual_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; U]; N], [[T; P]; N]);
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> ResidualPartialsOf<Self, T>;
 
     /// Explicit partial derivatives of `Mhat`, `Chat` and `Khat` by every coordinate, input and design variable.
     ///
@@ -116,15 +165,15 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// code for all of them grows with the cube of its size.
     fn linear_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> LinearPartials<T, N, U, P> {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> PartialsOf<Self, T> {
         let (dq, du, db) = (zeros(), zeros(), zeros());
         LinearPartials {
-            by_coordinate: from_fn(|k| self.linear_along(q, u, b, &unit(k), &du, &db)),
-            by_input: from_fn(|k| self.linear_along(q, u, b, &dq, &unit(k), &db)),
-            by_design: from_fn(|k| self.linear_along(q, u, b, &dq, &du, &unit(k))),
+            by_coordinate: Array::from_fn(|k| self.linear_along(q, u, b, &unit(k), &du, &db)),
+            by_input: Array::from_fn(|k| self.linear_along(q, u, b, &dq, &unit(k), &db)),
+            by_design: Array::from_fn(|k| self.linear_along(q, u, b, &dq, &du, &unit(k))),
         }
     }
 
@@ -133,10 +182,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// of thousands of entries a fifth of the time is setting them to zero.
     fn linear_partials_into<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        result: &mut LinearPartials<T, N, U, P>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        result: &mut PartialsOf<Self, T>,
     ) {
         *result = self.linear_partials(q, u, b);
     }
@@ -147,11 +196,11 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[allow(clippy::type_complexity)]
     fn partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> (LinearPartials<T, N, U, P>, ([[T; U]; N], [[T; P]; N])) {
-        if const { N * N * (N + U + P) <= FEW_PARTIALS } {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> (PartialsOf<Self, T>, ResidualPartialsOf<Self, T>) {
+        if const { few_partials::<Self>() } {
             T::run(
                 #[inline(always)]
                 || {
@@ -169,27 +218,28 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// not generated: [`Mechanism::linear`] in dual numbers.
     fn linear_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-    ) -> Linear<T, N> {
-        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
-        self.linear(&q, &u, &b).slopes()
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+    ) -> Linear<Square<Self, T>> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        let linear: Linear<Square<Self, Dual<T>>> = self.linear(&q, &u, &b);
+        linear.map(|matrix| Array::from_fn(|i| slopes(&matrix.as_ref()[i])))
     }
 
     /// Gradient of `a(q, u, b) = phi^T (Khat - lambda Mhat) phi`, `phi` and `lambda` held fixed, by reverse
     /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
     fn mode_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        phi: &Self::Coordinates<T>,
         lambda: T,
-    ) -> Gradient<T, N, U, P>;
+    ) -> GradientOf<Self, T>;
 
     /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`, the four vectors held fixed, by reverse
     /// differentiation: all coordinates, inputs and design variables at the cost of a few residuals.
@@ -201,43 +251,45 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        left: &[T; N],
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        position: &[T; N],
-    ) -> Gradient<T, N, U, P>;
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        left: &Self::Coordinates<T>,
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        position: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T>;
 
     /// Gradient of `w^T g(0, 0, q; u, b)` with `w` held fixed.
     fn residual_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        w: &[T; N],
-    ) -> Gradient<T, N, U, P>;
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        w: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T>;
 
     /// Directional derivative of [`Mechanism::mode_gradient`] along (`dq`, `du`, `db`, `dphi`, `dlambda`).
     #[allow(clippy::too_many_arguments)]
     fn mode_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        phi: &Self::Coordinates<T>,
         lambda: T,
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dphi: &[T; N],
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+        dphi: &Self::Coordinates<T>,
         dlambda: T,
-    ) -> Gradient<T, N, U, P> {
-        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
-        let [lambda] = Dual::along(&[lambda], &[dlambda]);
-        self.mode_gradient(&q, &u, &b, &Dual::along(phi, dphi), lambda)
-            .slopes()
+    ) -> GradientOf<Self, T> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        let lambda = Dual {
+            value: lambda,
+            slope: dlambda,
+        };
+        gradient_slopes::<Self, T>(&self.mode_gradient(&q, &u, &b, &along(phi, dphi), lambda))
     }
 
     /// Directional derivative of [`Mechanism::pencil_gradient`] along (`dq`, `du`, `db`, `dleft`, `dacceleration`,
@@ -245,50 +297,48 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[allow(clippy::too_many_arguments)]
     fn pencil_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        left: &[T; N],
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        position: &[T; N],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dleft: &[T; N],
-        dacceleration: &[T; N],
-        dvelocity: &[T; N],
-        dposition: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
-        self.pencil_gradient(
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        left: &Self::Coordinates<T>,
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        position: &Self::Coordinates<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+        dleft: &Self::Coordinates<T>,
+        dacceleration: &Self::Coordinates<T>,
+        dvelocity: &Self::Coordinates<T>,
+        dposition: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        gradient_slopes::<Self, T>(&self.pencil_gradient(
             &q,
             &u,
             &b,
-            &Dual::along(left, dleft),
-            &Dual::along(acceleration, dacceleration),
-            &Dual::along(velocity, dvelocity),
-            &Dual::along(position, dposition),
-        )
-        .slopes()
+            &along(left, dleft),
+            &along(acceleration, dacceleration),
+            &along(velocity, dvelocity),
+            &along(position, dposition),
+        ))
     }
 
     /// Directional derivative of [`Mechanism::residual_gradient`] along (`dq`, `du`, `db`, `dw`).
     #[allow(clippy::too_many_arguments)]
     fn residual_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        w: &[T; N],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dw: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        let (q, u, b) = (Dual::along(q, dq), Dual::along(u, du), Dual::along(b, db));
-        self.residual_gradient(&q, &u, &b, &Dual::along(w, dw))
-            .slopes()
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        w: &Self::Coordinates<T>,
+        dq: &Self::Coordinates<T>,
+        du: &Self::Inputs<T>,
+        db: &Self::Design<T>,
+        dw: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        let (q, u, b) = (along(q, dq), along(u, du), along(b, db));
+        gradient_slopes::<Self, T>(&self.residual_gradient(&q, &u, &b, &along(w, dw)))
     }
 
     /// Whether the vibration `q* + Re((real + i imaginary) e^{i w t})`, `w > 0`, circles in the sense in which the bodies
@@ -311,41 +361,54 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     /// Meant for values, not to be differentiated: `|omega|` is a root, whose derivative fails at zero speed.
     fn whirl<T: Real>(
         &self,
-        _q: &[T; N],
-        _u: &[T; U],
-        _b: &[T; P],
-        _real: &[T; N],
-        _imaginary: &[T; N],
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
+        _real: &Self::Coordinates<T>,
+        _imaginary: &Self::Coordinates<T>,
     ) -> [T; 2] {
         zeros()
     }
 
     /// The first physical requirement that the inputs and design variables break: a mass or a length that is not
     /// positive, an inertia that no body can have. NaN breaks every requirement.
-    fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>>;
+    fn violation<T: Real + PartialOrd>(
+        &self,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Option<Violation<T>>;
 
     /// The joint of three turns that is nearest to its singular pose; `None` without such a joint. The generated equations
     /// stay finite there, but two coordinates do the same, and the mass matrix becomes singular.
     fn pose_margin<T: Real + PartialOrd>(
         &self,
-        _q: &[T; N],
-        _u: &[T; U],
-        _b: &[T; P],
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
     ) -> Option<PoseMargin<T>> {
         None
     }
 
     /// The declared outputs.
-    fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O];
+    fn outputs<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Outputs<T>;
 
     /// Explicit partial derivatives of the outputs by every coordinate, input and design variable.
     #[allow(clippy::type_complexity)]
     fn output_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]);
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> (
+        Self::Outputs<Self::Coordinates<T>>,
+        Self::Outputs<Self::Inputs<T>>,
+        Self::Outputs<Self::Design<T>>,
+    );
 
     /// [`Mechanism::residual_and_stiffness`], and like the others below written where it is called: what vectors of the
     /// processor need. Generated code overrides it.
@@ -353,10 +416,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn residual_and_stiffness_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([T; N], [[T; N]; N]) {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> (Self::Coordinates<T>, Square<Self, T>) {
         self.residual_and_stiffness(q, u, b)
     }
 
@@ -364,16 +427,21 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn residual_parts_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> RestParts<T, N> {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> RestParts<Self::Coordinates<T>> {
         self.residual_parts(q, u, b)
     }
 
     #[doc(hidden)]
     #[inline(always)]
-    fn linear_inlined<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N> {
+    fn linear_inlined<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Linear<Square<Self, T>> {
         self.linear(q, u, b)
     }
 
@@ -381,10 +449,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn residual_partials_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; U]; N], [[T; P]; N]) {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> ResidualPartialsOf<Self, T> {
         self.residual_partials(q, u, b)
     }
 
@@ -392,10 +460,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn linear_partials_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> LinearPartials<T, N, U, P> {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> PartialsOf<Self, T> {
         self.linear_partials(q, u, b)
     }
 
@@ -403,10 +471,10 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn linear_partials_into_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        result: &mut LinearPartials<T, N, U, P>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        result: &mut PartialsOf<Self, T>,
     ) {
         self.linear_partials_into(q, u, b, result);
     }
@@ -415,12 +483,12 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn mode_gradient_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        phi: &Self::Coordinates<T>,
         lambda: T,
-    ) -> Gradient<T, N, U, P> {
+    ) -> GradientOf<Self, T> {
         self.mode_gradient(q, u, b, phi, lambda)
     }
 
@@ -428,11 +496,11 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
     #[inline(always)]
     fn residual_gradient_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        w: &[T; N],
-    ) -> Gradient<T, N, U, P> {
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        w: &Self::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
         self.residual_gradient(q, u, b, w)
     }
 }
@@ -440,10 +508,51 @@ pub trait Mechanism<const N: usize, const U: usize, const P: usize, const O: usi
 /// Entries of one matrix's derivatives up to which all partials in one function pay: more do not stay in registers.
 const FEW_PARTIALS: usize = 256;
 
-fn zeros<T: Real, const K: usize>() -> [T; K] {
-    [T::constant(0.0); K]
+const fn few_partials<M: Mechanism>() -> bool {
+    let n = M::Coordinates::<f64>::LEN;
+    let variables = M::Inputs::<f64>::LEN + M::Design::<f64>::LEN;
+    n * n * (n + variables) <= FEW_PARTIALS
 }
 
-fn unit<T: Real, const K: usize>(k: usize) -> [T; K] {
-    from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))
+#[inline(always)]
+fn zeros<T: Real, A: Array<T>>() -> A {
+    A::from_fn(|_| T::constant(0.0))
+}
+
+fn unit<T: Real, A: Array<T>>(k: usize) -> A {
+    A::from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))
+}
+
+/// Values that stand still.
+fn fixed<T: Real, D: Array<Dual<T>>>(values: &impl Array<T>) -> D {
+    D::from_fn(|k| Dual::fixed(values.as_ref()[k]))
+}
+
+/// Values that move in a direction.
+fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(values: &A, direction: &A) -> D {
+    D::from_fn(|k| Dual {
+        value: values.as_ref()[k],
+        slope: direction.as_ref()[k],
+    })
+}
+
+fn values<T: Real, A: Array<T>>(duals: &impl Array<Dual<T>>) -> A {
+    A::from_fn(|k| duals.as_ref()[k].value)
+}
+
+fn slopes<T: Real, A: Array<T>>(duals: &impl Array<Dual<T>>) -> A {
+    A::from_fn(|k| duals.as_ref()[k].slope)
+}
+
+fn gradient_slopes<M: Mechanism, T: Real>(gradient: &GradientOf<M, Dual<T>>) -> GradientOf<M, T> {
+    Gradient {
+        coordinates: slopes(&gradient.coordinates),
+        inputs: slopes(&gradient.inputs),
+        design: slopes(&gradient.design),
+    }
+}
+
+fn transposed<M: Mechanism, T: Real>(columns: &Square<M, T>) -> Square<M, T> {
+    let rows = columns.as_ref();
+    Array::from_fn(|i| Array::from_fn(|j| rows[j].as_ref()[i]))
 }

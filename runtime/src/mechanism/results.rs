@@ -1,125 +1,77 @@
 //! What kernels return.
 
-use crate::dual::Dual;
+use super::shared::Text;
 
 /// A physical requirement that is not met.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Violation<T> {
     /// What is wrong, for example `mass of bar1`.
-    pub quantity: &'static str,
+    pub quantity: Text,
     /// What it has to be, for example `positive`.
-    pub requirement: &'static str,
+    pub requirement: Text,
     /// What it is, SI.
     pub value: T,
 }
 
 /// How far a joint is from the pose in which its coordinates fail.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PoseMargin<T> {
     /// Name of the joint.
-    pub joint: &'static str,
+    pub joint: Text,
     /// Volume spanned by its three unit axes: one when they are perpendicular, zero in the singular pose.
     pub margin: T,
 }
 
-/// The residual at rest in two parts, `g = inertia - applied` (eq. 10).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RestParts<T, const N: usize> {
+/// The residual at rest in two parts, `g = inertia - applied` (eq. 10); `V` a list of `N` numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RestParts<V> {
     /// `B_R^T (M Bdot_D u + gyroscopic terms)`: N or N m by coordinate.
-    pub inertia: [T; N],
+    pub inertia: V,
     /// `B_R^T Q`: gravity, springs and dampers.
-    pub applied: [T; N],
+    pub applied: V,
 }
 
-/// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linear<T, const N: usize> {
+/// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three; `A` an `N` by `N` matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Linear<A> {
     /// `Mhat`, symmetric.
-    pub mass: [[T; N]; N],
+    pub mass: A,
     /// `Chat`.
-    pub damping: [[T; N]; N],
+    pub damping: A,
     /// `Khat`.
-    pub stiffness: [[T; N]; N],
+    pub stiffness: A,
 }
 
-impl<T, const N: usize> Linear<Dual<T>, N> {
-    /// The derivatives.
-    #[inline]
-    pub(super) fn slopes(self) -> Linear<T, N> {
-        let slopes = |matrix: [[Dual<T>; N]; N]| matrix.map(|row| row.map(|entry| entry.slope));
+impl<A> Linear<A> {
+    /// The same of each matrix.
+    pub fn map<B>(self, mut matrix: impl FnMut(A) -> B) -> Linear<B> {
         Linear {
-            mass: slopes(self.mass),
-            damping: slopes(self.damping),
-            stiffness: slopes(self.stiffness),
+            mass: matrix(self.mass),
+            damping: matrix(self.damping),
+            stiffness: matrix(self.stiffness),
         }
     }
 }
 
-impl<T: Copy + Default, const N: usize> Default for Linear<T, N> {
-    fn default() -> Self {
-        let zero = [[T::default(); N]; N];
-        Self {
-            mass: zero,
-            damping: zero,
-            stiffness: zero,
-        }
-    }
-}
-
-/// Explicit partial derivatives of the linearised matrices; `by_coordinate[k]` is the derivative by coordinate `k`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearPartials<T, const N: usize, const U: usize, const P: usize> {
+/// Explicit partial derivatives of the linearised matrices, each list one of [`Linear`]; `by_coordinate[k]` is the derivative
+/// by coordinate `k`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearPartials<C, I = C, D = C> {
     /// By each free coordinate.
-    pub by_coordinate: [Linear<T, N>; N],
+    pub by_coordinate: C,
     /// By each input.
-    pub by_input: [Linear<T, N>; U],
+    pub by_input: I,
     /// By each design variable.
-    pub by_design: [Linear<T, N>; P],
-}
-
-impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
-    for LinearPartials<T, N, U, P>
-{
-    fn default() -> Self {
-        Self {
-            by_coordinate: [Linear::default(); N],
-            by_input: [Linear::default(); U],
-            by_design: [Linear::default(); P],
-        }
-    }
+    pub by_design: D,
 }
 
 /// Partial derivatives of one scalar by everything it depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gradient<T, const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gradient<C, I = C, D = C> {
     /// By each free coordinate.
-    pub coordinates: [T; N],
+    pub coordinates: C,
     /// By each input.
-    pub inputs: [T; U],
+    pub inputs: I,
     /// By each design variable.
-    pub design: [T; P],
-}
-
-impl<T, const N: usize, const U: usize, const P: usize> Gradient<Dual<T>, N, U, P> {
-    /// The derivatives.
-    #[inline]
-    pub(super) fn slopes(self) -> Gradient<T, N, U, P> {
-        Gradient {
-            coordinates: self.coordinates.map(|entry| entry.slope),
-            inputs: self.inputs.map(|entry| entry.slope),
-            design: self.design.map(|entry| entry.slope),
-        }
-    }
-}
-
-impl<T: Copy + Default, const N: usize, const U: usize, const P: usize> Default
-    for Gradient<T, N, U, P>
-{
-    fn default() -> Self {
-        Self {
-            coordinates: [T::default(); N],
-            inputs: [T::default(); U],
-            design: [T::default(); P],
-        }
-    }
+    pub design: D,
 }

@@ -1,9 +1,10 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
 
 use super::kinetic::{kinetic, product};
-use super::{Family, Mode, PerMode};
-use crate::array::{dot, form, greater, times, times_complex};
-use crate::{Complex, Linear, Modes};
+use super::{Family, Mode};
+use crate::dense::{Matrix, greater, times_complex};
+use crate::kernels::Linear;
+use crate::{Complex, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
 const EIGENVALUE_SHARE: f64 = 0.05;
@@ -15,30 +16,29 @@ const CERTAIN: f64 = 0.6;
 /// For undamped modes the modal assurance criterion: the squared cosine between the shapes, weighted with the mass matrix
 /// of `linear`; with speeds, with that of the kinetic energy, displacements brought to velocities by the greatest `|s|`.
 /// General modes are motions of positions and velocities: the phase of the eigenvalue counts as well, and of modes with
-/// equal shapes the one with the nearer eigenvalue has up to 5 % more.
-pub fn assurance<const N: usize>(
-    from: &Modes<N>,
-    to: &Modes<N>,
-    linear: &Linear<f64, N>,
-) -> PerMode<PerMode<f64, N>, N> {
+/// equal shapes the one with the nearer eigenvalue has up to 5 % more. Both sets and the matrices belong to one mechanism.
+pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let own = kinetic(from, to, linear);
     let mass = own.as_ref().unwrap_or(&linear.mass);
     let general = from.family == Family::General || to.family == Family::General;
-    let weighted = to.modes.map(|mode| times_complex(mass, &mode.shape));
-    let size = |mode: &Mode<N>| product(&mode.shape, &times_complex(mass, &mode.shape)).norm();
-    let to_size = to.modes.map(size);
-    from.modes.map(|own| {
-        let own_size = size(own);
-        PerMode::from_fn(to.modes.len(), |j| {
-            let scale = own_size * to_size[j];
-            let cosine = product(&own.shape, &weighted[j]).norm_sqr();
-            let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
-            if general {
-                shapes * same_eigenvalue(own.s, to.modes[j].s)
-            } else {
-                shapes
-            }
-        })
+    let weighted = |mode: &Mode| times_complex(mass, &mode.shape);
+    let size = |mode: &Mode| product(&mode.shape, &weighted(mode)).norm();
+    let own_sizes: Vec<_> = from.modes.iter().map(size).collect();
+    let others: Vec<_> = to
+        .modes
+        .iter()
+        .map(|mode| (weighted(mode), size(mode)))
+        .collect();
+    Matrix::from_fn(from.modes.len(), to.modes.len(), |i, j| {
+        let (own, (weighted, size)) = (&from.modes[i], &others[j]);
+        let scale = own_sizes[i] * size;
+        let cosine = product(&own.shape, weighted).norm_sqr();
+        let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
+        if general {
+            shapes * same_eigenvalue(own.s, to.modes[j].s)
+        } else {
+            shapes
+        }
     })
 }
 
@@ -56,11 +56,15 @@ fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
 }
 
 /// The assurance of two undamped modes.
-fn real_assurance<const N: usize>(from: &Mode<N>, to: &Mode<N>, mass: &[[f64; N]; N]) -> f64 {
-    let (x, y) = (from.real_shape(), to.real_shape());
-    let weighted = times(mass, &y);
-    let scale = form(&x, mass, &x) * dot(&y, &weighted);
-    let product = dot(&x, &weighted);
+fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
+    let form = |x: &[Complex], y: &[Complex]| {
+        let weighted = |row: &[f64]| row.iter().zip(y).fold(-0.0, |sum, (m, y)| sum + m * y.re);
+        let rows = x.iter().zip(mass.iter());
+        rows.fold(-0.0, |sum, (x, row)| sum + x.re * weighted(row))
+    };
+    let (x, y) = (&from.shape, &to.shape);
+    let scale = form(x, x) * form(y, y);
+    let product = form(x, y);
     if scale > 0.0 {
         product * product / scale
     } else {
@@ -72,37 +76,36 @@ fn real_assurance<const N: usize>(from: &Mode<N>, to: &Mode<N>, mass: &[[f64; N]
 ///
 /// Pairs are taken in descending order of assurance, ties by position, so that no position occurs twice and the answer is
 /// the same every time.
-pub fn match_modes<const N: usize>(
-    from: &Modes<N>,
-    to: &Modes<N>,
-    linear: &Linear<f64, N>,
-) -> PerMode<Option<usize>, N> {
-    match_with_assurance(from, to, linear).map(|found| found.map(|(position, _)| position))
+pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
+    let found = match_with_assurance(from, to, linear).into_iter();
+    found
+        .map(|found| found.map(|(position, _)| position))
+        .collect()
 }
 
 /// As [`match_modes`], with the assurance of each pair.
-pub(crate) fn match_with_assurance<const N: usize>(
-    from: &Modes<N>,
-    to: &Modes<N>,
-    linear: &Linear<f64, N>,
-) -> PerMode<Option<(usize, f64)>, N> {
+pub(crate) fn match_with_assurance(
+    from: &Modes,
+    to: &Modes,
+    linear: &Linear,
+) -> Vec<Option<(usize, f64)>> {
     let (here, there) = (from.modes.len(), to.modes.len());
     if here == 1 && there == 1 {
-        return from.modes.map(|_| Some((0, 1.0)));
+        return vec![Some((0, 1.0))];
     }
     // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
-        let own: PerMode<f64, N> = PerMode::from_fn(here, |i| {
-            real_assurance(&from.modes[i], &to.modes[i], &linear.mass)
-        });
-        if own.iter().all(|&same| same > CERTAIN) {
-            return PerMode::from_fn(here, |i| Some((i, own[i])));
+        let pairs = from.modes.iter().zip(&to.modes);
+        let own = pairs.map(|(own, other)| real_assurance(own, other, &linear.mass));
+        let own: Vec<_> = own.enumerate().map(Some).collect();
+        if own.iter().flatten().all(|&(_, same)| same > CERTAIN) {
+            return own;
         }
     }
     let table = assurance(from, to, linear);
-    let mut found = from.modes.map(|_| None);
-    let mut used = to.modes.map(|_| false);
+    let mut found = vec![None; here];
+    let mut used = vec![false; there];
     for _ in 0..here.min(there) {
         let mut best = None;
         for i in (0..here).filter(|&i| found[i].is_none()) {
@@ -120,22 +123,17 @@ pub(crate) fn match_with_assurance<const N: usize>(
     found
 }
 
-impl<const N: usize> Modes<N> {
+impl Modes {
     /// These modes in the order and with the labels of those of `before` that they continue; modes without a predecessor
     /// come last, under labels from `next` on.
-    pub(crate) fn continuing(&self, before: &Self, linear: &Linear<f64, N>, next: usize) -> Self {
-        let mut arranged = *self;
-        arranged.arrange(before, &match_modes(before, self, linear), next);
-        arranged
+    pub(crate) fn continuing(mut self, before: &Self, linear: &Linear, next: usize) -> Self {
+        let order = match_modes(before, &self, linear);
+        self.arrange(before, &order, next);
+        self
     }
 
     /// Brings the modes into the order of those of `before`, `order` by position, as [`Self::continuing`].
-    pub(crate) fn arrange(
-        &mut self,
-        before: &Self,
-        order: &PerMode<Option<usize>, N>,
-        mut next: usize,
-    ) {
+    pub(crate) fn arrange(&mut self, before: &Self, order: &[Option<usize>], mut next: usize) {
         let in_place = |(i, place): (usize, &Option<usize>)| *place == Some(i);
         if order.len() == self.modes.len() && order.iter().enumerate().all(in_place) {
             for (mode, before) in self.modes.iter_mut().zip(&before.modes) {
@@ -150,26 +148,24 @@ impl<const N: usize> Modes<N> {
         let new = (0..self.modes.len())
             .filter(|place| !order.contains(&Some(*place)))
             .map(|place| (place, None));
-        let mut all = continued.chain(new);
-        let modes = PerMode::from_fn(self.modes.len(), |r| {
-            let (place, label) = all.next().unwrap_or((r, None));
+        let modes = continued.chain(new).map(|(place, label)| {
             let label = label.unwrap_or_else(|| {
                 next += 1;
                 next - 1
             });
             Mode {
                 label,
-                ..self.modes[place]
+                ..self.modes[place].clone()
             }
         });
-        self.modes = modes;
+        self.modes = modes.collect();
     }
 }
 
 /// Whether mode `r` has merged with another, or with its own conjugate, into a defective eigenvalue, as far as its
 /// accuracy can tell: it has no derivative, and its shapes are those of the other.
 #[inline]
-pub(crate) fn merged<const N: usize>(modes: &Modes<N>, r: usize) -> bool {
+pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
     /// Semisimple eigenvalues that meet are far better conditioned; defective ones that are told apart far worse.
     const ILL_CONDITIONED: f64 = 1e5;
     let own = &modes.modes[r];
@@ -184,21 +180,20 @@ pub(crate) fn merged<const N: usize>(modes: &Modes<N>, r: usize) -> bool {
 
 /// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
 /// relative to the larger of the two: they share a cluster and have no derivative of their own.
-pub fn clusters<const N: usize>(modes: &Modes<N>, gap: f64) -> PerMode<bool, N> {
-    PerMode::from_fn(modes.modes.len(), |i| {
-        merged(modes, i) || near_another(modes, i, gap)
-    })
+pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
+    let clustered = |i| merged(modes, i) || near_another(modes, i, gap);
+    (0..modes.modes.len()).map(clustered).collect()
 }
 
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
 #[inline(always)]
-pub(crate) fn near_another<const N: usize>(modes: &Modes<N>, i: usize, gap: f64) -> bool {
+pub(crate) fn near_another(modes: &Modes, i: usize, gap: f64) -> bool {
     (0..modes.modes.len()).any(|j| j != i && near(modes, i, j, gap))
 }
 
 /// Whether two eigenvalues are within `gap`, relative to the larger of the two.
 #[inline(always)]
-pub(crate) fn near<const N: usize>(modes: &Modes<N>, i: usize, j: usize, gap: f64) -> bool {
+pub(crate) fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
     let (a, b) = (&modes.modes[i], &modes.modes[j]);
     match modes.family {
         Family::Undamped => {

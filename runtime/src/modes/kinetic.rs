@@ -1,21 +1,18 @@
 //! Weights of shapes that have speeds: those of the kinetic energy.
 
 use super::Mode;
-use crate::array::{Square, largest_element, times_complex};
 use crate::constraints::Structure;
-use crate::{Complex, Linear, Modes};
+use crate::dense::{Matrix, Vector, largest_element, times_complex};
+use crate::kernels::Linear;
+use crate::{Complex, Modes};
 
 /// Share of the greatest possible weight below which a shape counts as massless.
 const MASSLESS: f64 = 1e-12;
 
 /// The weights of shapes with displacements and speeds, brought to one unit by the greatest `|s|`; without masses all weigh
 /// the same. `None` where `Mhat` weighs all that moves.
-pub(super) fn kinetic<const N: usize>(
-    from: &Modes<N>,
-    to: &Modes<N>,
-    linear: &Linear<f64, N>,
-) -> Option<Square<N>> {
-    let structure = Structure::of(to.description);
+pub(super) fn kinetic(from: &Modes, to: &Modes, linear: &Linear) -> Option<Matrix> {
+    let structure = Structure::of(&to.description);
     if structure.holonomic() {
         return None;
     }
@@ -23,21 +20,20 @@ pub(super) fn kinetic<const N: usize>(
     let rate = all().fold(0.0, |most: f64, mode| most.max(mode.s.norm()));
     let rate = if rate > 0.0 { rate } else { 1.0 };
     let (q, motions) = (structure.coordinates, structure.motions());
-    let weight: Square<N> = core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            let (mass, speed) = (linear.mass[i][j], linear.damping[i][j]);
-            match (i < q, j < q) {
-                _ if i >= motions || j >= motions => 0.0,
-                (true, true) => mass * rate * rate,
-                (true, false) => speed * rate,
-                (false, true) => mass * rate,
-                (false, false) => speed,
-            }
-        })
+    let n = linear.mass.row_count();
+    let weight = Matrix::from_fn(n, n, |i, j| {
+        let (mass, speed) = (linear.mass[i][j], linear.damping[i][j]);
+        match (i < q, j < q) {
+            _ if i >= motions || j >= motions => 0.0,
+            (true, true) => mass * rate * rate,
+            (true, false) => speed * rate,
+            (false, true) => mass * rate,
+            (false, false) => speed,
+        }
     });
     let greatest = largest_element(&weight);
-    let moves_mass = |mode: &Mode<N>| {
-        let motion: [Complex; N] = core::array::from_fn(|i| {
+    let moves_mass = |mode: &Mode| {
+        let motion = Vector::from_fn(n, |i| {
             if i < motions {
                 mode.shape[i]
             } else {
@@ -50,17 +46,15 @@ pub(super) fn kinetic<const N: usize>(
     if all().all(moves_mass) {
         return Some(weight);
     }
-    Some(core::array::from_fn(|i| {
-        core::array::from_fn(|j| match () {
-            () if i != j || i >= motions => 0.0,
-            () if i < q => rate * rate,
-            () => 1.0,
-        })
+    Some(Matrix::from_fn(n, n, |i, j| match () {
+        () if i != j || i >= motions => 0.0,
+        () if i < q => rate * rate,
+        () => 1.0,
     }))
 }
 
 /// `x^H y`.
-pub(super) fn product<const N: usize>(x: &[Complex; N], y: &[Complex; N]) -> Complex {
+pub(super) fn product(x: &[Complex], y: &[Complex]) -> Complex {
     x.iter()
         .zip(y)
         .fold(Complex::default(), |sum, (a, b)| sum + a.conj() * b)

@@ -12,7 +12,6 @@ mod constrained;
 mod general;
 mod kinetic;
 mod mode;
-mod per_mode;
 mod refine;
 pub(crate) mod symmetric;
 mod whirl;
@@ -21,15 +20,16 @@ pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
-pub use per_mode::PerMode;
 pub use whirl::{Sense, Whirl, whirls};
 
-use crate::array::{asymmetry, dot_complex};
 use crate::constraints::Structure;
+use crate::dense::{Matrix, asymmetry, dot_complex};
+use crate::equilibrium::name;
+use crate::kernels::Linear;
 use crate::pencil::pencil_slope_times;
 use crate::rounding::{Sign, sign};
 use crate::sensitivity::CLUSTER_GAP;
-use crate::{Complex, DampingKind, Description, Equilibrium, Error, Linear};
+use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
 use general::Root;
 use symmetric::Trouble;
 
@@ -55,28 +55,34 @@ impl Family {
 
 /// All modes at one equilibrium: undamped ones ascending in `lambda`, general ones in `|s|`, unless they follow another
 /// set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Modes<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
     /// The modes.
-    pub modes: PerMode<Mode<N>, N>,
+    pub modes: Vec<Mode>,
     /// Which equation they solve.
     pub family: Family,
     /// `Chat` is not zero here and was left out: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
     /// The mechanism they belong to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize> Modes<N> {
+impl Modes {
     /// Frequencies of the modes in their order, rad/s.
-    pub fn frequencies(&self) -> PerMode<Option<f64>, N> {
-        self.modes.map(Mode::frequency)
+    pub fn frequencies(&self) -> Vec<Option<f64>> {
+        self.modes.iter().map(Mode::frequency).collect()
     }
 
     /// The least `lambda`; infinite without modes.
     pub(crate) fn least_lambda(&self) -> f64 {
         let lambda = self.modes.iter().map(|mode| mode.lambda);
         lambda.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Real parts of the shapes, one in each row.
+    pub(crate) fn real_shapes(&self) -> Matrix {
+        let columns = self.modes.first().map_or(0, |mode| mode.shape.len());
+        Matrix::from_fn(self.modes.len(), columns, |r, i| self.modes[r].shape[i].re)
     }
 
     /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
@@ -109,11 +115,9 @@ impl<const N: usize> Modes<N> {
 /// # Errors
 /// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
 /// check, [`Error::SingularConfiguration`] where constraints lose their independence.
-pub fn modes<const N: usize, const U: usize, const P: usize>(
-    equilibrium: &Equilibrium<N, U, P>,
-) -> Result<Modes<N>, Error> {
+pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
-    modes_at(equilibrium, Family::of(equilibrium.description))
+    modes_at(equilibrium, Family::of(&equilibrium.description))
 }
 
 /// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
@@ -121,34 +125,52 @@ pub fn modes<const N: usize, const U: usize, const P: usize>(
 /// # Errors
 /// As [`modes`], [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, and [`Error::NoUndampedModes`] with speeds
 /// or constraints on velocities.
-pub fn undamped_modes<const N: usize, const U: usize, const P: usize>(
-    equilibrium: &Equilibrium<N, U, P>,
-) -> Result<Modes<N>, Error> {
+pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
     modes_at(equilibrium, Family::Undamped)
 }
 
 /// The modes of a family about an equilibrium.
-pub(crate) fn modes_at<const N: usize, const U: usize, const P: usize>(
-    at: &Equilibrium<N, U, P>,
-    family: Family,
-) -> Result<Modes<N>, Error> {
-    solve_modes(&at.linear, family, at.description, at.rounding)
-        .map_err(|failure| failure.explain(at.description))
+pub(crate) fn modes_at(at: &Equilibrium, family: Family) -> Result<Modes, Error> {
+    solve_modes(&at.linear, family, &at.description, at.rounding)
+        .map_err(|failure| failure.explain(&at.description))
 }
 
 /// Modes of given matrices, which belong to the mechanism that `description` describes. The elements count as rounded, no
 /// more: that one is the small rest of great terms, as at a critical speed, only an [`Equilibrium`] knows.
 ///
 /// # Errors
-/// As [`undamped_modes`].
-#[inline]
-pub fn modes_of<const N: usize>(
-    linear: &Linear<f64, N>,
+/// As [`undamped_modes`], and [`Error::WrongLength`] when the matrices are not as large as `description` says.
+pub fn modes_of(
+    linear: &Linear,
     family: Family,
-    description: &'static Description,
-) -> Result<Modes<N>, Error> {
+    description: &Shared<Description>,
+) -> Result<Modes, Error> {
+    check_sizes(linear, description)?;
     solve_modes(linear, family, description, 0.0).map_err(|failure| failure.explain(description))
+}
+
+/// Refuses matrices that are not square, of one size, and that of the mechanism; of an open one any size will do.
+fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> {
+    let expected = if Structure::of(description).open() {
+        linear.mass.row_count()
+    } else {
+        description.coordinates.len()
+    };
+    let sizes = |matrix: &Matrix| [matrix.row_count(), matrix.column_count()];
+    let matrices = [&linear.mass, &linear.damping, &linear.stiffness];
+    match matrices
+        .into_iter()
+        .flat_map(sizes)
+        .find(|&size| size != expected)
+    {
+        None => Ok(()),
+        Some(found) => Err(Error::WrongLength {
+            kind: "rows or columns of a matrix",
+            found,
+            expected,
+        }),
+    }
 }
 
 /// A failure that owns nothing.
@@ -166,16 +188,13 @@ pub(crate) enum ModesFailure {
 
 impl ModesFailure {
     #[cold]
-    pub(crate) fn explain(self, description: &'static Description) -> Error {
+    pub(crate) fn explain(self, description: &Description) -> Error {
         match self {
             Self::Asymmetric(asymmetry) => Error::NonsymmetricStiffness { asymmetry },
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
             Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
-                coordinate: description
-                    .coordinates
-                    .get(row)
-                    .map_or("?", |info| info.name),
+                coordinate: name(description, row),
             },
             Self::Pencil(Trouble::Inaccurate { mode, residual }) => {
                 Error::ModesNotFound { mode, residual }
@@ -188,59 +207,50 @@ impl ModesFailure {
 pub(crate) const SYMMETRIC: f64 = 1e-11;
 
 /// The modes of given matrices, in which a `lambda` that is not beyond `floor` is zero.
-pub(crate) fn solve_modes<const N: usize>(
-    linear: &Linear<f64, N>,
+pub(crate) fn solve_modes(
+    linear: &Linear,
     family: Family,
-    description: &'static Description,
+    description: &Shared<Description>,
     floor: f64,
-) -> Result<Modes<N>, ModesFailure> {
-    let mut modes = Modes::empty(linear, family, description);
+) -> Result<Modes, ModesFailure> {
+    let mut modes = Modes::empty(family, description);
     modes.solve(linear, floor)?;
     Ok(modes)
 }
 
-impl<const N: usize> Modes<N> {
+impl Modes {
     /// None yet.
     #[inline]
-    pub(crate) fn empty(
-        linear: &Linear<f64, N>,
-        family: Family,
-        description: &'static Description,
-    ) -> Self {
+    pub(crate) fn empty(family: Family, description: &Shared<Description>) -> Self {
         Self {
-            modes: const { PerMode::blank(Mode::BLANK) },
+            modes: Vec::new(),
             family,
-            damping_ignored: family == Family::Undamped
-                && description.damping != DampingKind::Zero
-                && linear.damping.iter().flatten().any(|&value| value != 0.0),
-            description,
+            damping_ignored: false,
+            description: description.clone(),
         }
     }
 
-    /// Fills an empty list: of a long one, which would cost as much to copy as to find, where it stands.
-    /// A `lambda` that is not beyond `floor` is zero.
-    #[inline]
-    pub(crate) fn solve(
-        &mut self,
-        linear: &Linear<f64, N>,
-        floor: f64,
-    ) -> Result<(), ModesFailure> {
+    /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
+    /// `floor` is zero.
+    pub(crate) fn solve(&mut self, linear: &Linear, floor: f64) -> Result<(), ModesFailure> {
+        let damping = linear.damping.as_flattened();
+        self.damping_ignored = self.family == Family::Undamped
+            && self.description.damping != DampingKind::Zero
+            && damping.iter().any(|&value| value != 0.0);
         match self.family {
-            Family::Undamped => undamped(linear, self.description, floor, &mut self.modes),
-            Family::General => damped(linear, self.description, floor, &mut self.modes),
+            Family::Undamped => undamped(linear, &self.description, floor, &mut self.modes),
+            Family::General => damped(linear, &self.description, floor, &mut self.modes),
         }
     }
 }
 
-#[inline]
-fn undamped<const N: usize>(
-    linear: &Linear<f64, N>,
-    description: &'static Description,
+fn undamped(
+    linear: &Linear,
+    description: &Description,
     floor: f64,
-    modes: &mut PerMode<Mode<N>, N>,
+    modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
-    let structure = Structure::of(description);
-    if !structure.holonomic() {
+    if !Structure::of(description).holonomic() {
         return Err(ModesFailure::NotHolonomic);
     }
     if !description.symmetric_stiffness {
@@ -249,62 +259,21 @@ fn undamped<const N: usize>(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    if structure.open() {
-        let pairs =
-            symmetric::solve(&linear.stiffness, &linear.mass).map_err(ModesFailure::Pencil)?;
-        for (r, mode) in modes.places(N).iter_mut().enumerate() {
-            let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
-            *mode = undamped_mode(r, (lambda, error), &pairs.shapes[r], pairs.residuals[r]);
-        }
-        return Ok(());
-    }
     let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
-    let (lambda, shapes, residuals) = (pairs.lambda(), pairs.shapes(), pairs.residuals());
-    for (r, mode) in modes.places(lambda.len()).iter_mut().enumerate() {
-        let error = pairs.errors()[r].max(floor);
-        *mode = undamped_mode(r, (lambda[r], error), &shapes[r], residuals[r]);
+    modes.resize_with(pairs.lambda.len(), Mode::blank);
+    for (r, mode) in modes.iter_mut().enumerate() {
+        let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
+        let shape = pairs.shapes[r].iter().copied();
+        mode.set_undamped(r, (lambda, error), shape, pairs.residuals[r]);
     }
     Ok(())
 }
 
-/// Mode `r` with an eigenvalue and its error.
-#[inline]
-pub(crate) fn undamped_mode<const N: usize>(
-    r: usize,
-    (lambda, error): (f64, f64),
-    shape: &[f64; N],
-    residual: f64,
-) -> Mode<N> {
-    let rate = lambda.abs().sqrt();
-    let (s, behaviour) = match sign(lambda, error) {
-        Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
-        Sign::Negative => (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
-        Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
-    };
-    let shape = shape.map(Complex::from);
-    Mode {
-        s,
-        lambda,
-        shape,
-        left: shape,
-        behaviour,
-        residual,
-        // `sqrt(error)`, or `error / rate` where that is less.
-        error: if rate * rate > error {
-            error / rate
-        } else {
-            error.sqrt()
-        },
-        condition: 1.0,
-        label: r,
-    }
-}
-
-fn damped<const N: usize>(
-    linear: &Linear<f64, N>,
-    description: &'static Description,
+fn damped(
+    linear: &Linear,
+    description: &Description,
     floor: f64,
-    modes: &mut PerMode<Mode<N>, N>,
+    modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
@@ -313,15 +282,14 @@ fn damped<const N: usize>(
         constrained::general_roots(linear, structure)
     };
     let roots = roots.map_err(ModesFailure::Pencil)?;
-    let roots = roots.as_slice();
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
-    let places = modes.places(roots.len()).iter_mut();
-    for (r, (mode, root)) in places.zip(roots).enumerate() {
+    modes.clear();
+    for (r, root) in roots.into_iter().enumerate() {
         let mut s = root.s;
         let error = if floor > 0.0 {
-            root.error.max(moved_by(linear, root, floor))
+            root.error.max(moved_by(linear, &root, floor))
         } else {
             root.error
         };
@@ -345,7 +313,7 @@ fn damped<const N: usize>(
             let size = s.norm();
             return Err(ModesFailure::Range { mode: r, size });
         }
-        *mode = Mode {
+        modes.push(Mode {
             s,
             lambda,
             shape: root.right,
@@ -355,14 +323,14 @@ fn damped<const N: usize>(
             error,
             condition: root.condition,
             label: r,
-        };
+        });
     }
     Ok(())
 }
 
 /// How far a change of the pencil by `floor phi^H Mhat phi` moves a root: `d` with `d (|psi^T (2 s M + C) phi| + d) = floor`.
 #[cold]
-fn moved_by<const N: usize>(linear: &Linear<f64, N>, root: &Root<N>, floor: f64) -> f64 {
+fn moved_by(linear: &Linear, root: &Root, floor: f64) -> f64 {
     let slope = pencil_slope_times(linear, root.s, &root.right);
     let slope = dot_complex(&root.left, &slope).norm();
     2.0 * floor / (slope + (slope * slope + 4.0 * floor).sqrt())

@@ -1,6 +1,8 @@
 //! One mode, and what it means.
 
 use crate::Complex;
+use crate::dense::Vector;
+use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +37,8 @@ impl Behaviour {
 }
 
 /// One mode.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
     /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
     /// undamped divergent mode the growing one.
     pub s: Complex,
@@ -46,10 +48,10 @@ pub struct Mode<const N: usize> {
     /// Right vector `phi`, by unknown, the reactions of constraints included: `phi^H Mhat phi = 1`, its largest component
     /// of a coordinate real and positive. With speeds or constraints on velocities, where a mode may move speeds only, the
     /// largest component of a coordinate or speed is one. Real for an undamped mode.
-    pub shape: [Complex; N],
+    pub shape: Vector<Complex>,
     /// Left vector `psi`, normalised alike; with speeds or constraints on velocities its largest component of all is one.
     /// Of an undamped mode the same as `shape`.
-    pub left: [Complex; N],
+    pub left: Vector<Complex>,
     /// What `s` means.
     pub behaviour: Behaviour,
     /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
@@ -63,20 +65,7 @@ pub struct Mode<const N: usize> {
     pub label: usize,
 }
 
-impl<const N: usize> Mode<N> {
-    /// What stands where a mode is going to be written.
-    pub(super) const BLANK: Self = Self {
-        s: Complex::ZERO,
-        lambda: 0.0,
-        shape: [Complex::ZERO; N],
-        left: [Complex::ZERO; N],
-        behaviour: Behaviour::Oscillating(0.0),
-        residual: 0.0,
-        error: 0.0,
-        condition: 0.0,
-        label: 0,
-    };
-
+impl Mode {
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
     pub fn frequency(&self) -> Option<f64> {
         self.behaviour.frequency()
@@ -96,8 +85,51 @@ impl<const N: usize> Mode<N> {
         }
     }
 
+    /// What a mode is written over.
+    pub(super) fn blank() -> Self {
+        Self {
+            s: Complex::ZERO,
+            lambda: 0.0,
+            shape: Vector::default(),
+            left: Vector::default(),
+            behaviour: Behaviour::Neutral,
+            residual: 0.0,
+            error: 0.0,
+            condition: 1.0,
+            label: 0,
+        }
+    }
+
+    /// Writes an undamped mode with an eigenvalue and its error over this one, whose vectors are used again.
+    pub(crate) fn set_undamped(
+        &mut self,
+        label: usize,
+        (lambda, error): (f64, f64),
+        shape: impl Iterator<Item = f64> + Clone,
+        residual: f64,
+    ) {
+        let rate = lambda.abs().sqrt();
+        (self.s, self.behaviour) = match sign(lambda, error) {
+            Sign::Positive => (Complex::new(0.0, rate), Behaviour::Oscillating(rate)),
+            Sign::Negative => (Complex::new(rate, 0.0), Behaviour::Divergent(rate)),
+            Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
+        };
+        self.lambda = lambda;
+        self.shape.assign(shape.clone().map(Complex::from));
+        self.left.assign(shape.map(Complex::from));
+        self.residual = residual;
+        // `sqrt(error)`, or `error / rate` where that is less.
+        self.error = if rate * rate > error {
+            error / rate
+        } else {
+            error.sqrt()
+        };
+        self.condition = 1.0;
+        self.label = label;
+    }
+
     /// Real parts of the shape: all of it for an undamped mode.
-    pub(crate) fn real_shape(&self) -> [f64; N] {
+    pub(crate) fn real_shape(&self) -> Vector {
         self.shape.map(|value| value.re)
     }
 }

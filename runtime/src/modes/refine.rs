@@ -5,37 +5,21 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use super::symmetric::{Matrices, largest};
+use super::symmetric::Matrices;
+use crate::dense::largest;
 
 const STEPS: usize = 4;
 /// Eigenvalues closer than this, relative to the larger, may mix in an inverse iteration.
 const NEAR: f64 = 1e-3;
 
 /// Improves pair `r`; keeps it mass-orthogonal to the earlier pairs near it. Leaves it alone when that does not help.
-/// Without the heap up to size eight.
 #[cold]
 pub(super) fn refine(matrices: &Matrices, lambda: &mut [f64], shapes: &mut [f64], r: usize) {
     let n = matrices.n;
-    if n <= 8 {
-        refine_in(matrices, lambda, shapes, r, &mut [0.0; 80]);
-    } else {
-        refine_in(matrices, lambda, shapes, r, &mut vec![0.0; n * (n + 2)]);
-    }
-}
-
-fn refine_in(
-    matrices: &Matrices,
-    lambda: &mut [f64],
-    shapes: &mut [f64],
-    r: usize,
-    work: &mut [f64],
-) {
-    let n = matrices.n;
     let own = r * n..(r + 1) * n;
-    let (shifted, work) = work.split_at_mut(n * n);
-    let (shape, work) = work.split_at_mut(n);
-    let weighted = &mut work[..n];
-    shape.copy_from_slice(&shapes[own.clone()]);
+    let shifted = &mut vec![0.0; n * n][..];
+    let shape = &mut shapes[own.clone()].to_vec()[..];
+    let weighted = &mut vec![0.0; n][..];
     let mut best = matrices.relative_residual(lambda[r], shape);
     let mut value = lambda[r];
     let rounding = f64::EPSILON * largest(matrices.k) / largest(matrices.m);

@@ -1,10 +1,9 @@
-//! The symmetric generalised eigenproblem `K phi = lambda M phi`, solved by code that is compiled once in this crate
-//! for each small size, so that a user's build compiles no linear algebra.
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, by code of its own for each small size.
 
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
-use crate::array::greater;
+use crate::dense::{Matrix, Vector, greater, largest};
 use crate::rounding::of_elements;
 
 /// Why the eigenproblem was not solved.
@@ -17,12 +16,20 @@ pub(crate) enum Trouble {
 }
 
 /// Eigenvalues ascending; `shapes[r]` the vector of eigenvalue `r` with `phi^T M phi = 1`, largest component positive.
-pub(crate) struct Pairs<const N: usize> {
-    pub(crate) lambda: [f64; N],
-    pub(crate) shapes: [[f64; N]; N],
-    pub(crate) residuals: [f64; N],
+#[derive(Debug)]
+pub(crate) struct Pairs {
+    pub(crate) lambda: Vector,
+    pub(crate) shapes: Matrix,
+    pub(crate) residuals: Vector,
     /// How far each eigenvalue may be off by rounding.
-    pub(crate) errors: [f64; N],
+    pub(crate) errors: Vector,
+}
+
+impl Pairs {
+    /// Number of eigenvalues below zero.
+    pub(crate) fn negative(&self) -> usize {
+        self.lambda.iter().filter(|&&value| value < 0.0).count()
+    }
 }
 
 /// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
@@ -36,35 +43,17 @@ pub(crate) const INACCURATE: f64 = 1e-13;
 const SMALL: f64 = 1e-6;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
-pub(crate) fn solve<const N: usize>(
-    stiffness: &[[f64; N]; N],
-    mass: &[[f64; N]; N],
-) -> Result<Pairs<N>, Trouble> {
+pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
+    let n = mass.row_count();
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
     let mut pairs = Pairs {
-        lambda: [0.0; N],
-        shapes: [[0.0; N]; N],
-        residuals: [0.0; N],
-        errors: [0.0; N],
+        lambda: Vector::zeros(n),
+        shapes: Matrix::zeros(n, n),
+        residuals: Vector::zeros(n),
+        errors: Vector::zeros(n),
     };
-    solve_on(
-        N,
-        (stiffness.as_flattened(), mass.as_flattened()),
-        &mut pairs.lambda,
-        pairs.shapes.as_flattened_mut(),
-        (&mut pairs.residuals, &mut pairs.errors),
-    )?;
-    Ok(pairs)
-}
-
-/// As [`solve`] for matrices of size `n`, row by row; shape `r` is row `r` of `shapes`.
-#[inline(always)]
-pub(crate) fn solve_on(
-    n: usize,
-    (k, m): (&[f64], &[f64]),
-    lambda: &mut [f64],
-    shapes: &mut [f64],
-    (residuals, errors): (&mut [f64], &mut [f64]),
-) -> Result<(), Trouble> {
+    let lambda = &mut pairs.lambda[..];
+    let shapes = pairs.shapes.as_flattened_mut();
     match n {
         0 => {}
         1 => one(k, m, lambda, shapes)?,
@@ -77,7 +66,9 @@ pub(crate) fn solve_on(
         8 => small_8(k, m, lambda, shapes)?,
         _ => large(n, k, m, lambda, shapes)?,
     }
-    finish(&Matrices { n, k, m }, lambda, shapes, (residuals, errors))
+    let sizes = (&mut pairs.residuals[..], &mut pairs.errors[..]);
+    finish(&Matrices { n, k, m }, lambda, shapes, sizes)?;
+    Ok(pairs)
 }
 
 #[inline]
@@ -130,7 +121,7 @@ fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<
     Ok(())
 }
 
-/// One function for each size, with a literal size, so that it is compiled here.
+/// One function for each size.
 macro_rules! small {
     ($($name:ident $size:literal)*) => {$(
         fn $name(
@@ -306,12 +297,6 @@ pub(super) fn fix_sign(shape: &mut [f64]) {
     }
 }
 
-/// Greatest absolute value.
-#[inline(always)]
-pub(super) fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |most, value| greater(most, value.abs()))
-}
-
 impl Matrices<'_> {
     /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
     #[inline(always)]
@@ -328,31 +313,22 @@ impl Matrices<'_> {
     }
 
     /// What the parts of other modes in shape `r` make of its eigenvalue: of second order, twice the sum of
-    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`, without the heap up to size eight.
+    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`.
     #[cold]
     fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
         let n = self.n;
-        if n <= 8 {
-            self.error_of_shape_in(lambda, shapes, r, &mut [0.0; 8])
-        } else {
-            self.error_of_shape_in(lambda, shapes, r, &mut vec![0.0; n])
-        }
-    }
-
-    fn error_of_shape_in(&self, lambda: &[f64], shapes: &[f64], r: usize, rest: &mut [f64]) -> f64 {
-        let n = self.n;
         let phi = &shapes[r * n..(r + 1) * n];
-        for (i, rest) in rest[..n].iter_mut().enumerate() {
+        let rest = Vector::from_fn(n, |i| {
             let row = |matrix: &[f64]| -> f64 {
                 let row = &matrix[i * n..(i + 1) * n];
                 row.iter().zip(phi).map(|(a, b)| a * b).sum()
             };
-            *rest = row(self.k) - lambda[r] * row(self.m);
-        }
+            row(self.k) - lambda[r] * row(self.m)
+        });
         let mut sum = 0.0;
         for s in (0..n).filter(|&s| s != r) {
             let own = &shapes[s * n..(s + 1) * n];
-            let part: f64 = own.iter().zip(&*rest).map(|(a, b)| a * b).sum();
+            let part: f64 = own.iter().zip(&rest).map(|(a, b)| a * b).sum();
             let part = part.abs();
             if part > 0.0 {
                 // Of equal eigenvalues to first order.

@@ -1,7 +1,7 @@
 //! Whirl: whether a vibration circles in the sense in which the bodies spin.
 
-use super::PerMode;
-use crate::{Equilibrium, Mechanism, Modes};
+use crate::kernels::Kernels;
+use crate::{Equilibrium, Mode, Modes};
 
 /// Sense in which a vibration circles about the axes of the spinning bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,15 +39,8 @@ impl Whirl {
 
 /// The whirl of each mode; `None` where it does not apply: for a mode that does not oscillate, or that moves nothing
 /// across the axis of a spin.
-pub fn whirls<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-) -> PerMode<Option<Whirl>, N>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    modes.modes.map(|mode| {
+pub fn whirls(mechanism: &dyn Kernels, at: &Equilibrium, modes: &Modes) -> Vec<Option<Whirl>> {
+    let whirl = |mode: &Mode| {
         mode.frequency()?;
         let real = mode.shape.map(|value| value.re);
         let imaginary = mode.shape.map(|value| value.im);
@@ -56,5 +49,6 @@ where
         (size > 0.0 && moment.is_finite() && size.is_finite()).then(|| Whirl {
             ratio: (moment / size).clamp(-1.0, 1.0),
         })
-    })
+    };
+    modes.modes.iter().map(whirl).collect()
 }

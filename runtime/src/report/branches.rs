@@ -42,58 +42,58 @@ impl fmt::Display for BranchEnd {
 
 fn input_heading(d: &Description, input: Input) -> String {
     d.inputs
-        .get(input.0)
-        .map_or_else(String::new, |info| heading(info.name, info.unit))
+        .get(input.index())
+        .map_or_else(String::new, |info| heading(&info.name, &info.unit))
 }
 
 fn input_value(d: &Description, input: Input, value: f64) -> String {
     d.inputs
-        .get(input.0)
-        .map_or_else(|| number(value), |info| in_unit(value, info.unit))
+        .get(input.index())
+        .map_or_else(|| number(value), |info| in_unit(value, &info.unit))
 }
 
-fn coordinate_headings(d: &Description) -> impl Iterator<Item = String> + use<> {
+fn coordinate_headings(d: &Description) -> impl Iterator<Item = String> + use<'_> {
     d.coordinates
         .iter()
-        .map(|info| heading(info.name, info.unit))
+        .map(|info| heading(&info.name, &info.unit))
 }
 
 fn coordinate_values(d: &Description, q: &[f64]) -> impl Iterator<Item = String> {
     d.coordinates
         .iter()
         .zip(q)
-        .map(|(info, &value)| in_unit(value, info.unit))
+        .map(|(info, &value)| in_unit(value, &info.unit))
 }
 
 /// Critical vectors by coordinate; the left one where it is another.
-pub(super) fn critical_vectors<const N: usize>(
+pub(super) fn critical_vectors(
     f: &mut fmt::Formatter<'_>,
     d: &Description,
-    v: &[f64; N],
-    w: &[f64; N],
+    v: &[f64],
+    w: &[f64],
 ) -> fmt::Result {
     let mut table = Table::new(cells(["coordinate", "critical mode v", "left vector w"]));
     for ((info, &v), &w) in d.coordinates.iter().zip(v).zip(w) {
-        table.row(vec![info.name.to_owned(), number(v), number(w)]);
+        table.row(vec![info.name.to_string(), number(v), number(w)]);
     }
     write!(f, "{table}")
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for SpecialPoint<N, U, P> {
+impl fmt::Display for SpecialPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.equilibrium.description;
+        let d = &self.equilibrium.description;
         let value = input_value(d, self.input, self.value);
-        let info = d.inputs.get(self.input.0);
-        let (name, unit) = info.map_or(("?", ""), |info| (info.name, info.unit.symbol));
+        let info = d.inputs.get(self.input.index());
+        let (name, unit) = info.map_or(("?", ""), |info| (&*info.name, &*info.unit.symbol));
         writeln!(f, "{}: {} at {name} = {value} {unit}", d.name, self.kind)?;
         write!(f, "{}", self.equilibrium)?;
         critical_vectors(f, d, &self.v, &self.w)
     }
 }
 
-fn special_table<'a, const N: usize, const U: usize, const P: usize>(
+fn special_table<'a>(
     d: &Description,
-    points: impl Iterator<Item = &'a SpecialPoint<N, U, P>>,
+    points: impl Iterator<Item = &'a SpecialPoint>,
 ) -> Option<Table> {
     let mut points = points.peekable();
     let input = points.peek()?.input;
@@ -114,9 +114,9 @@ fn special_table<'a, const N: usize, const U: usize, const P: usize>(
     Some(table)
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Branch<N, U, P> {
+impl fmt::Display for Branch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         let [first, last] = &self.ends;
         writeln!(
             f,
@@ -140,13 +140,13 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Branch<N, 
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Branches<N, U, P> {
+impl fmt::Display for Branches {
     /// One row for each stretch of one stability, then the special points.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(one) = self.branches.first() else {
             return writeln!(f, "no branches");
         };
-        let d = one.description;
+        let d = &one.description;
         writeln!(f, "{}: {} branches", d.name, self.branches.len())?;
         let mut head = vec!["branch".to_owned()];
         for end in ["from", "to"] {

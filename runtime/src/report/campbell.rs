@@ -5,14 +5,14 @@ use core::fmt;
 use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, undamped};
 use crate::campbell::Campbell;
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N, U, P> {
+impl fmt::Display for Campbell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: Campbell diagram", d.name)?;
-        let Some(info) = d.inputs.get(self.input.0) else {
+        let Some(info) = d.inputs.get(self.input.index()) else {
             return Ok(());
         };
-        let mut head = vec![heading(info.name, info.unit)];
+        let mut head = vec![heading(&info.name, &info.unit)];
         head.extend(cells([
             "mode",
             "omega [rad/s]",
@@ -24,7 +24,7 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N
         ]));
         let mut table = Table::new(head);
         for point in &self.points {
-            let value = in_unit(point.value, info.unit);
+            let value = in_unit(point.value, &info.unit);
             let modes = match &point.modes {
                 Ok(modes) => modes,
                 Err(error) => {
@@ -40,9 +40,9 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Campbell<N
                     value.clone(),
                     (mode.label + 1).to_string(),
                     own(oscillates, number(mode.s.im)),
-                    sigma(mode.frequency.map(|spread| spread.sigma)),
-                    optional(mode.damping_ratio.map(|spread| spread.mean)),
-                    sigma(mode.damping_ratio.map(|spread| spread.sigma)),
+                    sigma(mode.frequency.as_ref().map(|spread| spread.sigma)),
+                    optional(mode.damping_ratio.as_ref().map(|spread| spread.mean)),
+                    sigma(mode.damping_ratio.as_ref().map(|spread| spread.sigma)),
                     mode.whirl.map_or("-".to_owned(), |whirl| whirl.to_string()),
                     mode.behaviour.to_string(),
                 ]);

@@ -7,7 +7,7 @@ use super::table::{Table, cells, heading, in_unit, number};
 use crate::equilibrium::{
     Assembly, AssemblyMode, Condition, ConstraintState, CriticalState, Crossing,
 };
-use crate::{Description, Equilibrium, Role, Stability};
+use crate::{Description, Equilibrium, Role, Stability, Text};
 
 impl fmt::Display for Stability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -51,9 +51,9 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibrium<N, U, P> {
+impl fmt::Display for Equilibrium {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         write!(f, "{}: equilibrium, ", d.name)?;
         if self.constraints.singular {
             write!(f, "stability not decided in a singular configuration")?;
@@ -61,7 +61,7 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             write!(f, "{}", self.stability)?;
         }
         for (info, &value) in d.inputs.iter().zip(&self.inputs) {
-            let unit = info.unit;
+            let unit = &info.unit;
             write!(
                 f,
                 ", {} = {} {}",
@@ -82,7 +82,7 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
             "  relative residual {:.1e} after {} iterations",
             self.relative_residual, self.iterations
         )?;
-        match self.pose {
+        match &self.pose {
             Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
                 f,
                 "  {} is near its singular pose (margin {:.1e}): its coordinates are badly conditioned",
@@ -95,15 +95,10 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Equilibriu
 
 /// Coordinates, speeds and reactions, each with its own heading, and one more value of each. A reaction is what `from` exerts on
 /// `to`, its gap what is left to go in that direction.
-fn unknowns<const N: usize>(
-    description: &Description,
-    values: &[f64; N],
-    other: &str,
-    others: &[f64; N],
-) -> Table {
+fn unknowns(description: &Description, values: &[f64], other: &str, others: &[f64]) -> Table {
     let mut table = Table::new(cells(["coordinate", "value", other]));
     let mut last = Role::Position;
-    for (i, info) in description.coordinates.iter().enumerate().take(N) {
+    for (i, info) in description.coordinates.iter().enumerate() {
         let headings = match (last, info.role) {
             (before, now) if before == now => None,
             (_, Role::Position) => None,
@@ -116,21 +111,21 @@ fn unknowns<const N: usize>(
         }
         last = info.role;
         table.row(vec![
-            heading(info.name, info.unit),
-            in_unit(values[i], info.unit),
+            heading(&info.name, &info.unit),
+            in_unit(values[i], &info.unit),
             number(others[i]),
         ]);
     }
     table
 }
 
-fn redundancy<const N: usize>(
+fn redundancy(
     f: &mut fmt::Formatter<'_>,
-    state: &ConstraintState<N>,
-    dependent: impl Iterator<Item = &'static str>,
+    state: &ConstraintState,
+    dependent: impl Iterator<Item = Text>,
 ) -> fmt::Result {
     if state.redundant > 0 {
-        let names: Vec<_> = dependent.collect();
+        let names: Vec<_> = dependent.map(|name| name.to_string()).collect();
         writeln!(
             f,
             "  {} of {} constraints redundant ({}): of their reactions only combinations are determined",
@@ -149,9 +144,9 @@ fn redundancy<const N: usize>(
     Ok(())
 }
 
-impl<const N: usize> fmt::Display for Assembly<N> {
+impl fmt::Display for Assembly {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         write!(f, "{}: assembled in {} iterations", d.name, self.iterations)?;
         match self.mode {
             Some(AssemblyMode::Positive) => write!(f, ", assembly mode +")?,
@@ -181,11 +176,11 @@ impl<const N: usize> fmt::Display for Assembly<N> {
 /// Pose margin below which a report warns.
 const NEAR_SINGULAR: f64 = 0.1;
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for CriticalState<N, U, P> {
+impl fmt::Display for CriticalState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.equilibrium.description;
-        if let Some(info) = d.inputs.get(self.input.0) {
-            let value = in_unit(self.value, info.unit);
+        let d = &self.equilibrium.description;
+        if let Some(info) = d.inputs.get(self.input.index()) {
+            let value = in_unit(self.value, &info.unit);
             writeln!(
                 f,
                 "{}: critical at {} = {value} {}, {}",
@@ -197,13 +192,13 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for CriticalSt
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Crossing<N, U, P> {
+impl fmt::Display for Crossing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.equilibrium.description;
-        if let Some(info) = d.inputs.get(self.input.0) {
-            let value = in_unit(self.value, info.unit);
-            let what = meeting(self.mode, self.condition, info.name);
-            let symbol = info.unit.symbol;
+        let d = &self.equilibrium.description;
+        if let Some(info) = d.inputs.get(self.input.index()) {
+            let value = in_unit(self.value, &info.unit);
+            let what = meeting(self.mode, self.condition, &info.name);
+            let symbol = &info.unit.symbol;
             writeln!(f, "{}: {what} at {} = {value} {symbol}", d.name, info.name)?;
         }
         write!(f, "{}{}", self.equilibrium, self.modes)

@@ -7,21 +7,21 @@ use crate::tolerance::Margin;
 use crate::{Description, Unit};
 
 /// A margin, printed with the name and the unit of its quantity and the names of the design variables.
-#[derive(Clone, Copy, Debug)]
-pub struct MarginTable<'a, const P: usize> {
+#[derive(Clone, Debug)]
+pub struct MarginTable<'a> {
     /// The margin, as [`margin`](crate::tolerance::margin) returns it.
-    pub margin: &'a Margin<P>,
+    pub margin: &'a Margin,
     /// What the quantity is, for example `frequency 1`.
     pub quantity: &'a str,
     /// Its unit, for example rad/s.
     pub unit: Unit,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: &'a Description,
 }
 
-impl<const P: usize> fmt::Display for MarginTable<'_, P> {
+impl fmt::Display for MarginTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (margin, unit, d) = (self.margin, self.unit, self.description);
+        let (margin, unit, d) = (self.margin, &self.unit, self.description);
         let (low, high) = margin.band;
         writeln!(
             f,
@@ -60,9 +60,9 @@ impl<const P: usize> fmt::Display for MarginTable<'_, P> {
             );
         }
         let mut table = Table::new(cells(["probability by", "nominal value", "half-width"]));
-        for (k, info) in d.design.iter().enumerate().take(P) {
+        for (k, info) in d.design.iter().enumerate() {
             table.row(vec![
-                per(info.name, info.unit),
+                per(&info.name, &info.unit),
                 number(slopes.by_design[k] * info.unit.scale),
                 number(slopes.by_half_width[k] * info.unit.scale),
             ]);

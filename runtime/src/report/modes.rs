@@ -36,7 +36,7 @@ impl fmt::Display for Whirl {
     }
 }
 
-impl<const N: usize> fmt::Display for Modes<N> {
+impl fmt::Display for Modes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let general = self.family == Family::General;
         writeln!(f, "{}: natural modes", self.description.name)?;
@@ -49,7 +49,7 @@ impl<const N: usize> fmt::Display for Modes<N> {
         // Reactions come last among the unknowns; a shape is what moves.
         let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
         let moving = self.description.coordinates.iter().filter(moves);
-        head.extend(moving.clone().map(|info| info.name.to_owned()));
+        head.extend(moving.clone().map(|info| info.name.to_string()));
         head.push("motion".to_owned());
         let mut table = Table::new(head);
         for mode in &self.modes {

@@ -5,9 +5,9 @@ use core::fmt;
 use super::margin::MarginTable;
 use super::table::{Table, cells, number};
 use crate::tolerance::{ModeMargin, SecondOrder};
-use crate::{Quantity, Unit};
+use crate::{Quantity, Text, Unit};
 
-impl<const P: usize> fmt::Display for SecondOrder<P> {
+impl fmt::Display for SecondOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
@@ -48,28 +48,28 @@ impl<const P: usize> fmt::Display for SecondOrder<P> {
     }
 }
 
-impl<const U: usize, const P: usize> fmt::Display for ModeMargin<U, P> {
+impl fmt::Display for ModeMargin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let table = MarginTable {
             margin: &self.margin,
             quantity: &format!("{} {}", self.quantity, self.mode + 1),
             unit: Unit {
-                symbol: match self.quantity {
+                symbol: Text::Static(match self.quantity {
                     Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
                     Quantity::DampingRatio => "",
                     Quantity::Growth => "1/s",
-                },
+                }),
                 scale: 1.0,
             },
-            description: self.description,
+            description: &self.description,
         };
         write!(f, "{table}")?;
-        let Some(by_input) = self.by_input else {
+        let Some(by_input) = &self.by_input else {
             return Ok(());
         };
         for (info, slope) in self.description.inputs.iter().zip(by_input) {
             let slope = number(slope * info.unit.scale);
-            let symbol = info.unit.symbol;
+            let symbol = &info.unit.symbol;
             writeln!(f, "  probability by {} [{symbol}]: {slope}", info.name)?;
         }
         Ok(())

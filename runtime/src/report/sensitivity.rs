@@ -6,14 +6,12 @@ use super::table::{Table, cells, heading, number, of_mode, per, undamped};
 use crate::Sensitivities;
 use crate::modes::Family;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
-use crate::{Description, Unit};
+use crate::{Description, Text, Unit};
 
 /// Names and units of all variables, inputs first.
-fn variables(d: &Description) -> Vec<(&'static str, Unit)> {
-    let inputs = d.inputs.iter().map(|info| (info.name, info.unit));
-    inputs
-        .chain(d.design.iter().map(|info| (info.name, info.unit)))
-        .collect()
+fn variables(d: &Description) -> impl Iterator<Item = (&Text, &Unit)> {
+    let inputs = d.inputs.iter().map(|info| (&info.name, &info.unit));
+    inputs.chain(d.design.iter().map(|info| (&info.name, &info.unit)))
 }
 
 /// A table of derivatives: one row for each variable, in its declared unit.
@@ -27,7 +25,7 @@ fn derivatives(
     let count = columns.len();
     head.extend(columns);
     let mut table = Table::new(head);
-    for (j, (name, unit)) in variables(d).into_iter().enumerate() {
+    for (j, (name, unit)) in variables(d).enumerate() {
         let mut row = vec![per(name, unit)];
         row.extend((0..count).map(|column| {
             let value = value(column, j).map(|value| value * unit.scale);
@@ -39,14 +37,10 @@ fn derivatives(
 }
 
 /// Element `j` of inputs followed by design variables.
-fn pick<const U: usize, const P: usize>(
-    inputs: &[f64; U],
-    design: &[f64; P],
-    j: usize,
-) -> Option<f64> {
+fn pick(inputs: &[f64], design: &[f64], j: usize) -> Option<f64> {
     inputs
         .get(j)
-        .or_else(|| design.get(j.checked_sub(U)?))
+        .or_else(|| design.get(j.checked_sub(inputs.len())?))
         .copied()
 }
 
@@ -76,7 +70,7 @@ impl fmt::Display for Method {
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivities<N, U, P> {
+impl fmt::Display for Sensitivities {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
@@ -102,9 +96,9 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
             pick(&slopes.by_input, &slopes.by_design, j)
         };
         let clustered = |column| mode(column).clustered;
-        let table = derivatives(self.description, columns, value, clustered);
+        let table = derivatives(&self.description, columns, value, clustered);
         write!(f, "{table}")?;
-        undamped(f, self.family, self.description)?;
+        undamped(f, self.family, &self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {
                 writeln!(
@@ -119,27 +113,27 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sensitivit
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for EquilibriumShift<N, U, P> {
+impl fmt::Display for EquilibriumShift {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: shift of the equilibrium", d.name)?;
         let columns = d
             .coordinates
             .iter()
-            .map(|info| heading(info.name, info.unit))
+            .map(|info| heading(&info.name, &info.unit))
             .collect();
         let value = |i: usize, j| {
-            let unit = d.coordinates.get(i)?.unit;
-            Some(pick(self.by_input.get(i)?, self.by_design.get(i)?, j)? / unit.scale)
+            let scale = d.coordinates.get(i)?.unit.scale;
+            Some(pick(&self.by_input[i], &self.by_design[i], j)? / scale)
         };
         let table = derivatives(d, columns, value, |_| false);
         write!(f, "{table}")
     }
 }
 
-impl<const U: usize, const P: usize, const O: usize> fmt::Display for OutputSensitivities<U, P, O> {
+impl fmt::Display for OutputSensitivities {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: outputs", d.name)?;
         for (info, &value) in d.outputs.iter().zip(&self.values) {
             let value = number(value / info.unit.scale);
@@ -148,10 +142,10 @@ impl<const U: usize, const P: usize, const O: usize> fmt::Display for OutputSens
         let columns = d
             .outputs
             .iter()
-            .map(|info| heading(info.name, info.unit))
+            .map(|info| heading(&info.name, &info.unit))
             .collect();
         let value = |o: usize, j| {
-            let unit = d.outputs.get(o)?.unit;
+            let unit = &d.outputs.get(o)?.unit;
             let (inputs, design) = (
                 self.by_input.get(o)?.as_ref()?,
                 self.by_design.get(o)?.as_ref()?,

@@ -10,7 +10,7 @@ const MOST: f64 = 0.9;
 
 /// Headings: one column for each variable, or one for the greatest shares.
 pub(super) fn head(description: &Description) -> Vec<String> {
-    let design = description.design;
+    let design = &description.design;
     if design.len() > SEPARATE {
         return vec!["variance mostly from".to_owned()];
     }
@@ -20,7 +20,7 @@ pub(super) fn head(description: &Description) -> Vec<String> {
 
 /// The cells below [`head`]; `None` where there are no shares.
 pub(super) fn cells(description: &Description, shares: Option<&[f64]>) -> Vec<String> {
-    let design = description.design;
+    let design = &description.design;
     let Some(shares) = shares else {
         return vec!["-".to_owned(); head(description).len()];
     };

@@ -33,7 +33,7 @@ fn statistics(name: String, value: Option<&Statistics>) -> Vec<String> {
     vec![
         name,
         of(|s| Some(s.mean)),
-        of(|s| s.standard_deviation),
+        of(|s| s.sigma),
         of(|s| Some(s.min)),
         of(|s| Some(s.max)),
         value.map_or(0, |s| s.count).to_string(),
@@ -53,9 +53,9 @@ fn members(table: &mut Table, quantity: &str, spread: &SortedSpread) {
     }
 }
 
-impl<const U: usize, const P: usize> fmt::Display for ClusterTolerance<U, P> {
+impl fmt::Display for ClusterTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.description.name;
+        let name = &self.description.name;
         let modes = named(&self.modes);
         let spread = match &self.spread {
             Ok(spread) => spread,
@@ -74,7 +74,7 @@ impl<const U: usize, const P: usize> fmt::Display for ClusterTolerance<U, P> {
             "{name}: {modes} form a cluster, {distance} standard deviations apart; {samples} samples"
         )?;
         let mut table = Table::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
-        if let Some(mean) = self.mean.and_then(|mean| mean.frequency) {
+        if let Some(mean) = self.mean.as_ref().and_then(|mean| mean.frequency.as_ref()) {
             let name = "of the mean eigenvalue [rad/s]".to_owned();
             let (mean, sigma) = (number(mean.mean), number(mean.sigma));
             let none = || "-".to_owned();
@@ -107,9 +107,9 @@ fn without(f: &mut fmt::Formatter<'_>, spread: &ClusterSpread) -> fmt::Result {
     Ok(())
 }
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Summary<N, U, P> {
+impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: what tolerances do to the frequencies", d.name)?;
         let mut head = cells([
             "mode",
@@ -123,12 +123,13 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Summary<N,
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
             let alone = self.cluster_of(r).is_none();
             let own = |value: Option<f64>| optional(value.filter(|_| alone));
+            let frequency = mode.frequency.as_ref();
             table.row(vec![
                 (r + 1).to_string(),
-                optional(mode.mean),
-                own(mode.sigma),
+                optional(mode.behaviour.frequency()),
+                own(frequency.map(|spread| spread.sigma)),
                 own(self.second_order_sigma(r)),
-                own(mode.band),
+                own(frequency.map(|spread| spread.band)),
                 verdict(&trust.doubts),
             ]);
         }
@@ -157,7 +158,7 @@ fn verdict(doubts: &[Doubt]) -> String {
     word.to_owned()
 }
 
-impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
+impl Summary {
     /// Each doubt once, with all the modes that share it.
     fn sentences(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut said: Vec<&Doubt> = Vec::new();

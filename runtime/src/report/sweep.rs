@@ -6,16 +6,16 @@ use super::table::{Table, heading, in_unit, optional, undamped};
 use crate::Mode;
 use crate::equilibrium::Sweep;
 
-impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sweep<N, U, P> {
+impl fmt::Display for Sweep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: sweep", d.name)?;
-        let input = d.inputs.get(self.input.0);
-        let mut head = vec![input.map_or_else(String::new, |info| heading(info.name, info.unit))];
+        let input = d.inputs.get(self.input.index());
+        let mut head = vec![input.map_or_else(String::new, |info| heading(&info.name, &info.unit))];
         head.extend(
             d.coordinates
                 .iter()
-                .map(|info| heading(info.name, info.unit)),
+                .map(|info| heading(&info.name, &info.unit)),
         );
         let found = || {
             self.points
@@ -28,15 +28,13 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sweep<N, U
         head.push("state".to_owned());
         let mut table = Table::new(head);
         for point in &self.points {
-            let value = input.map_or_else(String::new, |info| in_unit(point.value, info.unit));
+            let value = input.map_or_else(String::new, |info| in_unit(point.value, &info.unit));
             let mut row = vec![value];
-            row.extend((0..N).map(|i| {
+            row.extend(d.coordinates.iter().enumerate().map(|(i, info)| {
                 let state = point.equilibrium.as_ref().ok();
-                let unit = d.coordinates.get(i).map(|info| info.unit);
-                let pair = state.zip(unit);
-                pair.map_or_else(
+                state.map_or_else(
                     || "-".to_owned(),
-                    |(s, unit)| in_unit(s.coordinates[i], unit),
+                    |state| in_unit(state.coordinates[i], &info.unit),
                 )
             }));
             row.extend((0..labels).map(|label| {
@@ -53,8 +51,8 @@ impl<const N: usize, const U: usize, const P: usize> fmt::Display for Sweep<N, U
         write!(f, "{table}")?;
         for critical in &self.critical {
             if let Some(info) = input {
-                let value = in_unit(critical.value, info.unit);
-                let symbol = info.unit.symbol;
+                let value = in_unit(critical.value, &info.unit);
+                let symbol = &info.unit.symbol;
                 writeln!(
                     f,
                     "  critical at {} = {value} {symbol} ({})",

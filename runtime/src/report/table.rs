@@ -81,7 +81,7 @@ pub(super) fn of_mode(value: Option<f64>, clustered: bool) -> String {
 }
 
 /// A value converted from SI to a declared unit.
-pub(super) fn in_unit(value: f64, unit: Unit) -> String {
+pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
     number(if unit.scale == 0.0 {
         value
     } else {
@@ -90,7 +90,7 @@ pub(super) fn in_unit(value: f64, unit: Unit) -> String {
 }
 
 /// `name [unit]`.
-pub(super) fn heading(name: &str, unit: Unit) -> String {
+pub(super) fn heading(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() {
         name.to_owned()
     } else {
@@ -99,7 +99,7 @@ pub(super) fn heading(name: &str, unit: Unit) -> String {
 }
 
 /// `top per unit`, for derivatives.
-pub(super) fn per(name: &str, unit: Unit) -> String {
+pub(super) fn per(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() {
         format!("/ {name}")
     } else {
@@ -107,7 +107,7 @@ pub(super) fn per(name: &str, unit: Unit) -> String {
     }
 }
 
-pub(super) fn cells<const C: usize>(texts: [&str; C]) -> Vec<String> {
+pub(super) fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
     texts.map(str::to_owned).to_vec()
 }
 

@@ -11,33 +11,34 @@ use crate::tolerance::{
 };
 use crate::{FirstOrder, MonteCarlo};
 
-impl<const P: usize, const O: usize> fmt::Display for OutputTolerances<P, O> {
+impl fmt::Display for OutputTolerances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: first-order spread of the outputs", d.name)?;
         let mut head = cells(["output", "mean", "sigma"]);
         head.push(format!("{} sigma", self.sigma_level));
         head.extend(shares::head(d));
         let mut table = Table::new(head);
-        for (info, own) in d.outputs.iter().zip(&self.outputs) {
+        let values = self.values.iter().zip(&self.spreads);
+        for (info, (value, own)) in d.outputs.iter().zip(values) {
             let scaled = |value: f64| value / info.unit.scale;
+            let own = own.as_ref();
             let mut row = vec![
-                heading(info.name, info.unit),
-                number(scaled(own.mean)),
-                optional(own.sigma.map(scaled)),
-                optional(own.band.map(scaled)),
+                heading(&info.name, &info.unit),
+                number(scaled(*value)),
+                optional(own.map(|own| scaled(own.sigma))),
+                optional(own.map(|own| scaled(own.band))),
             ];
-            let own = own.variance_shares.as_ref();
-            row.extend(shares::cells(d, own.map(|own| &own[..])));
+            row.extend(shares::cells(d, own.map(|own| &own.variance_shares[..])));
             table.row(row);
         }
         write!(f, "{table}")
     }
 }
 
-impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
+impl fmt::Display for FirstOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
+        let d = &self.description;
         writeln!(f, "{}: first-order spread of the frequencies", d.name)?;
         let general = self.family == Family::General;
         let mut head = cells(["mode", "mean [rad/s]", "sigma [rad/s]"]);
@@ -50,19 +51,20 @@ impl<const N: usize, const P: usize> fmt::Display for FirstOrder<N, P> {
         let mut table = Table::new(head);
         for (r, mode) in self.modes.iter().enumerate() {
             let own = |value: Option<f64>| of_mode(value, mode.clustered);
+            let (frequency, damping) = (mode.frequency.as_ref(), mode.damping_ratio.as_ref());
             let mut row = vec![
                 (r + 1).to_string(),
-                optional(mode.mean),
-                own(mode.sigma),
-                own(mode.band),
+                optional(mode.behaviour.frequency()),
+                own(frequency.map(|spread| spread.sigma)),
+                own(frequency.map(|spread| spread.band)),
             ];
             if general {
-                row.push(optional(mode.damping_ratio.map(|spread| spread.mean)));
-                row.push(own(mode.damping_ratio.map(|spread| spread.sigma)));
+                row.push(optional(damping.map(|spread| spread.mean)));
+                row.push(own(damping.map(|spread| spread.sigma)));
                 row.push(own(Some(mode.distance_to_instability)));
             }
             row.push(own(Some(mode.distance_to_critical)));
-            let shares = (!mode.clustered).then_some(&mode.variance_shares[..]);
+            let shares = (!mode.clustered).then(|| mode.variance_shares());
             row.extend(shares::cells(d, shares));
             table.row(row);
         }
@@ -148,7 +150,7 @@ impl fmt::Display for Counts {
     }
 }
 
-impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
+impl fmt::Display for MonteCarlo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
@@ -176,7 +178,7 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
                 (r + 1).to_string(),
                 value(|s| Some(s.mean)),
                 value(|s| s.standard_error),
-                value(|s| s.standard_deviation),
+                value(|s| s.sigma),
                 value(|s| Some(s.min)),
                 value(|s| Some(s.max)),
                 mode.as_ref().map_or(0, |s| s.count).to_string(),
@@ -184,12 +186,12 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
             if general {
                 let damping = self.damping_ratios[r].as_ref();
                 row.push(optional(damping.map(|s| s.mean)));
-                row.push(optional(damping.and_then(|s| s.standard_deviation)));
+                row.push(optional(damping.and_then(|s| s.sigma)));
             }
             table.row(row);
         }
         write!(f, "{table}")?;
-        undamped(f, self.family, self.description)?;
+        undamped(f, self.family, &self.description)?;
         if self.side_by_side {
             writeln!(
                 f,
@@ -213,13 +215,13 @@ impl<const N: usize, const P: usize> fmt::Display for MonteCarlo<N, P> {
     }
 }
 
-impl<const P: usize> fmt::Display for EventTolerance<P> {
+impl fmt::Display for EventTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let d = self.description;
-        let Some(info) = d.inputs.get(self.input.0) else {
+        let d = &self.description;
+        let Some(info) = d.inputs.get(self.input.index()) else {
             return Ok(());
         };
-        let (name, unit) = (info.name, info.unit);
+        let (name, unit) = (&info.name, &info.unit);
         match self.event {
             Event::Critical => write!(f, "{}: critical at {name}", d.name)?,
             Event::Crossing {
@@ -233,7 +235,7 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
                 write!(f, "{}: {what}{sense} at {name}", d.name)?;
             }
         }
-        let (value, symbol) = (in_unit(self.value, unit), unit.symbol);
+        let (value, symbol) = (in_unit(self.value, unit), &unit.symbol);
         let spread = match &self.spread {
             Ok(spread) => spread,
             Err(error) => return writeln!(f, " = {value} {symbol}, without a spread: {error}"),
@@ -252,7 +254,7 @@ impl<const P: usize> fmt::Display for EventTolerance<P> {
             .zip(&spread.variance_shares)
         {
             table.row(vec![
-                per(info.name, info.unit),
+                per(&info.name, &info.unit),
                 number(slope * info.unit.scale / unit.scale),
                 format!("{:.1} %", 100.0 * share),
             ]);

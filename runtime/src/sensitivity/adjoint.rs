@@ -2,277 +2,192 @@
 //! `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`; for general ones the same with
 //! `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both `Khat^T w = da/dq`.
 
-use super::gradients::{Cheaper, of_general, of_undamped};
-use super::pencil::{Form, form_gradient, residual_gradient};
-use super::{Method, Sensitivities, Slopes, redundancy};
-use crate::array::{Cholesky, Lu, dot_complex, transpose};
+use super::gradients::{Source, of_general, of_undamped};
+use super::pencil::{ComplexGradient, Form, form_gradient};
+use super::{Method, ModeSensitivity, Sensitivities, assemble, check_state, redundancy};
+use crate::dense::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex};
+use crate::kernels::{Gradient, Kernels, LinearPartials, ResidualPartials};
 use crate::modes::Family;
 use crate::pencil::pencil_slope_times;
-use crate::{Complex, Equilibrium, Error, Gradient, Mechanism, Mode, Modes};
+use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode by every input and design variable.
 ///
 /// # Errors
 /// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
 /// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
-pub fn sensitivities<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-) -> Result<Sensitivities<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let mut found = Sensitivities::blank(modes, Method::Adjoint);
-    sensitivities_into(mechanism, at, modes, &mut found)?;
-    Ok(found)
-}
-
-/// As [`sensitivities`], written into `found`, where there is room for these modes: they are long to copy.
-pub(crate) fn sensitivities_into<
-    M,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn sensitivities(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+    modes: &Modes,
+) -> Result<Sensitivities, Error> {
+    check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
-    let state = State::new(mechanism, at)?;
-    match modes.family {
-        Family::Undamped if const { Cheaper::<M, N, U, P, O>::MATRICES } => {
-            undamped_from_partials(&state, modes, found)
-        }
-        Family::Undamped => undamped(&state, modes, found),
-        Family::General if const { Cheaper::<M, N, U, P, O>::MATRICES_GENERAL } => {
-            general_from_partials(&state, modes, found)
-        }
-        Family::General => general(&state, modes, found),
-    }
+    let mut adjoint = Adjoint::new(mechanism, at, modes.family)?;
+    assemble(at, modes, Method::Adjoint, |own, mode| {
+        adjoint.set(own, mode)
+    })
 }
 
-/// What all modes share.
-struct State<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    mechanism: &'a M,
-    at: &'a Equilibrium<N, U, P>,
-    factors: Factors<N>,
+/// What all modes share, and room for what one has by itself.
+struct Adjoint<'a> {
+    mechanism: &'a dyn Kernels,
+    at: &'a Equilibrium,
+    family: Family,
+    factors: Factors,
+    /// Explicit partials of the matrices, where gradients of forms come from them.
+    matrices: Option<LinearPartials>,
+    /// Explicit partials of the residual, where its gradients come from them.
+    residual: Option<ResidualPartials>,
+    phi: Vector,
+    /// Of the form; of undamped modes there is a real part alone.
+    direct: ComplexGradient,
+    adjoint: Vector,
+    /// What the motion of the equilibrium changes.
+    shift: Gradient,
 }
 
-/// Factors of the transposed `Khat`.
-enum Factors<const N: usize> {
-    Definite(Cholesky<N>),
-    General(Lu<f64, N>),
-}
-
-impl<const N: usize> Factors<N> {
-    #[inline]
-    fn solve(&self, right: &[f64; N]) -> [f64; N] {
-        match self {
-            Self::Definite(factors) => factors.solve(right),
-            Self::General(factors) => factors.solve(right),
-        }
-    }
-
-    fn solve_complex(&self, right: &[Complex; N]) -> [Complex; N] {
-        let re = self.solve(&right.map(|value| value.re));
-        let im = self.solve(&right.map(|value| value.im));
-        core::array::from_fn(|i| Complex::new(re[i], im[i]))
-    }
-}
-
-impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> State<'a, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    #[inline]
-    fn new(mechanism: &'a M, at: &'a Equilibrium<N, U, P>) -> Result<Self, Error> {
-        let stiffness = &at.linear.stiffness;
-        let definite = if const { M::DESCRIPTION.symmetric_stiffness } {
-            Cholesky::new(stiffness).ok()
-        } else {
-            None
+impl<'a> Adjoint<'a> {
+    fn new(mechanism: &'a dyn Kernels, at: &'a Equilibrium, family: Family) -> Result<Self, Error> {
+        let factors = Factors::new(at)?;
+        let sizes = mechanism.sizes();
+        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let (matrices, residual) = match Source::cheapest(&at.description, family) {
+            Source::Partials => {
+                let (matrices, residual) = mechanism.partials(q, u, b);
+                (Some(matrices), Some(residual))
+            }
+            Source::ResidualPartials => (None, Some(mechanism.residual_partials(q, u, b))),
+            Source::Reverse => (None, None),
         };
-        let factors = match definite {
-            Some(factors) => Factors::Definite(factors),
-            None => Factors::General(Lu::new(&transpose(stiffness)).ok_or(Error::CriticalState)?),
+        let imaginary = match family {
+            Family::Undamped => Gradient::default(),
+            Family::General => Gradient::zeros(sizes),
         };
         Ok(Self {
             mechanism,
             at,
+            family,
             factors,
+            matrices,
+            residual,
+            phi: Vector::zeros(sizes.coordinates),
+            direct: [Gradient::zeros(sizes), imaginary],
+            adjoint: Vector::zeros(sizes.coordinates),
+            shift: Gradient::zeros(sizes),
         })
     }
-}
 
-/// Partial derivatives of the residual by inputs and design.
-type ResidualPartials<const N: usize, const U: usize, const P: usize> =
-    ([[f64; U]; N], [[f64; P]; N]);
-
-/// Undamped modes, the gradient of each from reverse differentiation.
-fn undamped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL }
-        .then(|| state.mechanism.residual_partials(q, u, b));
-    undamped_from(state, modes, found, residual.as_ref(), |mode| {
-        state
-            .mechanism
-            .mode_gradient(q, u, b, &mode.real_shape(), mode.lambda)
-    })
-}
-
-/// Undamped modes, their gradients from explicit partials.
-fn undamped_from_partials<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    // Borrowed: to move them would take as long as to use them.
-    let partials = state.mechanism.partials(q, u, b);
-    let (matrices, residual) = &partials;
-    let symmetric = const { M::DESCRIPTION.symmetric_stiffness };
-    undamped_from(state, modes, found, Some(residual), |mode| {
-        of_undamped(matrices, &mode.real_shape(), mode.lambda, symmetric)
-    })
-}
-
-#[inline]
-fn undamped_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-    residual: Option<&ResidualPartials<N, U, P>>,
-    direct: impl Fn(&Mode<N>) -> Gradient<f64, N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (mechanism, at) = (state.mechanism, state.at);
-    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    found.fill(at, modes, |mode| {
-        let direct = direct(mode);
-        let adjoint = state.factors.solve(&direct.coordinates);
-        let (inputs, design) = match residual {
-            Some((by_input, by_design)) => {
-                (combine(&adjoint, by_input), combine(&adjoint, by_design))
+    fn set(&mut self, own: &mut ModeSensitivity, mode: &Mode) {
+        match self.family {
+            Family::Undamped => {
+                self.undamped_gradient(mode);
+                self.total(0);
+                let [lambda, _] = &self.direct;
+                let (inputs, design) = (lambda.inputs.iter(), lambda.design.iter());
+                own.set_undamped(mode, inputs.copied(), design.copied());
             }
-            None => {
-                let shift = mechanism.residual_gradient(q, u, b, &adjoint);
-                (shift.inputs, shift.design)
+            Family::General => {
+                self.general_gradient(mode);
+                self.total(0);
+                self.total(1);
+                let [re, im] = &self.direct;
+                let scale = -normaliser(self.at, mode);
+                let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
+                let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
+                let by_design = re.design.iter().zip(&im.design).map(slope);
+                own.set_general(mode, by_input, by_design);
             }
-        };
-        Slopes {
-            by_input: core::array::from_fn(|j| (direct.inputs[j] - inputs[j]).into()),
-            by_design: core::array::from_fn(|j| (direct.design[j] - design[j]).into()),
-        }
-    })
-}
-
-/// General modes, the gradient of each from reverse differentiation.
-fn general<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    let residual = const { Cheaper::<M, N, U, P, O>::RESIDUAL_GENERAL }
-        .then(|| state.mechanism.residual_partials(q, u, b));
-    general_from(state, modes, found, residual.as_ref(), |mode| {
-        let form = Form::of(&mode.left, mode.s, &mode.shape);
-        form_gradient(state.mechanism, state.at, &form)
-    })
-}
-
-/// General modes, their gradients from explicit partials.
-fn general_from_partials<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&state.at.coordinates, &state.at.inputs, &state.at.design);
-    // Borrowed: to move them would take as long as to use them.
-    let partials = state.mechanism.partials(q, u, b);
-    let (matrices, residual) = &partials;
-    general_from(state, modes, found, Some(residual), |mode| {
-        of_general(matrices, mode)
-    })
-}
-
-#[inline]
-fn general_from<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    state: &State<'_, M, N, U, P, O>,
-    modes: &Modes<N>,
-    found: &mut Sensitivities<N, U, P>,
-    residual: Option<&ResidualPartials<N, U, P>>,
-    direct: impl Fn(&Mode<N>) -> Gradient<Complex, N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (mechanism, at) = (state.mechanism, state.at);
-    found.fill(at, modes, |mode| {
-        let direct = direct(mode);
-        let adjoint = state.factors.solve_complex(&direct.coordinates);
-        let (inputs, design) = match residual {
-            Some((by_input, by_design)) => {
-                (combine(&adjoint, by_input), combine(&adjoint, by_design))
-            }
-            None => {
-                let shift = residual_gradient(mechanism, at, &adjoint);
-                (shift.inputs, shift.design)
-            }
-        };
-        let scale = -normaliser(at, mode);
-        Slopes {
-            by_input: core::array::from_fn(|j| (direct.inputs[j] - inputs[j]) / scale),
-            by_design: core::array::from_fn(|j| (direct.design[j] - design[j]) / scale),
-        }
-    })
-}
-
-/// `w^T partials`.
-#[inline]
-fn combine<T, const N: usize, const K: usize>(w: &[T; N], partials: &[[f64; K]; N]) -> [T; K]
-where
-    T: Copy + Default + core::ops::AddAssign + core::ops::Mul<f64, Output = T>,
-{
-    let mut sum = [T::default(); K];
-    for (w, row) in w.iter().zip(partials) {
-        for (sum, &slope) in sum.iter_mut().zip(row) {
-            *sum += *w * slope;
         }
     }
-    sum
+
+    fn undamped_gradient(&mut self, mode: &Mode) {
+        for (phi, value) in self.phi.iter_mut().zip(&mode.shape) {
+            *phi = value.re;
+        }
+        let (phi, lambda, gradient) = (&self.phi, mode.lambda, &mut self.direct[0]);
+        match &self.matrices {
+            Some(matrices) => {
+                let symmetric = self.at.description.symmetric_stiffness;
+                of_undamped(matrices, phi, lambda, symmetric, gradient);
+            }
+            None => {
+                let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+                self.mechanism
+                    .mode_gradient_into(q, u, b, phi, lambda, gradient);
+            }
+        }
+    }
+
+    fn general_gradient(&mut self, mode: &Mode) {
+        match &self.matrices {
+            Some(matrices) => of_general(matrices, mode, &mut self.direct),
+            None => {
+                let form = Form::of(&mode.left, mode.s, &mode.shape);
+                let room = &mut self.shift;
+                form_gradient(self.mechanism, self.at, &form, room, &mut self.direct);
+            }
+        }
+    }
+
+    /// Takes what the motion of the equilibrium changes into a part of the gradient.
+    fn total(&mut self, part: usize) {
+        let direct = &mut self.direct[part];
+        self.adjoint.copy_from_slice(&direct.coordinates);
+        self.factors.solve(&mut self.adjoint);
+        match &self.residual {
+            Some((by_input, by_design)) => {
+                combine(&self.adjoint, by_input, &mut self.shift.inputs);
+                combine(&self.adjoint, by_design, &mut self.shift.design);
+            }
+            None => {
+                let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+                self.mechanism
+                    .residual_gradient_into(q, u, b, &self.adjoint, &mut self.shift);
+            }
+        }
+        add_to(&mut direct.inputs, -1.0, &self.shift.inputs);
+        add_to(&mut direct.design, -1.0, &self.shift.design);
+    }
+}
+
+/// Factors of the transposed `Khat`.
+enum Factors {
+    Definite(Cholesky),
+    General(Lu<f64>),
+}
+
+impl Factors {
+    fn new(at: &Equilibrium) -> Result<Self, Error> {
+        let stiffness = &at.linear.stiffness;
+        if at.description.symmetric_stiffness
+            && let Ok(factors) = Cholesky::new(stiffness)
+        {
+            return Ok(Self::Definite(factors));
+        }
+        let factors = Lu::new(&stiffness.transpose());
+        factors.map(Self::General).ok_or(Error::CriticalState)
+    }
+
+    /// Writes the solution over the right-hand side.
+    fn solve(&self, x: &mut Vector) {
+        match self {
+            Self::Definite(factors) => factors.solve_in_place(x),
+            Self::General(factors) => *x = factors.solve(x),
+        }
+    }
+}
+
+/// `sum = w^T partials`.
+fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
+    sum.fill(0.0);
+    for (w, row) in w.iter().zip(partials.iter()) {
+        add_to(sum, *w, row);
+    }
 }
 
 /// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
-pub(super) fn normaliser<const N: usize, const U: usize, const P: usize>(
-    at: &Equilibrium<N, U, P>,
-    mode: &Mode<N>,
-) -> Complex {
+pub(super) fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
     dot_complex(
         &mode.left,
         &pencil_slope_times(&at.linear, mode.s, &mode.shape),

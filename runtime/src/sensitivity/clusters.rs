@@ -2,11 +2,13 @@
 //! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
 
 use super::adjoint::normaliser;
+use super::check_modes;
 use super::shift::directions;
-use crate::array::{dot_complex, times_complex};
+use crate::dense::{dot_complex, times_complex};
+use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::Family;
 use crate::pencil::pencil_times;
-use crate::{Behaviour, Complex, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
+use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 
 /// First-order motion of several modes together: along a change `db` their eigenvalues are those of
 /// `diag(eigenvalues) + sum_k db_k by_design[k]`.
@@ -76,20 +78,18 @@ impl ModalCouplings {
 ///
 /// # Errors
 /// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::NoSuchMode`].
-pub fn modal_couplings<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
+pub fn modal_couplings(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
     positions: &[usize],
-) -> Result<ModalCouplings, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<ModalCouplings, Error> {
     let count = modes.modes.len();
     if let Some(&mode) = positions.iter().find(|&&mode| mode >= count) {
         return Err(Error::NoSuchMode { mode, count });
     }
-    let members: Vec<&Mode<N>> = positions.iter().map(|&r| &modes.modes[r]).collect();
+    check_modes(at, modes)?;
+    let members: Vec<&Mode> = positions.iter().map(|&r| &modes.modes[r]).collect();
     let mut matrices = directions(mechanism, at)?.map(|along| {
         let change = along.linear(mechanism, at);
         match modes.family {
@@ -97,9 +97,9 @@ where
             Family::General => general(at, &members, &change),
         }
     });
-    let by_input: Vec<_> = matrices.by_ref().take(U).collect();
+    let by_input: Vec<_> = matrices.by_ref().take(at.inputs.len()).collect();
     let by_design: Vec<_> = matrices.collect();
-    let eigenvalue = |mode: &&Mode<N>| match (modes.family, mode.behaviour) {
+    let eigenvalue = |mode: &&Mode| match (modes.family, mode.behaviour) {
         // Zero but for rounding, whose sign must not count as growth.
         (_, Behaviour::Neutral) => Complex::ZERO,
         (Family::Undamped, _) => mode.lambda.into(),
@@ -115,7 +115,7 @@ where
 }
 
 /// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
-fn undamped<const N: usize>(members: &[&Mode<N>], change: &Linear<f64, N>) -> Vec<Complex> {
+fn undamped(members: &[&Mode], change: &Linear) -> Vec<Complex> {
     matrix(members, |b| {
         let k = times_complex(&change.stiffness, &b.shape);
         let m = times_complex(&change.mass, &b.shape);
@@ -128,11 +128,7 @@ fn undamped<const N: usize>(members: &[&Mode<N>], change: &Linear<f64, N>) -> Ve
 
 /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
 /// its left and right vectors.
-fn general<const N: usize, const U: usize, const P: usize>(
-    at: &Equilibrium<N, U, P>,
-    members: &[&Mode<N>],
-    change: &Linear<f64, N>,
-) -> Vec<Complex> {
+fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Vec<Complex> {
     matrix(members, |b| {
         let moved = pencil_times(change, b.s, &b.shape);
         move |a| -dot_complex(&a.left, &moved) / normaliser(at, a)
@@ -140,9 +136,9 @@ fn general<const N: usize, const U: usize, const P: usize>(
 }
 
 /// Row by row; `column` prepares for one right vector what every left vector meets.
-fn matrix<'a, const N: usize, F: Fn(&Mode<N>) -> Complex>(
-    members: &[&'a Mode<N>],
-    column: impl Fn(&'a Mode<N>) -> F,
+fn matrix<'a, F: Fn(&Mode) -> Complex>(
+    members: &[&'a Mode],
+    column: impl Fn(&'a Mode) -> F,
 ) -> Vec<Complex> {
     let count = members.len();
     let mut matrix = vec![Complex::default(); count * count];

@@ -2,8 +2,10 @@
 
 use super::clusters::modal_couplings;
 use super::eigenvalues::eigenvalues;
+use crate::equilibrium::check_count;
+use crate::kernels::DirectionalKernels;
 use crate::modes::{Family, merged};
-use crate::{Complex, Equilibrium, Error, Mechanism, Modes};
+use crate::{Complex, Equilibrium, Error, Modes};
 
 /// How the eigenvalues of a cluster move along one direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,18 +27,17 @@ pub struct DirectionalDerivatives {
 /// a mode apart from all others it is the ordinary derivative.
 ///
 /// # Errors
-/// [`Error::NoSuchMode`], [`Error::Defective`] where eigenvalues have merged, [`Error::CriticalState`] when `Khat` is singular,
+/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] where eigenvalues have merged, [`Error::CriticalState`] when `Khat` is singular,
 /// [`Error::OutsideDomain`] when a derivative is not finite.
-pub fn directional_derivatives<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
+pub fn directional_derivatives(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
     mode: usize,
-    (du, db): (&[f64; U], &[f64; P]),
-) -> Result<DirectionalDerivatives, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+    (du, db): (&[f64], &[f64]),
+) -> Result<DirectionalDerivatives, Error> {
+    check_count("changes of inputs", du, at.inputs.len())?;
+    check_count("changes of design variables", db, at.design.len())?;
     let count = modes.modes.len();
     if mode >= count {
         return Err(Error::NoSuchMode { mode, count });

@@ -1,12 +1,13 @@
 //! How a critical speed or a resonance moves with the design: `du_c/db`.
 
-use super::sensitivities;
 use super::shift::outside_domain;
-use crate::array::{all_finite, dot, times, transpose};
+use super::{check_state, sensitivities};
 use crate::constraints::Structure;
+use crate::dense::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::equilibrium::branch::Bordered;
 use crate::equilibrium::{Condition, CriticalState, Crossing, SpecialKind};
-use crate::{Equilibrium, Error, Gradient, Mechanism};
+use crate::kernels::{DirectionalKernels, Gradient, Kernels};
+use crate::{Equilibrium, Error};
 
 /// Condition number of an eigenvalue from which on it counts as merged with another.
 const MERGED: f64 = 1e5;
@@ -17,13 +18,7 @@ const MERGED: f64 = 1e5;
 /// # Errors
 /// [`Error::ClusteredMode`] where the mode has no derivative of its own, [`Error::NoSensitivity`] where the two sides of
 /// the condition touch without crossing; otherwise as [`sensitivities`].
-pub fn crossing_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    crossing: &Crossing<N, U, P>,
-) -> Result<[f64; P], Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Result<Vector, Error> {
     let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
     let mode = crossing.mode;
     let (Some(own), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode)) else {
@@ -43,7 +38,7 @@ where
         let lambda = there.lambda;
         return Err(Error::NotOscillating { mode, lambda });
     };
-    let Some(&by_input) = slopes.by_input.get(crossing.input.0) else {
+    let Some(&by_input) = slopes.by_input.get(crossing.input.index()) else {
         return Err(Error::NoSensitivity {
             reason: "there is no such input",
         });
@@ -58,10 +53,7 @@ where
     finite(slopes, &crossing.equilibrium)
 }
 
-fn finite<const N: usize, const U: usize, const P: usize>(
-    slopes: [f64; P],
-    at: &Equilibrium<N, U, P>,
-) -> Result<[f64; P], Error> {
+fn finite(slopes: Vector, at: &Equilibrium) -> Result<Vector, Error> {
     if all_finite(&slopes) {
         Ok(slopes)
     } else {
@@ -84,32 +76,30 @@ const UNFORCED: f64 = 1e-6;
 /// [`Error::NoSensitivity`] when a design variable pushes along the mode at a branch point (it destroys the crossing:
 /// its effect is not differentiable) or the branches do not cross; [`Error::ClusteredMode`] where several modes are
 /// critical at once; [`Error::OutsideDomain`] when a derivative is not finite.
-pub fn critical_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    critical: &CriticalState<N, U, P>,
-) -> Result<[f64; P], Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn critical_sensitivity(
+    mechanism: &dyn DirectionalKernels,
+    critical: &CriticalState,
+) -> Result<Vector, Error> {
     let at = &critical.equilibrium;
-    let input = critical.input.0;
-    if input >= U {
+    let input = critical.input.index();
+    let kernels: &dyn Kernels = mechanism;
+    check_state(kernels, at)?;
+    if input >= at.inputs.len() {
         return Err(Error::NoSensitivity {
             reason: "there is no such input",
         });
     }
-    let (by_input, by_design) =
-        mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
-    let force_input: [f64; N] = by_input.map(|row| row[input]);
-    let forces_design: [[f64; N]; P] = transpose(&by_design);
+    let (by_input, by_design) = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let force_input = by_input.column(input);
+    let forces_design = by_design.transpose();
     match critical.kind {
         SpecialKind::Degenerate => Err(Error::ClusteredMode { mode: 0 }),
         SpecialKind::Fold => {
             let push = dot(&critical.w, &force_input);
-            finite(
-                forces_design.map(|force| -dot(&critical.w, &force) / push),
-                at,
-            )
+            let slopes = forces_design
+                .iter()
+                .map(|force| -dot(&critical.w, force) / push);
+            finite(slopes.collect(), at)
         }
         SpecialKind::Pitchfork { .. } | SpecialKind::Transcritical => {
             Crossed::new(mechanism, critical, &force_input)?.shifts(critical, &forces_design)
@@ -118,47 +108,40 @@ where
 }
 
 /// The neighbourhood of a branch point.
-struct Crossed<const N: usize, const P: usize> {
+struct Crossed {
     /// `Khat` bordered by the critical vectors.
-    factors: Bordered<N, 1>,
+    factors: Bordered,
     /// `w^T g''(x_i, .)` by coordinate and by design variable.
-    second: [([f64; N], [f64; P]); 2],
+    second: [(Vector, Vector); 2],
     /// `H`.
     hessian: [[f64; 2]; 2],
 }
 
-impl<const N: usize, const P: usize> Crossed<N, P> {
-    fn new<M, const U: usize, const O: usize>(
-        mechanism: &M,
-        critical: &CriticalState<N, U, P>,
-        force_input: &[f64; N],
-    ) -> Result<Self, Error>
-    where
-        M: Mechanism<N, U, P, O>,
-    {
+impl Crossed {
+    fn new(
+        mechanism: &dyn DirectionalKernels,
+        critical: &CriticalState,
+        force_input: &[f64],
+    ) -> Result<Self, Error> {
         let at = &critical.equilibrium;
         let column = times(&at.linear.mass, &critical.v);
         let factors = Bordered::new(&at.linear.stiffness, [&column], [&column], [[0.0]])
             .ok_or(Error::ClusteredMode { mode: 0 })?;
         let (along, _) = factors.solve(&force_input.map(|value| -value), [0.0]);
-        let unit =
-            |share: f64| core::array::from_fn(|j| if j == critical.input.0 { share } else { 0.0 });
-        let bend = |dq: &[f64; N], du: &[f64; U]| {
-            mechanism.residual_gradient_along(
-                &at.coordinates,
-                &at.inputs,
-                &at.design,
-                &critical.w,
-                dq,
-                du,
-                &[0.0; P],
-                &[0.0; N],
-            )
+        let bend = |dq: &[f64], share: f64| {
+            let (mut du, db) = (
+                Vector::zeros(at.inputs.len()),
+                Vector::zeros(at.design.len()),
+            );
+            du[critical.input.index()] = share;
+            let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+            let direction = [dq, &du, &db, &Vector::zeros(q.len())];
+            mechanism.residual_gradient_along(q, u, b, &critical.w, direction)
         };
-        let by_v = bend(&critical.v, &unit(0.0));
-        let by_along = bend(&along, &unit(1.0));
-        let row = |bend: &Gradient<f64, N, U, P>| {
-            let input = bend.inputs[critical.input.0];
+        let by_v = bend(&critical.v, 0.0);
+        let by_along = bend(&along, 1.0);
+        let row = |bend: &Gradient| {
+            let input = bend.inputs[critical.input.index()];
             [
                 dot(&bend.coordinates, &critical.v),
                 dot(&bend.coordinates, &along) + input,
@@ -171,11 +154,7 @@ impl<const N: usize, const P: usize> Crossed<N, P> {
         })
     }
 
-    fn shifts<const U: usize>(
-        &self,
-        critical: &CriticalState<N, U, P>,
-        forces: &[[f64; N]; P],
-    ) -> Result<[f64; P], Error> {
+    fn shifts(&self, critical: &CriticalState, forces: &Matrix) -> Result<Vector, Error> {
         let at = &critical.equilibrium;
         let [[a, b], [c, d]] = self.hessian;
         let det = a * d - b * c;
@@ -184,10 +163,9 @@ impl<const N: usize, const P: usize> Crossed<N, P> {
                 reason: "the stiffness does not depend on the input",
             });
         }
-        let constraints = Structure::of(at.description).constraints();
-        let most = critical.v[..N.saturating_sub(constraints)].iter();
-        let motion = 1.0 / most.fold(0.0, |most: f64, value| most.max(value.abs()));
-        let mut result = [0.0; P];
+        let motions = Structure::of(&at.description).motions();
+        let motion = 1.0 / largest(&critical.v[..motions]);
+        let mut result = Vector::zeros(at.design.len());
         for (j, force) in forces.iter().enumerate() {
             let (shift, _) = self.factors.solve(&force.map(|value| -value), [0.0]);
             let rates = self

@@ -1,155 +1,142 @@
-//! Gradients of the forms of the modes and of the residual at one state: by reverse differentiation, one kernel call for
-//! each, or from explicit partial derivatives, which all modes share. A small mechanism has few partials, and they cost
-//! less; which way is cheaper is known when the mechanism is compiled.
+//! Gradients of the forms of the modes at one state: by reverse differentiation, one kernel call for each, or from explicit
+//! partial derivatives, which all modes share. A small mechanism has few partials, and they cost less.
 
-use core::marker::PhantomData;
-
-use crate::{Complex, Description, Gradient, Linear, LinearPartials, Mechanism, Mode, Real};
+use super::pencil::ComplexGradient;
+use crate::dense::Matrix;
+use crate::kernels::{Gradient, Linear, LinearPartials};
+use crate::modes::Family;
+use crate::{Complex, Description, Mode};
 
 /// What an elementary function costs, in additions and multiplications.
 const FUNCTION: usize = 40;
 
-/// Additions and multiplications of a kernel; `None` where it is not written out.
-const fn cost(description: &Description, name: &str) -> Option<usize> {
-    match description.kernel(name) {
-        Some(kernel) => Some(kernel.operations + FUNCTION * kernel.functions),
-        None => None,
+/// Where the gradients of all modes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// From explicit partials of the matrices and of the residual.
+    Partials,
+    /// Of the forms by reverse differentiation, of the residual from explicit partials.
+    ResidualPartials,
+    /// By reverse differentiation.
+    Reverse,
+}
+
+impl Source {
+    /// The cheapest one for the modes of a mechanism.
+    pub(crate) fn cheapest(description: &Description, family: Family) -> Self {
+        let n = description.coordinates.len();
+        let variables = description.inputs.len() + description.design.len();
+        // What partials take for each mode, and the gradient that it takes without them.
+        let (matrices, form, residual, force) = match family {
+            Family::Undamped => (
+                2 * n * (n + 1) * (n + variables),
+                ("mode_gradient", 1),
+                2 * n * variables,
+                ("residual_gradient", 1),
+            ),
+            Family::General => (
+                6 * n * n * (n + variables),
+                ("pencil_gradient", 4),
+                4 * n * variables,
+                ("residual_gradient", 2),
+            ),
+        };
+        if pays(description, ("linear_partials", matrices), form) {
+            Self::Partials
+        } else if pays(description, ("residual_partials", residual), force) {
+            Self::ResidualPartials
+        } else {
+            Self::Reverse
+        }
     }
 }
 
 /// Whether one call of `shared` with `use_of_it` operations for each mode costs less than `calls` of `own` for each mode.
-const fn pays(
+fn pays(
     description: &Description,
-    modes: usize,
     (shared, use_of_it): (&str, usize),
     (own, calls): (&str, usize),
 ) -> bool {
+    let modes = description.coordinates.len();
     match (cost(description, shared), cost(description, own)) {
         (Some(shared), Some(own)) => shared + modes * use_of_it < modes * calls * own,
         _ => false,
     }
 }
 
-/// Which way is cheaper for a mechanism.
-pub(crate) struct Cheaper<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    PhantomData<M>,
-);
-
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Cheaper<M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    /// Explicit partials of the residual for undamped modes.
-    pub(super) const RESIDUAL: bool = pays(
-        &M::DESCRIPTION,
-        N,
-        ("residual_partials", 2 * N * (U + P)),
-        ("residual_gradient", 1),
-    );
-    /// Explicit partials of the matrices for undamped modes.
-    pub(crate) const MATRICES: bool = pays(
-        &M::DESCRIPTION,
-        N,
-        ("linear_partials", 2 * N * (N + 1) * (N + U + P)),
-        ("mode_gradient", 1),
-    );
-    /// Explicit partials of the residual for general modes.
-    pub(super) const RESIDUAL_GENERAL: bool = pays(
-        &M::DESCRIPTION,
-        N,
-        ("residual_partials", 4 * N * (U + P)),
-        ("residual_gradient", 2),
-    );
-    /// Explicit partials of the matrices for general modes.
-    pub(super) const MATRICES_GENERAL: bool = pays(
-        &M::DESCRIPTION,
-        N,
-        ("linear_partials", 6 * N * N * (N + U + P)),
-        ("pencil_gradient", 4),
-    );
+/// Additions and multiplications of a kernel; `None` where it is not written out.
+fn cost(description: &Description, name: &str) -> Option<usize> {
+    let kernel = description.kernel(name)?;
+    Some(kernel.operations + FUNCTION * kernel.functions)
 }
 
-/// Gradient of `phi^T (Khat - lambda Mhat) phi`, vector and eigenvalue held fixed, from explicit partials.
-#[inline(always)]
-pub(crate) fn of_undamped<T: Real, const N: usize, const U: usize, const P: usize>(
-    partials: &LinearPartials<T, N, U, P>,
-    phi: &[T; N],
-    lambda: T,
+/// Gradient of `phi^T (Khat - lambda Mhat) phi`, vector and eigenvalue held fixed, from explicit partials;
+/// those of `Khat` are `symmetric` or not.
+pub(super) fn of_undamped(
+    partials: &LinearPartials,
+    phi: &[f64],
+    lambda: f64,
     symmetric: bool,
-) -> Gradient<T, N, U, P> {
-    let mut products = [[T::constant(0.0); N]; N];
-    for i in 0..N {
-        for j in 0..N {
-            products[i][j] = phi[i] * phi[j];
+    gradient: &mut Gradient,
+) {
+    for (rates, changes) in [
+        (&mut gradient.coordinates, &partials.by_coordinate),
+        (&mut gradient.inputs, &partials.by_input),
+        (&mut gradient.design, &partials.by_design),
+    ] {
+        for (to, change) in rates.iter_mut().zip(changes) {
+            *to = rate(change, phi, lambda, symmetric);
         }
-    }
-    Gradient {
-        coordinates: rates(&partials.by_coordinate, &products, lambda, symmetric),
-        inputs: rates(&partials.by_input, &products, lambda, symmetric),
-        design: rates(&partials.by_design, &products, lambda, symmetric),
     }
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` of each change.
-#[inline(always)]
-#[allow(
-    clippy::needless_range_loop,
-    reason = "rows and columns of several matrices"
-)]
-fn rates<T: Real, const N: usize, const K: usize>(
-    changes: &[Linear<T, N>; K],
-    products: &[[T; N]; N],
-    lambda: T,
-    symmetric: bool,
-) -> [T; K] {
-    let mut rates = [T::constant(0.0); K];
-    for (rate, change) in rates.iter_mut().zip(changes) {
-        let (mut own, mut mixed) = (T::constant(-0.0), T::constant(-0.0));
-        for i in 0..N {
-            own = own + products[i][i] * (change.stiffness[i][i] - lambda * change.mass[i][i]);
-            for j in 0..i {
-                let (a, b) = (change.stiffness[i][j], change.stiffness[j][i]);
-                let stiffness = if symmetric {
-                    a
-                } else {
-                    T::constant(0.5) * (a + b)
-                };
-                mixed = mixed + products[i][j] * (stiffness - lambda * change.mass[i][j]);
-            }
+/// `phi^T (dKhat - lambda dMhat) phi` of a change.
+fn rate(change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
+    let (mut own, mut mixed) = (-0.0, -0.0);
+    for i in 0..phi.len() {
+        let (stiffness, mass) = (&change.stiffness[i], &change.mass[i]);
+        own += phi[i] * phi[i] * (stiffness[i] - lambda * mass[i]);
+        for j in 0..i {
+            let stiffness = if symmetric {
+                stiffness[j]
+            } else {
+                0.5 * (stiffness[j] + change.stiffness[j][i])
+            };
+            mixed += phi[i] * phi[j] * (stiffness - lambda * mass[j]);
         }
-        *rate = own + (mixed + mixed);
     }
-    rates
+    own + (mixed + mixed)
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.
-#[inline]
-pub(super) fn of_general<const N: usize, const U: usize, const P: usize>(
-    partials: &LinearPartials<f64, N, U, P>,
-    mode: &Mode<N>,
-) -> Gradient<Complex, N, U, P> {
+pub(super) fn of_general(partials: &LinearPartials, mode: &Mode, gradient: &mut ComplexGradient) {
+    let n = mode.shape.len();
     let s = mode.s;
-    let weights: [[Complex; N]; N] =
-        core::array::from_fn(|i| core::array::from_fn(|j| mode.left[i] * mode.shape[j]));
-    let rate = |change: &Linear<f64, N>| {
-        let mut parts = [Complex::default(); 3];
-        let Linear {
-            mass,
-            damping,
-            stiffness,
-        } = change;
-        for (sum, matrix) in parts.iter_mut().zip([stiffness, damping, mass]) {
-            for i in 0..N {
-                for j in 0..N {
-                    *sum += weights[i][j] * matrix[i][j];
-                }
-            }
+    let weights = Matrix::from_fn(n, n, |i, j| mode.left[i] * mode.shape[j]);
+    let rate = |change: &Linear| {
+        let (mut k, mut c, mut m) = (Complex::ZERO, Complex::ZERO, Complex::ZERO);
+        let elements = change.stiffness.as_flattened().iter();
+        let elements = elements.zip(change.damping.as_flattened());
+        let elements = elements.zip(change.mass.as_flattened());
+        for (weight, ((stiffness, damping), mass)) in weights.as_flattened().iter().zip(elements) {
+            k += weight * stiffness;
+            c += weight * damping;
+            m += weight * mass;
         }
-        parts[0] + s * (parts[1] + s * parts[2])
+        k + s * (c + s * m)
     };
-    Gradient {
-        coordinates: core::array::from_fn(|k| rate(&partials.by_coordinate[k])),
-        inputs: core::array::from_fn(|k| rate(&partials.by_input[k])),
-        design: core::array::from_fn(|k| rate(&partials.by_design[k])),
+    let [re, im] = gradient;
+    for (re, im, changes) in [
+        (
+            &mut re.coordinates,
+            &mut im.coordinates,
+            &partials.by_coordinate,
+        ),
+        (&mut re.inputs, &mut im.inputs, &partials.by_input),
+        (&mut re.design, &mut im.design, &partials.by_design),
+    ] {
+        for ((re, im), change) in re.iter_mut().zip(im).zip(changes) {
+            Complex { re: *re, im: *im } = rate(change);
+        }
     }
 }

@@ -1,46 +1,40 @@
 //! Total derivatives of the declared outputs.
 
 use super::shift::{equilibrium_shift, outside_domain};
-use crate::array::all_finite;
-use crate::{Description, Equilibrium, Error, Mechanism};
+use crate::dense::{Matrix, Vector, add_to, all_finite};
+use crate::kernels::Kernels;
+use crate::{Description, Equilibrium, Error, Shared};
 
 /// Outputs at an equilibrium and their total derivatives, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutputSensitivities<const U: usize, const P: usize, const O: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputSensitivities {
     /// Values.
-    pub values: [f64; O],
+    pub values: Vector,
     /// `by_input[o][j]`: derivative of output `o` by input `j`; `None` where the output has a value but no derivative, as
     /// the distance from an axis has none on it.
-    pub by_input: [Option<[f64; U]>; O],
+    pub by_input: Vec<Option<Vector>>,
     /// `by_design[o][j]`: derivative of output `o` by design variable `j`; `None` likewise.
-    pub by_design: [Option<[f64; P]>; O],
+    pub by_design: Vec<Option<Vector>>,
     /// The mechanism they belong to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
 /// Values and total derivatives of the outputs, the shift of the equilibrium included.
 ///
 /// # Errors
 /// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a value is not finite.
-pub fn output_sensitivities<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-) -> Result<OutputSensitivities<U, P, O>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn output_sensitivities(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+) -> Result<OutputSensitivities, Error> {
     let shift = equilibrium_shift(mechanism, at)?;
     let values = mechanism.outputs(&at.coordinates, &at.inputs, &at.design);
-    let (by_coordinate, mut by_input, mut by_design) =
+    let [by_coordinate, mut by_input, mut by_design] =
         mechanism.output_partials(&at.coordinates, &at.inputs, &at.design);
-    for o in 0..O {
-        for (i, rate) in by_coordinate[o].iter().enumerate() {
-            for (total, moved) in by_input[o].iter_mut().zip(&shift.by_input[i]) {
-                *total += rate * moved;
-            }
-            for (total, moved) in by_design[o].iter_mut().zip(&shift.by_design[i]) {
-                *total += rate * moved;
-            }
+    for (o, rates) in by_coordinate.iter().enumerate() {
+        for (i, rate) in rates.iter().enumerate() {
+            add_to(&mut by_input[o], *rate, &shift.by_input[i]);
+            add_to(&mut by_design[o], *rate, &shift.by_design[i]);
         }
     }
     if !all_finite(&values) {
@@ -48,8 +42,15 @@ where
     }
     Ok(OutputSensitivities {
         values,
-        by_input: by_input.map(|slopes| all_finite(&slopes).then_some(slopes)),
-        by_design: by_design.map(|slopes| all_finite(&slopes).then_some(slopes)),
-        description: at.description,
+        by_input: finite_rows(&by_input),
+        by_design: finite_rows(&by_design),
+        description: at.description.clone(),
     })
+}
+
+fn finite_rows(slopes: &Matrix) -> Vec<Option<Vector>> {
+    slopes
+        .iter()
+        .map(|row| all_finite(row).then(|| row.into()))
+        .collect()
 }

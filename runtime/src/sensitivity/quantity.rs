@@ -26,7 +26,7 @@ impl Quantity {
 
     /// The value for a mode; `None` where the mode has none: a frequency without oscillation, a damping ratio of a neutral
     /// mode.
-    pub fn of<const N: usize>(self, mode: &Mode<N>) -> Option<f64> {
+    pub fn of(self, mode: &Mode) -> Option<f64> {
         match self {
             Self::Frequency => mode.frequency(),
             Self::NaturalFrequency => mode.natural_frequency(),

@@ -1,7 +1,10 @@
 //! Redundant constraints: whether they go on saying the same when a variable changes.
 
 use crate::constraints::{Structure, Tangent};
-use crate::{Equilibrium, Error, Mechanism};
+use crate::dense::Matrix;
+use crate::equilibrium::name;
+use crate::kernels::Kernels;
+use crate::{Equilibrium, Error};
 
 /// What remains of a sum of terms that cancel but for rounding, relative to the terms.
 const ROUNDING: f64 = 1e-9;
@@ -11,14 +14,9 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Error::ClosesHereOnly`], and [`Error::SingularConfiguration`] where constraints are dependent here alone.
-pub(super) fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let structure = const { Structure::of(&M::DESCRIPTION) };
+pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
+    let description = &at.description;
+    let structure = Structure::of(description);
     if structure.constraints() == 0 {
         return Ok(());
     }
@@ -34,15 +32,12 @@ where
         if !at_rest(&n, at, structure) {
             continue;
         }
-        let names = (M::DESCRIPTION.inputs, M::DESCRIPTION.design);
-        let inputs = broken(&n, &by_input).map(|(i, j)| (i, names.0.get(j).map(|info| info.name)));
-        let design =
-            || broken(&n, &by_design).map(|(i, j)| (i, names.1.get(j).map(|info| info.name)));
-        if let Some((constraint, variable)) = inputs.or_else(design) {
-            let name = M::DESCRIPTION.coordinates.get(constraint);
+        let input = broken(&n, &by_input).map(|(i, j)| (i, &description.inputs[j].name));
+        let design = || broken(&n, &by_design).map(|(i, j)| (i, &description.design[j].name));
+        if let Some((constraint, variable)) = input.or_else(design) {
             return Err(Error::ClosesHereOnly {
-                constraint: name.map_or("?", |info| info.name),
-                variable: variable.unwrap_or("?"),
+                constraint: name(description, constraint),
+                variable: variable.clone(),
             });
         }
     }
@@ -51,11 +46,7 @@ where
 
 /// Whether `n` cancels the constraints at rest as well: a constraint on velocities that repeats one on positions says
 /// nothing there.
-fn at_rest<const N: usize, const U: usize, const P: usize>(
-    n: &[f64; N],
-    at: &Equilibrium<N, U, P>,
-    structure: Structure,
-) -> bool {
+fn at_rest(n: &[f64], at: &Equilibrium, structure: Structure) -> bool {
     (0..structure.motions()).all(|j| {
         let terms = structure
             .constraint_rows()
@@ -72,12 +63,11 @@ fn cancels(terms: impl Iterator<Item = f64>) -> bool {
 }
 
 /// A variable that moves `n^T Phi`, and the constraint that feels it most.
-fn broken<const N: usize, const C: usize>(
-    n: &[f64; N],
-    partials: &[[f64; C]; N],
-) -> Option<(usize, usize)> {
-    let j = (0..C).find(|&j| !cancels((0..N).map(|i| n[i] * partials[i][j])))?;
+fn broken(n: &[f64], partials: &Matrix) -> Option<(usize, usize)> {
+    let rows = partials.row_count();
+    let rests = |j: usize| cancels((0..rows).map(|i| n[i] * partials[i][j]));
+    let j = (0..partials.column_count()).find(|&j| !rests(j))?;
     let share = |i: usize| (n[i] * partials[i][j]).abs();
-    let most = (1..N).fold(0, |most, i| if share(i) > share(most) { i } else { most });
+    let most = (1..rows).fold(0, |most, i| if share(i) > share(most) { i } else { most });
     Some((most, j))
 }

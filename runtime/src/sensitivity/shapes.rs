@@ -5,27 +5,28 @@
 //! added, which leaves the solution as it is but for its part along `phi`, and that part follows from the normalisation:
 //! `c = Mhat phi`, or the unit vector of the component that is one ([`Normalisation`]).
 
-use super::CLUSTER_GAP;
-use super::explicit::rate_of;
+use super::explicit::Rate;
 use super::shift::{directions, outside_domain};
-use crate::array::{Lu, dot_complex, largest_element, times_complex};
+use super::{CLUSTER_GAP, check_modes};
+use crate::dense::{Lu, Matrix, Values, Vector, dot_complex, largest_element, times_complex};
+use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, Normalisation, clusters, lead};
 use crate::pencil::{pencil_slope_times, pencil_times, transposed};
-use crate::{Complex, Description, Equilibrium, Error, Linear, Mechanism, Mode, Modes};
+use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// Total derivatives of the shapes of one mode, normalised as the mode is ([`Mode::shape`]).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShapeSensitivity<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShapeSensitivity {
     /// `right_by_input[j]`: derivative of `phi` by input `j`.
-    pub right_by_input: [[Complex; N]; U],
+    pub right_by_input: Matrix<Complex>,
     /// `right_by_design[j]`: derivative of `phi` by design variable `j`.
-    pub right_by_design: [[Complex; N]; P],
+    pub right_by_design: Matrix<Complex>,
     /// `left_by_input[j]`: derivative of `psi` by input `j`.
-    pub left_by_input: [[Complex; N]; U],
+    pub left_by_input: Matrix<Complex>,
     /// `left_by_design[j]`: derivative of `psi` by design variable `j`.
-    pub left_by_design: [[Complex; N]; P],
+    pub left_by_design: Matrix<Complex>,
     /// The mechanism they belong to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
 /// Total derivatives of the shapes of mode number `mode` by every input and design variable.
@@ -33,58 +34,54 @@ pub struct ShapeSensitivity<const N: usize, const U: usize, const P: usize> {
 /// # Errors
 /// [`Error::ClusteredMode`] where the mode has (nearly) equal neighbours, [`Error::CriticalState`] when `Khat` is
 /// singular, [`Error::OutsideDomain`] when a derivative is not finite, [`Error::NoSuchMode`].
-pub fn shape_sensitivity<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
+pub fn shape_sensitivity(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
     mode: usize,
-) -> Result<ShapeSensitivity<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Result<ShapeSensitivity, Error> {
     let shapes = Shapes::new(at, modes, mode)?;
-    let mut all = directions(mechanism, at)?.map(|along| {
-        let change = along.linear(mechanism, at);
-        shapes.along(&change, (shapes.rate)(&change))
-    });
-    let zero = ([Complex::default(); N], [Complex::default(); N]);
-    let by_input: [_; U] = core::array::from_fn(|_| all.next().unwrap_or(zero));
-    let by_design: [_; P] = core::array::from_fn(|_| all.next().unwrap_or(zero));
-    let finite = by_input
-        .iter()
-        .chain(&by_design)
-        .flat_map(|(right, left)| right.iter().chain(left))
-        .all(|value| value.is_finite());
-    if !finite {
+    let (mut right, mut left) = (Vec::new(), Vec::new());
+    for direction in directions(mechanism, at)? {
+        let change = direction.linear(mechanism, at);
+        let (dright, dleft) = shapes.along(&change, shapes.rate.along(&change));
+        right.push(dright);
+        left.push(dleft);
+    }
+    let mut values = right.iter().chain(&left).flatten();
+    if !values.all(|value| value.is_finite()) {
         return Err(outside_domain(at));
     }
+    let (n, inputs) = (at.coordinates.len(), at.inputs.len());
+    let rows = |rows: &[Vector<Complex>]| Matrix::from_fn(rows.len(), n, |k, i| rows[k][i]);
     Ok(ShapeSensitivity {
-        right_by_input: by_input.map(|(right, _)| right),
-        right_by_design: by_design.map(|(right, _)| right),
-        left_by_input: by_input.map(|(_, left)| left),
-        left_by_design: by_design.map(|(_, left)| left),
-        description: modes.description,
+        right_by_input: rows(&right[..inputs]),
+        right_by_design: rows(&right[inputs..]),
+        left_by_input: rows(&left[..inputs]),
+        left_by_design: rows(&left[inputs..]),
+        description: modes.description.clone(),
     })
 }
 
 /// How the eigenvalue and the shapes of one mode move with its matrices.
-pub(super) struct Shapes<'a, const N: usize, F> {
-    linear: &'a Linear<f64, N>,
+pub(super) struct Shapes<'a> {
+    linear: &'a Linear,
     family: Family,
-    mode: &'a Mode<N>,
-    right: Side<N>,
+    mode: &'a Mode,
+    right: Side,
     /// `None` where it is the same as the right one.
-    left: Option<Side<N>>,
+    left: Option<Side>,
     /// The rate of the eigenvalue: of `lambda` for undamped modes, of `s` for general ones.
-    pub(super) rate: F,
+    pub(super) rate: Rate<'a>,
 }
 
-impl<'a, const N: usize> Shapes<'a, N, ()> {
-    pub(super) fn new<const U: usize, const P: usize>(
-        at: &'a Equilibrium<N, U, P>,
-        modes: &'a Modes<N>,
+impl<'a> Shapes<'a> {
+    pub(super) fn new(
+        at: &'a Equilibrium,
+        modes: &'a Modes,
         position: usize,
-    ) -> Result<Shapes<'a, N, impl Fn(&Linear<f64, N>) -> Complex + use<'a, N, U, P>>, Error> {
+    ) -> Result<Self, Error> {
+        check_modes(at, modes)?;
         let Some(mode) = modes.modes.get(position) else {
             return Err(Error::NoSuchMode {
                 mode: position,
@@ -97,7 +94,7 @@ impl<'a, const N: usize> Shapes<'a, N, ()> {
         }
         let family = modes.family;
         let linear = &at.linear;
-        let (size, leading) = Normalisation::of(at.description);
+        let (size, leading) = Normalisation::of(&at.description);
         let normalised = (size, leading.right);
         let right =
             Side::new(linear, family, mode, &mode.shape, normalised).ok_or(clustered.clone())?;
@@ -110,43 +107,41 @@ impl<'a, const N: usize> Shapes<'a, N, ()> {
                 Some(side.ok_or(clustered)?)
             }
         };
-        Ok(Shapes {
+        Ok(Self {
             linear,
             family,
             mode,
             right,
             left,
-            rate: rate_of(at, family, mode),
+            rate: Rate::of(at, family, mode),
         })
     }
-}
 
-impl<const N: usize, F> Shapes<'_, N, F> {
     /// Derivatives of the right and the left shape while the matrices move by `change` and the eigenvalue by `rate`.
     pub(super) fn along(
         &self,
-        change: &Linear<f64, N>,
+        change: &Linear,
         rate: Complex,
-    ) -> ([Complex; N], [Complex; N]) {
+    ) -> (Vector<Complex>, Vector<Complex>) {
         let mode = self.mode;
-        let moved = |linear: &Linear<f64, N>, change: &Linear<f64, N>, shape: &[Complex; N]| {
+        let moved = |linear: &Linear, change: &Linear, shape: &[Complex]| {
             let direct = match self.family {
                 Family::Undamped => {
                     let k = times_complex(&change.stiffness, shape);
                     let m = times_complex(&change.mass, shape);
-                    core::array::from_fn(|i| k[i] - mode.lambda * m[i])
+                    Vector::from_fn(shape.len(), |i| k[i] - mode.lambda * m[i])
                 }
                 Family::General => pencil_times(change, mode.s, shape),
             };
             let slope = eigenvalue_slope_times(linear, self.family, mode, shape);
-            core::array::from_fn(|i| -direct[i] - rate * slope[i])
+            Vector::from_fn(shape.len(), |i| -direct[i] - rate * slope[i])
         };
         let right = self.right.solve(
             &moved(self.linear, change, &mode.shape),
             &times_complex(&change.mass, &mode.shape),
         );
         let left = match &self.left {
-            None => right,
+            None => right.clone(),
             Some(side) => side.solve(
                 &moved(&transposed(self.linear), &transposed(change), &mode.left),
                 &times_complex(&change.mass, &mode.left),
@@ -157,12 +152,12 @@ impl<const N: usize, F> Shapes<'_, N, F> {
 }
 
 /// `Q' phi`: derivative of the pencil by its eigenvalue (`lambda` or `s`) times a shape.
-fn eigenvalue_slope_times<const N: usize>(
-    linear: &Linear<f64, N>,
+fn eigenvalue_slope_times(
+    linear: &Linear,
     family: Family,
-    mode: &Mode<N>,
-    shape: &[Complex; N],
-) -> [Complex; N] {
+    mode: &Mode,
+    shape: &[Complex],
+) -> Vector<Complex> {
     match family {
         Family::Undamped => times_complex(&linear.mass, shape).map(|value| -value),
         Family::General => pencil_slope_times(linear, mode.s, shape),
@@ -170,46 +165,45 @@ fn eigenvalue_slope_times<const N: usize>(
 }
 
 /// The deflated pencil on one side of a mode.
-struct Side<const N: usize> {
-    shape: [Complex; N],
+struct Side {
+    shape: Vector<Complex>,
     size: Normalisation,
     /// `c`.
-    weighted: [Complex; N],
+    weighted: Vector<Complex>,
     lead: usize,
-    factors: Lu<Complex, N>,
+    factors: Lu<Complex>,
 }
 
-impl<const N: usize> Side<N> {
+impl Side {
     fn new(
-        linear: &Linear<f64, N>,
+        linear: &Linear,
         family: Family,
-        mode: &Mode<N>,
-        shape: &[Complex; N],
+        mode: &Mode,
+        shape: &[Complex],
         (normalisation, leading): (Normalisation, usize),
     ) -> Option<Self> {
-        let lead = lead(&shape[..leading.min(N)]);
+        let n = shape.len();
+        let lead = lead(&shape[..leading.min(n)]);
         let weighted = match normalisation {
             Normalisation::Mass => times_complex(&linear.mass, shape),
             Normalisation::Largest => {
-                core::array::from_fn(|i| if i == lead { 1.0 } else { 0.0 }.into())
+                Vector::from_fn(n, |i| if i == lead { 1.0 } else { 0.0 }.into())
             }
         };
         let slope = eigenvalue_slope_times(linear, family, mode, shape);
         let (s, lambda) = (mode.s, mode.lambda);
-        let pencil: [[Complex; N]; N] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                let (m, c, k) = (
-                    linear.mass[i][j],
-                    linear.damping[i][j],
-                    linear.stiffness[i][j],
-                );
-                match family {
-                    Family::Undamped => (k - lambda * m).into(),
-                    Family::General => s * (s * m + c) + k,
-                }
-            })
+        let pencil: Matrix<Complex> = Matrix::from_fn(n, n, |i, j| {
+            let (m, c, k) = (
+                linear.mass[i][j],
+                linear.damping[i][j],
+                linear.stiffness[i][j],
+            );
+            match family {
+                Family::Undamped => (k - lambda * m).into(),
+                Family::General => s * (s * m + c) + k,
+            }
         });
-        let size = |vector: &[Complex; N]| {
+        let size = |vector: &[Complex]| {
             vector
                 .iter()
                 .fold(0.0, |most: f64, value| most.max(value.norm()))
@@ -218,11 +212,11 @@ impl<const N: usize> Side<N> {
             + s.norm()
                 * (largest_element(&linear.damping) + s.norm() * largest_element(&linear.mass));
         let added = if scale > 0.0 { scale } else { 1.0 } / (size(&slope) * size(&weighted));
-        let deflated = core::array::from_fn(|i| {
-            core::array::from_fn(|j| pencil[i][j] + added * slope[i] * weighted[j].conj())
+        let deflated = Matrix::from_fn(n, n, |i, j| {
+            pencil[i][j] + added * slope[i] * weighted[j].conj()
         });
         Some(Self {
-            shape: *shape,
+            shape: shape.into(),
             size: normalisation,
             weighted,
             lead,
@@ -231,17 +225,18 @@ impl<const N: usize> Side<N> {
     }
 
     /// The derivative of the shape from the right-hand side and from `dMhat phi`.
-    fn solve(&self, right: &[Complex; N], mass_change: &[Complex; N]) -> [Complex; N] {
-        let conj = |vector: &[Complex; N]| vector.map(|value| value.conj());
+    fn solve(&self, right: &[Complex], mass_change: &[Complex]) -> Vector<Complex> {
+        let n = right.len();
+        let conj = |vector: &[Complex]| vector.map(|value| value.conj());
         let across = self.factors.solve(right);
         if self.size == Normalisation::Largest {
             let part = -across[self.lead] / self.shape[self.lead];
-            return core::array::from_fn(|i| across[i] + part * self.shape[i]);
+            return Vector::from_fn(n, |i| across[i] + part * self.shape[i]);
         }
         let size_change = dot_complex(&conj(&self.shape), mass_change).re;
         let along = -0.5 * size_change - dot_complex(&conj(&self.weighted), &across).re;
         let turn = -across[self.lead].im / self.shape[self.lead].re;
         let part = Complex::new(along, turn);
-        core::array::from_fn(|i| across[i] + part * self.shape[i])
+        Vector::from_fn(n, |i| across[i] + part * self.shape[i])
     }
 }

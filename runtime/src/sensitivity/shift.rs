@@ -1,19 +1,20 @@
 //! How the equilibrium itself moves: `Khat dq* = -dg` for every input and design variable with one factorisation.
 
 use super::pencil::Direction;
-use super::redundancy;
-use crate::array::{Lu, transpose};
-use crate::{Description, Equilibrium, Error, Mechanism};
+use super::{check_state, redundancy};
+use crate::dense::{Lu, Matrix, Vector, all_finite_matrix};
+use crate::kernels::Kernels;
+use crate::{Description, Equilibrium, Error, Shared};
 
 /// Derivatives of the equilibrium coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquilibriumShift<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquilibriumShift {
     /// `by_input[i][j] = dq*_i/du_j`, SI.
-    pub by_input: [[f64; U]; N],
+    pub by_input: Matrix,
     /// `by_design[i][j] = dq*_i/db_j`, SI.
-    pub by_design: [[f64; P]; N],
+    pub by_design: Matrix,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
 /// The shift of an equilibrium by every input and design variable.
@@ -21,28 +22,21 @@ pub struct EquilibriumShift<const N: usize, const U: usize, const P: usize> {
 /// # Errors
 /// [`Error::CriticalState`] when `Khat` is singular, [`Error::ClosesHereOnly`] where redundant constraints contradict each
 /// other as soon as a variable changes, [`Error::OutsideDomain`] when a derivative is not finite.
-pub fn equilibrium_shift<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-) -> Result<EquilibriumShift<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn equilibrium_shift(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+) -> Result<EquilibriumShift, Error> {
+    check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
     let factors = Lu::new(&at.linear.stiffness).ok_or(Error::CriticalState)?;
     let (by_input, by_design) =
         mechanism.residual_partials(&at.coordinates, &at.inputs, &at.design);
     let shift = EquilibriumShift {
-        by_input: solve_columns(&factors, &by_input),
-        by_design: solve_columns(&factors, &by_design),
-        description: at.description,
+        by_input: solve_columns(&factors, by_input),
+        by_design: solve_columns(&factors, by_design),
+        description: at.description.clone(),
     };
-    let finite = shift
-        .by_input
-        .iter()
-        .flatten()
-        .chain(shift.by_design.iter().flatten());
-    if finite.copied().all(f64::is_finite) {
+    if all_finite_matrix(&shift.by_input) && all_finite_matrix(&shift.by_design) {
         Ok(shift)
     } else {
         Err(outside_domain(at))
@@ -50,45 +44,47 @@ where
 }
 
 /// The directions in which a state moves with each input and each design variable, the equilibrium included.
-pub(super) fn directions<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-) -> Result<impl Iterator<Item = Direction<N, U, P>> + use<M, N, U, P, O>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let shift = equilibrium_shift(mechanism, at)?;
-    let (by_input, by_design) = (transpose(&shift.by_input), transpose(&shift.by_design));
-    let inputs = (0..U).map(move |k| Direction {
-        coordinates: by_input[k],
-        inputs: unit(k),
-        design: [0.0; P],
+pub(super) fn directions(
+    mechanism: &dyn Kernels,
+    at: &Equilibrium,
+) -> Result<impl Iterator<Item = Direction> + use<>, Error> {
+    let EquilibriumShift {
+        by_input,
+        by_design,
+        ..
+    } = equilibrium_shift(mechanism, at)?;
+    let (u, p) = (by_input.column_count(), by_design.column_count());
+    let inputs = (0..u).map(move |k| Direction {
+        coordinates: by_input.column(k),
+        inputs: unit(u, k),
+        design: Vector::zeros(p),
     });
-    let design = (0..P).map(move |k| Direction {
-        coordinates: by_design[k],
-        inputs: [0.0; U],
-        design: unit(k),
+    let design = (0..p).map(move |k| Direction {
+        coordinates: by_design.column(k),
+        inputs: Vector::zeros(u),
+        design: unit(p, k),
     });
     Ok(inputs.chain(design))
 }
 
-fn unit<const K: usize>(k: usize) -> [f64; K] {
-    core::array::from_fn(|i| if i == k { 1.0 } else { 0.0 })
+fn unit(size: usize, k: usize) -> Vector {
+    Vector::from_fn(size, |i| if i == k { 1.0 } else { 0.0 })
 }
 
-fn solve_columns<const N: usize, const C: usize>(
-    factors: &Lu<f64, N>,
-    partials: &[[f64; C]; N],
-) -> [[f64; C]; N] {
-    let columns = transpose(partials);
-    transpose(&columns.map(|column| factors.solve(&column).map(|value| -value)))
+/// `-Khat^-1 partials`.
+fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
+    for j in 0..partials.column_count() {
+        let solution = factors.solve(&partials.column(j));
+        for (row, value) in partials.iter_mut().zip(&solution) {
+            row[j] = -value;
+        }
+    }
+    partials
 }
 
-pub(super) fn outside_domain<const N: usize, const U: usize, const P: usize>(
-    at: &Equilibrium<N, U, P>,
-) -> Error {
+pub(super) fn outside_domain(at: &Equilibrium) -> Error {
     Error::OutsideDomain {
-        mechanism: at.description.name,
+        mechanism: at.description.name.clone(),
         what: "a derivative",
         coordinates: at.coordinates.to_vec(),
     }

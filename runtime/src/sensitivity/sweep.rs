@@ -2,7 +2,8 @@
 
 use super::Sensitivities;
 use crate::equilibrium::{Following, SweepPoint, Tracker, check_input, follow};
-use crate::{Error, Input, Mechanism};
+use crate::kernels::BatchKernels;
+use crate::{Error, Input};
 
 /// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and shows them to `each` in order:
 /// the fastest way to derivatives along an input, because neighbouring values are solved side by side and nothing is kept.
@@ -12,20 +13,17 @@ use crate::{Error, Input, Mechanism};
 ///
 /// # Errors
 /// [`Error::UnknownHandle`] for an input that the mechanism does not have.
-pub fn sensitivity_sweep<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    (u, b): (&[f64; U], &[f64; P]),
-    start: &[f64; N],
+pub fn sensitivity_sweep(
+    mechanism: &dyn BatchKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
     following: impl Into<Following>,
     (input, values): (Input, &[f64]),
-    mut each: impl FnMut(&SweepPoint<N, U, P>, &Result<Sensitivities<N, U, P>, Error>),
-) -> Result<(), Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    check_input::<U>(input, M::DESCRIPTION.name)?;
+    mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+) -> Result<(), Error> {
+    check_input(input, &mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
-    follow::<true, M, N, U, P, O>(&mut tracker, values, |station| {
+    follow(&mut tracker, mechanism, values, true, |station| {
         if let Some(slopes) = &station.slopes {
             each(&station.point, slopes);
         }

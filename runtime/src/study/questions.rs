@@ -1,211 +1,172 @@
-//! What a study can be asked at one operating point: each question runs the chain of functions that answers it.
+//! What a study can be asked at one operating point.
 
-use super::Study;
-use crate::equilibrium::{self, Assembly, Equilibrium, Problem, Search};
-use crate::modes::{Family, PerMode, Whirl};
+use super::{Solved, Study};
+use crate::equilibrium::{self, Assembly, Search};
+use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::modes::Whirl;
 use crate::sensitivity::{
-    self, DirectionalDerivatives, EquilibriumShift, Method, ModeCurvature, OutputSensitivities,
-    Quantity, Sensitivities, ShapeSensitivity,
+    self, DirectionalDerivatives, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity,
+    ShapeSensitivity,
 };
 use crate::tolerance::{
-    self, Band, ClusterTolerance, FirstOrder, ModeMargin, MonteCarlo, OutputTolerances, Sampling,
-    SecondOrder, Summary,
+    self, Band, ClusterTolerance, ModeMargin, OutputTolerances, SecondOrder, Summary,
 };
-use crate::{Coordinate, Error, Mechanism, Modes, modes};
+use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Study<M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl<M: Kernels> Study<M> {
     /// The dynamic equilibrium ([`equilibrium::equilibrium`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let state = study.equilibrium()?;
+    /// let theta = state.coordinates[Pendulum::theta.index()];
+    /// assert!((theta.cos() - 1.5 * 9.81 / 25.0).abs() < 1e-12);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function, and [`Error::UnknownHandle`] when a builder method was given a foreign handle.
-    pub fn equilibrium(&self) -> Result<Equilibrium<N, U, P>, Error> {
-        self.ask(Self::settled)
+    /// Those of the function, and [`Error::UnknownHandle`] when a builder method was given a handle that does not exist.
+    pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
+        self.settings.equilibrium(&self.mechanism)
     }
 
     /// The mechanism put together, coordinates with a [`Study::start`] held ([`equilibrium::assemble`]).
     ///
     /// # Errors
     /// Those of the function.
-    pub fn assembly(&self) -> Result<Assembly<N>, Error> {
-        self.ask(|study| {
-            study.ready()?;
-            let held: Vec<_> = (0..N).filter(|&j| study.held[j]).map(Coordinate).collect();
-            equilibrium::assemble(
-                &study.mechanism,
-                &study.inputs,
-                &study.design,
-                &study.start,
-                &held,
-            )
-        })
+    pub fn assembly(&self) -> Result<Assembly, Error> {
+        self.settings.assembly(&self.mechanism)
     }
 
     /// Distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
     ///
     /// # Errors
     /// Those of the function.
-    pub fn equilibria(&self, search: &Search<N>) -> Result<Vec<Equilibrium<N, U, P>>, Error> {
-        self.ask(|study| {
-            equilibrium::find_equilibria(
-                &study.mechanism,
-                &study.inputs,
-                &study.design,
-                &study.assembled_start()?,
-                search,
-            )
+    pub fn equilibria(&self, search: &Search) -> Result<Vec<Equilibrium>, Error> {
+        let (u, b) = (&self.settings.inputs, &self.settings.design);
+        let start = self.settings.assembled_start(&self.mechanism)?;
+        equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
+    }
+
+    /// The equilibrium and its modes, to ask several questions of them.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let solved = study.solve()?;
+    /// println!("{}{}", solved.equilibrium, solved.modes);
+    /// println!("{}{}", solved.first_order()?, solved.second_order()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::modes`].
+    pub fn solve(&self) -> Result<Solved<'_, M>, Error> {
+        let (equilibrium, modes) = self.settings.solve(&self.mechanism)?;
+        Ok(Solved {
+            study: self,
+            equilibrium,
+            modes,
         })
     }
 
-    /// The natural modes ([`modes::modes`]).
+    /// The natural modes ([`modes`](crate::modes::modes)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for mode in &study.modes()?.modes {
+    ///     println!("{:?} rad/s", mode.frequency());
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of the equilibrium and of the function.
-    pub fn modes(&self) -> Result<Modes<N>, Error> {
-        self.ask(|study| study.modes_at(&study.settled()?))
-    }
-
-    /// As [`Self::equilibrium`], on this stack.
-    fn settled(&self) -> Result<Equilibrium<N, U, P>, Error> {
-        equilibrium::equilibrium(
-            &self.mechanism,
-            &self.inputs,
-            &self.design,
-            &self.assembled_start()?,
-            self.policy,
-        )
-    }
-
-    fn solved(&self) -> Result<(Equilibrium<N, U, P>, Modes<N>), Error> {
-        let state = self.settled()?;
-        let found = self.modes_at(&state)?;
-        Ok((state, found))
-    }
-
-    fn modes_at(&self, state: &Equilibrium<N, U, P>) -> Result<Modes<N>, Error> {
-        state.regular()?;
-        modes::modes_at(state, self.family_of(state))
-    }
-
-    fn family_of(&self, state: &Equilibrium<N, U, P>) -> Family {
-        self.family.unwrap_or(Family::of(state.description))
+    pub fn modes(&self) -> Result<Modes, Error> {
+        Ok(self.solve()?.modes)
     }
 
     /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
     ///
-    /// # Errors
-    /// Those of the equilibrium and of the function.
-    pub fn equilibrium_shift(&self) -> Result<EquilibriumShift<N, U, P>, Error> {
-        self.ask(|study| {
-            let state = study.settled()?;
-            state.regular()?;
-            sensitivity::equilibrium_shift(&study.mechanism, &state)
-        })
-    }
-
-    /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let shift = study.equilibrium_shift()?;
+    /// assert!(shift.by_input[Pendulum::theta.index()][Pendulum::omega.index()] > 0.0);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the equilibrium, the modes and the function.
-    pub fn sensitivities(&self) -> Result<Box<Sensitivities<N, U, P>>, Error> {
-        self.ask(|study| {
-            let state = study.settled()?;
-            let found = study.modes_at(&state)?;
-            sensitivity::sensitivities(&study.mechanism, &state, &found).map(Box::new)
-        })
+    /// Those of the equilibrium and of the function.
+    pub fn equilibrium_shift(&self) -> Result<EquilibriumShift, Error> {
+        let state = self.settings.regular(&self.mechanism)?;
+        sensitivity::equilibrium_shift(&self.mechanism, &state)
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
     ///
-    /// # Errors
-    /// Those of the equilibrium and of the function.
-    pub fn outputs(&self) -> Result<OutputSensitivities<U, P, O>, Error> {
-        self.ask(|study| {
-            let state = study.settled()?;
-            state.regular()?;
-            sensitivity::output_sensitivities(&study.mechanism, &state)
-        })
-    }
-
-    /// First-order spread of the frequencies ([`tolerance::first_order`]).
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let outputs = study.outputs()?;
+    /// println!("the angle is {} rad", outputs.values[Pendulum::angle.index()]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes, sensitivities and tolerances.
-    pub fn first_order(&self) -> Result<Box<FirstOrder<N, P>>, Error> {
-        self.ask(|study| {
-            // Borrowed: to move them would take a noticeable part of the time.
-            let tolerances = study.tolerances();
-            let tolerances = borrowed(&tolerances)?;
-            let problem = Problem::new(&study.mechanism, &study.inputs, &study.design)?;
-            let start = study.assembled_start()?;
-            problem.check_start(&start)?;
-            let state = equilibrium::settle(&problem, &start, study.policy);
-            let state = state
-                .as_ref()
-                .map_err(|failure| failure.explain(problem.description()))?;
-            state.regular()?;
-            let mut found = Modes::empty(&state.linear, study.family_of(state), state.description);
-            let solved = found.solve(&state.linear, state.rounding);
-            solved.map_err(|failure| failure.explain(state.description))?;
-            let mut slopes = Sensitivities::blank(&found, Method::Adjoint);
-            sensitivity::sensitivities_into(&study.mechanism, state, &found, &mut slopes)?;
-            Ok(Box::new(tolerance::first_order(
-                &found, &slopes, tolerances,
-            )))
-        })
+    /// Those of the equilibrium and of the function.
+    pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
+        let state = self.settings.regular(&self.mechanism)?;
+        sensitivity::output_sensitivities(&self.mechanism, &state)
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
     ///
     /// # Errors
     /// Those of equilibrium, output sensitivities and tolerances.
-    pub fn output_tolerances(&self) -> Result<OutputTolerances<P, O>, Error> {
-        self.ask(|study| {
-            Ok(tolerance::output_tolerances(
-                &study.outputs()?,
-                &study.tolerances()?,
-            ))
-        })
+    pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
+        let outputs = self.outputs()?;
+        tolerance::output_tolerances(&outputs, &self.tolerances()?)
     }
 
-    /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
+    /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let slopes = study.sensitivities()?;
+    /// let by_design = slopes.modes[0].omega_by_design.as_ref();
+    /// println!("{:?} rad/s per metre", by_design.map(|slopes| slopes[Pendulum::l.index()]));
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the nominal equilibrium and modes, of the tolerances, and [`Error::Threads`].
-    pub fn monte_carlo(&self) -> Result<MonteCarlo<N, P>, Error> {
-        self.sample(None)
+    /// Those of the equilibrium, the modes and the function.
+    pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
+        self.solve()?.sensitivities()
     }
 
-    /// As [`Study::monte_carlo`]; `progress` is called with a number of samples whenever that many more are done.
+    /// First-order spread of the frequencies ([`tolerance::first_order`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let spread = study.first_order()?;
+    /// println!("{spread}");
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// As [`Study::monte_carlo`].
-    pub fn monte_carlo_with_progress(
-        &self,
-        progress: &(dyn Fn(usize) + Sync),
-    ) -> Result<MonteCarlo<N, P>, Error> {
-        self.sample(Some(progress))
+    /// Those of equilibrium, modes, sensitivities and tolerances.
+    pub fn first_order(&self) -> Result<FirstOrder, Error> {
+        self.solve()?.first_order()
     }
 
-    fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo<N, P>, Error> {
-        self.ask(|study| {
-            let tolerances = study.tolerances()?;
-            let (state, found) = study.solved()?;
-            let sampling = Sampling {
-                samples: study.samples,
-                seed: study.seed,
-                stream: study.stream,
-                threads: study.threads,
-                keep_samples: study.keep_samples,
-                vectors: study.vectors,
-                progress,
-            };
-            tolerance::monte_carlo(&study.mechanism, &state, &found, &tolerances, &sampling)
-        })
+    /// How each mode whirls ([`modes::whirls`](crate::modes::whirls)).
+    ///
+    /// # Errors
+    /// Those of equilibrium and modes.
+    pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
+        Ok(self.solve()?.whirls())
     }
+}
 
+impl<M: DirectionalKernels> Study<M> {
     /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
     /// design variables ([`sensitivity::directional_derivatives`]).
     ///
@@ -214,85 +175,82 @@ where
     pub fn directional_derivatives(
         &self,
         mode: usize,
-        direction: (&[f64; U], &[f64; P]),
+        direction: (&[f64], &[f64]),
     ) -> Result<DirectionalDerivatives, Error> {
-        self.ask(|study| {
-            let (state, found) = study.solved()?;
-            sensitivity::directional_derivatives(&study.mechanism, &state, &found, mode, direction)
-        })
+        self.solve()?.directional_derivatives(mode, direction)
     }
 
     /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes and the function.
-    pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity<N, U, P>, Error> {
-        self.ask(|study| {
-            let (state, found) = study.solved()?;
-            sensitivity::shape_sensitivity(&study.mechanism, &state, &found, mode)
-        })
+    pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
+        self.solve()?.shape_sensitivity(mode)
     }
 
     /// First and second derivatives of one mode, counted from 0 ([`sensitivity::mode_curvature`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let second = study.mode_curvature(0)?.lambda.by_design;
+    /// let l = Pendulum::l.index();
+    /// println!("{} 1/s^2 per square metre", second[l][l]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// Those of equilibrium, modes and the function.
-    pub fn mode_curvature(&self, mode: usize) -> Result<Box<ModeCurvature<U, P>>, Error> {
-        self.ask(|study| {
-            let (state, found) = study.solved()?;
-            sensitivity::mode_curvature(&study.mechanism, &state, &found, mode).map(Box::new)
-        })
+    pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
+        self.solve()?.mode_curvature(mode)
     }
 
     /// Spread of every mode to second order ([`tolerance::second_order`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
-    pub fn second_order(&self) -> Result<SecondOrder<P>, Error> {
-        self.ask(|study| {
-            let tolerances = study.tolerances()?;
-            let (state, found) = study.solved()?;
-            Ok(tolerance::second_order(
-                &study.mechanism,
-                &state,
-                &found,
-                &tolerances,
-            ))
-        })
+    pub fn second_order(&self) -> Result<SecondOrder, Error> {
+        self.solve()?.second_order()
     }
 
     /// The modes that tolerances bring together, and their spread ([`tolerance::clusters`]).
     ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance<U, P>>, Error> {
-        self.ask(|study| {
-            let tolerances = study.tolerances()?;
-            let (state, found) = study.solved()?;
-            tolerance::clusters(&study.mechanism, &state, &found, &tolerances)
-        })
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        self.solve()?.clusters()
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
     /// ([`tolerance::summary`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.summary()?.trusted());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
-    pub fn summary(&self) -> Result<Box<Summary<N, U, P>>, Error> {
-        self.ask(|study| {
-            let tolerances = Box::new(study.tolerances()?);
-            let solved = study.solved().map(Box::new)?;
-            tolerance::summary(&study.mechanism, &solved.0, &solved.1, &tolerances).map(Box::new)
-        })
+    pub fn summary(&self) -> Result<Summary, Error> {
+        self.solve()?.summary()
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
     /// ([`tolerance::mode_margin`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::tolerance::Band;
+    ///
+    /// let band = Band::Between { low: 4.1, high: 4.2 };
+    /// println!("{}", study.margin(0, band)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
-    pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin<U, P>, Error> {
-        self.margin_of(mode, Quantity::Frequency, band)
+    pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
+        self.solve()?.margin(mode, band)
     }
 
     /// As [`Study::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
@@ -305,35 +263,35 @@ where
         mode: usize,
         quantity: Quantity,
         band: Band,
-    ) -> Result<ModeMargin<U, P>, Error> {
-        self.ask(|study| {
-            let tolerances = study.tolerances()?;
-            let (state, found) = study.solved()?;
-            tolerance::mode_margin(
-                &study.mechanism,
-                &state,
-                &found,
-                (mode, quantity),
-                &tolerances,
-                band,
-            )
-        })
-    }
-
-    /// How each mode whirls ([`modes::whirls`]).
-    ///
-    /// # Errors
-    /// Those of equilibrium and modes.
-    pub fn whirls(&self) -> Result<PerMode<Option<Whirl>, N>, Error> {
-        self.ask(|study| {
-            let (state, found) = study.solved()?;
-            Ok(modes::whirls(&study.mechanism, &state, &found))
-        })
+    ) -> Result<ModeMargin, Error> {
+        self.solve()?.margin_of(mode, quantity, band)
     }
 }
 
-/// What a question was answered, where it stands.
-#[inline]
-fn borrowed<T>(answer: &Result<T, Error>) -> Result<&T, Error> {
-    answer.as_ref().map_err(Error::clone)
+impl<M: BatchKernels> Study<M> {
+    /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let run = study.samples(500).monte_carlo()?;
+    /// assert_eq!(run.counts.stable, 500);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the nominal equilibrium and modes, of the tolerances, and [`Error::Threads`].
+    pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
+        self.solve()?.monte_carlo()
+    }
+
+    /// As [`Study::monte_carlo`]; `progress` is called with a number of samples whenever that many more are done.
+    ///
+    /// # Errors
+    /// As [`Study::monte_carlo`].
+    pub fn monte_carlo_with_progress(
+        &self,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<MonteCarlo, Error> {
+        self.solve()?.monte_carlo_with_progress(progress)
+    }
 }

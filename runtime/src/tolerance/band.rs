@@ -2,8 +2,11 @@
 //! growth above zero.
 
 use super::{Margin, Tolerances, margin};
+use crate::dense::Vector;
+use crate::equilibrium::check_input;
+use crate::kernels::DirectionalKernels;
 use crate::sensitivity::{Quantity, mode_curvature};
-use crate::{Description, Equilibrium, Error, Input, Mechanism, Modes};
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
 /// A band of values to keep clear of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,18 +40,19 @@ impl Band {
     }
 
     /// Ends of the band, rad/s, low end first.
-    fn ends(self, inputs: &[f64]) -> Option<(f64, f64)> {
-        Some(match self {
-            Self::Between { low, high } => (low, high),
+    fn ends(self, at: &Equilibrium) -> Result<(f64, f64), Error> {
+        match self {
+            Self::Between { low, high } => Ok((low, high)),
             Self::Around {
                 input,
                 order,
                 fraction,
             } => {
-                let centre = (order * inputs.get(input.0)?).abs();
-                (centre * (1.0 - fraction), centre * (1.0 + fraction))
+                check_input(input, &at.description)?;
+                let centre = (order * at.inputs[input.index()]).abs();
+                Ok((centre * (1.0 - fraction), centre * (1.0 + fraction)))
             }
-        })
+        }
     }
 
     /// Refuses a band about something infinite; what is between two values is checked where it is used.
@@ -81,7 +85,7 @@ impl Band {
                 input: own,
                 order,
                 fraction,
-            } if own.0 == input => {
+            } if own.index() == input => {
                 let rate = order * (order * inputs[input]).signum();
                 (rate * (1.0 - fraction), rate * (1.0 + fraction))
             }
@@ -91,8 +95,8 @@ impl Band {
 }
 
 /// The margin of a quantity of a mode against a forbidden band.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModeMargin<const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeMargin {
     /// Position of the mode, from 0.
     pub mode: usize,
     /// What is looked at.
@@ -100,12 +104,12 @@ pub struct ModeMargin<const U: usize, const P: usize> {
     /// What it keeps clear of.
     pub band: Band,
     /// Probabilities, distance, derivatives by design variables and half-widths; SI.
-    pub margin: Margin<P>,
+    pub margin: Margin,
     /// Total derivatives of the first-order probability by each input, by SI unit: the quantity, its standard deviation
     /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
-    pub by_input: Option<[f64; U]>,
+    pub by_input: Option<Vector>,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
 /// Probability that a quantity of mode number `mode` lies in a forbidden band, to first order and corrected, with its
@@ -113,30 +117,16 @@ pub struct ModeMargin<const U: usize, const P: usize> {
 ///
 /// # Errors
 /// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
-/// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a band without sense.
-pub fn mode_margin<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
+/// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for a band without sense.
+pub fn mode_margin(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
     (mode, quantity): (usize, Quantity),
-    tolerances: &Tolerances<P>,
+    tolerances: &Tolerances,
     band: Band,
-) -> Result<ModeMargin<U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let description = at.description;
-    let Some(ends) = band.ends(&at.inputs) else {
-        let Band::Around { input, .. } = band else {
-            unreachable!("a fixed band has ends")
-        };
-        return Err(Error::UnknownHandle {
-            kind: "input",
-            index: input.0,
-            mechanism: description.name,
-            count: U,
-        });
-    };
+) -> Result<ModeMargin, Error> {
+    let ends = band.ends(at)?;
     band.check(ends)?;
     let curvature = mode_curvature(mechanism, at, modes, mode)?;
     let lambda = modes.modes[mode].lambda;
@@ -145,8 +135,8 @@ where
     let first = curvature.first.of(quantity).ok_or(silent.clone())?;
     let mixed = curvature.of(quantity).ok_or(silent)?.by_input_and_design;
     let margin = margin(&model, tolerances, ends)?;
-    let by_input = margin.derivatives.map(|derivatives| {
-        core::array::from_fn(|k| {
+    let by_input = margin.derivatives.as_ref().map(|derivatives| {
+        Vector::from_fn(at.inputs.len(), |k| {
             let sigma = tolerances.covariance(&first.by_design, &mixed[k]) / margin.sigma;
             let (low, high) = band.slopes(&at.inputs, k);
             derivatives.along(first.by_input[k], sigma, low, high)
@@ -158,6 +148,6 @@ where
         band,
         margin,
         by_input,
-        description,
+        description: at.description.clone(),
     })
 }

@@ -5,6 +5,7 @@ use super::distribution::diagonalise;
 use super::sampling::Draw;
 use super::statistics::Moments;
 use super::{Statistics, Tolerances};
+use crate::dense::Vector;
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
 use crate::sensitivity::{ModalCouplings, eigenvalues};
@@ -86,21 +87,23 @@ pub struct MemberSpread {
 /// # Errors
 /// [`Error::Setting`] for matrices of a wrong number or size, not finite, or not real and symmetric for undamped modes,
 /// and for samples beyond the range of a double.
-pub fn sample_cluster<const P: usize>(
+pub fn sample_cluster(
     couplings: &ModalCouplings,
-    tolerances: &Tolerances<P>,
+    tolerances: &Tolerances,
     sampling: &ClusterSampling,
 ) -> Result<ClusterSpread, Error> {
-    check::<P>(couplings)?;
+    check(couplings, tolerances)?;
     let family = couplings.family;
     let m = couplings.eigenvalues.len();
     let mut work = Work::new(m);
     let mut frequency = Sorted::new(m);
     let mut parts = [Sorted::new(m), Sorted::new(m)];
     let (mut unstable, mut unsolved) = (0, 0);
-    let mut draw = Draw::from((sampling.seed, sampling.stream), 0, &[0.0; P], tolerances);
+    let sequence = (sampling.seed, sampling.stream);
+    let nominal = Vector::zeros(couplings.by_design.len());
+    let mut draw = Draw::from(sequence, 0, &nominal, tolerances);
     for _ in 0..sampling.samples {
-        work.fill(couplings, &draw.next());
+        work.fill(couplings, draw.next());
         let size = |most: f64, value: &Complex| most.max(value.l1_norm());
         let size = work.matrix.iter().fold(0.0, size);
         if !work.matrix.iter().all(|value| value.l1_norm() < LARGEST) {
@@ -166,11 +169,13 @@ fn damping_ratio(s: Complex) -> Option<f64> {
 }
 
 /// Matrices of the right number and size, finite, and symmetric where the method rests on it.
-fn check<const P: usize>(couplings: &ModalCouplings) -> Result<(), Error> {
+fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Error> {
     let m = couplings.eigenvalues.len();
-    if couplings.by_design.len() != P {
-        let count = couplings.by_design.len();
-        return Err(refuse(format!("{count} matrices for {P} design variables")));
+    let (count, variables) = (couplings.by_design.len(), tolerances.half_widths().len());
+    if count != variables {
+        return Err(refuse(format!(
+            "{count} matrices for {variables} design variables"
+        )));
     }
     for (k, matrix) in couplings.by_design.iter().enumerate() {
         if matrix.len() != m * m {

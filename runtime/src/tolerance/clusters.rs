@@ -3,14 +3,16 @@
 
 use super::cluster_sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
 use super::{Spread, TRUSTED_DISTANCE, Tolerances};
+use crate::dense::Vector;
+use crate::kernels::DirectionalKernels;
 use crate::modes::{Family, merged};
 use crate::sensitivity::{CLUSTER_GAP, ModalCouplings, Quantity, modal_couplings};
-use crate::{Complex, Description, Equilibrium, Error, Mechanism, Modes};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 
 /// Modes that tolerances bring together, or that rounding cannot tell apart. A mode that has merged with its own conjugate
 /// is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ClusterTolerance<const U: usize, const P: usize> {
+pub struct ClusterTolerance {
     /// Positions of the modes, from 0, ascending.
     pub modes: Vec<usize>,
     /// Which equation they solve.
@@ -21,17 +23,17 @@ pub struct ClusterTolerance<const U: usize, const P: usize> {
     /// ([`clusters`] defines it); zero for equal eigenvalues.
     pub distance: f64,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
-    pub mean: Option<MeanEigenvalue<U, P>>,
+    pub mean: Option<MeanEigenvalue>,
     /// Spread of the sorted members from 4096 samples of a fixed seed, or why there is none: [`Error::Defective`], or
     /// [`Error::Setting`] for tolerances beyond the range of a double.
     pub spread: Result<ClusterSpread, Error>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
     /// The mechanism they belong to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const U: usize, const P: usize> ClusterTolerance<U, P> {
+impl ClusterTolerance {
     /// Whether the members have merged into one eigenvalue that no derivative describes.
     pub fn defective(&self) -> bool {
         matches!(self.spread, Err(Error::Defective { .. }))
@@ -39,22 +41,22 @@ impl<const U: usize, const P: usize> ClusterTolerance<U, P> {
 }
 
 /// Mean of the eigenvalues of a cluster. Whatever its members do, it has exact derivatives: a trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeanEigenvalue<const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanEigenvalue {
     /// The mean: of `lambda`, 1/s^2, or of `s`, 1/s.
     pub value: Complex,
     /// Total derivatives by the inputs, per SI unit.
-    pub by_input: [Complex; U],
+    pub by_input: Vector<Complex>,
     /// Total derivatives by the design variables, per SI unit.
-    pub by_design: [Complex; P],
+    pub by_design: Vector<Complex>,
     /// Standard deviation of the real part: of `lambda`, or of the growth.
     pub sigma_re: f64,
     /// Standard deviation of the imaginary part; zero for undamped modes.
     pub sigma_im: f64,
     /// First-order spread of the frequency that belongs to the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` without one.
-    pub frequency: Option<Spread<P>>,
+    pub frequency: Option<Spread>,
     /// First-order spread of the damping ratio of the mean; `None` for undamped modes and without a frequency.
-    pub damping_ratio: Option<Spread<P>>,
+    pub damping_ratio: Option<Spread>,
 }
 
 /// The clusters of a set of modes under tolerances, none twice, by their first mode.
@@ -68,16 +70,15 @@ pub struct MeanEigenvalue<const U: usize, const P: usize> {
 /// squared over the standard deviation of the discriminant.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`].
-pub fn clusters<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-) -> Result<Vec<ClusterTolerance<U, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of another
+/// mechanism.
+pub fn clusters(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Result<Vec<ClusterTolerance>, Error> {
+    tolerances.check_count(at.design.len())?;
     let count = modes.modes.len();
     if count == 0 || count == 1 && !merged(modes, 0) {
         return Ok(Vec::new());
@@ -115,18 +116,14 @@ struct Pair {
 }
 
 impl Pair {
-    fn new<const P: usize>(
-        couplings: &ModalCouplings,
-        (i, j): (usize, usize),
-        tolerances: &Tolerances<P>,
-    ) -> Self {
-        let sigma = |slopes: &[Complex; P]| {
-            let part = |pick: fn(&Complex) -> f64| tolerances.sigma(&slopes.each_ref().map(pick));
+    fn new(couplings: &ModalCouplings, (i, j): (usize, usize), tolerances: &Tolerances) -> Self {
+        let sigma = |slopes: &Vector<Complex>| {
+            let part = |pick: fn(Complex) -> f64| tolerances.sigma(&slopes.map(pick));
             part(|value| value.re).hypot(part(|value| value.im))
         };
         let difference = couplings.element(i, i).zip(couplings.element(j, j));
-        let apart = sigma(&gather(difference.map(|(a, b)| a - b)));
-        let mixed = |i, j| sigma(&gather(couplings.element(i, j))).sqrt();
+        let apart = sigma(&difference.map(|(a, b)| a - b).collect());
+        let mixed = |i, j| sigma(&couplings.element(i, j).collect()).sqrt();
         Self {
             gap: (couplings.eigenvalues[i] - couplings.eigenvalues[j]).norm(),
             apart,
@@ -153,15 +150,11 @@ impl Pair {
     }
 }
 
-fn gather<const P: usize>(mut values: impl Iterator<Item = Complex>) -> [Complex; P] {
-    core::array::from_fn(|_| values.next().unwrap_or_default())
-}
-
-fn together<const N: usize, const P: usize>(
+fn together(
     couplings: &ModalCouplings,
-    modes: &Modes<N>,
+    modes: &Modes,
     (i, j): (usize, usize),
-    tolerances: &Tolerances<P>,
+    tolerances: &Tolerances,
 ) -> bool {
     let values = &couplings.eigenvalues;
     let gap = (values[i] - values[j]).norm();
@@ -177,11 +170,11 @@ fn together<const N: usize, const P: usize>(
     Pair::new(couplings, (i, j), tolerances).distance() < TRUSTED_DISTANCE
 }
 
-fn tolerance<const N: usize, const U: usize, const P: usize>(
+fn tolerance(
     couplings: &ModalCouplings,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-) -> ClusterTolerance<U, P> {
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> ClusterTolerance {
     let own = |place: usize| &modes.modes[couplings.modes[place]];
     let count = couplings.modes.len();
     let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
@@ -210,22 +203,21 @@ fn tolerance<const N: usize, const U: usize, const P: usize>(
         mean: (!defective).then(|| MeanEigenvalue::new(couplings, tolerances)),
         spread,
         sigma_level: tolerances.sigma_level(),
-        description: modes.description,
+        description: modes.description.clone(),
     }
 }
 
-impl<const U: usize, const P: usize> MeanEigenvalue<U, P> {
-    fn new(couplings: &ModalCouplings, tolerances: &Tolerances<P>) -> Self {
+impl MeanEigenvalue {
+    fn new(couplings: &ModalCouplings, tolerances: &Tolerances) -> Self {
         let (value, family) = (couplings.mean(), couplings.family);
-        let by_design: [Complex; P] = gather(couplings.mean_by_design().into_iter());
+        let by_design = Vector::from(couplings.mean_by_design());
         let spread = |mean, slope: &dyn Fn(Complex) -> f64| {
-            Spread::new(mean, &by_design.map(slope), tolerances)
+            Spread::new(mean, by_design.map(slope), tolerances)
         };
         let frequency = frequency_of(family, value);
         Self {
             value,
-            by_input: gather(couplings.mean_by_input().into_iter()),
-            by_design,
+            by_input: couplings.mean_by_input().into(),
             sigma_re: tolerances.sigma(&by_design.map(|slope| slope.re)),
             sigma_im: tolerances.sigma(&by_design.map(|slope| slope.im)),
             frequency: frequency.map(|mean| match family {
@@ -236,6 +228,7 @@ impl<const U: usize, const P: usize> MeanEigenvalue<U, P> {
                 let ratio = Quantity::DampingRatio;
                 spread(ratio.value(value), &|slope| ratio.slope(value, slope))
             }),
+            by_design,
         }
     }
 }

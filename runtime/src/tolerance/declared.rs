@@ -1,27 +1,29 @@
 //! Half-widths, the number of standard deviations they hold, and how variables vary together.
 
-use crate::array::{dot, largest, times};
+use std::borrow::Cow;
+
+use crate::dense::{Matrix, Vector, dot, largest, times};
 use crate::{Description, Error};
 
-/// Tolerances of the `P` design variables.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerances<const P: usize> {
-    half_widths: [f64; P],
+/// Tolerances of the design variables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerances {
+    half_widths: Vector,
     sigma_level: f64,
-    deviations: [f64; P],
-    correlation: Option<[[f64; P]; P]>,
+    sigmas: Vector,
+    correlation: Option<Matrix>,
     /// Lower factor of the covariance matrix.
-    factor: [[f64; P]; P],
+    factor: Matrix,
 }
 
-impl<const P: usize> Tolerances<P> {
+impl Tolerances {
     /// The declared half-widths, three standard deviations each, independent of each other.
     ///
     /// # Errors
     /// [`Error::Setting`] when a declared half-width is negative or not finite.
     pub fn declared(description: &Description) -> Result<Self, Error> {
-        let half_widths =
-            core::array::from_fn(|j| description.design.get(j).map_or(0.0, |info| info.tolerance));
+        let infos = description.design.iter();
+        let half_widths: Vector = infos.map(|info| info.tolerance).collect();
         Self::new(half_widths, 3.0, None)
     }
 
@@ -30,13 +32,14 @@ impl<const P: usize> Tolerances<P> {
     ///
     /// # Errors
     /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
-    /// that is not symmetric and positive semidefinite with ones on its diagonal.
-    #[inline]
+    /// that has not a row and a column for each half-width or is not symmetric and positive semidefinite with ones on its
+    /// diagonal.
     pub fn new(
-        half_widths: [f64; P],
+        half_widths: impl Into<Vector>,
         sigma_level: f64,
-        correlation: Option<[[f64; P]; P]>,
+        correlation: Option<Matrix>,
     ) -> Result<Self, Error> {
+        let half_widths = half_widths.into();
         if let Some(&value) = half_widths
             .iter()
             .find(|&&value| !(0.0..=f64::MAX).contains(&value))
@@ -63,28 +66,31 @@ impl<const P: usize> Tolerances<P> {
                 ),
             ));
         }
-        let deviations = half_widths.map(|value| value / sigma_level);
-        let mut factor = [[0.0; P]; P];
-        match &correlation {
+        let sigmas = half_widths.map(|value| value / sigma_level);
+        let count = half_widths.len();
+        let factor = match &correlation {
             Some(matrix) => {
-                factor = semidefinite_factor(matrix)?;
-                for (row, half_width) in factor.iter_mut().zip(half_widths) {
-                    *row = row.map(|value| value * half_width / sigma_level);
+                let mut factor = semidefinite_factor(matrix, count)?;
+                for (row, half_width) in factor.iter_mut().zip(&half_widths) {
+                    for value in row {
+                        *value = *value * half_width / sigma_level;
+                    }
                 }
+                factor
             }
-            None => (0..P).for_each(|j| factor[j][j] = deviations[j]),
-        }
+            None => Matrix::from_fn(count, count, |i, j| if i == j { sigmas[i] } else { 0.0 }),
+        };
         Ok(Self {
             half_widths,
             sigma_level,
-            deviations,
+            sigmas,
             correlation,
             factor,
         })
     }
 
     /// Half-widths, SI.
-    pub fn half_widths(&self) -> &[f64; P] {
+    pub fn half_widths(&self) -> &[f64] {
         &self.half_widths
     }
 
@@ -94,28 +100,40 @@ impl<const P: usize> Tolerances<P> {
     }
 
     /// The correlation matrix, when variables are not independent.
-    pub fn correlation(&self) -> Option<&[[f64; P]; P]> {
+    pub fn correlation(&self) -> Option<&Matrix> {
         self.correlation.as_ref()
     }
 
     /// Standard deviations, SI.
-    pub fn standard_deviations(&self) -> [f64; P] {
-        self.deviations
+    pub fn sigmas(&self) -> &[f64] {
+        &self.sigmas
+    }
+
+    /// Refuses tolerances that are not those of `count` design variables.
+    pub(crate) fn check_count(&self, count: usize) -> Result<(), Error> {
+        let found = self.half_widths.len();
+        if found == count {
+            return Ok(());
+        }
+        Err(Error::WrongLength {
+            kind: "tolerances",
+            found,
+            expected: count,
+        })
     }
 
     /// Lower triangular `L` with covariance `Sigma = L L^T`.
-    pub(crate) fn factor(&self) -> &[[f64; P]; P] {
+    pub(crate) fn factor(&self) -> &Matrix {
         &self.factor
     }
 
     /// Standard deviation of a quantity whose derivatives by the design variables are `slopes`, correlation included:
     /// `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity when the slopes are by SI units.
     ///
-    /// Infinite where it exceeds the range of a double, NaN where a slope is not finite.
+    /// Infinite where it exceeds the range of a double, NaN where a slope is not finite or there is not one for each variable.
     #[inline]
-    pub fn sigma(&self, slopes: &[f64; P]) -> f64 {
-        let (parts, weighted) = self.parts(slopes, 1.0);
-        let variance = dot(&parts, &weighted);
+    pub fn sigma(&self, slopes: &[f64]) -> f64 {
+        let variance = sum(&self.contributions(&self.parts(slopes, 1.0)));
         if ORDINARY.contains(&variance) {
             variance.sqrt()
         } else {
@@ -123,72 +141,76 @@ impl<const P: usize> Tolerances<P> {
         }
     }
 
-    /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`.
-    pub fn covariance(&self, a: &[f64; P], b: &[f64; P]) -> f64 {
-        let deviations = self.standard_deviations();
-        let scaled =
-            |slopes: &[f64; P]| -> [f64; P] { core::array::from_fn(|j| slopes[j] * deviations[j]) };
-        let (a, b) = (scaled(a), scaled(b));
-        match &self.correlation {
-            None => dot(&a, &b),
-            Some(matrix) => dot(&a, &times(matrix, &b)),
-        }
+    /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`; NaN as [`Self::sigma`].
+    pub fn covariance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let (a, b) = (self.parts(a, 1.0), self.parts(b, 1.0));
+        dot(&a, &self.correlated(&b))
     }
 
     /// The standard deviation, and the share of each variable in the variance.
     #[inline]
-    pub(crate) fn spread(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {
-        let (parts, weighted) = self.parts(slopes, 1.0);
-        let variance = dot(&parts, &weighted);
+    pub(crate) fn spread(&self, slopes: &[f64]) -> (f64, Vector) {
+        let mut shares = self.contributions(&self.parts(slopes, 1.0));
+        let variance = sum(&shares);
         if !ORDINARY.contains(&variance) {
             return self.spread_of_any_size(slopes);
         }
-        let shares = core::array::from_fn(|j| parts[j] * weighted[j] / variance);
+        shares.iter_mut().for_each(|share| *share /= variance);
         (variance.sqrt(), shares)
     }
 
-    /// What each variable adds, `unit^2` times the slope times the standard deviation, and the same weighted with the
-    /// correlation.
+    /// What a standard deviation of each variable changes, in units of `1 / unit^2`.
     #[inline]
-    fn parts(&self, slopes: &[f64; P], unit: f64) -> ([f64; P], [f64; P]) {
-        let parts = core::array::from_fn(|j| (unit * slopes[j]) * (unit * self.deviations[j]));
-        let weighted = match &self.correlation {
-            None => parts,
-            Some(matrix) => times(matrix, &parts),
-        };
-        (parts, weighted)
+    fn parts(&self, slopes: &[f64], unit: f64) -> Vector {
+        if slopes.len() != self.sigmas.len() {
+            return Vector::filled(self.sigmas.len(), f64::NAN);
+        }
+        let each = slopes.iter().zip(&self.sigmas);
+        each.map(|(slope, sigma)| (unit * slope) * (unit * sigma))
+            .collect()
+    }
+
+    /// The correlation matrix times a vector.
+    #[inline]
+    pub(super) fn correlated<'a>(&self, x: &'a [f64]) -> Cow<'a, [f64]> {
+        match &self.correlation {
+            None => Cow::Borrowed(x),
+            Some(matrix) => Cow::Owned(times(matrix, x).into()),
+        }
+    }
+
+    /// What each variable adds to the variance.
+    #[inline]
+    fn contributions(&self, parts: &[f64]) -> Vector {
+        let weighted = self.correlated(parts);
+        parts.iter().zip(&*weighted).map(|(a, b)| a * b).collect()
     }
 
     /// As [`Self::spread`]. Formed from numbers about 1, so that a variance beyond the range of a double does no harm.
     #[cold]
-    fn spread_of_any_size(&self, slopes: &[f64; P]) -> (f64, [f64; P]) {
+    fn spread_of_any_size(&self, slopes: &[f64]) -> (f64, Vector) {
         // 2^-513: a product of two numbers scaled by it does not overflow.
         const SMALL: f64 = f64::from_bits(0x1fe0_0000_0000_0000);
-        let (mut parts, mut unit) = (self.parts(slopes, 1.0).0, 1.0);
+        let (mut parts, mut unit) = (self.parts(slopes, 1.0), 1.0);
         if largest(&parts).is_infinite() {
-            (parts, unit) = (self.parts(slopes, SMALL).0, SMALL);
+            (parts, unit) = (self.parts(slopes, SMALL), SMALL);
         }
         let size = largest(&parts);
         if size == 0.0 && !parts.iter().any(|part| part.is_nan()) {
-            return (0.0, [0.0; P]);
+            return (0.0, Vector::zeros(self.sigmas.len()));
         }
-        let parts = parts.map(|part| part / size);
-        let weighted = match &self.correlation {
-            None => parts,
-            Some(matrix) => times(matrix, &parts),
-        };
-        let variance = dot(&parts, &weighted);
-        let shares = core::array::from_fn(|j| {
-            if variance > 0.0 {
-                parts[j] * weighted[j] / variance
-            } else {
-                0.0
-            }
-        });
+        let contributions = self.contributions(&parts.map(|part| part / size));
+        let variance = sum(&contributions);
+        let shares = contributions.map(|own| if variance > 0.0 { own / variance } else { 0.0 });
         // A fully compensated variance may come out below zero by rounding; NaN stays NaN.
         let variance = if variance < 0.0 { 0.0 } else { variance };
         (size * variance.sqrt() / unit / unit, shares)
     }
+}
+
+/// The sum, as a product of vectors forms it.
+fn sum(values: &[f64]) -> f64 {
+    values.iter().fold(-0.0, |sum, value| sum + value)
 }
 
 /// Variances whose parts neither overflow nor lose digits: what is far below the greatest part does not matter.
@@ -198,12 +220,19 @@ fn refuse(setting: &'static str, reason: String) -> Error {
     Error::Setting { setting, reason }
 }
 
-/// Cholesky factor of a correlation matrix; a pivot that is zero to rounding gives a zero column.
-fn semidefinite_factor<const P: usize>(matrix: &[[f64; P]; P]) -> Result<[[f64; P]; P], Error> {
+/// Cholesky factor of a correlation matrix of this size; a pivot that is zero to rounding gives a zero column.
+fn semidefinite_factor(matrix: &Matrix, size: usize) -> Result<Matrix, Error> {
     const ROUNDING: f64 = 1e-10;
     let wrong = |reason: String| refuse("correlation matrix", reason);
-    let mut lower = [[0.0; P]; P];
-    for i in 0..P {
+    let found = (matrix.row_count(), matrix.column_count());
+    if found != (size, size) {
+        let (rows, columns) = found;
+        return Err(wrong(format!(
+            "it is {rows} by {columns} and must be {size} by {size}"
+        )));
+    }
+    let mut lower = Matrix::zeros(size, size);
+    for i in 0..size {
         if (matrix[i][i] - 1.0).abs() > ROUNDING || matrix[i][i].is_nan() {
             return Err(wrong(format!(
                 "element ({i}, {i}) is {} and must be 1",

@@ -1,10 +1,12 @@
 //! First-order spread of the values of an input at which something happens: critical speeds and resonances.
 
-use super::Tolerances;
+use super::{Spread, Tolerances};
+use crate::dense::Vector;
 use crate::equilibrium::{Condition, CriticalState, Crossing};
+use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Whirl, whirls};
 use crate::sensitivity::{critical_sensitivity, crossing_sensitivity};
-use crate::{Complex, Description, Error, Input, Mechanism};
+use crate::{Complex, Description, Error, Input, Shared};
 
 /// What happens at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,24 +28,24 @@ pub enum Event {
 
 /// A value of an input at which something happens, and how tolerances move it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EventTolerance<const P: usize> {
+pub struct EventTolerance {
     /// What happens.
     pub event: Event,
     /// The input.
     pub input: Input,
     /// Its nominal value there, SI.
     pub value: f64,
-    /// How the value moves, or why it has no derivative.
-    pub spread: Result<EventSpread<P>, Error>,
+    /// How tolerances move the value, or why it has no derivative.
+    pub spread: Result<Spread, Error>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
     /// Which modes it was found with.
     pub family: Family,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const P: usize> EventTolerance<P> {
+impl EventTolerance {
     /// The same with another number for the mode of a crossing.
     pub(crate) fn with_mode(mut self, number: usize) -> Self {
         if let Event::Crossing { mode, .. } = &mut self.event {
@@ -58,48 +60,30 @@ impl<const P: usize> EventTolerance<P> {
     }
 }
 
-/// First-order spread of the value at which something happens.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EventSpread<const P: usize> {
-    /// `du/db`, SI unit of the input by that of the design variable.
-    pub by_design: [f64; P],
-    /// Standard deviation, SI.
-    pub sigma: f64,
-    /// Half-width that holds as many standard deviations as the tolerances do, SI.
-    pub band: f64,
-    /// Share of each design variable in the variance.
-    pub variance_shares: [f64; P],
-}
-
 /// Spread of a critical value ([`critical_sensitivity`]).
-pub fn critical_tolerance<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    critical: &CriticalState<N, U, P>,
-    tolerances: &Tolerances<P>,
-) -> EventTolerance<P>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn critical_tolerance(
+    mechanism: &dyn DirectionalKernels,
+    critical: &CriticalState,
+    tolerances: &Tolerances,
+) -> EventTolerance {
     EventTolerance {
         event: Event::Critical,
         input: critical.input,
         value: critical.value,
-        spread: critical_sensitivity(mechanism, critical).map(|slopes| spread(slopes, tolerances)),
+        spread: critical_sensitivity(mechanism, critical)
+            .and_then(|slopes| spread(critical.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: Family::General,
-        description: critical.equilibrium.description,
+        description: critical.equilibrium.description.clone(),
     }
 }
 
 /// Spread of a crossing ([`crossing_sensitivity`]).
-pub fn crossing_tolerance<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    crossing: &Crossing<N, U, P>,
-    tolerances: &Tolerances<P>,
-) -> EventTolerance<P>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub fn crossing_tolerance(
+    mechanism: &dyn Kernels,
+    crossing: &Crossing,
+    tolerances: &Tolerances,
+) -> EventTolerance {
     EventTolerance {
         event: Event::Crossing {
             mode: crossing.mode,
@@ -116,19 +100,15 @@ where
         },
         input: crossing.input,
         value: crossing.value,
-        spread: crossing_sensitivity(mechanism, crossing).map(|slopes| spread(slopes, tolerances)),
+        spread: crossing_sensitivity(mechanism, crossing)
+            .and_then(|slopes| spread(crossing.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: crossing.modes.family,
-        description: crossing.equilibrium.description,
+        description: crossing.equilibrium.description.clone(),
     }
 }
 
-fn spread<const P: usize>(by_design: [f64; P], tolerances: &Tolerances<P>) -> EventSpread<P> {
-    let (sigma, variance_shares) = tolerances.spread(&by_design);
-    EventSpread {
-        by_design,
-        sigma,
-        band: tolerances.sigma_level() * sigma,
-        variance_shares,
-    }
+fn spread(value: f64, by_design: Vector, tolerances: &Tolerances) -> Result<Spread, Error> {
+    tolerances.check_count(by_design.len())?;
+    Ok(Spread::new(value, by_design, tolerances))
 }

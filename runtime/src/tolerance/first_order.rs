@@ -1,10 +1,10 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
 
-use super::Tolerances;
-use crate::array::greater;
-use crate::modes::{Family, PerMode};
-use crate::sensitivity::{ModeSensitivity, OutputSensitivities, Quantity};
-use crate::{Behaviour, Description, Mode, Modes, Sensitivities};
+use super::{Spread, Tolerances};
+use crate::dense::{Vector, greater};
+use crate::modes::Family;
+use crate::sensitivity::{ModeSensitivity, Quantity};
+use crate::{Behaviour, Complex, Description, Error, Mode, Modes, Sensitivities, Shared};
 
 /// Nearer to the critical state, or to another mode, than this many standard deviations, first order is not to be
 /// trusted: its error grows without bound.
@@ -15,56 +15,23 @@ use crate::{Behaviour, Description, Mode, Modes, Sensitivities};
 /// frequency itself, which a distance to the critical state does not show.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
-/// First-order spread of one quantity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread<const P: usize> {
-    /// Nominal value, SI, which at first order is the mean.
-    pub mean: f64,
-    /// Standard deviation, SI.
-    pub sigma: f64,
-    /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
-    pub band: f64,
-    /// Share of each design variable in the variance; they sum to 1, or are all zero when nothing varies. Correlated
-    /// variables can have negative shares.
-    pub variance_shares: [f64; P],
-}
-
-impl<const P: usize> Spread<P> {
-    /// The spread of a quantity from its value and its derivatives.
-    pub fn new(mean: f64, slopes: &[f64; P], tolerances: &Tolerances<P>) -> Self {
-        let (sigma, variance_shares) = tolerances.spread(slopes);
-        Self {
-            mean,
-            sigma,
-            band: tolerances.sigma_level() * sigma,
-            variance_shares,
-        }
-    }
-}
-
 /// First-order spread of one mode.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModeTolerance<const P: usize> {
-    /// Nominal `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue.
-    pub lambda: f64,
-    /// Standard deviation of `lambda`, 1/s^2; infinite for a general mode without a derivative (a defective eigenvalue).
-    pub lambda_sigma: f64,
-    /// Nominal frequency `Im s`, rad/s, which at first order is the mean; `None` for a mode that does not oscillate.
-    pub mean: Option<f64>,
-    /// Standard deviation of the frequency, rad/s.
-    pub sigma: Option<f64>,
-    /// Half-width of the band that holds as many standard deviations as the tolerances do, rad/s.
-    pub band: Option<f64>,
-    /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode that does not oscillate;
-    /// they sum to 1, or are all zero when nothing varies. Correlated variables can have negative shares.
-    pub variance_shares: [f64; P],
-    /// The natural frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
-    pub natural_frequency: Option<Spread<P>>,
-    /// The damping ratio; `None` for a mode that does not oscillate.
-    pub damping_ratio: Option<Spread<P>>,
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeTolerance {
+    /// What it does, with the nominal frequency of a mode that oscillates.
+    pub behaviour: Behaviour,
+    /// `-Re s^2`, 1/s^2: of an undamped mode the eigenvalue. Its standard deviation is infinite for a general mode without a
+    /// derivative (a defective eigenvalue).
+    pub lambda: Spread,
+    /// The frequency `Im s`, rad/s; `None` for a mode that does not oscillate or has no derivative.
+    pub frequency: Option<Spread>,
+    /// The natural frequency `|s|`, rad/s; `None` likewise.
+    pub natural_frequency: Option<Spread>,
+    /// The damping ratio; `None` likewise.
+    pub damping_ratio: Option<Spread>,
     /// The growth `Re s`, 1/s; `None` where the eigenvalue has no derivative.
-    pub growth: Option<Spread<P>>,
-    /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda / lambda_sigma`, with
+    pub growth: Option<Spread>,
+    /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda` over its own, with
     /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
     /// it has no derivative that would tell.
     pub distance_to_critical: f64,
@@ -81,23 +48,12 @@ pub struct ModeTolerance<const P: usize> {
     pub clustered: bool,
 }
 
-impl<const P: usize> ModeTolerance<P> {
-    /// What stands where a spread is going to be written.
-    const BLANK: Self = Self {
-        lambda: 0.0,
-        lambda_sigma: 0.0,
-        mean: None,
-        sigma: None,
-        band: None,
-        variance_shares: [0.0; P],
-        natural_frequency: None,
-        damping_ratio: None,
-        growth: None,
-        distance_to_critical: 0.0,
-        distance_to_instability: 0.0,
-        distance_to_neighbour: 0.0,
-        clustered: false,
-    };
+impl ModeTolerance {
+    /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without one.
+    pub fn variance_shares(&self) -> &[f64] {
+        let own = self.frequency.as_ref().unwrap_or(&self.lambda);
+        &own.variance_shares
+    }
 
     /// Whether no other mode is so near that tolerances bring the two together.
     pub fn alone(&self) -> bool {
@@ -106,10 +62,10 @@ impl<const P: usize> ModeTolerance<P> {
 }
 
 /// First-order spread of all modes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FirstOrder<const N: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct FirstOrder {
     /// One entry for each mode.
-    pub modes: PerMode<ModeTolerance<P>, N>,
+    pub modes: Vec<ModeTolerance>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
     /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
@@ -118,10 +74,10 @@ pub struct FirstOrder<const N: usize, const P: usize> {
     /// Which modes they belong to.
     pub family: Family,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const P: usize> FirstOrder<N, P> {
+impl FirstOrder {
     /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]). It looks at each
     /// mode alone; [`summary`](super::summary) also sees what mixes modes and how frequencies bend.
     pub fn trusted(&self) -> bool {
@@ -129,110 +85,74 @@ impl<const N: usize, const P: usize> FirstOrder<N, P> {
     }
 }
 
-/// First-order spread of one output.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutputTolerance<const P: usize> {
-    /// Nominal value, SI.
-    pub mean: f64,
-    /// Standard deviation, SI; `None` where the output has no derivative.
-    pub sigma: Option<f64>,
-    /// Half-width that holds as many standard deviations as the tolerances do, SI; `None` likewise.
-    pub band: Option<f64>,
-    /// Share of each design variable in the variance; `None` likewise.
-    pub variance_shares: Option<[f64; P]>,
-}
-
-/// First-order spread of every output.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutputTolerances<const P: usize, const O: usize> {
-    /// In the order of the declaration.
-    pub outputs: [OutputTolerance<P>; O],
-    /// Standard deviations that a tolerance holds.
-    pub sigma_level: f64,
-    /// The mechanism they belong to.
-    pub description: &'static Description,
-}
-
 /// First-order spread of every mode.
-// Inlined, as what it returns is long to copy.
-#[inline(always)]
-pub fn first_order<const N: usize, const U: usize, const P: usize>(
-    modes: &Modes<N>,
-    sensitivities: &Sensitivities<N, U, P>,
-    tolerances: &Tolerances<P>,
-) -> FirstOrder<N, P> {
-    let mut found = FirstOrder {
-        modes: const { PerMode::blank(ModeTolerance::BLANK) },
-        sigma_level: tolerances.sigma_level(),
-        distance_to_critical: f64::INFINITY,
-        family: modes.family,
-        description: modes.description,
-    };
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism.
+pub fn first_order(
+    modes: &Modes,
+    sensitivities: &Sensitivities,
+    tolerances: &Tolerances,
+) -> Result<FirstOrder, Error> {
+    tolerances.check_count(sensitivities.description.design.len())?;
     let of_modes = modes.modes.iter().zip(&sensitivities.modes);
-    let places = found.modes.places(sensitivities.modes.len()).iter_mut();
-    for (spread, (mode, own)) in places.zip(of_modes) {
-        *spread = match modes.family {
-            Family::Undamped => undamped(mode, own, tolerances),
-            Family::General => general(mode, own, tolerances),
-        };
-        found.distance_to_critical = found.distance_to_critical.min(spread.distance_to_critical);
-    }
-    for r in 0..found.modes.len() {
+    let spread = |(mode, own)| match modes.family {
+        Family::Undamped => undamped(mode, own, tolerances),
+        Family::General => general(mode, own, tolerances),
+    };
+    let mut found: Vec<ModeTolerance> = of_modes.map(spread).collect();
+    for r in 0..found.len() {
         for other in 0..r {
             let own = distances(r, other, modes, sensitivities, tolerances);
             for (place, distance) in [r, other].into_iter().zip(own) {
-                let least = &mut found.modes[place].distance_to_neighbour;
+                let least = &mut found[place].distance_to_neighbour;
                 *least = least.min(distance);
             }
         }
     }
-    found
+    let distances = found.iter().map(|mode| mode.distance_to_critical);
+    Ok(FirstOrder {
+        distance_to_critical: distances.fold(f64::INFINITY, f64::min),
+        modes: found,
+        sigma_level: tolerances.sigma_level(),
+        family: modes.family,
+        description: modes.description.clone(),
+    })
 }
 
 /// The spread of an undamped mode, its neighbours left out: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
-#[inline]
-fn undamped<const N: usize, const U: usize, const P: usize>(
-    mode: &Mode<N>,
-    own: &ModeSensitivity<U, P>,
-    tolerances: &Tolerances<P>,
-) -> ModeTolerance<P> {
-    let (lambda_sigma, lambda_shares) = tolerances.spread(&own.lambda_by_design);
+fn undamped(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> ModeTolerance {
+    let lambda = Spread::new(mode.lambda, own.lambda_by_design.clone(), tolerances);
     let level = tolerances.sigma_level();
-    let moving = |mean: f64| {
-        let sigma = lambda_sigma / (2.0 * greater(mode.s.re, mode.s.im));
+    let moving = |mean: f64, by_design: Vector| {
+        let sigma = lambda.sigma / (2.0 * greater(mode.s.re, mode.s.im));
         Spread {
             mean,
+            by_design,
             sigma,
             band: level * sigma,
-            variance_shares: lambda_shares,
+            variance_shares: lambda.variance_shares.clone(),
         }
     };
-    let still = |mean: f64| Spread {
-        mean,
-        sigma: 0.0,
-        band: level * 0.0,
-        variance_shares: [0.0; P],
-    };
-    let mean = mode.frequency();
-    let frequency = own.s.and(mean).map(moving);
-    let growth = own.s.map(|_| match mean {
+    let still = |mean: f64| Spread::without_derivatives(mean, 0.0, lambda.by_design.len());
+    let slopes = own.s.as_ref().map(|s| &s.by_design);
+    let frequency =
+        (slopes.zip(mode.frequency())).map(|(slopes, mean)| moving(mean, slopes.map(|ds| ds.im)));
+    let growth = slopes.map(|slopes| match frequency {
         Some(_) => still(mode.s.re),
-        None => moving(mode.s.re),
+        None => moving(mode.s.re, slopes.map(|ds| ds.re)),
     });
     ModeTolerance {
-        lambda: mode.lambda,
-        lambda_sigma,
-        mean,
-        sigma: frequency.map(|spread| spread.sigma),
-        band: frequency.map(|spread| spread.band),
-        variance_shares: lambda_shares,
-        natural_frequency: frequency,
-        damping_ratio: frequency.map(|_| still(0.0)),
+        behaviour: mode.behaviour,
+        natural_frequency: frequency.clone(),
+        damping_ratio: frequency.is_some().then(|| still(0.0)),
+        frequency,
         growth,
         distance_to_critical: match mode.behaviour {
             Behaviour::Neutral => 0.0,
-            _ => in_sigmas(mode.lambda, lambda_sigma),
+            _ => in_sigmas(mode.lambda, lambda.sigma),
         },
+        lambda,
         distance_to_instability: f64::INFINITY,
         distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,
@@ -240,58 +160,46 @@ fn undamped<const N: usize, const U: usize, const P: usize>(
 }
 
 /// The spread of a general mode, its neighbours left out: that of each quantity by its own derivatives.
-fn general<const N: usize, const U: usize, const P: usize>(
-    mode: &Mode<N>,
-    own: &ModeSensitivity<U, P>,
-    tolerances: &Tolerances<P>,
-) -> ModeTolerance<P> {
-    let (lambda_sigma, lambda_shares) = match own.s {
-        None => (f64::INFINITY, [0.0; P]),
-        Some(_) => tolerances.spread(&own.lambda_by_design),
-    };
+fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> ModeTolerance {
+    let slopes = &own.lambda_by_design;
     let of = |quantity: Quantity| {
         let slopes = own.of(quantity)?;
         Some(Spread::new(
             quantity.of(mode)?,
-            &slopes.by_design,
+            slopes.by_design,
             tolerances,
         ))
     };
-    let (frequency, natural_frequency) = (of(Quantity::Frequency), of(Quantity::NaturalFrequency));
-    let growth = of(Quantity::Growth);
+    let (natural_frequency, growth) = (of(Quantity::NaturalFrequency), of(Quantity::Growth));
     ModeTolerance {
-        lambda: mode.lambda,
-        lambda_sigma,
-        mean: mode.frequency(),
-        sigma: frequency.map(|spread| spread.sigma),
-        band: frequency.map(|spread| spread.band),
-        variance_shares: frequency.map_or(lambda_shares, |spread| spread.variance_shares),
-        natural_frequency,
+        behaviour: mode.behaviour,
+        lambda: match own.s {
+            None => Spread::without_derivatives(mode.lambda, f64::INFINITY, slopes.len()),
+            Some(_) => Spread::new(mode.lambda, slopes.clone(), tolerances),
+        },
+        frequency: of(Quantity::Frequency),
         damping_ratio: of(Quantity::DampingRatio),
-        growth,
-        distance_to_critical: distance_to_zero(mode, natural_frequency, growth),
-        distance_to_instability: growth
+        distance_to_critical: distance_to_zero(mode, natural_frequency.as_ref(), growth.as_ref()),
+        distance_to_instability: (growth.as_ref())
             .filter(|spread| !keeps_amplitude(mode, spread))
             .map_or(f64::INFINITY, |spread| match mode.behaviour {
                 Behaviour::Oscillating(_) => 0.0,
                 _ => in_sigmas(-spread.mean, spread.sigma),
             }),
+        natural_frequency,
+        growth,
         distance_to_neighbour: f64::INFINITY,
         clustered: own.clustered,
     }
 }
 
 /// Whether neither the growth nor what tolerances add to it can be told from zero.
-fn keeps_amplitude<const N: usize, const P: usize>(mode: &Mode<N>, growth: &Spread<P>) -> bool {
+fn keeps_amplitude(mode: &Mode, growth: &Spread) -> bool {
     matches!(mode.behaviour, Behaviour::Oscillating(_)) && growth.sigma <= mode.error
 }
 
 /// Distance of a general mode to `s = 0`: that of `|s|^2` for an oscillation, that of `s` otherwise.
-fn distance_to_zero<const N: usize, const P: usize>(
-    mode: &Mode<N>,
-    natural: Option<Spread<P>>,
-    growth: Option<Spread<P>>,
-) -> f64 {
+fn distance_to_zero(mode: &Mode, natural: Option<&Spread>, growth: Option<&Spread>) -> f64 {
     match (mode.behaviour, natural, growth) {
         (Behaviour::Neutral, ..) => 0.0,
         (_, Some(natural), _) => in_sigmas(0.5 * natural.mean, natural.sigma),
@@ -311,61 +219,36 @@ fn in_sigmas(value: f64, sigma: f64) -> f64 {
     }
 }
 
-/// First-order spread of every output.
-pub fn output_tolerances<const U: usize, const P: usize, const O: usize>(
-    outputs: &OutputSensitivities<U, P, O>,
-    tolerances: &Tolerances<P>,
-) -> OutputTolerances<P, O> {
-    let sigma_level = tolerances.sigma_level();
-    let spread = core::array::from_fn(|o| {
-        let spread = outputs.by_design[o].map(|slopes| tolerances.spread(&slopes));
-        let sigma = spread.map(|(sigma, _)| sigma);
-        OutputTolerance {
-            mean: outputs.values[o],
-            sigma,
-            band: sigma.map(|sigma| sigma_level * sigma),
-            variance_shares: spread.map(|(_, shares)| shares),
-        }
-    });
-    OutputTolerances {
-        outputs: spread,
-        sigma_level,
-        description: outputs.description,
-    }
-}
-
 /// Distance of two modes in standard deviations of their difference, as either of them sees it.
-#[inline]
-fn distances<const N: usize, const U: usize, const P: usize>(
+fn distances(
     r: usize,
     other: usize,
-    modes: &Modes<N>,
-    sensitivities: &Sensitivities<N, U, P>,
-    tolerances: &Tolerances<P>,
+    modes: &Modes,
+    sensitivities: &Sensitivities,
+    tolerances: &Tolerances,
 ) -> [f64; 2] {
     let (a, b) = (&modes.modes[r], &modes.modes[other]);
     let (da, db) = (&sensitivities.modes[r], &sensitivities.modes[other]);
     // Halves, because a difference may exceed the range of a double.
-    let (gap, sigma) = match (modes.family, da.s, db.s) {
+    let (gap, sigma) = match (modes.family, &da.s, &db.s) {
         (Family::Undamped, ..) => {
-            let (da, db) = (&da.lambda_by_design, &db.lambda_by_design);
-            let slopes = core::array::from_fn(|j| 0.5 * da[j] - 0.5 * db[j]);
+            let slopes = da.lambda_by_design.iter().zip(&db.lambda_by_design);
+            let slopes: Vector = slopes.map(|(a, b)| 0.5 * a - 0.5 * b).collect();
             let gap = (0.5 * a.lambda - 0.5 * b.lambda).abs();
             (gap, tolerances.sigma(&slopes))
         }
         (Family::General, Some(da), Some(db)) => {
-            let part = |pick: fn(crate::Complex) -> f64| {
-                let (da, db) = (da.by_design, db.by_design);
-                tolerances.sigma(&core::array::from_fn(|j| {
-                    0.5 * pick(da[j]) - 0.5 * pick(db[j])
-                }))
+            let part = |pick: fn(&Complex) -> f64| {
+                let slopes = da.by_design.iter().zip(&db.by_design);
+                let slopes: Vector = slopes.map(|(a, b)| 0.5 * pick(a) - 0.5 * pick(b)).collect();
+                tolerances.sigma(&slopes)
             };
             let gap = 0.5 * (a.s - b.s).norm();
             (gap, part(|value| value.re).hypot(part(|value| value.im)))
         }
         // One that has merged did so perhaps with the other: nothing tells what moves them. To the other it says nothing.
         (Family::General, one, another) => {
-            return [one, another].map(|slopes| slopes.map_or(0.0, |_| f64::INFINITY));
+            return [one, another].map(|slopes| slopes.as_ref().map_or(0.0, |_| f64::INFINITY));
         }
     };
     [if sigma > 0.0 {

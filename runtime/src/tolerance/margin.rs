@@ -4,11 +4,11 @@ use super::distribution::normal::density;
 use super::probability::{check_interval, normal_probability};
 use super::{Probability, Quadratic, Tolerances};
 use crate::Error;
-use crate::array::{all_finite, dot, times};
+use crate::dense::{Vector, all_finite, dot};
 
 /// Margin of a quantity against a forbidden band, in the units of the quantity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Margin<const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Margin {
     /// The band; an end may be infinite.
     pub band: (f64, f64),
     /// Nominal value.
@@ -23,7 +23,7 @@ pub struct Margin<const P: usize> {
     /// Probability of the band, exact for the second-order model.
     pub corrected: Probability,
     /// Derivatives of the first-order probability; `None` when nothing varies or one exceeds the range of a double.
-    pub derivatives: Option<MarginDerivatives<P>>,
+    pub derivatives: Option<MarginDerivatives>,
 }
 
 /// Derivatives of the first-order probability of a band.
@@ -32,8 +32,8 @@ pub struct Margin<const P: usize> {
 /// model. Those by design variables are exact for the first-order probability as a function of the nominal design, since
 /// slopes and curvature are total derivatives and half-widths stay as they are; a half-width that follows its nominal value
 /// (a tolerance in percent) adds its `by_half_width` times its own derivative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MarginDerivatives<const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct MarginDerivatives {
     /// By the mean.
     pub by_mean: f64,
     /// By the standard deviation.
@@ -44,12 +44,12 @@ pub struct MarginDerivatives<const P: usize> {
     pub by_high: f64,
     /// By the nominal value of each design variable, half-widths and band unchanged:
     /// `dP/dmean S + dP/dsigma H Sigma S / sigma`.
-    pub by_design: [f64; P],
+    pub by_design: Vector,
     /// By each half-width, correlation and sigma level unchanged.
-    pub by_half_width: [f64; P],
+    pub by_half_width: Vector,
 }
 
-impl<const P: usize> MarginDerivatives<P> {
+impl MarginDerivatives {
     /// Derivative along anything that moves mean, standard deviation, low and high end at these rates: for the running
     /// speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
     pub fn along(&self, mean: f64, sigma: f64, low: f64, high: f64) -> f64 {
@@ -60,13 +60,14 @@ impl<const P: usize> MarginDerivatives<P> {
 /// Margin of `quadratic` against the forbidden `band` (low and high end, either may be infinite).
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a model that is not finite, [`Error::Setting`] for a band whose ends are NaN or in the wrong
-/// order, or a spread beyond the range of a double.
-pub fn margin<const P: usize>(
-    quadratic: &Quadratic<P>,
-    tolerances: &Tolerances<P>,
+/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables than
+/// the tolerances have, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a spread beyond the range of
+/// a double.
+pub fn margin(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
     band: (f64, f64),
-) -> Result<Margin<P>, Error> {
+) -> Result<Margin, Error> {
     check_interval(band)?;
     let sigma = quadratic.sigma(tolerances)?;
     let value = quadratic.value;
@@ -86,12 +87,12 @@ fn distance(value: f64, sigma: f64, (low, high): (f64, f64)) -> f64 {
     if outside == 0.0 { 0.0 } else { outside / sigma }
 }
 
-fn derivatives<const P: usize>(
-    quadratic: &Quadratic<P>,
-    tolerances: &Tolerances<P>,
+fn derivatives(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
     sigma: f64,
     (low, high): (f64, f64),
-) -> Option<MarginDerivatives<P>> {
+) -> Option<MarginDerivatives> {
     if sigma == 0.0 {
         return None;
     }
@@ -110,9 +111,9 @@ fn derivatives<const P: usize>(
         by_sigma,
         by_low: -at_low.0,
         by_high: at_high.0,
-        by_design: core::array::from_fn(|k| {
-            by_mean * quadratic.slopes[k] + by_sigma * sigma_by_design[k]
-        }),
+        by_design: (quadratic.slopes.iter().zip(&sigma_by_design))
+            .map(|(mean, sigma)| by_mean * mean + by_sigma * sigma)
+            .collect(),
         by_half_width: sigma_by_half_width.map(|slope| by_sigma * slope),
     };
     let finite = all_finite(&[by_mean, by_sigma, found.by_low, found.by_high])
@@ -122,25 +123,23 @@ fn derivatives<const P: usize>(
 }
 
 /// Derivatives of `sigma = sqrt(S Sigma S^T)` by the nominal design, `H Sigma S / sigma`, and by the half-widths.
-fn sigma_derivatives<const P: usize>(
-    quadratic: &Quadratic<P>,
-    tolerances: &Tolerances<P>,
+fn sigma_derivatives(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
     sigma: f64,
-) -> ([f64; P], [f64; P]) {
-    let deviations = tolerances.standard_deviations();
-    let slopes = &quadratic.slopes;
-    let parts: [f64; P] = core::array::from_fn(|k| (slopes[k] / sigma) * deviations[k]);
-    let weighted = match tolerances.correlation() {
-        None => parts,
-        Some(matrix) => times(matrix, &parts),
-    };
-    let covariances: [f64; P] = core::array::from_fn(|k| deviations[k] * weighted[k]);
-    let curvature = &quadratic.curvature;
-    let by_design = core::array::from_fn(|k| {
-        let row = core::array::from_fn(|j| 0.5 * curvature[k][j] + 0.5 * curvature[j][k]);
+) -> (Vector, Vector) {
+    let Quadratic {
+        slopes, curvature, ..
+    } = quadratic;
+    let sigmas = tolerances.sigmas();
+    let n = sigmas.len();
+    let parts = Vector::from_fn(n, |k| (slopes[k] / sigma) * sigmas[k]);
+    let weighted = tolerances.correlated(&parts);
+    let covariances = Vector::from_fn(n, |k| sigmas[k] * weighted[k]);
+    let by_design = Vector::from_fn(n, |k| {
+        let row = Vector::from_fn(n, |j| 0.5 * curvature[k][j] + 0.5 * curvature[j][k]);
         dot(&row, &covariances)
     });
-    let by_half_width =
-        core::array::from_fn(|k| slopes[k] * weighted[k] / tolerances.sigma_level());
+    let by_half_width = Vector::from_fn(n, |k| slopes[k] * weighted[k] / tolerances.sigma_level());
     (by_design, by_half_width)
 }

@@ -11,11 +11,15 @@ mod first_order;
 mod margin;
 mod monte_carlo;
 mod normal;
+mod outcome;
+mod outputs;
 mod pool;
 mod probability;
 mod quadratic;
+mod sample;
 mod sampling;
 mod second_order;
+mod spread;
 mod statistics;
 mod summary;
 mod trust;
@@ -26,16 +30,17 @@ pub use cluster_sampling::{
 };
 pub use clusters::{ClusterTolerance, MeanEigenvalue, clusters};
 pub use declared::Tolerances;
-pub use events::{Event, EventSpread, EventTolerance, critical_tolerance, crossing_tolerance};
-pub use first_order::{
-    FirstOrder, ModeTolerance, OutputTolerance, OutputTolerances, Spread, TRUSTED_DISTANCE,
-    first_order, output_tolerances,
-};
+pub use events::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
+pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
 pub use margin::{Margin, MarginDerivatives, margin};
-pub use monte_carlo::{Counts, MonteCarlo, Outcome, Sample, Sampling, monte_carlo};
+pub use monte_carlo::{MonteCarlo, Sampling, monte_carlo};
+pub use outcome::{Counts, Outcome};
+pub use outputs::{OutputTolerances, output_tolerances};
 pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
+pub use sample::Sample;
 pub use second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};
+pub use spread::Spread;
 pub use statistics::Statistics;
 pub use summary::{Doubt, Summary, TRUSTED_SIGMA_ERROR, Trust, summary};
 pub use trust::Nonlinearity;

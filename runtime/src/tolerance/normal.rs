@@ -1,7 +1,7 @@
 //! Normal variables from random bits, one pair of each or vectors of them, without a function of the system's library: the
 //! same bits everywhere.
 
-use crate::lanes::Vector;
+use crate::lanes::Lanes;
 use crate::trigonometry::sin_cos_of_turns;
 
 /// No value that is drawn is greater: the least probability is 2^-53, and `sqrt(-2 ln 2^-53) = 8.572`.
@@ -10,7 +10,7 @@ pub(super) const GREATEST_NORMAL: f64 = 8.6;
 /// Two independent standard normal values from two independent probabilities, strictly between 0 and 1 (Box and Muller
 /// 1958): a radius with `P(R > r) = exp(-r^2/2)` from the first, an angle from the second.
 #[inline(always)]
-pub(super) fn standard_normal_pair<V: Vector>(radius: V, angle: V) -> (V, V) {
+pub(super) fn standard_normal_pair<V: Lanes>(radius: V, angle: V) -> (V, V) {
     let radius = (ln(radius) * V::constant(-2.0)).sqrt();
     let (sine, cosine) = sin_cos_of_turns(angle);
     (radius * cosine, radius * sine)
@@ -18,7 +18,7 @@ pub(super) fn standard_normal_pair<V: Vector>(radius: V, angle: V) -> (V, V) {
 
 /// Natural logarithm of a positive normal number: of its mantissa `m` by `2 artanh((m - 1) / (m + 1))`.
 #[inline(always)]
-fn ln<V: Vector>(x: V) -> V {
+fn ln<V: Lanes>(x: V) -> V {
     let number = V::constant;
     let (exponent, mantissa) = x.split();
     let s = (mantissa - number(1.0)) / (mantissa + number(1.0));
@@ -87,7 +87,7 @@ mod tests {
         impl Task for All<'_> {
             type Output = [Batch; 2];
             #[inline(always)]
-            fn run<V: Vector>(self) -> [Batch; 2] {
+            fn run<V: Lanes>(self) -> [Batch; 2] {
                 let mut out = [Batch::default(); 2];
                 for at in (0..WIDTH).step_by(V::WIDTH) {
                     let pair = standard_normal_pair(V::load(self.0, at), V::load(self.1, at));

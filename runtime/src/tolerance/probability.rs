@@ -13,17 +13,18 @@ pub struct Probability {
     pub error: f64,
 }
 
-impl<const P: usize> Quadratic<P> {
+impl Quadratic {
     /// Probability that the quantity lies between `low` and `high` (either may be infinite) at first order: normal with the
     /// nominal value as its mean and `sqrt(S Sigma S^T)`. Tails keep their relative accuracy. Zero or one when nothing
     /// varies, the ends of the interval included.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::Setting`] for ends that are NaN or in the wrong order
-    /// or a spread beyond the range of a double.
+    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables
+    /// than the tolerances have, [`Error::Setting`] for ends that are NaN or in the wrong order or a spread beyond the range of
+    /// a double.
     pub fn probability_first_order(
         &self,
-        tolerances: &Tolerances<P>,
+        tolerances: &Tolerances,
         (low, high): (f64, f64),
     ) -> Result<f64, Error> {
         check_interval((low, high))?;
@@ -44,7 +45,7 @@ impl<const P: usize> Quadratic<P> {
     /// As [`probability_first_order`](Self::probability_first_order).
     pub fn probability(
         &self,
-        tolerances: &Tolerances<P>,
+        tolerances: &Tolerances,
         (low, high): (f64, f64),
     ) -> Result<Probability, Error> {
         check_interval((low, high))?;
@@ -63,8 +64,8 @@ impl<const P: usize> Quadratic<P> {
     }
 
     /// First-order standard deviation.
-    pub(super) fn sigma(&self, tolerances: &Tolerances<P>) -> Result<f64, Error> {
-        self.checked()?;
+    pub(super) fn sigma(&self, tolerances: &Tolerances) -> Result<f64, Error> {
+        self.check(tolerances)?;
         let sigma = tolerances.sigma(&self.slopes);
         if sigma.is_finite() {
             Ok(sigma)

@@ -2,19 +2,20 @@
 
 use super::Tolerances;
 use super::distribution::Standard;
-use crate::Error;
+use crate::dense::{Matrix, Vector};
+use crate::{Error, Text};
 
 /// Second-order model `f(b0 + x) = value + S x + x^T H x / 2` of a quantity, `x ~ N(0, Sigma)`.
 ///
 /// Slopes and curvature are total derivatives: they follow the equilibrium. All in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quadratic<const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quadratic {
     /// Nominal value.
     pub value: f64,
     /// Derivatives `S` by the design variables.
-    pub slopes: [f64; P],
+    pub slopes: Vector,
     /// Second derivatives `H`; only the symmetric part counts.
-    pub curvature: [[f64; P]; P],
+    pub curvature: Matrix,
 }
 
 /// Moments of a second-order model; exact for the model.
@@ -36,7 +37,7 @@ pub struct ModelMoments {
     pub excess_kurtosis: f64,
 }
 
-impl<const P: usize> Quadratic<P> {
+impl Quadratic {
     /// Mean, standard deviation, skewness and kurtosis of the model.
     ///
     /// With `a = L^T S` and `B = L^T H L`, `Sigma = L L^T`, the cumulants are
@@ -44,8 +45,9 @@ impl<const P: usize> Quadratic<P> {
     /// Variables, 1992, section 3.2).
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::Setting`] for a spread beyond the range of a double.
-    pub fn moments(&self, tolerances: &Tolerances<P>) -> Result<ModelMoments, Error> {
+    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables
+    /// than the tolerances have, [`Error::Setting`] for a spread beyond the range of a double.
+    pub fn moments(&self, tolerances: &Tolerances) -> Result<ModelMoments, Error> {
         let standard = Standard::new(self, tolerances)?;
         let moments = standard.moments(self.value);
         if moments.mean.is_finite() && moments.sigma.is_finite() {
@@ -55,8 +57,15 @@ impl<const P: usize> Quadratic<P> {
         }
     }
 
-    /// Refuses what is NaN or infinite.
-    pub(super) fn checked(&self) -> Result<(), Error> {
+    /// Refuses what is NaN or infinite, or does not belong to these tolerances.
+    pub(super) fn check(&self, tolerances: &Tolerances) -> Result<(), Error> {
+        for count in [
+            self.slopes.len(),
+            self.curvature.row_count(),
+            self.curvature.column_count(),
+        ] {
+            tolerances.check_count(count)?;
+        }
         let parts = [
             ("value", core::slice::from_ref(&self.value)),
             ("slopes", &self.slopes),
@@ -66,7 +75,7 @@ impl<const P: usize> Quadratic<P> {
             if let Some(&value) = numbers.iter().find(|number| !number.is_finite()) {
                 return Err(Error::NotFinite {
                     kind: "second-order model",
-                    name,
+                    name: Text::Static(name),
                     value,
                 });
             }

@@ -5,58 +5,67 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::Tolerances;
 use super::normal::standard_normal_pair;
-use crate::lanes::{Vector, WIDTH};
+use crate::dense::Vector;
+use crate::lanes::{Lanes, WIDTH};
 
 /// Random bits of one probability of each sample of a batch.
 pub(super) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence from a given sample on.
-pub(super) struct Draw<'a, const P: usize> {
+pub(super) struct Draw<'a> {
     random: ChaCha8Rng,
-    nominal: &'a [f64; P],
-    tolerances: &'a Tolerances<P>,
-    /// Whether anything depends on this pair of random numbers, the first of which are used.
-    used: [bool; P],
+    nominal: &'a [f64],
+    tolerances: &'a Tolerances,
+    /// Whether anything depends on this pair of random numbers.
+    used: Vec<bool>,
+    /// The last sample: standard normal numbers, and the design made of them.
+    standard: Vector,
+    design: Vector,
 }
 
-impl<'a, const P: usize> Draw<'a, P> {
+impl<'a> Draw<'a> {
     /// Prepares to draw sample `first` and its successors.
     pub(super) fn from(
         sequence: (u64, u64),
         first: u64,
-        nominal: &'a [f64; P],
-        tolerances: &'a Tolerances<P>,
+        nominal: &'a [f64],
+        tolerances: &'a Tolerances,
     ) -> Self {
         let factor = tolerances.factor();
+        let variables = nominal.len();
         let variable = |j: usize| {
             factor
                 .iter()
                 .any(|row| row.get(j).is_some_and(|l| *l != 0.0))
         };
+        let used = |pair| variable(2 * pair) || variable(2 * pair + 1);
         Self {
-            random: generator::<P>(sequence, first),
+            random: generator(sequence, first, variables),
             nominal,
             tolerances,
-            used: core::array::from_fn(|pair| variable(2 * pair) || variable(2 * pair + 1)),
+            used: (0..pairs_of(variables)).map(used).collect(),
+            standard: Vector::zeros(variables),
+            design: Vector::zeros(variables),
         }
     }
 
-    pub(super) fn next(&mut self) -> [f64; P] {
-        let mut standard = [0.0; P];
-        for (pair, values) in standard.chunks_mut(2).enumerate() {
+    /// The next sample.
+    pub(super) fn next(&mut self) -> &[f64] {
+        for (values, used) in self.standard.chunks_mut(2).zip(&self.used) {
             let (radius, angle) = (self.random.next_u64(), self.random.next_u64());
-            if self.used[pair] {
+            if *used {
                 let (x, y) = standard_normal_pair(probability(radius), probability(angle));
                 for (value, normal) in values.iter_mut().zip([x, y]) {
                     *value = normal;
                 }
             }
         }
-        let factor = self.tolerances.factor();
-        core::array::from_fn(|i| {
-            let row = &factor[i];
-            (0..=i).fold(self.nominal[i], |sum, j| sum + row[j] * standard[j])
-        })
+        let rows = self.tolerances.factor().iter().zip(self.nominal);
+        for (i, (value, (row, nominal))) in self.design.iter_mut().zip(rows).enumerate() {
+            let parts = row[..=i].iter().zip(&self.standard);
+            *value = parts.fold(*nominal, |sum, (l, normal)| sum + l * normal);
+        }
+        &self.design
     }
 }
 
@@ -64,15 +73,15 @@ impl<'a, const P: usize> Draw<'a, P> {
 pub(super) struct Batches(ChaCha8Rng);
 
 impl Batches {
-    /// Prepares to draw sample `first` and its successors.
-    pub(super) fn from<const P: usize>(sequence: (u64, u64), first: u64) -> Self {
-        Self(generator::<P>(sequence, first))
+    /// Prepares to draw sample `first` of this many variables and its successors.
+    pub(super) fn from(sequence: (u64, u64), first: u64, variables: usize) -> Self {
+        Self(generator(sequence, first, variables))
     }
 
-    /// Writes those of a batch.
-    pub(super) fn next<const P: usize>(&mut self, pairs: &mut [[Bits; 2]; P]) {
+    /// Writes those of a batch, by pair of variables.
+    pub(super) fn next(&mut self, pairs: &mut [[Bits; 2]]) {
         for sample in 0..WIDTH {
-            for pair in &mut pairs[..pairs_of::<P>()] {
+            for pair in &mut *pairs {
                 for number in pair {
                     number[sample] = self.0.next_u64();
                 }
@@ -82,16 +91,16 @@ impl Batches {
 }
 
 /// The generator at the numbers of sample `first`: each takes two by pair of design variables.
-fn generator<const P: usize>((seed, stream): (u64, u64), first: u64) -> ChaCha8Rng {
+fn generator((seed, stream): (u64, u64), first: u64, variables: usize) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(stream);
-    random.set_word_pos(u128::from(first) * 4 * pairs_of::<P>() as u128);
+    random.set_word_pos(u128::from(first) * 4 * pairs_of(variables) as u128);
     random
 }
 
 /// Variables `2 p` and `2 p + 1` share pair `p`.
-const fn pairs_of<const P: usize>() -> usize {
-    P.div_ceil(2)
+fn pairs_of(variables: usize) -> usize {
+    variables.div_ceil(2)
 }
 
 /// A probability strictly inside (0, 1) of 64 random bits.
@@ -104,8 +113,11 @@ mod tests {
     use super::*;
     use crate::tolerance::distribution::normal::upper;
 
-    fn design<const P: usize>(seed: u64, first: u64, tolerances: &Tolerances<P>) -> [f64; P] {
-        Draw::from((seed, 0), first, &[0.0; P], tolerances).next()
+    fn design(seed: u64, first: u64, tolerances: &Tolerances) -> Vector {
+        let nominal = Vector::zeros(tolerances.sigmas().len());
+        Draw::from((seed, 0), first, &nominal, tolerances)
+            .next()
+            .into()
     }
 
     #[test]
@@ -122,7 +134,7 @@ mod tests {
         let tolerances = Tolerances::new([1.0; 3], 1.0, None).expect("valid");
         let nominal = [0.0; 3];
         let mut draw = Draw::from((5, 0), 0, &nominal, &tolerances);
-        let samples: Vec<[f64; 3]> = (0..number).map(|_| draw.next()).collect();
+        let samples: Vec<Vector> = (0..number).map(|_| draw.next().into()).collect();
         for i in 0..3 {
             let mut values: Vec<f64> = samples.iter().map(|sample| sample[i]).collect();
             values.sort_by(f64::total_cmp);
@@ -148,8 +160,8 @@ mod tests {
     fn batches_hold_what_single_samples_are_made_of() {
         let tolerances = Tolerances::new([1.0, 0.0, 1.0], 1.0, None).expect("valid");
         let first = 5 * WIDTH;
-        let mut batches = Batches::from::<3>((9, 0), first as u64);
-        let mut pairs = [[[0; WIDTH]; 2]; 3];
+        let mut batches = Batches::from((9, 0), first as u64, 3);
+        let mut pairs = [[[0; WIDTH]; 2]; 2];
         for batch in 0..7 {
             batches.next(&mut pairs);
             for sample in 0..WIDTH {
@@ -170,7 +182,7 @@ mod tests {
         };
         let nominal = [1.0, 2.0];
         let mut sequence = Draw::from((7, 0), 0, &nominal, &tolerances);
-        let all: Vec<_> = (0..20).map(|_| sequence.next()).collect();
+        let all: Vec<_> = (0..20).map(|_| Vector::from(sequence.next())).collect();
         for (k, sample) in all.iter().enumerate() {
             let mut alone = Draw::from((7, 0), k as u64, &nominal, &tolerances);
             assert_eq!(*sample, alone.next());

@@ -8,7 +8,7 @@ pub struct Statistics {
     /// Mean, in the unit of the quantity.
     pub mean: f64,
     /// Standard deviation with divisor `count - 1`; `None` for a single value, which says nothing about it.
-    pub standard_deviation: Option<f64>,
+    pub sigma: Option<f64>,
     /// Standard error of the mean; `None` for a single value.
     pub standard_error: Option<f64>,
     /// Least value.
@@ -89,13 +89,13 @@ impl Moments {
         if self.count == 0 {
             return None;
         }
-        let standard_deviation =
+        let sigma =
             (self.count > 1).then(|| (self.squares / (self.count - 1) as f64).max(0.0).sqrt());
         Some(Statistics {
             count: self.count,
             mean: self.mean,
-            standard_deviation,
-            standard_error: standard_deviation.map(|sigma| sigma / (self.count as f64).sqrt()),
+            sigma,
+            standard_error: sigma.map(|sigma| sigma / (self.count as f64).sqrt()),
             min: self.min,
             max: self.max,
         })
@@ -119,14 +119,14 @@ mod tests {
             panic!("values")
         };
         assert!((a.mean - 2.9).abs() < 1e-15 && (a.mean - b.mean).abs() < 1e-15);
-        let (Some(of_a), Some(of_b)) = (a.standard_deviation, b.standard_deviation) else {
+        let (Some(of_a), Some(of_b)) = (a.sigma, b.sigma) else {
             panic!("several values")
         };
         assert!((of_a - of_b).abs() < 1e-14);
         let mut one = Moments::EMPTY;
         one.add(3.0);
         let alone = one.statistics();
-        assert!(alone.is_some_and(|one| one.mean == 3.0 && one.standard_deviation.is_none()));
+        assert!(alone.is_some_and(|one| one.mean == 3.0 && one.sigma.is_none()));
         assert!(Moments::EMPTY.statistics().is_none());
     }
 }

@@ -5,9 +5,10 @@ use super::{
     ClusterTolerance, FirstOrder, SecondOrder, TRUSTED_DISTANCE, Tolerances, clusters, first_order,
     second_order,
 };
+use crate::kernels::DirectionalKernels;
 use crate::modes::Family;
 use crate::sensitivity::{Quantity, sensitivities};
-use crate::{Behaviour, Description, Equilibrium, Error, Mechanism, Mode, Modes};
+use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// A first-order standard deviation that misses that of the second-order model by more than this is not to be believed.
 ///
@@ -18,27 +19,27 @@ pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// What tolerances do to the modes, with a verdict for each.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Summary<const N: usize, const U: usize, const P: usize> {
+pub struct Summary {
     /// First-order spread.
-    pub first: FirstOrder<N, P>,
+    pub first: FirstOrder,
     /// Spread to second order.
-    pub second: SecondOrder<P>,
+    pub second: SecondOrder,
     /// The modes that tolerances bring together.
-    pub clusters: Vec<ClusterTolerance<U, P>>,
+    pub clusters: Vec<ClusterTolerance>,
     /// For each mode whether its standard deviation is to be believed.
     pub trust: Vec<Trust>,
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
+impl Summary {
     /// Whether every mode is trusted.
     pub fn trusted(&self) -> bool {
         self.trust.iter().all(Trust::trusted)
     }
 
     /// The cluster that a mode belongs to.
-    pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance<U, P>> {
+    pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance> {
         self.clusters
             .iter()
             .find(|cluster| cluster.modes.contains(&mode))
@@ -110,25 +111,21 @@ pub enum Doubt {
 /// First order, second order, clusters and a verdict for each mode.
 ///
 /// # Errors
-/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite.
-pub fn summary<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-) -> Result<Summary<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let first = boxed_first_order(mechanism, at, modes, tolerances)?;
-    let second = second_order(mechanism, at, modes, tolerances);
-    let clusters = clusters(mechanism, at, modes, tolerances)?;
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite,
+/// [`Error::WrongLength`] for tolerances of another mechanism.
+pub fn summary(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Result<Summary, Error> {
+    let slopes = sensitivities(mechanism, at, modes)?;
     let mut summary = Summary {
-        first: *first,
-        second,
-        clusters,
+        first: first_order(modes, &slopes, tolerances)?,
+        second: second_order(mechanism, at, modes, tolerances),
+        clusters: clusters(mechanism, at, modes, tolerances)?,
         trust: Vec::new(),
-        description: modes.description,
+        description: modes.description.clone(),
     };
     let verdict = |(mode, own)| Trust {
         mode,
@@ -138,23 +135,8 @@ where
     Ok(summary)
 }
 
-/// On the heap: what first order needs and gives would fill the stack while the rest is found.
-#[inline(never)]
-fn boxed_first_order<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    at: &Equilibrium<N, U, P>,
-    modes: &Modes<N>,
-    tolerances: &Tolerances<P>,
-) -> Result<Box<FirstOrder<N, P>>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let slopes = sensitivities(mechanism, at, modes)?;
-    Ok(Box::new(first_order(modes, &slopes, tolerances)))
-}
-
-impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
-    fn doubts(&self, mode: usize, own: &Mode<N>) -> Vec<Doubt> {
+impl Summary {
+    fn doubts(&self, mode: usize, own: &Mode) -> Vec<Doubt> {
         let mut doubts = Vec::new();
         let near = |distance: f64| distance < TRUSTED_DISTANCE;
         if own.frequency().is_none() {
@@ -199,12 +181,12 @@ impl<const N: usize, const U: usize, const P: usize> Summary<N, U, P> {
 
     /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
     fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
-        let own = &self.first.modes[mode];
-        let (mean, sigma) = (own.mean?, own.sigma?);
-        (self.first.family == Family::General && sigma > 0.0).then(|| 0.5 * mean / sigma)
+        let own = self.first.modes[mode].frequency.as_ref()?;
+        (self.first.family == Family::General && own.sigma > 0.0)
+            .then(|| 0.5 * own.mean / own.sigma)
     }
 
-    fn check_by_second_order(&self, mode: usize, own: &Mode<N>, doubts: &mut Vec<Doubt>) {
+    fn check_by_second_order(&self, mode: usize, own: &Mode, doubts: &mut Vec<Doubt>) {
         let second = match &self.second.modes[mode] {
             Ok(second) => second,
             Err(reason) => {

@@ -33,13 +33,13 @@ impl Nonlinearity {
     }
 }
 
-impl<const P: usize> Quadratic<P> {
+impl Quadratic {
     /// Second-order terms against first order: infinite where first order sees no spread and second order does, zero
     /// where nothing varies.
     ///
     /// # Errors
     /// As [`moments`](Self::moments).
-    pub fn nonlinearity(&self, tolerances: &Tolerances<P>) -> Result<Nonlinearity, Error> {
+    pub fn nonlinearity(&self, tolerances: &Tolerances) -> Result<Nonlinearity, Error> {
         let moments = self.moments(tolerances)?;
         let ratio = |part: f64| {
             if part == 0.0 {

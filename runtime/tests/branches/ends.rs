@@ -6,17 +6,23 @@ use super::*;
 fn an_isolated_branch_needs_more_starts() {
     for e in [1e-2, 1e-5, 1e-8] {
         let imperfect = Derived(Imperfect);
-        let alone = of(&imperfect, [e, 0.0], [0.0], range(-1.0, 1.0), None);
+        let alone = of(&imperfect, &[e, 0.0], &[0.0], range(-1.0, 1.0), None);
         assert_eq!(alone.branches.len(), 1, "{e}");
         assert!(alone.special().is_empty());
         assert_eq!(alone.stable().count(), 1);
         let search = Search {
-            lower: [-2.0],
-            upper: [2.0],
+            lower: [-2.0].into(),
+            upper: [2.0].into(),
             starts: 12,
             seed: 1,
         };
-        let both = of(&imperfect, [e, 0.0], [0.0], range(-1.0, 1.0), Some(&search));
+        let both = of(
+            &imperfect,
+            &[e, 0.0],
+            &[0.0],
+            range(-1.0, 1.0),
+            Some(&search),
+        );
         assert_eq!(both.branches.len(), 2, "{e}");
         let fold = only(&both);
         assert_eq!(fold.kind, SpecialKind::Fold);
@@ -31,7 +37,7 @@ fn an_isolated_branch_needs_more_starts() {
 #[test]
 fn a_line_through_a_ring() {
     let (d, r) = (0.2, 0.5);
-    let found = of(&Derived(Ring), [d, r], [d], range(0.0, 2.0), None);
+    let found = of(&Derived(Ring), &[d, r], &[d], range(0.0, 2.0), None);
     assert_eq!(found.branches.len(), 2);
     let ring = &found.branches[1];
     assert_eq!(ends(ring), [&BranchEnd::Closed; 2]);
@@ -59,7 +65,7 @@ fn a_line_through_a_ring() {
 
 #[test]
 fn branches_end_at_the_edge_of_a_domain_and_at_infinity() {
-    let edge = of(&Derived(Edge), [], [0.5], range(0.0, 2.0), None);
+    let edge = of(&Derived(Edge), &[], &[0.5], range(0.0, 2.0), None);
     let branch = &edge.branches[0];
     assert!(matches!(
         branch.ends[1],
@@ -68,20 +74,20 @@ fn branches_end_at_the_edge_of_a_domain_and_at_infinity() {
     near(branch.points.last().unwrap().value, 1.0, 1e-12);
     assert!(edge.special().is_empty());
 
-    let away = of(&Derived(Away), [], [0.0], range(0.0, 2.0), None);
+    let away = of(&Derived(Away), &[], &[0.0], range(0.0, 2.0), None);
     assert_eq!(away.branches[0].ends[1], BranchEnd::Escape);
     assert!(away.special().is_empty());
     near(away.branches[0].points.last().unwrap().value, 1.0, 1e-5);
 
     // A point mass on a spinning plate is thrown out at its critical speed; the damping says nothing here.
     let design = [0.5, 40.0, 60.0, 0.3];
-    let plate = of(&Derived(Plate), design, [0.0; 2], range(0.0, 10.0), None);
+    let plate = of(&Derived(Plate), &design, &[0.0; 2], range(0.0, 10.0), None);
     assert_eq!(plate.branches[0].ends[1], BranchEnd::Escape, "{plate}");
 }
 
 #[test]
 fn the_least_mechanisms_have_branches() {
-    let nothing = of(&Derived(Nothing), [], [], range(0.0, 2.0), None);
+    let nothing = of(&Derived(Nothing), &[], &[], range(0.0, 2.0), None);
     assert_eq!(nothing.branches.len(), 1);
     assert_eq!(
         ends(&nothing.branches[0]),
@@ -107,8 +113,8 @@ fn no_equilibrium_of_a_random_field_is_missed() {
         ((state >> 33) as f64 / (1_u64 << 31) as f64) * 2.0 - 1.0
     };
     let search = Search {
-        lower: [-3.0; 2],
-        upper: [3.0; 2],
+        lower: [-3.0; 2].into(),
+        upper: [3.0; 2].into(),
         starts: 40,
         seed: 5,
     };
@@ -124,7 +130,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
         }
         let settings = range(-2.0, 2.5);
         let field = Derived(Field);
-        let found = of(&field, b, [0.0; 2], settings, Some(&search));
+        let found = of(&field, &b, &[0.0; 2], settings, Some(&search));
         let special = found.special();
         folds += special
             .iter()
@@ -146,17 +152,17 @@ fn no_equilibrium_of_a_random_field_is_missed() {
         for _ in 0..4 {
             let value = 1.9 * random();
             let there = find_equilibria(&field, &[value], &b, &[0.0; 2], &search).unwrap();
-            let crossed = |state: &Equilibrium<2, 1, 7>| {
+            let crossed = |state: &Equilibrium| {
                 found.branches.iter().any(|branch| {
                     branch.points.windows(2).any(|pair| {
                         let [a, b] = [&pair[0], &pair[1]];
-                        let place = |point: &BranchPoint<2, 1, 7>| {
-                            let [x, y] = point.equilibrium.coordinates;
-                            [x, y, point.value / 4.5]
+                        let place = |point: &BranchPoint| {
+                            let q = &point.equilibrium.coordinates;
+                            [q[0], q[1], point.value / 4.5]
                         };
                         let (a, b) = (place(a), place(b));
-                        let [x, y] = state.coordinates;
-                        let c = [x, y, value / 4.5];
+                        let q = &state.coordinates;
+                        let c = [q[0], q[1], value / 4.5];
                         let dot = |x: [f64; 3], y: [f64; 3]| -> f64 {
                             x.iter().zip(y).map(|(x, y)| x * y).sum()
                         };

@@ -22,7 +22,8 @@ use eigentol::equilibrium::{
     Branch, BranchEnd, BranchPoint, Branches, Continuation, Search, SpecialKind, SpecialPoint,
     branch, branches, equilibrium, find_equilibria,
 };
-use eigentol::{Equilibrium, Error, Input, Mechanism, Policy, Stability, Study};
+use eigentol::kernels::{DirectionalKernels, Kernels};
+use eigentol::{Equilibrium, Error, Input, Policy, Stability, Study};
 
 const BAR: [f64; 2] = [3.0, 1.0];
 const BARS: [f64; 4] = [1.0, 1.0, 3.0, 3.0];
@@ -34,7 +35,7 @@ const HARD: SpecialKind = SpecialKind::Pitchfork {
 };
 
 fn range(low: f64, high: f64) -> Continuation {
-    Continuation::new(Input(0), low, high)
+    Continuation::new(Input::new(0), low, high)
 }
 
 fn near(actual: f64, expected: f64, tolerance: f64) {
@@ -45,17 +46,14 @@ fn near(actual: f64, expected: f64, tolerance: f64) {
 }
 
 /// All branches of a machine with one input, checked for what holds of any branch.
-fn of<M, const N: usize, const P: usize, const O: usize>(
-    machine: &M,
-    b: [f64; P],
-    start: [f64; N],
+fn of(
+    machine: &dyn DirectionalKernels,
+    b: &[f64],
+    start: &[f64],
     settings: Continuation,
-    search: Option<&Search<N>>,
-) -> Branches<N, 1, P>
-where
-    M: Mechanism<N, 1, P, O>,
-{
-    let found = branches(machine, &[0.0], &b, &start, &settings, search).unwrap();
+    search: Option<&Search>,
+) -> Branches {
+    let found = branches(machine, &[0.0], b, start, &settings, search).unwrap();
     println!("{found}");
     assert!(!found.truncated);
     for branch in &found.branches {
@@ -64,13 +62,8 @@ where
     found
 }
 
-fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
-    machine: &M,
-    branch: &Branch<N, 1, P>,
-    settings: &Continuation,
-) where
-    M: Mechanism<N, 1, P, O>,
-{
+fn assert_sound(machine: &dyn Kernels, branch: &Branch, settings: &Continuation) {
+    let n = machine.sizes().coordinates;
     let range = (settings.high - settings.low).abs();
     for (end, point) in [branch.points.first(), branch.points.last()]
         .into_iter()
@@ -89,7 +82,7 @@ fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
         let mut along = (b.value - a.value) * a.input_tangent / range.powi(2);
         let mut length = (a.input_tangent / range).powi(2);
         let mut distance = ((b.value - a.value) / range).powi(2);
-        for i in 0..N {
+        for i in 0..n {
             let step = (b.equilibrium.coordinates[i] - a.equilibrium.coordinates[i]) / unit(i);
             along += step * a.tangent[i] / unit(i);
             length += (a.tangent[i] / unit(i)).powi(2);
@@ -113,7 +106,7 @@ fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
         for (i, by_input) in by_input.iter().enumerate() {
             let (mut sum, mut size) =
                 (by_input[0] * point.input_tangent, by_input[0].abs() * range);
-            for j in 0..N {
+            for j in 0..n {
                 sum += at.linear.stiffness[i][j] * point.tangent[j];
                 size += at.linear.stiffness[i][j].abs() * (settings.size + at.coordinates[j].abs());
             }
@@ -128,20 +121,20 @@ fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
                 .any(|point| point.value == special.value)
         );
         let at = &special.equilibrium;
-        for i in 0..N {
-            let right: f64 = (0..N)
+        for i in 0..n {
+            let right: f64 = (0..n)
                 .map(|j| at.linear.stiffness[i][j] * special.v[j])
                 .sum();
-            let left: f64 = (0..N)
+            let left: f64 = (0..n)
                 .map(|j| at.linear.stiffness[j][i] * special.w[j])
                 .sum();
             near(right, 0.0, 1e-11);
             near(left, 0.0, 1e-11);
         }
-        let mass = at.linear.mass;
-        let form = |x: &[f64; N], y: &[f64; N]| -> f64 {
-            (0..N)
-                .flat_map(|i| (0..N).map(move |j| x[i] * mass[i][j] * y[j]))
+        let mass = &at.linear.mass;
+        let form = |x: &[f64], y: &[f64]| -> f64 {
+            (0..n)
+                .flat_map(|i| (0..n).map(move |j| x[i] * mass[i][j] * y[j]))
                 .sum()
         };
         near(form(&special.v, &special.v), 1.0, 1e-13);
@@ -149,12 +142,12 @@ fn assert_sound<M, const N: usize, const P: usize, const O: usize>(
     }
 }
 
-fn only<const N: usize, const P: usize>(found: &Branches<N, 1, P>) -> SpecialPoint<N, 1, P> {
+fn only(found: &Branches) -> SpecialPoint {
     let all = found.special();
     assert_eq!(all.len(), 1);
-    *all[0]
+    all[0].clone()
 }
 
-fn ends<const N: usize, const P: usize>(branch: &Branch<N, 1, P>) -> [&BranchEnd; 2] {
+fn ends(branch: &Branch) -> [&BranchEnd; 2] {
     branch.ends.each_ref()
 }

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn the_pendulum_bends_to_both_sides() {
-    let found = of(&Pendulum, BAR, [0.3], range(0.0, 6.0), None);
+    let found = of(&Pendulum, &BAR, &[0.3], range(0.0, 6.0), None);
     assert_eq!(found.branches.len(), 3);
     let critical = only(&found);
     assert_eq!(critical.kind, SOFT);
@@ -60,7 +60,7 @@ fn the_pendulum_bends_to_both_sides() {
 #[test]
 fn the_bent_branch_leads_to_the_hanging_one() {
     // Downwards from a bent state: through the pitchfork into the other branches.
-    let found = of(&Pendulum, BAR, [0.3], range(6.0, 1.0), None);
+    let found = of(&Pendulum, &BAR, &[0.3], range(6.0, 1.0), None);
     assert_eq!(found.branches.len(), 3);
     close(only(&found).value, W.sqrt(), 1e-13);
     assert_eq!(only(&found).kind, SOFT);
@@ -73,12 +73,12 @@ fn the_bent_branch_leads_to_the_hanging_one() {
 #[test]
 fn full_turns_are_the_same_branch() {
     let search = Search {
-        lower: [-20.0],
-        upper: [20.0],
+        lower: [-20.0].into(),
+        upper: [20.0].into(),
         starts: 60,
         seed: 3,
     };
-    let found = of(&Pendulum, BAR, [0.3], range(0.0, 6.0), Some(&search));
+    let found = of(&Pendulum, &BAR, &[0.3], range(0.0, 6.0), Some(&search));
     // Hanging, two bent, upside down.
     assert_eq!(found.branches.len(), 4);
     assert_eq!(found.special().len(), 1);
@@ -86,7 +86,7 @@ fn full_turns_are_the_same_branch() {
 
 #[test]
 fn the_double_pendulum_has_two_pitchforks() {
-    let found = of(&DOUBLE, BARS, [0.3; 2], range(0.0, 8.0), None);
+    let found = of(&DOUBLE, &BARS, &[0.3; 2], range(0.0, 8.0), None);
     // lambda^2 - 6 g lambda + 27/7 g^2 = 0 at rest; Omega_c^2 = lambda.
     let root = 6.0 / 7f64.sqrt();
     let special = found.special();
@@ -108,11 +108,10 @@ fn the_double_pendulum_has_two_pitchforks() {
     // An ordinary solve finds the same states.
     for branch in &found.branches {
         for point in branch.points.iter().step_by(7) {
-            let from = point.equilibrium.coordinates;
-            let again =
-                equilibrium(&DOUBLE, &[point.value], &BARS, &from, Policy::Nearest).unwrap();
+            let from = &point.equilibrium.coordinates;
+            let again = equilibrium(&DOUBLE, &[point.value], &BARS, from, Policy::Nearest).unwrap();
             for (x, y) in again.coordinates.iter().zip(from) {
-                near(*x, y, 1e-11);
+                near(*x, *y, 1e-11);
             }
         }
     }
@@ -139,7 +138,7 @@ fn ranges_that_end_at_a_critical_value() {
         (6.0, critical),
         (critical, 0.0),
     ] {
-        let found = of(&Pendulum, BAR, [0.3], range(low, high), None);
+        let found = of(&Pendulum, &BAR, &[0.3], range(low, high), None);
         assert!(!found.branches.is_empty());
         for branch in &found.branches {
             assert!(
@@ -152,13 +151,13 @@ fn ranges_that_end_at_a_critical_value() {
     }
     let fold = 2.0 / 27f64.sqrt();
     for (low, high) in [(-1.0, fold), (fold, 1.0), (fold, -1.0), (-fold, fold)] {
-        let found = of(&Derived(Snap), [1.0], [0.9], range(low, high), None);
+        let found = of(&Derived(Snap), &[1.0], &[0.9], range(low, high), None);
         assert!(!found.branches.is_empty());
         println!("{found}");
     }
     let second = (GRAVITY * (3.0 - 6.0 / 7f64.sqrt())).sqrt();
     for (low, high) in [(0.0, second), (second, 5.0), (5.0, second)] {
-        let found = of(&DOUBLE, BARS, [0.3; 2], range(low, high), None);
+        let found = of(&DOUBLE, &BARS, &[0.3; 2], range(low, high), None);
         for branch in &found.branches {
             assert!(
                 !branch

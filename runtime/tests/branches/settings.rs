@@ -30,8 +30,8 @@ fn one_branch_tells_what_crosses_it() {
 
 #[test]
 fn reports_name_what_they_show() {
-    let study = Study::new(Pendulum).start(eigentol::Coordinate(0), 0.3);
-    let found = study.branches(Input(0), 0.0, 6.0).unwrap();
+    let study = Study::new(Pendulum).start(eigentol::Coordinate::new(0), 0.3);
+    let found = study.branches(Input::new(0), 0.0, 6.0).unwrap();
     let text = found.to_string();
     for part in [
         "Pendulum: 3 branches",
@@ -103,7 +103,7 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
             Err(Error::Setting { .. })
         ));
     }
-    let foreign = Continuation::new(Input(1), 0.0, 1.0);
+    let foreign = Continuation::new(Input::new(1), 0.0, 1.0);
     assert!(matches!(
         ask(foreign, 0.1, BAR),
         Err(Error::UnknownHandle { index: 1, .. })
@@ -133,7 +133,7 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
     }
 }
 
-fn assert_numbers<const P: usize>(found: Result<Branches<1, 1, P>, Error>, low: f64, high: f64) {
+fn assert_numbers(found: Result<Branches, Error>, low: f64, high: f64) {
     for branch in found.iter().flat_map(|found| &found.branches) {
         for point in &branch.points {
             let (least, most) = (low.min(high), low.max(high));

@@ -6,7 +6,7 @@ use super::*;
 fn snap_through_is_followed_through_both_folds() {
     for a in [1.0, 0.37, 2.5] {
         let fold = 2.0 * (a / 3.0f64).powf(1.5);
-        let found = of(&Derived(Snap), [a], [1.0], range(-2.0, 2.0), None);
+        let found = of(&Derived(Snap), &[a], &[1.0], range(-2.0, 2.0), None);
         assert_eq!(found.branches.len(), 1);
         let branch = &found.branches[0];
         assert_eq!(ends(branch), [&BranchEnd::Low, &BranchEnd::High]);
@@ -34,8 +34,8 @@ fn snap_through_is_followed_through_both_folds() {
 fn folds_of_a_nonsymmetric_stiffness() {
     let found = of(
         &Derived(LopsidedSnap),
-        [0.2],
-        [1.0, 0.5],
+        &[0.2],
+        &[1.0, 0.5],
         range(-1.0, 1.0),
         None,
     );
@@ -51,7 +51,13 @@ fn folds_of_a_nonsymmetric_stiffness() {
 #[test]
 fn branches_exchange_their_stability() {
     let (d, e, s) = (0.1, -0.2, 0.7);
-    let found = of(&Derived(Exchange), [d, e, s], [0.2], range(-1.0, 1.0), None);
+    let found = of(
+        &Derived(Exchange),
+        &[d, e, s],
+        &[0.2],
+        range(-1.0, 1.0),
+        None,
+    );
     assert_eq!(found.branches.len(), 2);
     let critical = only(&found);
     assert_eq!(critical.kind, SpecialKind::Transcritical);
@@ -80,7 +86,7 @@ fn branches_exchange_their_stability() {
 
 #[test]
 fn a_hard_loss_of_stiffness_comes_back() {
-    let found = of(&Derived(Quintic), [1.0], [0.0], range(0.0, 2.0), None);
+    let found = of(&Derived(Quintic), &[1.0], &[0.0], range(0.0, 2.0), None);
     assert_eq!(found.branches.len(), 3);
     let special = found.special();
     assert_eq!(special.len(), 3);
@@ -95,7 +101,7 @@ fn a_hard_loss_of_stiffness_comes_back() {
 
 #[test]
 fn branch_points_of_a_nonsymmetric_stiffness() {
-    let found = of(&Derived(Lopsided), [1.0], [0.0; 2], range(0.0, 7.0), None);
+    let found = of(&Derived(Lopsided), &[1.0], &[0.0; 2], range(0.0, 7.0), None);
     let special = found.special();
     let values: Vec<f64> = special.iter().map(|special| special.value).collect();
     close(values[0], 3.0 - 8f64.sqrt(), 1e-12);
@@ -108,7 +114,8 @@ fn branch_points_of_a_nonsymmetric_stiffness() {
     let arms = &found.branches[1..];
     assert_eq!(arms.len(), 4);
     for point in arms.iter().flat_map(|branch| &branch.points) {
-        let [x, y] = point.equilibrium.coordinates;
+        let q = &point.equilibrium.coordinates;
+        let (x, y) = (q[0], q[1]);
         near(y * (1.0 - point.value), x, 1e-9 * (1.0 + x.abs()));
     }
     let escapes = arms.iter().filter(|arm| arm.ends[1] == BranchEnd::Escape);
@@ -118,7 +125,7 @@ fn branch_points_of_a_nonsymmetric_stiffness() {
 #[test]
 fn two_critical_directions_at_once_are_told() {
     for settings in [range(0.0, 2.0), range(0.3, 1.7), range(0.0, 1.9)] {
-        let found = of(&Derived(Rotor), [], [0.0; 2], settings, None);
+        let found = of(&Derived(Rotor), &[], &[0.0; 2], settings, None);
         assert_eq!(found.branches.len(), 1);
         let critical = only(&found);
         assert_eq!(critical.kind, SpecialKind::Degenerate);
@@ -128,11 +135,17 @@ fn two_critical_directions_at_once_are_told() {
             Stability::Neutral { zero: 2 }
         );
     }
-    let equal = of(&Derived(NearlyTwo), [0.0], [0.0; 2], range(0.0, 1.9), None);
+    let equal = of(
+        &Derived(NearlyTwo),
+        &[0.0],
+        &[0.0; 2],
+        range(0.0, 1.9),
+        None,
+    );
     assert_eq!(only(&equal).kind, SpecialKind::Degenerate);
     // Close together, but apart: both pitchforks, and the second ones on the arms.
     for e in [1e-2, 1e-5] {
-        let apart = of(&Derived(NearlyTwo), [e], [0.0; 2], range(0.0, 1.9), None);
+        let apart = of(&Derived(NearlyTwo), &[e], &[0.0; 2], range(0.0, 1.9), None);
         assert_eq!(apart.branches.len(), 9);
         let special = apart.special();
         assert_eq!(special.len(), 4);

@@ -1,12 +1,12 @@
 //! Derivatives of equal eigenvalues along a direction, against closed forms, and what the reports say of the others.
 
 use eigentol::{
-    DampingKind, Description, DesignVariable, Error, Family, Real, Study, Violation, mechanism,
+    DampingKind, Description, Error, Family, Real, Shared, Study, Violation, mechanism,
 };
 
 use super::common::derived::{Derived, Model};
 use super::common::models::{Follower, Pair};
-use super::common::{METRE, NUMBER, STIFFNESS, coordinate, design};
+use super::common::{METRE, NUMBER, STIFFNESS, coordinate, design, sizes};
 use super::within;
 
 mechanism! {
@@ -32,20 +32,22 @@ mechanism! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Twins;
 
-impl Model<2, 0, 3, 0> for Twins {
+impl Model for Twins {
+    sizes!(2, 0, 3, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Twins",
-        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
-        inputs: &[],
-        design: &[
+        name: Shared::Static("Twins"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[
             design("c", STIFFNESS, 0.0, 1.0),
             design("f", STIFFNESS, 0.0, 1.0),
             design("d", NUMBER, 0.0, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         damping: DampingKind::General,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -207,10 +209,9 @@ fn the_general_family_agrees_with_the_undamped_one() {
 fn what_has_merged_has_no_derivative_along_any_direction() {
     // Ziegler's column where its two frequencies merge.
     let study =
-        Study::new(Derived(Follower)).input(eigentol::Input(0), 0.5 * (7.0 - 8.0_f64.sqrt()));
+        Study::new(Derived(Follower)).input(eigentol::Input::new(0), 0.5 * (7.0 - 8.0_f64.sqrt()));
     let found = study.directional_derivatives(0, (&[0.0], &[1.0]));
     assert!(matches!(found, Err(Error::Defective { .. })), "{found:?}");
     let none = Study::new(Derived(Pair)).directional_derivatives(2, (&[], &[0.0; 3]));
     assert_eq!(none, Err(Error::NoSuchMode { mode: 2, count: 2 }));
-    let _ = DesignVariable(0);
 }

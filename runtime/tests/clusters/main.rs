@@ -10,8 +10,9 @@ mod small;
 mod summary;
 mod undamped;
 
+use eigentol::kernels::BatchKernels;
 use eigentol::tolerance::{SortedSpread, Statistics};
-use eigentol::{Complex, Error, Mechanism, MonteCarlo, Study, Tolerances};
+use eigentol::{Complex, Error, MonteCarlo, Study, Tolerances};
 
 use common::close;
 
@@ -24,7 +25,7 @@ fn within(value: f64, expected: f64, distance: f64) {
 }
 
 /// Independent variables with these standard deviations.
-fn independent<const P: usize>(sigma: [f64; P]) -> Tolerances<P> {
+fn independent<const P: usize>(sigma: [f64; P]) -> Tolerances {
     Tolerances::new(sigma, 1.0, None).unwrap()
 }
 
@@ -55,16 +56,13 @@ impl Moments {
         let shares = 1.0 / self.count + 1.0 / found.count as f64;
         let error = self.sigma * (5.0 * shares.sqrt() + model);
         within(found.mean, self.mean, error);
-        within(found.standard_deviation.unwrap(), self.sigma, error);
+        within(found.sigma.unwrap(), self.sigma, error);
     }
 }
 
 /// Every sample of a Monte Carlo run of the whole problem, sorted by a quantity of its eigenvalues.
-fn sorted<const N: usize, const P: usize>(
-    run: &MonteCarlo<N, P>,
-    quantity: impl Fn(Complex) -> f64,
-) -> Vec<Vec<f64>> {
-    let one = |sample: &eigentol::tolerance::Sample<N, P>| {
+fn sorted(run: &MonteCarlo, quantity: impl Fn(Complex) -> f64) -> Vec<Vec<f64>> {
+    let one = |sample: &eigentol::tolerance::Sample| {
         let values = sample.eigenvalues.iter().map(|s| quantity(s.unwrap()));
         let mut values: Vec<f64> = values.collect();
         values.sort_by(f64::total_cmp);
@@ -74,12 +72,7 @@ fn sorted<const N: usize, const P: usize>(
 }
 
 /// Samples that share no random number with those of the clusters.
-fn run<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
-) -> MonteCarlo<N, P>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn run<M: BatchKernels + Clone>(study: &Study<M>) -> MonteCarlo {
     let study = study.clone().seed(91).samples(4096).keep_samples(true);
     study.monte_carlo().unwrap()
 }

@@ -9,28 +9,28 @@ use super::common::derived::Derived;
 use super::common::models::{Pair, Plate};
 use super::common::pendulum::Pendulum;
 
-const OMEGA: Input = Input(0);
-const LENGTH: DesignVariable = DesignVariable(1);
+const OMEGA: Input<Pendulum> = Input::new(0);
+const LENGTH: DesignVariable<Pendulum> = DesignVariable::new(1);
 
-fn pendulum(speed: f64, tolerance: f64) -> Summary<1, 1, 2> {
+fn pendulum(speed: f64, tolerance: f64) -> Summary {
     let study = Study::new(Pendulum)
         .input(OMEGA, speed)
-        .start(Coordinate(0), 1.0)
+        .start(Coordinate::new(0), 1.0)
         .tolerance(LENGTH, tolerance);
-    *study.summary().unwrap()
+    study.summary().unwrap()
 }
 
-fn plate(speed: f64, damping: f64, sigma: f64) -> Summary<2, 1, 4> {
+fn plate(speed: f64, damping: f64, sigma: f64) -> Summary {
     let study = Study::new(Derived(Plate))
         .family(Family::General)
         .sigma_level(1.0)
-        .input(OMEGA, speed)
-        .design(DesignVariable(3), damping)
-        .tolerance(DesignVariable(0), 0.0)
-        .tolerance(DesignVariable(1), 0.1)
-        .tolerance(DesignVariable(2), 0.1)
-        .tolerance(DesignVariable(3), sigma);
-    *study.summary().unwrap()
+        .input(Input::new(0), speed)
+        .design(DesignVariable::new(3), damping)
+        .tolerance(DesignVariable::new(0), 0.0)
+        .tolerance(DesignVariable::new(1), 0.1)
+        .tolerance(DesignVariable::new(2), 0.1)
+        .tolerance(DesignVariable::new(3), sigma);
+    study.summary().unwrap()
 }
 
 fn says(text: &str, parts: &[&str]) {
@@ -94,13 +94,13 @@ fn at_the_critical_speed_sampling_is_what_to_believe() {
     close(exact, 0.1745, 1e-3);
     let study = Study::new(Pendulum)
         .input(OMEGA, speed)
-        .start(Coordinate(0), 1.0)
+        .start(Coordinate::new(0), 1.0)
         .tolerance(LENGTH, 0.03);
     let sampled = study.clone().samples(40_000).monte_carlo().unwrap();
-    let sigma = sampled.modes[0].unwrap().standard_deviation.unwrap();
+    let sigma = sampled.modes[0].unwrap().sigma.unwrap();
     close(sigma, exact, 0.02);
     let summary = study.summary().unwrap();
-    let second = summary.second.modes[0].as_ref().unwrap().frequency;
+    let second = &summary.second.modes[0].as_ref().unwrap().frequency;
     assert!(second.moments.sigma > 3000.0);
     let [Doubt::NearCritical { .. }] = summary.trust[0].doubts[..] else {
         panic!("{:?}", summary.trust)
@@ -143,7 +143,7 @@ fn wide_tolerances_bend() {
 
 #[test]
 fn mixed_modes_have_no_sigma_of_their_own() {
-    let study = Study::new(Derived(Pair)).design(DesignVariable(1), 102.0);
+    let study = Study::new(Derived(Pair)).design(DesignVariable::new(1), 102.0);
     let summary = study.summary().unwrap();
     for trust in &summary.trust {
         let [
@@ -260,18 +260,18 @@ fn thresholds_are_where_they_are_said_to_be() {
         // k1 alone moves lambda = k1 against lambda = k2.
         let pair = Study::new(Derived(Pair))
             .sigma_level(1.0)
-            .design(DesignVariable(1), 100.0 + distance)
-            .tolerance(DesignVariable(0), 1.0)
-            .tolerance(DesignVariable(2), 0.0);
+            .design(DesignVariable::new(1), 100.0 + distance)
+            .tolerance(DesignVariable::new(0), 1.0)
+            .tolerance(DesignVariable::new(2), 0.0);
         assert_eq!(pair.clusters().unwrap().len(), usize::from(doubted));
         assert_eq!(pair.first_order().unwrap().trusted(), !doubted);
         // Growth -c / (2 m) of a damped mode by c alone: c / sigma(c).
         let plate = (0..3).fold(Study::new(Derived(Plate)), |study, k| {
-            study.tolerance(DesignVariable(k), 0.0)
+            study.tolerance(DesignVariable::new(k), 0.0)
         });
-        let plate = plate.design(DesignVariable(3), 0.02).sigma_level(1.0);
+        let plate = plate.design(DesignVariable::new(3), 0.02).sigma_level(1.0);
         let plate = plate
-            .tolerance(DesignVariable(3), 0.02 / distance)
+            .tolerance(DesignVariable::new(3), 0.02 / distance)
             .summary()
             .unwrap();
         let growing = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
@@ -289,7 +289,7 @@ fn thresholds_are_where_they_are_said_to_be() {
         let sigma = ratio * 2.0_f64.sqrt() * slope / bend.abs();
         let summary = pendulum(speed, 3.0 * sigma);
         assert!(summary.first.distance_to_critical > 4.6);
-        let second = summary.second.modes[0].as_ref().unwrap().frequency;
+        let second = &summary.second.modes[0].as_ref().unwrap().frequency;
         close(second.nonlinearity.sigma_error(), error, 1e-9);
         assert_eq!(summary.trusted(), !doubted, "{error}");
     }

@@ -1,6 +1,8 @@
 //! Mechanisms whose branches of equilibria have closed forms. Unit masses; `g` stands in each description.
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Violation};
+use eigentol::{
+    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared, Violation,
+};
 
 use super::derived::Model;
 use super::{METRE, NUMBER, RAD, coordinate, design, input};
@@ -14,21 +16,23 @@ macro_rules! law {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name;
 
-        impl Model<$n, 1, $p, 0> for $name {
+        impl Model for $name {
+            sizes!($n, 1, $p, 0);
+
             const DESCRIPTION: Description = {
                 const COORDINATE: CoordinateInfo = coordinate("q", $unit);
                 const COORDINATES: [CoordinateInfo; $n] = [COORDINATE; $n];
                 const INPUTS: [InputInfo; 1] = [input("u", NUMBER)];
                 const DESIGN: [DesignInfo; $p] = [$(design($design, NUMBER, $nominal, 0.0)),*];
                 Description {
-                    name: stringify!($name),
-                    coordinates: &COORDINATES,
-                    inputs: &INPUTS,
-                    design: &DESIGN,
-                    outputs: &[],
+                    name: Shared::Static(stringify!($name)),
+                    coordinates: Shared::Static(&COORDINATES),
+                    inputs: Shared::Static(&INPUTS),
+                    design: Shared::Static(&DESIGN),
+                    outputs: Shared::Static(&[]),
                     symmetric_stiffness: $symmetric,
                     damping: DampingKind::Zero,
-                    kernels: &[],
+                    kernels: Shared::Static(&[]),
                 }
             };
 

@@ -7,15 +7,17 @@
 
 use std::array::from_fn;
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, OutputInfo, Real, Violation};
+use eigentol::{
+    CoordinateInfo, DampingKind, Description, DesignInfo, OutputInfo, Real, Shared, Violation,
+};
 
 use super::derived::{Derived, Model};
 use super::{GRAVITY, KILOGRAM, METRE, RAD, SPEED, coordinate, design, input, positive};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bars;
+pub struct Bars<const N: usize>;
 
-pub const DOUBLE: Derived<Bars> = Derived(Bars);
+pub const DOUBLE: Derived<Bars<2>> = Derived(Bars);
 
 /// Coefficients `A` and `B`.
 fn coefficients<T: Real, const N: usize>(l: &[T; N], m: &[T; N]) -> ([[T; N]; N], [T; N]) {
@@ -37,22 +39,24 @@ fn coefficients<T: Real, const N: usize>(l: &[T; N], m: &[T; N]) -> ([[T; N]; N]
 
 macro_rules! chain {
     ($n:literal, $p:literal, $coordinates:expr, $design:expr) => {
-        impl Model<$n, 1, $p, 1> for Bars {
+        impl Model for Bars<$n> {
+            sizes!($n, 1, $p, 1);
+
             const DESCRIPTION: Description = {
                 const COORDINATES: [CoordinateInfo; $n] = $coordinates;
                 const DESIGN: [DesignInfo; $p] = $design;
                 Description {
-                    name: "Bars",
-                    coordinates: &COORDINATES,
-                    inputs: &[input("omega", SPEED)],
-                    design: &DESIGN,
-                    outputs: &[OutputInfo {
-                        name: "tip_radius",
+                    name: Shared::Static("Bars"),
+                    coordinates: Shared::Static(&COORDINATES),
+                    inputs: Shared::Static(&[input("omega", SPEED)]),
+                    design: Shared::Static(&DESIGN),
+                    outputs: Shared::Static(&[OutputInfo {
+                        name: Shared::Static("tip_radius"),
                         unit: METRE,
-                    }],
+                    }]),
                     symmetric_stiffness: true,
                     damping: DampingKind::Zero,
-                    kernels: &[],
+                    kernels: Shared::Static(&[]),
                 }
             };
 

@@ -1,38 +1,55 @@
 //! A mechanism from nothing but its equations of motion: every other method by nested dual numbers. An oracle that
 //! shares no code with the compiler.
 
-use std::array::from_fn;
-
 use eigentol::{
-    Description, Gradient, Linear, LinearPartials, Mechanism, Real, RestParts, Violation,
+    Array, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, PartialsOf, Real,
+    ResidualPartialsOf, RestParts, Square, Violation,
 };
 
 use super::dual::Dual;
 
 /// Equations of motion `g = inertia - applied`.
-pub trait Model<const N: usize, const U: usize, const P: usize, const O: usize>:
-    Clone + Sync
-{
+pub trait Model: Clone + Sync {
+    type Coordinates<T: Copy>: Array<T>;
+    type Inputs<T: Copy>: Array<T>;
+    type Design<T: Copy>: Array<T>;
+    type Outputs<T: Copy>: Array<T>;
+
     const DESCRIPTION: Description;
 
     fn inertia<T: Real>(
         &self,
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> [T; N];
+        acceleration: &Self::Coordinates<T>,
+        velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
 
-    fn applied<T: Real>(&self, velocity: &[T; N], q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; N];
+    fn applied<T: Real>(
+        &self,
+        velocity: &Self::Coordinates<T>,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
 
-    fn violation<T: Real + PartialOrd>(&self, _: &[T; U], _: &[T; P]) -> Option<Violation<T>> {
+    fn violation<T: Real + PartialOrd>(
+        &self,
+        _: &Self::Inputs<T>,
+        _: &Self::Design<T>,
+    ) -> Option<Violation<T>> {
         None
     }
 
     /// A model with outputs says what they are.
-    fn outputs<T: Real>(&self, _: &[T; N], _: &[T; U], _: &[T; P]) -> [T; O] {
-        from_fn(|_| T::constant(f64::NAN))
+    fn outputs<T: Real>(
+        &self,
+        _: &Self::Coordinates<T>,
+        _: &Self::Inputs<T>,
+        _: &Self::Design<T>,
+    ) -> Self::Outputs<T> {
+        Array::filled(T::constant(f64::NAN))
     }
 }
 
@@ -40,75 +57,92 @@ pub trait Model<const N: usize, const U: usize, const P: usize, const O: usize>:
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Derived<X>(pub X);
 
-fn fixed<T: Real, const C: usize>(x: &[T; C]) -> [Dual<T>; C] {
-    x.map(Dual::fixed)
+fn fixed<T: Real, D: Array<Dual<T>>>(x: &impl Array<T>) -> D {
+    D::from_fn(|i| Dual::fixed(x.as_ref()[i]))
 }
 
-fn along<T: Real, const C: usize>(x: &[T; C], dx: &[T; C]) -> [Dual<T>; C] {
-    from_fn(|i| Dual::new(x[i], dx[i]))
+fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(x: &A, dx: &A) -> D {
+    D::from_fn(|i| Dual::new(x.as_ref()[i], dx.as_ref()[i]))
 }
 
-fn unit<T: Real, const C: usize>(x: &[T; C], j: usize) -> [Dual<T>; C] {
-    from_fn(|i| Dual::new(x[i], T::constant(if i == j { 1.0 } else { 0.0 })))
+/// The values `x`, of which number `j` moves.
+fn unit<T: Real, D: Array<Dual<T>>>(x: &impl Array<T>, j: usize) -> D {
+    D::from_fn(|i| Dual::new(x.as_ref()[i], T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
-fn zeros<T: Real, const C: usize>() -> [T; C] {
-    [T::constant(0.0); C]
+fn zeros<T: Real, A: Array<T>>() -> A {
+    A::filled(T::constant(0.0))
 }
 
-fn slopes<T: Real, const C: usize>(x: [Dual<T>; C]) -> [T; C] {
-    x.map(|value| value.slope)
+fn slopes<T: Real, A: Array<T>>(x: &impl Array<Dual<T>>) -> A {
+    A::from_fn(|i| x.as_ref()[i].slope)
 }
 
-fn slopes_linear<T: Real, const N: usize>(x: Linear<Dual<T>, N>) -> Linear<T, N> {
-    Linear {
-        mass: x.mass.map(slopes),
-        damping: x.damping.map(slopes),
-        stiffness: x.stiffness.map(slopes),
-    }
+fn slopes_linear<X: Model, T: Real>(
+    x: Linear<Square<Derived<X>, Dual<T>>>,
+) -> Linear<Square<Derived<X>, T>> {
+    x.map(|matrix| Array::from_fn(|i| slopes(&matrix.as_ref()[i])))
 }
 
-fn transpose<T: Copy, const R: usize, const C: usize>(x: [[T; C]; R]) -> [[T; R]; C] {
-    from_fn(|j| from_fn(|i| x[i][j]))
+fn transpose<T: Copy, C: Array<T>, R: Array<T>, M: Array<R>>(columns: &[C]) -> M {
+    M::from_fn(|i| R::from_fn(|j| columns[j].as_ref()[i]))
 }
 
-fn product<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    (0..N).fold(T::constant(0.0), |sum, i| sum + a[i] * b[i])
+fn product<T: Real>(a: &[T], b: &[T]) -> T {
+    (0..a.len()).fold(T::constant(0.0), |sum, i| sum + a[i] * b[i])
+}
+
+/// `left^T matrix right`.
+fn form<T: Real, R: Array<T>>(left: &[T], matrix: &[R], right: &[T]) -> T {
+    (0..left.len()).fold(T::constant(0.0), |sum, i| {
+        sum + left[i] * product(matrix[i].as_ref(), right)
+    })
 }
 
 /// Derivative of `function` by each coordinate, input and design variable.
 macro_rules! gradient {
     ($q:expr, $u:expr, $b:expr, $function:expr) => {
         Gradient {
-            coordinates: from_fn(|j| $function(&unit($q, j), &fixed($u), &fixed($b)).slope),
-            inputs: from_fn(|j| $function(&fixed($q), &unit($u, j), &fixed($b)).slope),
-            design: from_fn(|j| $function(&fixed($q), &fixed($u), &unit($b, j)).slope),
+            coordinates: Array::from_fn(|j| $function(&unit($q, j), &fixed($u), &fixed($b)).slope),
+            inputs: Array::from_fn(|j| $function(&fixed($q), &unit($u, j), &fixed($b)).slope),
+            design: Array::from_fn(|j| $function(&fixed($q), &fixed($u), &unit($b, j)).slope),
         }
     };
 }
 
-fn slopes_gradient<T: Real, const N: usize, const U: usize, const P: usize>(
-    x: Gradient<Dual<T>, N, U, P>,
-) -> Gradient<T, N, U, P> {
+fn slopes_gradient<X: Model, T: Real>(
+    x: GradientOf<Derived<X>, Dual<T>>,
+) -> GradientOf<Derived<X>, T> {
     Gradient {
-        coordinates: slopes(x.coordinates),
-        inputs: slopes(x.inputs),
-        design: slopes(x.design),
+        coordinates: slopes(&x.coordinates),
+        inputs: slopes(&x.inputs),
+        design: slopes(&x.design),
     }
 }
 
-impl<X, const N: usize, const U: usize, const P: usize, const O: usize> Mechanism<N, U, P, O>
-    for Derived<X>
-where
-    X: Model<N, U, P, O>,
-{
+impl<X: Model> Mechanism for Derived<X> {
+    type Coordinates<T: Copy> = X::Coordinates<T>;
+    type Inputs<T: Copy> = X::Inputs<T>;
+    type Design<T: Copy> = X::Design<T>;
+    type Outputs<T: Copy> = X::Outputs<T>;
+
     const DESCRIPTION: Description = X::DESCRIPTION;
 
-    fn residual<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; N] {
+    fn residual<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> X::Coordinates<T> {
         self.motion_residual(&zeros(), &zeros(), q, u, b)
     }
 
-    fn residual_parts<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> RestParts<T, N> {
+    fn residual_parts<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> RestParts<X::Coordinates<T>> {
         RestParts {
             inertia: self.0.inertia(&zeros(), &zeros(), q, u, b),
             applied: self.0.applied(&zeros(), q, u, b),
@@ -117,167 +151,194 @@ where
 
     fn motion_residual<T: Real>(
         &self,
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> [T; N] {
+        acceleration: &X::Coordinates<T>,
+        velocity: &X::Coordinates<T>,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> X::Coordinates<T> {
         let inertia = self.0.inertia(acceleration, velocity, q, u, b);
         let applied = self.0.applied(velocity, q, u, b);
-        from_fn(|i| inertia[i] - applied[i])
+        Array::from_fn(|i| inertia.as_ref()[i] - applied.as_ref()[i])
     }
 
     fn motion<T: Real>(
         &self,
-        velocity: &[T; N],
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; N]; N], [T; N]) {
+        velocity: &X::Coordinates<T>,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> (Square<Self, T>, X::Coordinates<T>) {
         let (v, x, u_, b_) = (fixed(velocity), fixed(q), fixed(u), fixed(b));
-        let mass = transpose(from_fn(|j| {
-            slopes(self.motion_residual(&unit(&zeros(), j), &v, &x, &u_, &b_))
-        }));
+        let rest: X::Coordinates<T> = zeros();
+        let by_acceleration: Square<Self, T> = Array::from_fn(|j| {
+            slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &v, &x, &u_, &b_))
+        });
+        let residual = self.motion_residual(&rest, velocity, q, u, b);
         (
-            mass,
-            self.motion_residual(&zeros(), velocity, q, u, b)
-                .map(|value| -value),
+            transpose(by_acceleration.as_ref()),
+            Array::from_fn(|i| -residual.as_ref()[i]),
         )
     }
 
     fn residual_and_stiffness<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([T; N], [[T; N]; N]) {
-        let stiffness = from_fn(|j| slopes(self.residual(&unit(q, j), &fixed(u), &fixed(b))));
-        (self.residual(q, u, b), transpose(stiffness))
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> (X::Coordinates<T>, Square<Self, T>) {
+        let columns: Square<Self, T> = Array::from_fn(|j| {
+            slopes(&self.residual::<Dual<T>>(&unit(q, j), &fixed(u), &fixed(b)))
+        });
+        (self.residual(q, u, b), transpose(columns.as_ref()))
     }
 
-    fn linear<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> Linear<T, N> {
-        let (x, u_, b_, zero) = (fixed(q), fixed(u), fixed(b), zeros::<Dual<T>, N>());
+    fn linear<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> Linear<Square<Self, T>> {
+        let (x, u_, b_) = (fixed(q), fixed(u), fixed(b));
+        let rest: X::Coordinates<T> = zeros();
+        let zero = fixed(&rest);
+        let by_acceleration: Square<Self, T> = Array::from_fn(|j| {
+            slopes(&self.motion_residual::<Dual<T>>(&unit(&rest, j), &zero, &x, &u_, &b_))
+        });
+        let by_velocity: Square<Self, T> = Array::from_fn(|j| {
+            slopes(&self.motion_residual::<Dual<T>>(&zero, &unit(&rest, j), &x, &u_, &b_))
+        });
         Linear {
-            mass: transpose(from_fn(|j| {
-                slopes(self.motion_residual(&unit(&zeros(), j), &zero, &x, &u_, &b_))
-            })),
-            damping: transpose(from_fn(|j| {
-                slopes(self.motion_residual(&zero, &unit(&zeros(), j), &x, &u_, &b_))
-            })),
+            mass: transpose(by_acceleration.as_ref()),
+            damping: transpose(by_velocity.as_ref()),
             stiffness: self.residual_and_stiffness(q, u, b).1,
         }
     }
 
     fn residual_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; U]; N], [[T; P]; N]) {
-        let by_input = from_fn(|j| slopes(self.residual(&fixed(q), &unit(u, j), &fixed(b))));
-        let by_design = from_fn(|j| slopes(self.residual(&fixed(q), &fixed(u), &unit(b, j))));
-        (transpose(by_input), transpose(by_design))
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> ResidualPartialsOf<Self, T> {
+        let by_input: X::Inputs<X::Coordinates<T>> = Array::from_fn(|j| {
+            slopes(&self.residual::<Dual<T>>(&fixed(q), &unit(u, j), &fixed(b)))
+        });
+        let by_design: X::Design<X::Coordinates<T>> = Array::from_fn(|j| {
+            slopes(&self.residual::<Dual<T>>(&fixed(q), &fixed(u), &unit(b, j)))
+        });
+        (transpose(by_input.as_ref()), transpose(by_design.as_ref()))
     }
 
     fn linear_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> LinearPartials<T, N, U, P> {
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> PartialsOf<Self, T> {
         LinearPartials {
-            by_coordinate: from_fn(|j| {
-                slopes_linear(self.linear(&unit(q, j), &fixed(u), &fixed(b)))
+            by_coordinate: Array::from_fn(|j| {
+                slopes_linear::<X, T>(self.linear(&unit(q, j), &fixed(u), &fixed(b)))
             }),
-            by_input: from_fn(|j| slopes_linear(self.linear(&fixed(q), &unit(u, j), &fixed(b)))),
-            by_design: from_fn(|j| slopes_linear(self.linear(&fixed(q), &fixed(u), &unit(b, j)))),
+            by_input: Array::from_fn(|j| {
+                slopes_linear::<X, T>(self.linear(&fixed(q), &unit(u, j), &fixed(b)))
+            }),
+            by_design: Array::from_fn(|j| {
+                slopes_linear::<X, T>(self.linear(&fixed(q), &fixed(u), &unit(b, j)))
+            }),
         }
     }
 
     fn linear_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-    ) -> Linear<T, N> {
-        slopes_linear(self.linear(&along(q, dq), &along(u, du), &along(b, db)))
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        dq: &X::Coordinates<T>,
+        du: &X::Inputs<T>,
+        db: &X::Design<T>,
+    ) -> Linear<Square<Self, T>> {
+        slopes_linear::<X, T>(self.linear(&along(q, dq), &along(u, du), &along(b, db)))
     }
 
     fn mode_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        phi: &X::Coordinates<T>,
         lambda: T,
-    ) -> Gradient<T, N, U, P> {
-        let functional = |q: &[Dual<T>; N], u: &[Dual<T>; U], b: &[Dual<T>; P]| {
-            let (linear, phi) = (self.linear(q, u, b), fixed(phi));
-            let stiffness = product(&phi, &linear.stiffness.map(|row| product(&row, &phi)));
-            let mass = product(&phi, &linear.mass.map(|row| product(&row, &phi)));
-            stiffness - Dual::fixed(lambda) * mass
-        };
+    ) -> GradientOf<Self, T> {
+        let functional =
+            |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
+                let linear = self.linear(q, u, b);
+                let phi: X::Coordinates<Dual<T>> = fixed(phi);
+                let stiffness = form(phi.as_ref(), linear.stiffness.as_ref(), phi.as_ref());
+                let mass = form(phi.as_ref(), linear.mass.as_ref(), phi.as_ref());
+                stiffness - Dual::fixed(lambda) * mass
+            };
         gradient!(q, u, b, functional)
     }
 
     fn pencil_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        left: &[T; N],
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        position: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        let functional = |q: &[Dual<T>; N], u: &[Dual<T>; U], b: &[Dual<T>; P]| {
-            let linear = self.linear(q, u, b);
-            let terms = [
-                (linear.mass, acceleration),
-                (linear.damping, velocity),
-                (linear.stiffness, position),
-            ];
-            terms
-                .iter()
-                .fold(Dual::constant(0.0), |sum, (matrix, vector)| {
-                    let vector = fixed(vector);
-                    sum + product(&fixed(left), &matrix.map(|row| product(&row, &vector)))
-                })
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        left: &X::Coordinates<T>,
+        acceleration: &X::Coordinates<T>,
+        velocity: &X::Coordinates<T>,
+        position: &X::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        // The derivative of `left^T g` along the three vectors, from rest.
+        let rest: X::Coordinates<Dual<T>> = zeros();
+        let functional = |q: &X::Coordinates<Dual<T>>,
+                          u: &X::Inputs<Dual<T>>,
+                          b: &X::Design<Dual<T>>| {
+            let [acceleration, velocity, position] =
+                [acceleration, velocity, position].map(fixed::<T, X::Coordinates<Dual<T>>>);
+            let change: X::Coordinates<Dual<T>> = slopes(&self.motion_residual::<Dual<Dual<T>>>(
+                &along(&rest, &acceleration),
+                &along(&rest, &velocity),
+                &along(q, &position),
+                &fixed(u),
+                &fixed(b),
+            ));
+            let left: X::Coordinates<Dual<T>> = fixed(left);
+            product(left.as_ref(), change.as_ref())
         };
         gradient!(q, u, b, functional)
     }
 
     fn residual_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        w: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        let functional = |q: &[Dual<T>; N], u: &[Dual<T>; U], b: &[Dual<T>; P]| {
-            product(&fixed(w), &self.residual(q, u, b))
-        };
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        w: &X::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        let functional =
+            |q: &X::Coordinates<Dual<T>>, u: &X::Inputs<Dual<T>>, b: &X::Design<Dual<T>>| {
+                let w: X::Coordinates<Dual<T>> = fixed(w);
+                product(w.as_ref(), self.residual(q, u, b).as_ref())
+            };
         gradient!(q, u, b, functional)
     }
 
     fn mode_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        phi: &X::Coordinates<T>,
         lambda: T,
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dphi: &[T; N],
+        dq: &X::Coordinates<T>,
+        du: &X::Inputs<T>,
+        db: &X::Design<T>,
+        dphi: &X::Coordinates<T>,
         dlambda: T,
-    ) -> Gradient<T, N, U, P> {
-        slopes_gradient(self.mode_gradient(
+    ) -> GradientOf<Self, T> {
+        slopes_gradient::<X, T>(self.mode_gradient(
             &along(q, dq),
             &along(u, du),
             &along(b, db),
@@ -288,22 +349,22 @@ where
 
     fn pencil_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        left: &[T; N],
-        acceleration: &[T; N],
-        velocity: &[T; N],
-        position: &[T; N],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dleft: &[T; N],
-        dacceleration: &[T; N],
-        dvelocity: &[T; N],
-        dposition: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        slopes_gradient(self.pencil_gradient(
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        left: &X::Coordinates<T>,
+        acceleration: &X::Coordinates<T>,
+        velocity: &X::Coordinates<T>,
+        position: &X::Coordinates<T>,
+        dq: &X::Coordinates<T>,
+        du: &X::Inputs<T>,
+        db: &X::Design<T>,
+        dleft: &X::Coordinates<T>,
+        dacceleration: &X::Coordinates<T>,
+        dvelocity: &X::Coordinates<T>,
+        dposition: &X::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        slopes_gradient::<X, T>(self.pencil_gradient(
             &along(q, dq),
             &along(u, du),
             &along(b, db),
@@ -316,16 +377,16 @@ where
 
     fn residual_gradient_along<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-        w: &[T; N],
-        dq: &[T; N],
-        du: &[T; U],
-        db: &[T; P],
-        dw: &[T; N],
-    ) -> Gradient<T, N, U, P> {
-        slopes_gradient(self.residual_gradient(
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+        w: &X::Coordinates<T>,
+        dq: &X::Coordinates<T>,
+        du: &X::Inputs<T>,
+        db: &X::Design<T>,
+        dw: &X::Coordinates<T>,
+    ) -> GradientOf<Self, T> {
+        slopes_gradient::<X, T>(self.residual_gradient(
             &along(q, dq),
             &along(u, du),
             &along(b, db),
@@ -333,27 +394,43 @@ where
         ))
     }
 
-    fn violation<T: Real + PartialOrd>(&self, u: &[T; U], b: &[T; P]) -> Option<Violation<T>> {
+    fn violation<T: Real + PartialOrd>(
+        &self,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> Option<Violation<T>> {
         self.0.violation(u, b)
     }
 
-    fn outputs<T: Real>(&self, q: &[T; N], u: &[T; U], b: &[T; P]) -> [T; O] {
+    fn outputs<T: Real>(
+        &self,
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> X::Outputs<T> {
         self.0.outputs(q, u, b)
     }
 
     fn output_partials<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; U],
-        b: &[T; P],
-    ) -> ([[T; N]; O], [[T; U]; O], [[T; P]; O]) {
-        let by_coordinate = from_fn(|j| slopes(self.outputs(&unit(q, j), &fixed(u), &fixed(b))));
-        let by_input = from_fn(|j| slopes(self.outputs(&fixed(q), &unit(u, j), &fixed(b))));
-        let by_design = from_fn(|j| slopes(self.outputs(&fixed(q), &fixed(u), &unit(b, j))));
+        q: &X::Coordinates<T>,
+        u: &X::Inputs<T>,
+        b: &X::Design<T>,
+    ) -> (
+        X::Outputs<X::Coordinates<T>>,
+        X::Outputs<X::Inputs<T>>,
+        X::Outputs<X::Design<T>>,
+    ) {
+        let by_coordinate: X::Coordinates<X::Outputs<T>> =
+            Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&unit(q, j), &fixed(u), &fixed(b))));
+        let by_input: X::Inputs<X::Outputs<T>> =
+            Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&fixed(q), &unit(u, j), &fixed(b))));
+        let by_design: X::Design<X::Outputs<T>> =
+            Array::from_fn(|j| slopes(&self.outputs::<Dual<T>>(&fixed(q), &fixed(u), &unit(b, j))));
         (
-            transpose(by_coordinate),
-            transpose(by_input),
-            transpose(by_design),
+            transpose(by_coordinate.as_ref()),
+            transpose(by_input.as_ref()),
+            transpose(by_design.as_ref()),
         )
     }
 }

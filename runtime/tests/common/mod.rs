@@ -1,5 +1,21 @@
 //! Mechanisms written by hand, independent of the compiler.
-#![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    unused_imports,
+    reason = "each test uses some of it"
+)]
+
+/// How many unknowns, inputs, design variables and outputs a mechanism has.
+macro_rules! sizes {
+    ($n:literal, $u:literal, $p:literal, $o:literal) => {
+        type Coordinates<T: Copy> = [T; $n];
+        type Inputs<T: Copy> = [T; $u];
+        type Design<T: Copy> = [T; $p];
+        type Outputs<T: Copy> = [T; $o];
+    };
+}
+pub(crate) use sizes;
 
 pub mod branching;
 pub mod chain;
@@ -8,30 +24,30 @@ pub mod dual;
 pub mod models;
 pub mod pendulum;
 
-use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Role, Unit, Violation};
+use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Role, Shared, Unit, Violation};
 
 pub const RAD: Unit = Unit {
-    symbol: "rad",
+    symbol: Shared::Static("rad"),
     scale: 1.0,
 };
 pub const METRE: Unit = Unit {
-    symbol: "m",
+    symbol: Shared::Static("m"),
     scale: 1.0,
 };
 pub const KILOGRAM: Unit = Unit {
-    symbol: "kg",
+    symbol: Shared::Static("kg"),
     scale: 1.0,
 };
 pub const SPEED: Unit = Unit {
-    symbol: "rad/s",
+    symbol: Shared::Static("rad/s"),
     scale: 1.0,
 };
 pub const STIFFNESS: Unit = Unit {
-    symbol: "N/m",
+    symbol: Shared::Static("N/m"),
     scale: 1.0,
 };
 pub const NUMBER: Unit = Unit {
-    symbol: "",
+    symbol: Shared::Static(""),
     scale: 1.0,
 };
 
@@ -40,19 +56,22 @@ pub const GRAVITY: f64 = 9.81;
 
 pub const fn coordinate(name: &'static str, unit: Unit) -> CoordinateInfo {
     CoordinateInfo {
-        name,
+        name: Shared::Static(name),
         unit,
         role: Role::Position,
     }
 }
 
 pub const fn input(name: &'static str, unit: Unit) -> InputInfo {
-    InputInfo { name, unit }
+    InputInfo {
+        name: Shared::Static(name),
+        unit,
+    }
 }
 
 pub const fn design(name: &'static str, unit: Unit, nominal: f64, tolerance: f64) -> DesignInfo {
     DesignInfo {
-        name,
+        name: Shared::Static(name),
         unit,
         nominal,
         tolerance,
@@ -72,8 +91,8 @@ pub fn positive<T: eigentol::Real + PartialOrd>(
             )
         })
         .map(|&(value, quantity)| Violation {
-            quantity,
-            requirement: "positive",
+            quantity: quantity.into(),
+            requirement: "positive".into(),
             value,
         })
 }

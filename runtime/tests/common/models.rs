@@ -1,6 +1,6 @@
 //! Small mechanisms that stress one thing each.
 
-use eigentol::{DampingKind, Description, Real, Violation};
+use eigentol::{DampingKind, Description, Real, Shared, Violation};
 
 use super::derived::Model;
 use super::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, positive};
@@ -10,21 +10,23 @@ use super::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate;
 
-impl Model<2, 1, 4, 0> for Plate {
+impl Model for Plate {
+    sizes!(2, 1, 4, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Plate",
-        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
-        inputs: &[input("omega", SPEED)],
-        design: &[
+        name: Shared::Static("Plate"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
+        inputs: Shared::Static(&[input("omega", SPEED)]),
+        design: Shared::Static(&[
             design("m", KILOGRAM, 0.5, 0.01),
             design("kx", STIFFNESS, 40.0, 1.2),
             design("ky", STIFFNESS, 60.0, 1.8),
             design("c", NUMBER, 0.0, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::General,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -64,20 +66,22 @@ impl Model<2, 1, 4, 0> for Plate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring;
 
-impl Model<1, 1, 3, 0> for Spring {
+impl Model for Spring {
+    sizes!(1, 1, 3, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Spring",
-        coordinates: &[coordinate("x", METRE)],
-        inputs: &[input("k", STIFFNESS)],
-        design: &[
+        name: Shared::Static("Spring"),
+        coordinates: Shared::Static(&[coordinate("x", METRE)]),
+        inputs: Shared::Static(&[input("k", STIFFNESS)]),
+        design: Shared::Static(&[
             design("mass", KILOGRAM, 1.0, 0.0),
             design("cubic", NUMBER, 0.0, 0.0),
             design("force", NUMBER, 1.0, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -100,16 +104,18 @@ impl Model<1, 1, 3, 0> for Spring {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follower;
 
-impl Model<2, 1, 1, 0> for Follower {
+impl Model for Follower {
+    sizes!(2, 1, 1, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Follower",
-        coordinates: &[coordinate("a", RAD), coordinate("b", RAD)],
-        inputs: &[input("load", NUMBER)],
-        design: &[design("stiffness", NUMBER, 1.0, 0.01)],
-        outputs: &[],
+        name: Shared::Static("Follower"),
+        coordinates: Shared::Static(&[coordinate("a", RAD), coordinate("b", RAD)]),
+        inputs: Shared::Static(&[input("load", NUMBER)]),
+        design: Shared::Static(&[design("stiffness", NUMBER, 1.0, 0.01)]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -140,20 +146,22 @@ impl Model<2, 1, 1, 0> for Follower {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair;
 
-impl Model<2, 0, 3, 0> for Pair {
+impl Model for Pair {
+    sizes!(2, 0, 3, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Pair",
-        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
-        inputs: &[],
-        design: &[
+        name: Shared::Static("Pair"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[
             design("k1", STIFFNESS, 100.0, 0.0),
             design("k2", STIFFNESS, 100.0, 0.0),
             design("c", STIFFNESS, 0.0, 3.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -176,27 +184,29 @@ impl Model<2, 0, 3, 0> for Pair {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triple;
 
-impl Model<3, 0, 6, 0> for Triple {
+impl Model for Triple {
+    sizes!(3, 0, 6, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Triple",
-        coordinates: &[
+        name: Shared::Static("Triple"),
+        coordinates: Shared::Static(&[
             coordinate("x", METRE),
             coordinate("y", METRE),
             coordinate("z", METRE),
-        ],
-        inputs: &[],
-        design: &[
+        ]),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[
             design("k1", STIFFNESS, 100.0, 3.0),
             design("k2", STIFFNESS, 100.0, 3.0),
             design("k3", STIFFNESS, 100.0, 3.0),
             design("k12", STIFFNESS, 0.0, 0.0),
             design("k13", STIFFNESS, 0.0, 0.0),
             design("k23", STIFFNESS, 0.0, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -225,20 +235,22 @@ impl Model<3, 0, 6, 0> for Triple {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slipping;
 
-impl Model<2, 1, 3, 0> for Slipping {
+impl Model for Slipping {
+    sizes!(2, 1, 3, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Slipping",
-        coordinates: &[coordinate("r", METRE), coordinate("phi", RAD)],
-        inputs: &[input("omega", SPEED)],
-        design: &[
+        name: Shared::Static("Slipping"),
+        coordinates: Shared::Static(&[coordinate("r", METRE), coordinate("phi", RAD)]),
+        inputs: Shared::Static(&[input("omega", SPEED)]),
+        design: Shared::Static(&[
             design("m", KILOGRAM, 1.0, 0.0),
             design("k", STIFFNESS, 10.0, 0.0),
             design("a", METRE, 0.2, 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Gyroscopic,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -268,16 +280,18 @@ impl Model<2, 1, 3, 0> for Slipping {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supercritical;
 
-impl Model<2, 1, 1, 0> for Supercritical {
+impl Model for Supercritical {
+    sizes!(2, 1, 1, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Supercritical",
-        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
-        inputs: &[input("omega", SPEED)],
-        design: &[design("e", METRE, 0.0, 0.03)],
-        outputs: &[],
+        name: Shared::Static("Supercritical"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
+        inputs: Shared::Static(&[input("omega", SPEED)]),
+        design: Shared::Static(&[design("e", METRE, 0.0, 0.03)]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::Gyroscopic,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -306,16 +320,18 @@ impl Model<2, 1, 1, 0> for Supercritical {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overdamped;
 
-impl Model<2, 1, 0, 0> for Overdamped {
+impl Model for Overdamped {
+    sizes!(2, 1, 0, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Overdamped",
-        coordinates: &[coordinate("x", METRE), coordinate("y", METRE)],
-        inputs: &[input("u", NUMBER)],
-        design: &[],
-        outputs: &[],
+        name: Shared::Static("Overdamped"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), coordinate("y", METRE)]),
+        inputs: Shared::Static(&[input("u", NUMBER)]),
+        design: Shared::Static(&[]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping: DampingKind::General,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(

@@ -2,8 +2,8 @@
 //! `g = J (qddot - Omega^2 sin q cos q) + m g L/2 sin q`, `J = m L^2/3`. Design variables: `m`, `l`.
 
 use eigentol::{
-    DampingKind, Description, Gradient, Linear, LinearPartials, Mechanism, OutputInfo, Real,
-    RestParts, Violation,
+    DampingKind, Description, Gradient, GradientOf, Linear, LinearPartials, Mechanism, OutputInfo,
+    PartialsOf, Real, RestParts, Shared, Violation,
 };
 
 use super::dual::Dual;
@@ -24,7 +24,7 @@ fn moments<T: Real>(b: &[T; 2]) -> (T, T) {
     (b[0] * b[1] * b[1] / c(3.0), b[0] * b[1] * c(GRAVITY / 2.0))
 }
 
-fn one<T: Real>(mass: T, stiffness: T) -> Linear<T, 1> {
+fn one<T: Real>(mass: T, stiffness: T) -> Linear<[[T; 1]; 1]> {
     Linear {
         mass: [[mass]],
         damping: [[c(0.0)]],
@@ -36,7 +36,7 @@ fn lift<T: Real, const C: usize>(x: &[T; C], dx: &[T; C]) -> [Dual<T>; C] {
     std::array::from_fn(|i| Dual::new(x[i], dx[i]))
 }
 
-fn slopes<T: Real>(x: Gradient<Dual<T>, 1, 1, 2>) -> Gradient<T, 1, 1, 2> {
+fn slopes<T: Real>(x: GradientOf<Pendulum, Dual<T>>) -> GradientOf<Pendulum, T> {
     Gradient {
         coordinates: x.coordinates.map(|value| value.slope),
         inputs: x.inputs.map(|value| value.slope),
@@ -44,22 +44,24 @@ fn slopes<T: Real>(x: Gradient<Dual<T>, 1, 1, 2>) -> Gradient<T, 1, 1, 2> {
     }
 }
 
-impl Mechanism<1, 1, 2, 1> for Pendulum {
+impl Mechanism for Pendulum {
+    sizes!(1, 1, 2, 1);
+
     const DESCRIPTION: Description = Description {
-        name: "Pendulum",
-        coordinates: &[coordinate("theta", RAD)],
-        inputs: &[input("omega", SPEED)],
-        design: &[
+        name: Shared::Static("Pendulum"),
+        coordinates: Shared::Static(&[coordinate("theta", RAD)]),
+        inputs: Shared::Static(&[input("omega", SPEED)]),
+        design: Shared::Static(&[
             design("m", KILOGRAM, 3.0, 0.0),
             design("l", METRE, 1.0, 0.03),
-        ],
-        outputs: &[OutputInfo {
-            name: "tip_radius",
+        ]),
+        outputs: Shared::Static(&[OutputInfo {
+            name: Shared::Static("tip_radius"),
             unit: METRE,
-        }],
+        }]),
         symmetric_stiffness: true,
         damping: DampingKind::Zero,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn residual<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> [T; 1] {
@@ -67,7 +69,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         [parts.inertia[0] - parts.applied[0]]
     }
 
-    fn residual_parts<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> RestParts<T, 1> {
+    fn residual_parts<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> RestParts<[T; 1]> {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
         RestParts {
             inertia: [-(j * u[0] * u[0] * sin * cos)],
@@ -110,7 +112,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         )
     }
 
-    fn linear<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> Linear<T, 1> {
+    fn linear<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> Linear<[[T; 1]; 1]> {
         one(moments(b).0, self.residual_and_stiffness(q, u, b).1[0][0])
     }
 
@@ -124,12 +126,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         ([gradient.inputs], [gradient.design])
     }
 
-    fn linear_partials<T: Real>(
-        &self,
-        q: &[T; 1],
-        u: &[T; 1],
-        b: &[T; 2],
-    ) -> LinearPartials<T, 1, 1, 2> {
+    fn linear_partials<T: Real>(&self, q: &[T; 1], u: &[T; 1], b: &[T; 2]) -> PartialsOf<Self, T> {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
         let square = u[0] * u[0];
         let double = cos * cos - sin * sin;
@@ -152,9 +149,9 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         dq: &[T; 1],
         du: &[T; 1],
         db: &[T; 2],
-    ) -> Linear<T, 1> {
+    ) -> Linear<[[T; 1]; 1]> {
         let p = self.linear_partials(q, u, b);
-        let sum = |pick: fn(&Linear<T, 1>) -> T| {
+        let sum = |pick: fn(&Linear<[[T; 1]; 1]>) -> T| {
             pick(&p.by_coordinate[0]) * dq[0]
                 + pick(&p.by_input[0]) * du[0]
                 + pick(&p.by_design[0]) * db[0]
@@ -170,10 +167,10 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         b: &[T; 2],
         phi: &[T; 1],
         lambda: T,
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         let p = self.linear_partials(q, u, b);
         let square = phi[0] * phi[0];
-        let value = |x: &Linear<T, 1>| square * (x.stiffness[0][0] - lambda * x.mass[0][0]);
+        let value = |x: &Linear<[[T; 1]; 1]>| square * (x.stiffness[0][0] - lambda * x.mass[0][0]);
         Gradient {
             coordinates: [value(&p.by_coordinate[0])],
             inputs: [value(&p.by_input[0])],
@@ -190,9 +187,9 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         acceleration: &[T; 1],
         _: &[T; 1],
         position: &[T; 1],
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         let p = self.linear_partials(q, u, b);
-        let value = |x: &Linear<T, 1>| {
+        let value = |x: &Linear<[[T; 1]; 1]>| {
             left[0] * (x.mass[0][0] * acceleration[0] + x.stiffness[0][0] * position[0])
         };
         Gradient {
@@ -208,7 +205,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         u: &[T; 1],
         b: &[T; 2],
         w: &[T; 1],
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         let ((sin, cos), (j, s)) = (q[0].sin_cos(), moments(b));
         let (residual, stiffness) = self.residual_and_stiffness(q, u, b);
         let two = c::<T>(2.0);
@@ -234,7 +231,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         db: &[T; 2],
         dphi: &[T; 1],
         dlambda: T,
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         slopes(self.mode_gradient(
             &lift(q, dq),
             &lift(u, du),
@@ -260,7 +257,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         dacceleration: &[T; 1],
         dvelocity: &[T; 1],
         dposition: &[T; 1],
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         slopes(self.pencil_gradient(
             &lift(q, dq),
             &lift(u, du),
@@ -282,7 +279,7 @@ impl Mechanism<1, 1, 2, 1> for Pendulum {
         du: &[T; 1],
         db: &[T; 2],
         dw: &[T; 1],
-    ) -> Gradient<T, 1, 1, 2> {
+    ) -> GradientOf<Self, T> {
         slopes(self.residual_gradient(&lift(q, dq), &lift(u, du), &lift(b, db), &lift(w, dw)))
     }
 

@@ -12,7 +12,7 @@ use crate::holonomic::{
     Bar, Chain, ChainByAngles, Press, PressByAngle, Spherical, SphericalByPlane,
 };
 
-const OMEGA: Input = Input(0);
+const OMEGA: Input = Input::new(0);
 
 fn through(low: f64, high: f64) -> Range {
     Range {
@@ -31,7 +31,7 @@ fn critical() -> (f64, [f64; 3]) {
 
 #[test]
 fn the_critical_speed_of_a_bar_by_its_tip() {
-    let b = nominal::<Bar<1>, 3, 1, 3, 0>();
+    let b = nominal::<Bar<1>>();
     let (speed, slopes) = critical();
     let mechanism = Derived(Bar::<1>);
     let start = [0.3, 0.9, 0.0];
@@ -65,7 +65,7 @@ fn the_critical_speed_of_a_bar_by_its_tip() {
 
 #[test]
 fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
-    let b = nominal::<Bar<1>, 3, 1, 3, 0>();
+    let b = nominal::<Bar<1>>();
     let settings = Continuation::new(OMEGA, 1.0, 8.0);
     let found = branches(
         &Derived(Bar::<1>),
@@ -85,7 +85,9 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
     for branch in &found.branches {
         assert!(branch.points.len() < 80, "{} points", branch.points.len());
         for point in &branch.points {
-            let [x, z, force] = point.equilibrium.coordinates;
+            let [x, z, force] = point.equilibrium.coordinates[..] else {
+                panic!("three unknowns")
+            };
             near(x.hypot(z), 1.0, 1e-12, 1.0);
             let omega = point.value;
             if x.abs() > 1e-6 {
@@ -115,7 +117,7 @@ fn a_bar_by_its_tip_has_both_arms_of_its_pitchfork() {
 
 #[test]
 fn a_press_gives_way_at_its_greatest_torque() {
-    let b = nominal::<Press, 3, 1, 4, 0>();
+    let b = nominal::<Press>();
     let angle = critical_state(
         &Derived(PressByAngle),
         &[0.0],
@@ -142,7 +144,7 @@ fn a_press_gives_way_at_its_greatest_torque() {
 
 #[test]
 fn resonances_lie_where_minimal_coordinates_have_them() {
-    let b = nominal::<Chain, 6, 1, 5, 0>();
+    let b = nominal::<Chain>();
     let range = through(0.1, 5.0);
     let other = crossings(
         &Derived(ChainByAngles),
@@ -178,7 +180,7 @@ fn resonances_lie_where_minimal_coordinates_have_them() {
 /// On springs that pull to the axis a spinning pendulum loses its stiffness where `kx + m g / L = m omega^2`.
 #[test]
 fn a_general_mechanism_loses_its_stiffness_where_its_shadow_does() {
-    let mut b = nominal::<Spherical, 4, 1, 6, 0>();
+    let mut b = nominal::<Spherical>();
     b[5] = 0.0;
     let [m, length, kx, ..] = b;
     let speed = (kx / m + 9.81 / length).sqrt();

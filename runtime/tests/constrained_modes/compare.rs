@@ -1,45 +1,34 @@
 //! One mechanism in two sets of unknowns: what has to be the same.
 
+use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::modes;
 use eigentol::sensitivity::{
     Quantity, mode_curvature, sensitivities, sensitivities_by_finite_difference,
     sensitivities_explicit,
 };
-use eigentol::{Equilibrium, Modes, Policy, Sensitivities, equilibrium::equilibrium};
+use eigentol::{Array, Equilibrium, Modes, Policy, Sensitivities, equilibrium::equilibrium};
 
 use crate::common::derived::{Derived, Model};
 
 /// An equilibrium with its modes.
-pub(crate) struct State<X, const N: usize, const U: usize, const P: usize> {
-    pub(crate) mechanism: Derived<X>,
-    pub(crate) at: Equilibrium<N, U, P>,
-    pub(crate) modes: Modes<N>,
+pub(crate) struct State {
+    pub(crate) mechanism: Box<dyn DirectionalKernels>,
+    pub(crate) at: Equilibrium,
+    pub(crate) modes: Modes,
 }
 
-pub(crate) fn nominal<
-    X: Model<N, U, P, O>,
-    const N: usize,
-    const U: usize,
-    const P: usize,
-    const O: usize,
->() -> [f64; P] {
-    core::array::from_fn(|j| X::DESCRIPTION.design[j].nominal)
+pub(crate) fn nominal<X: Model>() -> X::Design<f64> {
+    Array::from_fn(|j| X::DESCRIPTION.design[j].nominal)
 }
 
-impl<X, const N: usize, const U: usize, const P: usize> State<X, N, U, P> {
-    pub(crate) fn new<const O: usize>(model: X, u: [f64; U], start: [f64; N]) -> Self
-    where
-        X: Model<N, U, P, O>,
-    {
-        Self::with(model, u, nominal::<X, N, U, P, O>(), start)
+impl State {
+    pub(crate) fn new<X: Model + 'static>(model: X, u: &[f64], start: &[f64]) -> Self {
+        Self::with(model, u, nominal::<X>().as_ref(), start)
     }
 
-    pub(crate) fn with<const O: usize>(model: X, u: [f64; U], b: [f64; P], start: [f64; N]) -> Self
-    where
-        X: Model<N, U, P, O>,
-    {
-        let mechanism = Derived(model);
-        let at = equilibrium(&mechanism, &u, &b, &start, Policy::Stable).unwrap();
+    pub(crate) fn with<X: Model + 'static>(model: X, u: &[f64], b: &[f64], start: &[f64]) -> Self {
+        let mechanism = Box::new(Derived(model));
+        let at = equilibrium(&*mechanism, u, b, start, Policy::Stable).unwrap();
         let modes = modes(&at).unwrap();
         Self {
             mechanism,
@@ -69,11 +58,7 @@ pub(crate) fn all_near(a: &[f64], b: &[f64], tolerance: f64) {
 
 /// The same modes: eigenvalues, behaviour, small residuals and honest errors.
 #[track_caller]
-pub(crate) fn same_modes<const N: usize, const K: usize>(
-    a: &Modes<N>,
-    b: &Modes<K>,
-    tolerance: f64,
-) {
+pub(crate) fn same_modes(a: &Modes, b: &Modes, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
     let size = b
         .modes
@@ -99,11 +84,7 @@ pub(crate) fn same_modes<const N: usize, const K: usize>(
 }
 
 #[track_caller]
-pub(crate) fn same_sensitivities<const N: usize, const K: usize, const U: usize, const P: usize>(
-    a: &Sensitivities<N, U, P>,
-    b: &Sensitivities<K, U, P>,
-    tolerance: f64,
-) {
+pub(crate) fn same_sensitivities(a: &Sensitivities, b: &Sensitivities, tolerance: f64) {
     assert_eq!(a.modes.len(), b.modes.len());
     for (own, other) in a.modes.iter().zip(&b.modes) {
         all_near(&own.lambda_by_design, &other.lambda_by_design, tolerance);
@@ -127,25 +108,19 @@ pub(crate) fn same_sensitivities<const N: usize, const K: usize, const U: usize,
 
 /// Modes, derivatives in three ways, and Hessians of a mechanism with constraints against the one without.
 #[track_caller]
-pub(crate) fn same_mechanism<X, Y, const N: usize, const K: usize, const U: usize, const P: usize>(
-    a: &State<X, N, U, P>,
-    b: &State<Y, K, U, P>,
-) where
-    X: Model<N, U, P, 0>,
-    Y: Model<K, U, P, 0>,
-{
+pub(crate) fn same_mechanism(a: &State, b: &State) {
     same_modes(&a.modes, &b.modes, 1e-11);
-    let reference = sensitivities(&b.mechanism, &b.at, &b.modes).unwrap();
-    let adjoint = sensitivities(&a.mechanism, &a.at, &a.modes).unwrap();
+    let reference = sensitivities(&*b.mechanism, &b.at, &b.modes).unwrap();
+    let adjoint = sensitivities(&*a.mechanism, &a.at, &a.modes).unwrap();
     same_sensitivities(&adjoint, &reference, 1e-9);
-    let explicit = sensitivities_explicit(&a.mechanism, &a.at, &a.modes).unwrap();
+    let explicit = sensitivities_explicit(&*a.mechanism, &a.at, &a.modes).unwrap();
     same_sensitivities(&explicit, &reference, 1e-9);
     let differences =
-        sensitivities_by_finite_difference(&a.mechanism, &a.at, &a.modes, 5e-6).unwrap();
+        sensitivities_by_finite_difference(&*a.mechanism, &a.at, &a.modes, 5e-6).unwrap();
     same_sensitivities(&differences, &reference, 2e-6);
     for r in 0..a.modes.modes.len() {
-        let own = mode_curvature(&a.mechanism, &a.at, &a.modes, r).unwrap();
-        let other = mode_curvature(&b.mechanism, &b.at, &b.modes, r).unwrap();
+        let own = mode_curvature(&*a.mechanism, &a.at, &a.modes, r).unwrap();
+        let other = mode_curvature(&*b.mechanism, &b.at, &b.modes, r).unwrap();
         assert!(own.asymmetry < 1e-9, "asymmetry {}", own.asymmetry);
         all_near(
             own.lambda.by_design.as_flattened(),

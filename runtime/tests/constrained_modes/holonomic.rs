@@ -1,14 +1,16 @@
 //! Mechanisms held by constraints on positions, each beside itself in minimal coordinates: the same inputs and the same
 //! design variables.
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real};
+use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Shared};
 
 use crate::common::derived::Model;
-use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input};
+use crate::common::{
+    KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
+};
 use crate::{FORCE, reaction};
 
-const OMEGA: &[InputInfo] = &[input("omega", SPEED)];
-const BAR: &[DesignInfo] = &[
+pub(crate) const OMEGA: &[InputInfo] = &[input("omega", SPEED)];
+pub(crate) const BAR: &[DesignInfo] = &[
     design("m", KILOGRAM, 3.0, 0.01),
     design("L", METRE, 1.0, 0.03),
     design("g", NUMBER, 9.81, 0.0),
@@ -21,14 +23,14 @@ const fn described(
     damping: DampingKind,
 ) -> Description {
     Description {
-        name,
-        coordinates,
-        inputs: OMEGA,
-        design,
-        outputs: &[],
+        name: Shared::Static(name),
+        coordinates: Shared::Static(coordinates),
+        inputs: Shared::Static(OMEGA),
+        design: Shared::Static(design),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: true,
         damping,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     }
 }
 
@@ -63,10 +65,14 @@ fn bar<T: Real, const N: usize>(a: &[T; N], q: &[T; N], u: &[T; 1], b: &[T; 3]) 
 
 macro_rules! bars {
     ($($copies:literal $n:literal [$($name:literal),*])*) => {$(
-        impl Model<$n, 1, 3, 0> for Bar<$copies> {
+        impl Model for Bar<$copies> {
+            sizes!($n, 1, 3, 0);
+
             const DESCRIPTION: Description = described(
                 "Bar",
-                &[coordinate("x", METRE), coordinate("z", METRE), $(reaction($name, FORCE)),*],
+                const {
+                    &[coordinate("x", METRE), coordinate("z", METRE), $(reaction($name, FORCE)),*]
+                },
                 BAR,
                 DampingKind::Zero,
             );
@@ -87,13 +93,10 @@ bars! { 1 3 ["length"] 2 4 ["length", "square"] 3 5 ["length", "square", "again"
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BarByAngle;
 
-impl Model<1, 1, 3, 0> for BarByAngle {
-    const DESCRIPTION: Description = described(
-        "BarByAngle",
-        &[coordinate("theta", RAD)],
-        BAR,
-        DampingKind::Zero,
-    );
+impl Model for BarByAngle {
+    sizes!(1, 1, 3, 0);
+
+    const DESCRIPTION: Description = described("BarByAngle", ANGLE, BAR, DampingKind::Zero);
 
     fn inertia<T: Real>(
         &self,
@@ -114,6 +117,12 @@ impl Model<1, 1, 3, 0> for BarByAngle {
     }
 }
 
+const CRANK_AND_SLIDER: &[CoordinateInfo] = &[
+    coordinate("theta", RAD),
+    coordinate("x", METRE),
+    reaction("rod", FORCE),
+];
+const ANGLE: &[CoordinateInfo] = &[coordinate("theta", RAD)];
 const CRANK: &[DesignInfo] = &[
     design("J", NUMBER, 0.02, 2e-4),
     design("m", KILOGRAM, 1.5, 0.02),
@@ -129,17 +138,11 @@ const CRANK: &[DesignInfo] = &[
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SliderCrank;
 
-impl Model<3, 1, 7, 0> for SliderCrank {
-    const DESCRIPTION: Description = described(
-        "SliderCrank",
-        &[
-            coordinate("theta", RAD),
-            coordinate("x", METRE),
-            reaction("rod", FORCE),
-        ],
-        CRANK,
-        DampingKind::Zero,
-    );
+impl Model for SliderCrank {
+    sizes!(3, 1, 7, 0);
+
+    const DESCRIPTION: Description =
+        described("SliderCrank", CRANK_AND_SLIDER, CRANK, DampingKind::Zero);
 
     fn inertia<T: Real>(
         &self,
@@ -170,13 +173,10 @@ impl Model<3, 1, 7, 0> for SliderCrank {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CrankByAngle;
 
-impl Model<1, 1, 7, 0> for CrankByAngle {
-    const DESCRIPTION: Description = described(
-        "CrankByAngle",
-        &[coordinate("theta", RAD)],
-        CRANK,
-        DampingKind::Zero,
-    );
+impl Model for CrankByAngle {
+    sizes!(1, 1, 7, 0);
+
+    const DESCRIPTION: Description = described("CrankByAngle", ANGLE, CRANK, DampingKind::Zero);
 
     fn inertia<T: Real>(
         &self,
@@ -217,17 +217,21 @@ const G: f64 = 9.81;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chain;
 
-impl Model<6, 1, 5, 0> for Chain {
+impl Model for Chain {
+    sizes!(6, 1, 5, 0);
+
     const DESCRIPTION: Description = described(
         "Chain",
-        &[
-            coordinate("x1", METRE),
-            coordinate("z1", METRE),
-            coordinate("x2", METRE),
-            coordinate("z2", METRE),
-            reaction("rod1", FORCE),
-            reaction("rod2", FORCE),
-        ],
+        const {
+            &[
+                coordinate("x1", METRE),
+                coordinate("z1", METRE),
+                coordinate("x2", METRE),
+                coordinate("z2", METRE),
+                reaction("rod1", FORCE),
+                reaction("rod2", FORCE),
+            ]
+        },
         CHAIN,
         DampingKind::Zero,
     );
@@ -266,10 +270,12 @@ impl Model<6, 1, 5, 0> for Chain {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChainByAngles;
 
-impl Model<2, 1, 5, 0> for ChainByAngles {
+impl Model for ChainByAngles {
+    sizes!(2, 1, 5, 0);
+
     const DESCRIPTION: Description = described(
         "ChainByAngles",
-        &[coordinate("a", RAD), coordinate("b", RAD)],
+        const { &[coordinate("a", RAD), coordinate("b", RAD)] },
         CHAIN,
         DampingKind::Zero,
     );
@@ -338,15 +344,19 @@ fn spherical<T: Real>(a: [T; 3], v: [T; 3], q: [T; 3], omega: T, b: &[T; 6]) -> 
     ]
 }
 
-impl Model<4, 1, 6, 0> for Spherical {
+impl Model for Spherical {
+    sizes!(4, 1, 6, 0);
+
     const DESCRIPTION: Description = described(
         "Spherical",
-        &[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            coordinate("z", METRE),
-            reaction("rod", FORCE),
-        ],
+        const {
+            &[
+                coordinate("x", METRE),
+                coordinate("y", METRE),
+                coordinate("z", METRE),
+                reaction("rod", FORCE),
+            ]
+        },
         SPHERE,
         DampingKind::General,
     );
@@ -385,10 +395,12 @@ impl Model<4, 1, 6, 0> for Spherical {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SphericalByPlane;
 
-impl Model<2, 1, 6, 0> for SphericalByPlane {
+impl Model for SphericalByPlane {
+    sizes!(2, 1, 6, 0);
+
     const DESCRIPTION: Description = described(
         "SphericalByPlane",
-        &[coordinate("x", METRE), coordinate("y", METRE)],
+        const { &[coordinate("x", METRE), coordinate("y", METRE)] },
         SPHERE,
         DampingKind::General,
     );
@@ -431,13 +443,10 @@ fn crank_design<T: Real>(torque: T, [r, l, k, x0]: [T; 4]) -> [T; 7] {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Press;
 
-impl Model<3, 1, 4, 0> for Press {
-    const DESCRIPTION: Description = described(
-        "Press",
-        <SliderCrank as Model<3, 1, 7, 0>>::DESCRIPTION.coordinates,
-        PRESS,
-        DampingKind::Zero,
-    );
+impl Model for Press {
+    sizes!(3, 1, 4, 0);
+
+    const DESCRIPTION: Description = described("Press", CRANK_AND_SLIDER, PRESS, DampingKind::Zero);
 
     fn inertia<T: Real>(
         &self,
@@ -458,13 +467,10 @@ impl Model<3, 1, 4, 0> for Press {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PressByAngle;
 
-impl Model<1, 1, 4, 0> for PressByAngle {
-    const DESCRIPTION: Description = described(
-        "PressByAngle",
-        <CrankByAngle as Model<1, 1, 7, 0>>::DESCRIPTION.coordinates,
-        PRESS,
-        DampingKind::Zero,
-    );
+impl Model for PressByAngle {
+    sizes!(1, 1, 4, 0);
+
+    const DESCRIPTION: Description = described("PressByAngle", ANGLE, PRESS, DampingKind::Zero);
 
     fn inertia<T: Real>(
         &self,

@@ -14,16 +14,16 @@ mod random;
 mod rolling;
 mod tolerance;
 
-use eigentol::{CoordinateInfo, Role, Unit};
+use eigentol::{CoordinateInfo, Role, Shared, Unit};
 
 pub(crate) const FORCE: Unit = Unit {
-    symbol: "N",
+    symbol: Shared::Static("N"),
     scale: 1.0,
 };
 
 pub(crate) const fn reaction(name: &'static str, unit: Unit) -> CoordinateInfo {
     CoordinateInfo {
-        name,
+        name: Shared::Static(name),
         unit,
         role: Role::PositionReaction,
     }

@@ -1,28 +1,25 @@
 //! Speeds and constraints on velocities against closed forms.
 
-use eigentol::equilibrium::{Range, flutter_onsets};
-use eigentol::modes::{match_modes, modes, undamped_modes};
+use eigentol::equilibrium::{Range, equilibrium, flutter_onsets};
+use eigentol::kernels::{DirectionalKernels, Kernels, Linear};
+use eigentol::modes::{match_modes, modes, modes_of, undamped_modes};
 use eigentol::sensitivity::{
     crossing_sensitivity, mode_curvature, sensitivities, sensitivities_explicit, shape_sensitivity,
 };
-use eigentol::{Behaviour, Complex, Equilibrium, Error, Family, Input, Mechanism, Modes, Policy};
+use eigentol::{
+    Behaviour, Complex, DampingKind, Description, Equilibrium, Error, Family, Input, Mode, Modes,
+    Policy, Real, Shared,
+};
 
 use crate::common::derived::{Derived, Model};
-use crate::compare::{near, nominal};
-use crate::holonomic::Bar;
-use crate::rolling::{Caster, Disk, DrivenDisk, Sleigh, Trail};
+use crate::common::{METRE, coordinate, sizes};
+use crate::compare::{State, near, nominal};
+use crate::holonomic::{BAR, Bar, OMEGA};
+use crate::rolling::{CASTER, Caster, DRIVEN, Disk, DrivenDisk, Sleigh, Trail, rolling, speed};
+use crate::{FORCE, reaction};
 
-fn solved<X, const N: usize, const P: usize>(
-    model: X,
-    v: f64,
-    b: [f64; P],
-    start: [f64; N],
-) -> (Equilibrium<N, 1, P>, Modes<N>)
-where
-    X: Model<N, 1, P, 0>,
-{
-    let at = eigentol::equilibrium::equilibrium(&Derived(model), &[v], &b, &start, Policy::Nearest)
-        .unwrap();
+fn solved(mechanism: &dyn Kernels, v: f64, b: &[f64], start: &[f64]) -> (Equilibrium, Modes) {
+    let at = equilibrium(mechanism, &[v], b, start, Policy::Nearest).unwrap();
     let found = modes(&at).unwrap();
     assert_eq!(found.family, Family::General);
     for mode in &found.modes {
@@ -89,30 +86,27 @@ fn near_complex(a: Complex, b: Complex, tolerance: f64, scale: f64) {
 }
 
 /// Eigenvalues, first derivatives in two ways and second derivatives of all modes against the roots of a cubic.
-fn against_cubic<X, const N: usize, const P: usize>(
-    model: X,
+fn against_cubic<const P: usize>(
+    mechanism: &dyn DirectionalKernels,
+    b: [f64; P],
     v: f64,
-    start: [f64; N],
+    start: &[f64],
     polynomial: &impl Fn(&[f64; P], f64) -> [f64; 4],
-) where
-    X: Model<N, 1, P, 0>,
-{
-    let b = nominal::<X, N, 1, P, 0>();
-    let (at, found) = solved(model.clone(), v, b, start);
-    let mechanism = Derived(model);
+) {
+    let (at, found) = solved(mechanism, v, &b, start);
     let size = found
         .modes
         .iter()
         .fold(0.0_f64, |most, mode| most.max(mode.s.norm()));
-    let weight = |mode: &eigentol::Mode<N>| if mode.s.im > 0.0 { 2 } else { 1 };
+    let weight = |mode: &Mode| if mode.s.im > 0.0 { 2 } else { 1 };
     assert_eq!(found.modes.iter().map(weight).sum::<usize>(), 3);
-    let adjoint = sensitivities(&mechanism, &at, &found).unwrap();
-    let explicit = sensitivities_explicit(&mechanism, &at, &found).unwrap();
+    let adjoint = sensitivities(mechanism, &at, &found).unwrap();
+    let explicit = sensitivities_explicit(mechanism, &at, &found).unwrap();
     for (r, mode) in found.modes.iter().enumerate() {
         near_complex(mode.s, root(polynomial, &b, v, mode.s), 1e-12, size);
         let exact = |b: &[f64; P], v: f64, j: usize| slope(polynomial, b, v, mode.s, j);
-        let (own, other) = (adjoint.modes[r].s.unwrap(), explicit.modes[r].s.unwrap());
-        let curvature = mode_curvature(&mechanism, &at, &found, r).unwrap();
+        let [own, other] = [&adjoint, &explicit].map(|all| all.modes[r].s.as_ref().unwrap());
+        let curvature = mode_curvature(mechanism, &at, &found, r).unwrap();
         assert!(
             curvature.asymmetry < 1e-8,
             "asymmetry {}",
@@ -157,13 +151,13 @@ fn against_cubic<X, const N: usize, const P: usize>(
 #[test]
 fn a_massless_trail_swings_back() {
     for v in [0.5, 3.0, -2.0] {
-        let (at, found) = solved(Trail, v, [0.3], [0.1, 0.0]);
+        let (at, found) = solved(&Derived(Trail), v, &[0.3], &[0.1, 0.0]);
         assert_eq!(found.modes.len(), 1);
         let s = found.modes[0].s;
         near_complex(s, Complex::new(-v / 0.3, 0.0), 1e-14, v.abs() / 0.3);
         assert_eq!(found.stable(), v > 0.0);
         let slopes = sensitivities(&Derived(Trail), &at, &found).unwrap();
-        let own = slopes.modes[0].s.unwrap();
+        let own = slopes.modes[0].s.as_ref().unwrap();
         near_complex(
             own.by_design[0],
             Complex::new(v / 0.09, 0.0),
@@ -197,7 +191,7 @@ fn caster(b: &[f64; 8], v: f64) -> [f64; 4] {
 #[test]
 fn a_caster_has_the_roots_of_its_cubic() {
     for v in [1.0, 4.0, 12.0] {
-        against_cubic(Caster, v, [0.0, 0.0, 0.0], &caster);
+        against_cubic(&Derived(Caster), nominal::<Caster>(), v, &[0.0; 3], &caster);
     }
 }
 
@@ -211,16 +205,16 @@ fn shimmy(b: &[f64; 8]) -> f64 {
 
 #[test]
 fn a_caster_shimmies_beyond_its_speed() {
-    let b = crate::rolling::CASTER;
+    let b = CASTER;
     let onset = shimmy(&b);
     assert!(onset > 1.0 && onset < 20.0, "{onset}");
     for v in [0.9 * onset, 1.1 * onset] {
-        let (at, found) = solved(Caster, v, b, [0.0; 3]);
+        let (at, found) = solved(&Derived(Caster), v, &b, &[0.0; 3]);
         assert_eq!(found.stable(), v < onset);
         assert_eq!(at.stability.holds(), found.stable());
     }
     let range = Range {
-        input: Input(0),
+        input: Input::new(0),
         low: 0.3 * onset,
         high: 2.0 * onset,
         steps: 20,
@@ -263,9 +257,10 @@ fn driven(b: &[f64; 5], v: f64) -> [f64; 4] {
 fn a_driven_disk_has_the_roots_of_its_cubic() {
     for v in [0.4, 1.5, 3.0] {
         against_cubic(
-            DrivenDisk,
+            &Derived(DrivenDisk),
+            nominal::<DrivenDisk>(),
             v,
-            [0.0, 0.3, v, 0.0, 0.0, 0.0, 0.0, 0.0],
+            &[0.0, 0.3, v, 0.0, 0.0, 0.0, 0.0, 0.0],
             &driven,
         );
     }
@@ -279,14 +274,9 @@ fn a_free_disk_stands_by_its_spin() {
     for spin in [1.0_f64, 2.0, 4.0, 20.0] {
         let b = [m, r, axial, transverse, 0.0];
         let start = [0.0, r, r * spin, 0.0, 0.0, spin, -m * 9.81, 0.0, 0.0];
-        let mechanism = Derived(Disk);
+        let mechanism: &dyn Kernels = &Derived(Disk);
         let linear = mechanism.linear(&start, &[0.0], &b);
-        let found = eigentol::modes::modes_of(
-            &linear,
-            Family::General,
-            &<Derived<Disk> as Mechanism<9, 1, 5, 0>>::DESCRIPTION,
-        )
-        .unwrap();
+        let found = modes_of(&linear, Family::General, &mechanism.description()).unwrap();
         let held = axial * (axial + m * r * r) * spin * spin / transverse - m * 9.81 * r;
         let square = -held / (transverse + m * r * r);
         let neutral: Vec<_> = found
@@ -321,10 +311,10 @@ fn a_free_disk_stands_by_its_spin() {
 
 #[test]
 fn a_sleigh_goes_straight_with_its_edge_behind() {
-    let b = nominal::<Sleigh, 4, 1, 4, 0>();
+    let b = nominal::<Sleigh>();
     let [m, j, a, d] = b;
     for v in [0.3, 2.0, -1.0] {
-        let (at, found) = solved(Sleigh, v, b, [v, 0.0, 0.0, 0.0]);
+        let (at, found) = solved(&Derived(Sleigh), v, &b, &[v, 0.0, 0.0, 0.0]);
         let wanted = [-d / m, -m * a * v / (j + m * a * a)];
         assert_eq!(found.modes.len(), 2);
         assert_eq!(found.stable(), v > 0.0);
@@ -332,7 +322,7 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
         for (mode, own) in found.modes.iter().zip(&all.modes) {
             let straight = (mode.s.re - wanted[0]).abs() < 1e-9;
             near_complex(mode.s, wanted[usize::from(!straight)].into(), 1e-13, 1.0);
-            let slopes = own.s.unwrap().by_design.map(|value| value.re);
+            let slopes = own.s.as_ref().unwrap().by_design.map(|value| value.re);
             let inertia = j + m * a * a;
             let exact = if straight {
                 [d / (m * m), 0.0, 0.0, -1.0 / m]
@@ -351,10 +341,10 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
     }
     // Nothing holds the speed: a neutral mode that is all speed.
     let free = [m, j, a, 0.0];
-    let mechanism = Derived(Sleigh);
+    let mechanism: &dyn Kernels = &Derived(Sleigh);
     let linear = mechanism.linear(&[2.0, 0.0, 0.0, 0.0], &[2.0], &free);
-    let description = &<Derived<Sleigh> as Mechanism<4, 1, 4, 0>>::DESCRIPTION;
-    let found = eigentol::modes::modes_of(&linear, Family::General, description).unwrap();
+    let description = &mechanism.description();
+    let found = modes_of(&linear, Family::General, description).unwrap();
     assert_eq!(found.modes[0].behaviour, Behaviour::Neutral);
     near(found.modes[0].shape[0].norm(), 1.0, 1e-14, 1.0);
 }
@@ -363,19 +353,19 @@ fn a_sleigh_goes_straight_with_its_edge_behind() {
 #[test]
 fn shapes_with_speeds_move_with_the_design() {
     let start = [0.0, 0.3, 1.5, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let b = crate::rolling::DRIVEN;
-    let (at, found) = solved(DrivenDisk, 1.5, b, start);
+    let b = DRIVEN;
+    let (at, found) = solved(&Derived(DrivenDisk), 1.5, &b, &start);
     for r in 0..found.modes.len() {
         let slopes = shape_sensitivity(&Derived(DrivenDisk), &at, &found, r).unwrap();
         for j in 0..5 {
             let at = |step: f64| {
                 let mut b = b;
                 b[j] += step;
-                solved(DrivenDisk, 1.5, b, start).1.modes[r]
+                solved(&Derived(DrivenDisk), 1.5, &b, &start).1.modes[r].clone()
             };
             let h = 1e-3 * b[j];
             let (up, down, up2, down2) = (at(h), at(-h), at(2.0 * h), at(-2.0 * h));
-            let by = |part: fn(&eigentol::Mode<8>) -> [Complex; 8], i: usize| {
+            let by = |part: fn(&Mode) -> &[Complex], i: usize| {
                 let one = part(&up)[i] - part(&down)[i];
                 let two = part(&up2)[i] - part(&down2)[i];
                 (8.0 * one - two) / (12.0 * h)
@@ -386,14 +376,14 @@ fn shapes_with_speeds_move_with_the_design() {
                     .fold(1e-3_f64, |m, x| m.max(x.norm()));
                 near_complex(
                     slopes.right_by_design[j][i],
-                    by(|m| m.shape, i),
+                    by(|m| &m.shape, i),
                     1e-7,
                     scale,
                 );
                 let scale = slopes.left_by_design[j]
                     .iter()
                     .fold(1e-3_f64, |m, x| m.max(x.norm()));
-                near_complex(slopes.left_by_design[j][i], by(|m| m.left, i), 1e-7, scale);
+                near_complex(slopes.left_by_design[j][i], by(|m| &m.left, i), 1e-7, scale);
             }
         }
     }
@@ -403,21 +393,26 @@ fn shapes_with_speeds_move_with_the_design() {
 #[derive(Clone, Copy, Debug)]
 struct Rated;
 
-impl Model<4, 1, 3, 0> for Rated {
-    const DESCRIPTION: eigentol::Description = eigentol::Description {
-        name: "Rated",
-        coordinates: &[
-            crate::common::coordinate("x", crate::common::METRE),
-            crate::common::coordinate("z", crate::common::METRE),
-            crate::reaction("length", crate::FORCE),
-            crate::rolling::rolling("rate"),
-        ],
+impl Model for Rated {
+    sizes!(4, 1, 3, 0);
+
+    const DESCRIPTION: Description = Description {
+        name: Shared::Static("Rated"),
+        coordinates: Shared::Static(&[
+            coordinate("x", METRE),
+            coordinate("z", METRE),
+            reaction("length", FORCE),
+            rolling("rate"),
+        ]),
+        inputs: Shared::Static(OMEGA),
+        design: Shared::Static(BAR),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
-        damping: eigentol::DampingKind::General,
-        ..<Bar<1> as Model<3, 1, 3, 0>>::DESCRIPTION
+        damping: DampingKind::General,
+        kernels: Shared::Static(&[]),
     };
 
-    fn inertia<T: eigentol::Real>(
+    fn inertia<T: Real>(
         &self,
         a: &[T; 4],
         v: &[T; 4],
@@ -437,7 +432,7 @@ impl Model<4, 1, 3, 0> for Rated {
         [x, z, length, (q[0] * v[0] + q[1] * v[1]) / size]
     }
 
-    fn applied<T: eigentol::Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 3]) -> [T; 4] {
+    fn applied<T: Real>(&self, _: &[T; 4], _: &[T; 4], _: &[T; 1], _: &[T; 3]) -> [T; 4] {
         [T::constant(0.0); 4]
     }
 }
@@ -445,14 +440,14 @@ impl Model<4, 1, 3, 0> for Rated {
 #[test]
 fn a_constraint_stated_again_as_a_rate_changes_nothing() {
     let omega = 4.2;
-    let b = nominal::<Bar<1>, 3, 1, 3, 0>();
-    let (at, found) = solved(Rated, omega, b, [0.55, 0.83, 30.0, 0.0]);
-    let once = crate::compare::State::new(Bar::<1>, [omega], [0.55, 0.83, 0.0]);
+    let b = nominal::<Bar<1>>();
+    let (at, found) = solved(&Derived(Rated), omega, &b, &[0.55, 0.83, 30.0, 0.0]);
+    let once = State::new(Bar::<1>, &[omega], &[0.55, 0.83, 0.0]);
     assert_eq!(found.modes.len(), 1);
     near_complex(found.modes[0].s, once.modes.modes[0].s, 1e-12, 1.0);
     let own = sensitivities(&Derived(Rated), &at, &found).unwrap();
-    let other = sensitivities(&once.mechanism, &once.at, &once.modes).unwrap();
-    let (own, other) = (own.modes[0].s.unwrap(), other.modes[0].s.unwrap());
+    let other = sensitivities(&*once.mechanism, &once.at, &once.modes).unwrap();
+    let [own, other] = [&own, &other].map(|all| all.modes[0].s.as_ref().unwrap());
     for j in 0..3 {
         near_complex(own.by_design[j], other.by_design[j], 1e-10, 1.0);
     }
@@ -461,28 +456,24 @@ fn a_constraint_stated_again_as_a_rate_changes_nothing() {
 /// A mass that slides freely beside one that a dashpot stops: it rests anywhere, and drifts.
 #[test]
 fn a_free_mass_drifts() {
-    let unit = crate::common::METRE;
-    let description = Box::leak(Box::new(eigentol::Description {
-        name: "Drift",
-        coordinates: Box::leak(Box::new([
-            crate::common::coordinate("x", unit),
-            crate::rolling::speed("v", unit),
-        ])),
-        inputs: &[],
-        design: &[],
-        outputs: &[],
+    static DRIFT: Shared<Description> = Shared::Static(&Description {
+        name: Shared::Static("Drift"),
+        coordinates: Shared::Static(&[coordinate("x", METRE), speed("v", METRE)]),
+        inputs: Shared::Static(&[]),
+        design: Shared::Static(&[]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
-        damping: eigentol::DampingKind::General,
-        kernels: &[],
-    }));
-    let linear = eigentol::Linear {
-        mass: [[2.0, 0.0], [0.0, 0.0]],
-        damping: [[0.0, 0.0], [0.0, 1.0]],
-        stiffness: [[0.0, 0.0], [0.0, 0.5]],
+        damping: DampingKind::General,
+        kernels: Shared::Static(&[]),
+    });
+    let linear = Linear {
+        mass: [[2.0, 0.0], [0.0, 0.0]].into(),
+        damping: [[0.0, 0.0], [0.0, 1.0]].into(),
+        stiffness: [[0.0, 0.0], [0.0, 0.5]].into(),
     };
-    let found = eigentol::modes::modes_of(&linear, Family::General, description).unwrap();
+    let found = modes_of(&linear, Family::General, &DRIFT).unwrap();
     assert_eq!(found.modes.len(), 3);
-    let neutral = |mode: &&eigentol::Mode<2>| mode.behaviour == Behaviour::Neutral;
+    let neutral = |mode: &&Mode| mode.behaviour == Behaviour::Neutral;
     assert_eq!(found.modes.iter().filter(neutral).count(), 2);
     assert!(
         found

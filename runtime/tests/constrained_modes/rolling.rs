@@ -1,19 +1,23 @@
 //! Mechanisms with speeds and constraints on velocities, written with quasi-velocities.
 
-use eigentol::{CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Unit};
+use eigentol::{
+    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, Real, Role, Shared, Unit,
+};
 
 use crate::common::derived::Model;
-use crate::common::{KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input};
+use crate::common::{
+    KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
+};
 use crate::{FORCE, reaction};
 
 const SLOW: Unit = Unit {
-    symbol: "m/s",
+    symbol: Shared::Static("m/s"),
     scale: 1.0,
 };
 
 pub(crate) const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
     CoordinateInfo {
-        name,
+        name: Shared::Static(name),
         unit,
         role: Role::Speed,
     }
@@ -21,7 +25,7 @@ pub(crate) const fn speed(name: &'static str, unit: Unit) -> CoordinateInfo {
 
 pub(crate) const fn rolling(name: &'static str) -> CoordinateInfo {
     CoordinateInfo {
-        name,
+        name: Shared::Static(name),
         unit: FORCE,
         role: Role::VelocityReaction,
     }
@@ -35,14 +39,14 @@ const fn described(
     design: &'static [DesignInfo],
 ) -> Description {
     Description {
-        name,
-        coordinates,
-        inputs: AT_SPEED,
-        design,
-        outputs: &[],
+        name: Shared::Static(name),
+        coordinates: Shared::Static(coordinates),
+        inputs: Shared::Static(AT_SPEED),
+        design: Shared::Static(design),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         damping: DampingKind::General,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     }
 }
 
@@ -58,11 +62,13 @@ macro_rules! no_forces {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trail;
 
-impl Model<2, 1, 1, 0> for Trail {
+impl Model for Trail {
+    sizes!(2, 1, 1, 0);
+
     const DESCRIPTION: Description = described(
         "Trail",
-        &[coordinate("theta", RAD), rolling("wheel")],
-        &[design("a", METRE, 0.3, 0.01)],
+        const { &[coordinate("theta", RAD), rolling("wheel")] },
+        const { &[design("a", METRE, 0.3, 0.01)] },
     );
 
     fn inertia<T: Real>(
@@ -88,24 +94,30 @@ pub(crate) struct Caster;
 
 pub(crate) const CASTER: [f64; 8] = [2.0, 0.05, 0.3, 0.1, 800.0, 2.0, 0.05, 0.4];
 
-impl Model<3, 1, 8, 0> for Caster {
+impl Model for Caster {
+    sizes!(3, 1, 8, 0);
+
     const DESCRIPTION: Description = described(
         "Caster",
-        &[
-            coordinate("y", METRE),
-            coordinate("theta", RAD),
-            rolling("wheel"),
-        ],
-        &[
-            design("m", KILOGRAM, CASTER[0], 0.02),
-            design("J", NUMBER, CASTER[1], 0.001),
-            design("a", METRE, CASTER[2], 0.003),
-            design("b", METRE, CASTER[3], 0.002),
-            design("k", STIFFNESS, CASTER[4], 10.0),
-            design("kt", NUMBER, CASTER[5], 0.1),
-            design("t0", RAD, CASTER[6], 0.001),
-            design("c", NUMBER, CASTER[7], 0.01),
-        ],
+        const {
+            &[
+                coordinate("y", METRE),
+                coordinate("theta", RAD),
+                rolling("wheel"),
+            ]
+        },
+        const {
+            &[
+                design("m", KILOGRAM, CASTER[0], 0.02),
+                design("J", NUMBER, CASTER[1], 0.001),
+                design("a", METRE, CASTER[2], 0.003),
+                design("b", METRE, CASTER[3], 0.002),
+                design("k", STIFFNESS, CASTER[4], 10.0),
+                design("kt", NUMBER, CASTER[5], 0.1),
+                design("t0", RAD, CASTER[6], 0.001),
+                design("c", NUMBER, CASTER[7], 0.01),
+            ]
+        },
     );
 
     fn inertia<T: Real>(
@@ -183,20 +195,24 @@ const DISK_DESIGN: &[DesignInfo] = &[
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Disk;
 
-impl Model<9, 1, 5, 0> for Disk {
+impl Model for Disk {
+    sizes!(9, 1, 5, 0);
+
     const DESCRIPTION: Description = described(
         "Disk",
-        &[
-            coordinate("phi", RAD),
-            coordinate("z", METRE),
-            speed("forward", SLOW),
-            speed("side", SLOW),
-            speed("yaw", SPEED),
-            speed("spin", SPEED),
-            reaction("normal", FORCE),
-            rolling("along"),
-            rolling("across"),
-        ],
+        const {
+            &[
+                coordinate("phi", RAD),
+                coordinate("z", METRE),
+                speed("forward", SLOW),
+                speed("side", SLOW),
+                speed("yaw", SPEED),
+                speed("spin", SPEED),
+                reaction("normal", FORCE),
+                rolling("along"),
+                rolling("across"),
+            ]
+        },
         DISK_DESIGN,
     );
 
@@ -224,19 +240,23 @@ impl Model<9, 1, 5, 0> for Disk {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrivenDisk;
 
-impl Model<8, 1, 5, 0> for DrivenDisk {
+impl Model for DrivenDisk {
+    sizes!(8, 1, 5, 0);
+
     const DESCRIPTION: Description = described(
         "DrivenDisk",
-        &[
-            coordinate("phi", RAD),
-            coordinate("z", METRE),
-            speed("forward", SLOW),
-            speed("side", SLOW),
-            speed("yaw", SPEED),
-            reaction("normal", FORCE),
-            rolling("along"),
-            rolling("across"),
-        ],
+        const {
+            &[
+                coordinate("phi", RAD),
+                coordinate("z", METRE),
+                speed("forward", SLOW),
+                speed("side", SLOW),
+                speed("yaw", SPEED),
+                reaction("normal", FORCE),
+                rolling("along"),
+                rolling("across"),
+            ]
+        },
         DISK_DESIGN,
     );
 
@@ -266,21 +286,27 @@ impl Model<8, 1, 5, 0> for DrivenDisk {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sleigh;
 
-impl Model<4, 1, 4, 0> for Sleigh {
+impl Model for Sleigh {
+    sizes!(4, 1, 4, 0);
+
     const DESCRIPTION: Description = described(
         "Sleigh",
-        &[
-            speed("forward", SLOW),
-            speed("side", SLOW),
-            speed("yaw", SPEED),
-            rolling("edge"),
-        ],
-        &[
-            design("m", KILOGRAM, 3.0, 0.02),
-            design("J", NUMBER, 0.4, 0.004),
-            design("a", METRE, 0.25, 0.002),
-            design("d", NUMBER, 1.5, 0.02),
-        ],
+        const {
+            &[
+                speed("forward", SLOW),
+                speed("side", SLOW),
+                speed("yaw", SPEED),
+                rolling("edge"),
+            ]
+        },
+        const {
+            &[
+                design("m", KILOGRAM, 3.0, 0.02),
+                design("J", NUMBER, 0.4, 0.004),
+                design("a", METRE, 0.25, 0.002),
+                design("d", NUMBER, 1.5, 0.02),
+            ]
+        },
     );
 
     fn inertia<T: Real>(

@@ -1,21 +1,10 @@
 //! The mechanisms of these tests.
 
-use eigentol::{DampingKind, Description, Real};
+use eigentol::{Description, Real};
 
-use super::bordered::{Lagrangian, distance, reaction};
+use super::bordered::{Lagrangian, described, distance, reaction};
 use crate::common::{
-    GRAVITY, KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input,
-};
-
-const BASE: Description = Description {
-    name: "",
-    coordinates: &[],
-    inputs: &[],
-    design: &[],
-    outputs: &[],
-    symmetric_stiffness: true,
-    damping: DampingKind::Zero,
-    kernels: &[],
+    GRAVITY, KILOGRAM, METRE, NUMBER, RAD, SPEED, STIFFNESS, coordinate, design, input, sizes,
 };
 
 fn c<T: Real>(value: f64) -> T {
@@ -26,21 +15,26 @@ fn c<T: Real>(value: f64) -> T {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point;
 
-impl Lagrangian<3, 1, 2> for Point {
-    const DESCRIPTION: Description = Description {
-        name: "Point",
-        coordinates: &[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            reaction("rod", "N"),
-        ],
-        inputs: &[input("omega", SPEED)],
-        design: &[
-            design("m", KILOGRAM, 2.0, 0.0),
-            design("l", METRE, 0.7, 0.01),
-        ],
-        ..BASE
-    };
+impl Lagrangian for Point {
+    sizes!(3, 1, 2, 0);
+
+    const DESCRIPTION: Description = described(
+        "Point",
+        const {
+            &[
+                coordinate("x", METRE),
+                coordinate("y", METRE),
+                reaction("rod", "N"),
+            ]
+        },
+        const { &[input("omega", SPEED)] },
+        const {
+            &[
+                design("m", KILOGRAM, 2.0, 0.0),
+                design("l", METRE, 0.7, 0.01),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 2]) -> [T; 3] {
         [b[0], b[0], c(0.0)]
@@ -56,23 +50,28 @@ impl Lagrangian<3, 1, 2> for Point {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Twice;
 
-impl Lagrangian<4, 1, 3> for Twice {
-    const DESCRIPTION: Description = Description {
-        name: "Twice",
-        coordinates: &[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            reaction("rod", "N"),
-            reaction("again", "mN"),
-        ],
-        inputs: &[input("omega", SPEED)],
-        design: &[
-            design("m", KILOGRAM, 2.0, 0.0),
-            design("l", METRE, 0.7, 0.01),
-            design("l2", METRE, 0.7, 0.0),
-        ],
-        ..BASE
-    };
+impl Lagrangian for Twice {
+    sizes!(4, 1, 3, 0);
+
+    const DESCRIPTION: Description = described(
+        "Twice",
+        const {
+            &[
+                coordinate("x", METRE),
+                coordinate("y", METRE),
+                reaction("rod", "N"),
+                reaction("again", "mN"),
+            ]
+        },
+        const { &[input("omega", SPEED)] },
+        const {
+            &[
+                design("m", KILOGRAM, 2.0, 0.0),
+                design("l", METRE, 0.7, 0.01),
+                design("l2", METRE, 0.7, 0.0),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 3]) -> [T; 4] {
         [b[0], b[0], c(0.0), c(0.0)]
@@ -90,31 +89,36 @@ pub(crate) struct FourBar;
 
 pub(crate) const FOUR_BAR: [f64; 8] = [1.5, 0.8, 0.4, 0.7, 0.6, 0.9, 120.0, 0.5];
 
-impl Lagrangian<7, 1, 8> for FourBar {
-    const DESCRIPTION: Description = Description {
-        name: "FourBar",
-        coordinates: &[
-            coordinate("ax", METRE),
-            coordinate("ay", METRE),
-            coordinate("bx", METRE),
-            coordinate("by", METRE),
-            reaction("crank", "N"),
-            reaction("coupler", "N"),
-            reaction("rocker", "N"),
-        ],
-        inputs: &[input("omega", SPEED)],
-        design: &[
-            design("ma", KILOGRAM, FOUR_BAR[0], 0.0),
-            design("mb", KILOGRAM, FOUR_BAR[1], 0.0),
-            design("l1", METRE, FOUR_BAR[2], 0.001),
-            design("l2", METRE, FOUR_BAR[3], 0.001),
-            design("l3", METRE, FOUR_BAR[4], 0.001),
-            design("d", METRE, FOUR_BAR[5], 0.001),
-            design("k", STIFFNESS, FOUR_BAR[6], 0.0),
-            design("s0", METRE, FOUR_BAR[7], 0.0),
-        ],
-        ..BASE
-    };
+impl Lagrangian for FourBar {
+    sizes!(7, 1, 8, 0);
+
+    const DESCRIPTION: Description = described(
+        "FourBar",
+        const {
+            &[
+                coordinate("ax", METRE),
+                coordinate("ay", METRE),
+                coordinate("bx", METRE),
+                coordinate("by", METRE),
+                reaction("crank", "N"),
+                reaction("coupler", "N"),
+                reaction("rocker", "N"),
+            ]
+        },
+        const { &[input("omega", SPEED)] },
+        const {
+            &[
+                design("ma", KILOGRAM, FOUR_BAR[0], 0.0),
+                design("mb", KILOGRAM, FOUR_BAR[1], 0.0),
+                design("l1", METRE, FOUR_BAR[2], 0.001),
+                design("l2", METRE, FOUR_BAR[3], 0.001),
+                design("l3", METRE, FOUR_BAR[4], 0.001),
+                design("d", METRE, FOUR_BAR[5], 0.001),
+                design("k", STIFFNESS, FOUR_BAR[6], 0.0),
+                design("s0", METRE, FOUR_BAR[7], 0.0),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 8]) -> [T; 7] {
         let none = c(0.0);
@@ -144,36 +148,41 @@ pub(crate) struct SliderCrank;
 /// Masses of crank, rod and slider, lengths of crank and rod, spring rate and rest position.
 pub(crate) const SLIDER: [f64; 7] = [0.9, 1.3, 2.1, 0.25, 0.6, 900.0, 0.7];
 
-impl Lagrangian<13, 1, 7> for SliderCrank {
-    const DESCRIPTION: Description = Description {
-        name: "SliderCrank",
-        coordinates: &[
-            coordinate("x1", METRE),
-            coordinate("y1", METRE),
-            coordinate("crank", RAD),
-            coordinate("x2", METRE),
-            coordinate("y2", METRE),
-            coordinate("rod", RAD),
-            coordinate("slider", METRE),
-            reaction("o.x", "N"),
-            reaction("o.y", "N"),
-            reaction("a.x", "N"),
-            reaction("a.y", "N"),
-            reaction("b.x", "N"),
-            reaction("b.y", "N"),
-        ],
-        inputs: &[input("gravity", NUMBER)],
-        design: &[
-            design("m1", KILOGRAM, SLIDER[0], 0.0),
-            design("m2", KILOGRAM, SLIDER[1], 0.0),
-            design("m3", KILOGRAM, SLIDER[2], 0.0),
-            design("l1", METRE, SLIDER[3], 0.001),
-            design("l2", METRE, SLIDER[4], 0.001),
-            design("k", STIFFNESS, SLIDER[5], 0.0),
-            design("s0", METRE, SLIDER[6], 0.0),
-        ],
-        ..BASE
-    };
+impl Lagrangian for SliderCrank {
+    sizes!(13, 1, 7, 0);
+
+    const DESCRIPTION: Description = described(
+        "SliderCrank",
+        const {
+            &[
+                coordinate("x1", METRE),
+                coordinate("y1", METRE),
+                coordinate("crank", RAD),
+                coordinate("x2", METRE),
+                coordinate("y2", METRE),
+                coordinate("rod", RAD),
+                coordinate("slider", METRE),
+                reaction("o.x", "N"),
+                reaction("o.y", "N"),
+                reaction("a.x", "N"),
+                reaction("a.y", "N"),
+                reaction("b.x", "N"),
+                reaction("b.y", "N"),
+            ]
+        },
+        const { &[input("gravity", NUMBER)] },
+        const {
+            &[
+                design("m1", KILOGRAM, SLIDER[0], 0.0),
+                design("m2", KILOGRAM, SLIDER[1], 0.0),
+                design("m3", KILOGRAM, SLIDER[2], 0.0),
+                design("l1", METRE, SLIDER[3], 0.001),
+                design("l2", METRE, SLIDER[4], 0.001),
+                design("k", STIFFNESS, SLIDER[5], 0.0),
+                design("s0", METRE, SLIDER[6], 0.0),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 7]) -> [T; 13] {
         let none = c(0.0);
@@ -207,26 +216,31 @@ impl Lagrangian<13, 1, 7> for SliderCrank {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Parallelogram;
 
-impl Lagrangian<6, 1, 4> for Parallelogram {
-    const DESCRIPTION: Description = Description {
-        name: "Parallelogram",
-        coordinates: &[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            coordinate("tilt", RAD),
-            reaction("left", "N"),
-            reaction("middle", "N"),
-            reaction("right", "N"),
-        ],
-        inputs: &[input("turn", RAD)],
-        design: &[
-            design("m", KILOGRAM, 3.0, 0.0),
-            design("l", METRE, 0.8, 0.0),
-            design("a", METRE, 0.5, 0.0),
-            design("excess", METRE, 0.0, 0.0),
-        ],
-        ..BASE
-    };
+impl Lagrangian for Parallelogram {
+    sizes!(6, 1, 4, 0);
+
+    const DESCRIPTION: Description = described(
+        "Parallelogram",
+        const {
+            &[
+                coordinate("x", METRE),
+                coordinate("y", METRE),
+                coordinate("tilt", RAD),
+                reaction("left", "N"),
+                reaction("middle", "N"),
+                reaction("right", "N"),
+            ]
+        },
+        const { &[input("turn", RAD)] },
+        const {
+            &[
+                design("m", KILOGRAM, 3.0, 0.0),
+                design("l", METRE, 0.8, 0.0),
+                design("a", METRE, 0.5, 0.0),
+                design("excess", METRE, 0.0, 0.0),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 4]) -> [T; 6] {
         let none = c(0.0);
@@ -252,23 +266,28 @@ impl Lagrangian<6, 1, 4> for Parallelogram {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Truss;
 
-impl Lagrangian<4, 1, 3> for Truss {
-    const DESCRIPTION: Description = Description {
-        name: "Truss",
-        coordinates: &[
-            coordinate("x", METRE),
-            coordinate("y", METRE),
-            reaction("left", "N"),
-            reaction("right", "N"),
-        ],
-        inputs: &[input("load", NUMBER)],
-        design: &[
-            design("m", KILOGRAM, 2.0, 0.0),
-            design("l", METRE, 1.3, 0.001),
-            design("a", METRE, 0.5, 0.001),
-        ],
-        ..BASE
-    };
+impl Lagrangian for Truss {
+    sizes!(4, 1, 3, 0);
+
+    const DESCRIPTION: Description = described(
+        "Truss",
+        const {
+            &[
+                coordinate("x", METRE),
+                coordinate("y", METRE),
+                reaction("left", "N"),
+                reaction("right", "N"),
+            ]
+        },
+        const { &[input("load", NUMBER)] },
+        const {
+            &[
+                design("m", KILOGRAM, 2.0, 0.0),
+                design("l", METRE, 1.3, 0.001),
+                design("a", METRE, 0.5, 0.001),
+            ]
+        },
+    );
 
     fn masses<T: Real>(&self, b: &[T; 3]) -> [T; 4] {
         [b[0], b[0], c(0.0), c(0.0)]

@@ -3,43 +3,24 @@
 
 use std::array::from_fn;
 
-use eigentol::{DampingKind, Description, Equilibrium, Policy, Real, Stability};
+use eigentol::{Description, DesignInfo, Equilibrium, Policy, Real, Stability};
 
-use super::bordered::{Lagrangian, bordered, distance, reaction};
+use super::bordered::{Lagrangian, bordered, described, distance, reaction};
 use crate::common::dual::Dual;
-use crate::common::{GRAVITY, METRE, NUMBER, SPEED, coordinate, design, input};
+use crate::common::{GRAVITY, METRE, NUMBER, SPEED, coordinate, design, input, sizes};
 
 /// Masses, lengths, spring rates; the springs pull to fixed points.
-const PLAIN: Description = Description {
-    name: "Chain",
-    coordinates: &[
-        coordinate("x1", METRE),
-        coordinate("y1", METRE),
-        coordinate("x2", METRE),
-        coordinate("y2", METRE),
-        coordinate("x3", METRE),
-        coordinate("y3", METRE),
-        reaction("rod1", "N"),
-        reaction("rod2", "N"),
-        reaction("rod3", "N"),
-    ],
-    inputs: &[input("omega", SPEED)],
-    design: &[
-        design("m1", NUMBER, 1.0, 0.0),
-        design("m2", NUMBER, 1.0, 0.0),
-        design("m3", NUMBER, 1.0, 0.0),
-        design("l1", NUMBER, 1.0, 0.0),
-        design("l2", NUMBER, 1.0, 0.0),
-        design("l3", NUMBER, 1.0, 0.0),
-        design("k1", NUMBER, 1.0, 0.0),
-        design("k2", NUMBER, 1.0, 0.0),
-        design("k3", NUMBER, 1.0, 0.0),
-    ],
-    outputs: &[],
-    symmetric_stiffness: true,
-    damping: DampingKind::Zero,
-    kernels: &[],
-};
+const DESIGN: &[DesignInfo] = &[
+    design("m1", NUMBER, 1.0, 0.0),
+    design("m2", NUMBER, 1.0, 0.0),
+    design("m3", NUMBER, 1.0, 0.0),
+    design("l1", NUMBER, 1.0, 0.0),
+    design("l2", NUMBER, 1.0, 0.0),
+    design("l3", NUMBER, 1.0, 0.0),
+    design("k1", NUMBER, 1.0, 0.0),
+    design("k2", NUMBER, 1.0, 0.0),
+    design("k3", NUMBER, 1.0, 0.0),
+];
 
 fn potential<T: Real>(p: &[T; 6], omega: T, b: &[T; 9]) -> T {
     let half = T::constant(0.5);
@@ -67,8 +48,27 @@ fn gaps<T: Real>(p: &[T], b: &[T; 9]) -> [T; 3] {
 #[derive(Clone, Copy)]
 struct Chain;
 
-impl Lagrangian<9, 1, 9> for Chain {
-    const DESCRIPTION: Description = PLAIN;
+impl Lagrangian for Chain {
+    sizes!(9, 1, 9, 0);
+
+    const DESCRIPTION: Description = described(
+        "Chain",
+        const {
+            &[
+                coordinate("x1", METRE),
+                coordinate("y1", METRE),
+                coordinate("x2", METRE),
+                coordinate("y2", METRE),
+                coordinate("x3", METRE),
+                coordinate("y3", METRE),
+                reaction("rod1", "N"),
+                reaction("rod2", "N"),
+                reaction("rod3", "N"),
+            ]
+        },
+        const { &[input("omega", SPEED)] },
+        DESIGN,
+    );
 
     fn masses<T: Real>(&self, b: &[T; 9]) -> [T; 9] {
         from_fn(|i| if i < 6 { b[i / 2] } else { T::constant(0.0) })
@@ -84,23 +84,29 @@ impl Lagrangian<9, 1, 9> for Chain {
 #[derive(Clone, Copy)]
 struct Redundant;
 
-impl Lagrangian<11, 1, 9> for Redundant {
-    const DESCRIPTION: Description = Description {
-        coordinates: &[
-            PLAIN.coordinates[0],
-            PLAIN.coordinates[1],
-            PLAIN.coordinates[2],
-            PLAIN.coordinates[3],
-            PLAIN.coordinates[4],
-            PLAIN.coordinates[5],
-            reaction("rod1", "N"),
-            reaction("sum", "N"),
-            reaction("square", "N/m"),
-            reaction("rod2", "N"),
-            reaction("rod3", "N"),
-        ],
-        ..PLAIN
-    };
+impl Lagrangian for Redundant {
+    sizes!(11, 1, 9, 0);
+
+    const DESCRIPTION: Description = described(
+        "Chain",
+        const {
+            &[
+                coordinate("x1", METRE),
+                coordinate("y1", METRE),
+                coordinate("x2", METRE),
+                coordinate("y2", METRE),
+                coordinate("x3", METRE),
+                coordinate("y3", METRE),
+                reaction("rod1", "N"),
+                reaction("sum", "N"),
+                reaction("square", "N/m"),
+                reaction("rod2", "N"),
+                reaction("rod3", "N"),
+            ]
+        },
+        const { &[input("omega", SPEED)] },
+        DESIGN,
+    );
 
     fn masses<T: Real>(&self, b: &[T; 9]) -> [T; 11] {
         from_fn(|i| if i < 6 { b[i / 2] } else { T::constant(0.0) })
@@ -131,13 +137,13 @@ fn by_angles<T: Real>(t: &[T; 3], omega: T, b: &[T; 9]) -> T {
 }
 
 /// The gradient of `V` by the angles, relative to its curvature; and the leading minors of the Hessian.
-fn minimum<const N: usize>(state: &Equilibrium<N, 1, 9>) -> (f64, [f64; 3]) {
+fn minimum(state: &Equilibrium) -> (f64, [f64; 3]) {
     let x = &state.coordinates;
     let angles: [f64; 3] = from_fn(|i| {
         let before = |j: usize| if i == 0 { 0.0 } else { x[2 * i - 2 + j] };
         (x[2 * i] - before(0)).atan2(before(1) - x[2 * i + 1])
     });
-    let b = state.design.map(|value| Dual::fixed(Dual::fixed(value)));
+    let b = from_fn(|i| Dual::fixed(Dual::fixed(state.design[i])));
     let omega = Dual::fixed(Dual::fixed(state.inputs[0]));
     let value = |i: usize, j: usize| {
         let seed = |hit: bool| if hit { 1.0 } else { 0.0 };
@@ -189,8 +195,8 @@ fn a_stable_equilibrium_is_found_from_anywhere() {
         }
         let omega = random.between(0.0, 6.0);
         let place: [f64; 6] = from_fn(|_| random.between(-2.0, 2.0));
-        let plain = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
-        let redundant = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
+        let plain: [f64; 9] = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
+        let redundant: [f64; 11] = from_fn(|i| if i < 6 { place[i] } else { 0.0 });
         let one = eigentol::equilibrium::equilibrium(
             &bordered(Chain),
             &[omega],
@@ -238,7 +244,7 @@ fn the_nearest_equilibrium_is_one() {
             _ => random.between(0.0, 100.0),
         });
         let omega = random.between(0.0, 4.0);
-        let start = from_fn(|i| {
+        let start: [f64; 11] = from_fn(|i| {
             if i < 6 {
                 random.between(-1.5, 1.5)
             } else {

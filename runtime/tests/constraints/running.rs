@@ -2,12 +2,12 @@
 
 use eigentol::equilibrium::assemble;
 use eigentol::{
-    Coordinate, CoordinateInfo, DampingKind, Description, Policy, Real, Role, Unit,
+    Coordinate, CoordinateInfo, DampingKind, Description, Policy, Real, Role, Shared, Unit,
     equilibrium::equilibrium,
 };
 
 use crate::common::derived::{Derived, Model};
-use crate::common::{NUMBER, SPEED, coordinate, design, input};
+use crate::common::{NUMBER, SPEED, coordinate, design, input, sizes};
 
 /// Two geared rotors with drag, the first driven by a torque; beside them a mass on a spring that the second speed loads:
 /// `J1 v1' + c1 v1 - T + mu = 0`, `J2 v2' + c2 v2 + r mu = 0`, `v1 + r v2 = 0`, `m x'' + k x - p v2^2 = 0`.
@@ -16,24 +16,26 @@ struct Gears;
 
 const VALUES: [f64; 8] = [0.1, 0.4, 0.02, 0.3, 2.5, 1.7, 60.0, 0.2];
 
-impl Model<4, 1, 8, 0> for Gears {
+impl Model for Gears {
+    sizes!(4, 1, 8, 0);
+
     const DESCRIPTION: Description = Description {
-        name: "Gears",
-        coordinates: &[
+        name: Shared::Static("Gears"),
+        coordinates: Shared::Static(&[
             coordinate("x", crate::common::METRE),
             speed("v1"),
             speed("v2"),
             CoordinateInfo {
-                name: "mesh",
+                name: Shared::Static("mesh"),
                 unit: Unit {
-                    symbol: "N*m",
+                    symbol: Shared::Static("N*m"),
                     scale: 1.0,
                 },
                 role: Role::VelocityReaction,
             },
-        ],
-        inputs: &[input("torque", NUMBER)],
-        design: &[
+        ]),
+        inputs: Shared::Static(&[input("torque", NUMBER)]),
+        design: Shared::Static(&[
             design("j1", NUMBER, VALUES[0], 0.0),
             design("j2", NUMBER, VALUES[1], 0.0),
             design("c1", NUMBER, VALUES[2], 0.0),
@@ -42,11 +44,11 @@ impl Model<4, 1, 8, 0> for Gears {
             design("m", NUMBER, VALUES[5], 0.0),
             design("k", NUMBER, VALUES[6], 0.0),
             design("p", NUMBER, VALUES[7], 0.0),
-        ],
-        outputs: &[],
+        ]),
+        outputs: Shared::Static(&[]),
         symmetric_stiffness: false,
         damping: DampingKind::General,
-        kernels: &[],
+        kernels: Shared::Static(&[]),
     };
 
     fn inertia<T: Real>(
@@ -73,7 +75,7 @@ impl Model<4, 1, 8, 0> for Gears {
 
 const fn speed(name: &'static str) -> CoordinateInfo {
     CoordinateInfo {
-        name,
+        name: Shared::Static(name),
         unit: SPEED,
         role: Role::Speed,
     }
@@ -111,7 +113,7 @@ fn geared_rotors_run_at_one_speed() {
 #[test]
 fn speeds_are_assembled_too() {
     let start = [0.3, 8.0, 0.0, 0.0];
-    let held = [Coordinate(1)];
+    let held = [Coordinate::new(1)];
     let found = assemble(&Derived(Gears), &[3.0], &VALUES, &start, &held).expect("it runs");
     crate::common::close(found.coordinates[2], -8.0 / VALUES[4], 1e-14);
     assert_eq!(found.coordinates[..2], [0.3, 8.0]);

@@ -9,13 +9,13 @@ fn samples_that_do_not_close_are_counted() {
     // The longest bar reaches over the others but for a millimetre.
     let reach = FOUR_BAR[2] + FOUR_BAR[3] + FOUR_BAR[4];
     let study = Study::new(bordered(FourBar))
-        .input(Input(0), 0.0)
-        .design(DesignVariable(5), reach - 1e-3)
-        .guess(Coordinate(0), 0.4)
-        .guess(Coordinate(1), -0.02)
-        .guess(Coordinate(2), 1.1)
-        .guess(Coordinate(3), -0.02)
-        .tolerance(DesignVariable(5), 3e-3)
+        .input(Input::new(0), 0.0)
+        .design(DesignVariable::new(5), reach - 1e-3)
+        .guess(Coordinate::new(0), 0.4)
+        .guess(Coordinate::new(1), -0.02)
+        .guess(Coordinate::new(2), 1.1)
+        .guess(Coordinate::new(3), -0.02)
+        .tolerance(DesignVariable::new(5), 3e-3)
         .samples(400)
         .keep_samples(true);
     let state = study.equilibrium().expect("it closes");

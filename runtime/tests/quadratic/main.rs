@@ -8,8 +8,8 @@ mod margin;
 mod moments;
 mod probability;
 
-use eigentol::Tolerances;
 use eigentol::tolerance::Quadratic;
+use eigentol::{Matrix, Tolerances, Vector};
 
 fn close(value: f64, expected: f64, tolerance: f64) {
     let size = expected.abs().max(f64::MIN_POSITIVE);
@@ -28,21 +28,22 @@ fn within(value: f64, expected: f64, distance: f64) {
 }
 
 /// Independent variables with these standard deviations.
-fn independent<const P: usize>(sigma: [f64; P]) -> Tolerances<P> {
+fn independent(sigma: impl Into<Vector>) -> Tolerances {
     Tolerances::new(sigma, 1.0, None).unwrap()
 }
 
 /// Four correlated variables and a model of all of them.
-fn coupled() -> (Quadratic<4>, Tolerances<4>) {
+fn coupled() -> (Quadratic, Tolerances) {
     let model = Quadratic {
         value: 7.0,
-        slopes: [1.0, -0.5, 0.25, 2.0],
+        slopes: [1.0, -0.5, 0.25, 2.0].into(),
         curvature: [
             [0.8, 0.3, -0.2, 0.1],
             [0.3, -0.6, 0.4, 0.5],
             [-0.2, 0.4, 1.1, -0.3],
             [0.1, 0.5, -0.3, 0.2],
-        ],
+        ]
+        .into(),
     };
     let correlation = [
         [1.0, 0.5, 0.1, 0.0],
@@ -50,15 +51,16 @@ fn coupled() -> (Quadratic<4>, Tolerances<4>) {
         [0.1, -0.3, 1.0, 0.4],
         [0.0, 0.2, 0.4, 1.0],
     ];
-    let tolerances = Tolerances::new([0.9, 1.2, 0.6, 0.3], 2.0, Some(correlation)).unwrap();
+    let tolerances = Tolerances::new([0.9, 1.2, 0.6, 0.3], 2.0, Some(correlation.into())).unwrap();
     (model, tolerances)
 }
 
 /// `f(b0 + x)` of the model.
-fn value_at<const P: usize>(model: &Quadratic<P>, x: [f64; P]) -> f64 {
-    let bend = |e: usize| 0.5 * model.curvature[e / P][e % P] * x[e / P] * x[e % P];
+fn value_at(model: &Quadratic, x: &[f64]) -> f64 {
+    let p = x.len();
+    let bend = |e: usize| 0.5 * model.curvature[e / p][e % p] * x[e / p] * x[e % p];
     let slope = |i: usize| model.slopes[i] * x[i];
-    model.value + (0..P).map(slope).sum::<f64>() + (0..P * P).map(bend).sum::<f64>()
+    model.value + (0..p).map(slope).sum::<f64>() + (0..p * p).map(bend).sum::<f64>()
 }
 
 /// Standard normal numbers of a generator of this test's own (SplitMix64 and Box-Muller).
@@ -80,10 +82,10 @@ impl Normal {
 }
 
 /// Lower factor of a covariance matrix, for the test's own draws.
-fn factor<const P: usize>(tolerances: &Tolerances<P>) -> [[f64; P]; P] {
-    let sigma = tolerances.standard_deviations();
-    let mut lower = [[0.0; P]; P];
-    for i in 0..P {
+fn factor(tolerances: &Tolerances) -> Matrix {
+    let sigma = tolerances.sigmas();
+    let mut lower = Matrix::zeros(sigma.len(), sigma.len());
+    for i in 0..sigma.len() {
         for j in 0..=i {
             let same = f64::from(u8::from(i == j));
             let correlation = tolerances.correlation().map_or(same, |matrix| matrix[i][j]);
@@ -100,6 +102,7 @@ fn factor<const P: usize>(tolerances: &Tolerances<P>) -> [[f64; P]; P] {
 }
 
 /// `L z`.
-fn spread<const P: usize>(factor: &[[f64; P]; P], z: [f64; P]) -> [f64; P] {
-    core::array::from_fn(|i| (0..P).map(|k| factor[i][k] * z[k]).sum())
+fn spread(factor: &Matrix, z: &[f64]) -> Vector {
+    let row = |row: &[f64]| (0..z.len()).map(|k| row[k] * z[k]).sum();
+    factor.iter().map(row).collect()
 }

@@ -2,16 +2,12 @@
 
 use eigentol::report::MarginTable;
 use eigentol::tolerance::{Margin, Quadratic, margin};
-use eigentol::{Error, Mechanism, Tolerances};
+use eigentol::{Error, Mechanism, Tolerances, Vector};
 
 use super::common::{SPEED, pendulum::Pendulum};
 use super::{close, coupled, independent, within};
 
-fn of<const P: usize>(
-    model: &Quadratic<P>,
-    tolerances: &Tolerances<P>,
-    band: (f64, f64),
-) -> Margin<P> {
+fn of(model: &Quadratic, tolerances: &Tolerances, band: (f64, f64)) -> Margin {
     margin(model, tolerances, band).unwrap()
 }
 
@@ -19,8 +15,8 @@ fn of<const P: usize>(
 fn one_variable_has_closed_forms() {
     let model = Quadratic {
         value: 10.0,
-        slopes: [2.0],
-        curvature: [[0.0]],
+        slopes: [2.0].into(),
+        curvature: [[0.0]].into(),
     };
     let tolerances = Tolerances::new([0.75], 3.0, None).unwrap();
     // sigma = 0.5: the band from 11 to 12 spans 2 to 4 standard deviations.
@@ -53,13 +49,13 @@ fn one_variable_has_closed_forms() {
 }
 
 /// The model about a shifted nominal design: value and slopes follow, curvature stays.
-fn shifted(model: &Quadratic<4>, k: usize, by: f64) -> Quadratic<4> {
+fn shifted(model: &Quadratic, k: usize, by: f64) -> Quadratic {
     let mut x = [0.0; 4];
     x[k] = by;
     Quadratic {
-        value: super::value_at(model, x),
-        slopes: core::array::from_fn(|i| model.slopes[i] + model.curvature[i][k] * by),
-        ..*model
+        value: super::value_at(model, &x),
+        slopes: Vector::from_fn(4, |i| model.slopes[i] + model.curvature[i][k] * by),
+        ..model.clone()
     }
 }
 
@@ -67,7 +63,7 @@ fn shifted(model: &Quadratic<4>, k: usize, by: f64) -> Quadratic<4> {
 fn derivatives_match_differences() {
     const STEP: f64 = 1e-6;
     let (model, correlated) = coupled();
-    let free = Tolerances::new(*correlated.half_widths(), 3.0, None).unwrap();
+    let free = Tolerances::new(correlated.half_widths(), 3.0, None).unwrap();
     for tolerances in [correlated, free] {
         for band in [(7.5, 8.5), (5.0, 7.2), (f64::NEG_INFINITY, 6.0)] {
             let slopes = of(&model, &tolerances, band).derivatives.unwrap();
@@ -77,9 +73,9 @@ fn derivatives_match_differences() {
                     difference(&|h| of(&shifted(&model, k, h), &tolerances, band).first_order);
                 within(slopes.by_design[k], by_design, 1e-9);
                 let by_half_width = difference(&|h| {
-                    let mut half_widths = *tolerances.half_widths();
+                    let mut half_widths = tolerances.half_widths().to_vec();
                     half_widths[k] += h;
-                    let correlation = tolerances.correlation().copied();
+                    let correlation = tolerances.correlation().cloned();
                     let moved = Tolerances::new(half_widths, tolerances.sigma_level(), correlation);
                     of(&model, &moved.unwrap(), band).first_order
                 });
@@ -94,7 +90,7 @@ fn derivatives_match_differences() {
             let along = difference(&|h| {
                 let moved = Quadratic {
                     value: model.value + 0.3 * h,
-                    ..model
+                    ..model.clone()
                 };
                 of(&moved, &tolerances, (band.0 + 0.9 * h, band.1 + 1.1 * h)).first_order
             });
@@ -104,7 +100,7 @@ fn derivatives_match_differences() {
             let by_sigma = difference(&|h| {
                 let moved = Quadratic {
                     slopes: model.slopes.map(|s| s * (1.0 + h / sigma)),
-                    ..model
+                    ..model.clone()
                 };
                 of(&moved, &tolerances, band).first_order
             });
@@ -117,11 +113,11 @@ fn derivatives_match_differences() {
 fn a_tolerance_of_zero_still_has_a_derivative() {
     let model = Quadratic {
         value: 0.0,
-        slopes: [1.0, 2.0],
-        curvature: [[0.0; 2]; 2],
+        slopes: [1.0, 2.0].into(),
+        curvature: [[0.0; 2]; 2].into(),
     };
     let matrix = [[1.0, 0.5], [0.5, 1.0]];
-    let tolerances = Tolerances::new([1.0, 0.0], 1.0, Some(matrix)).unwrap();
+    let tolerances = Tolerances::new([1.0, 0.0], 1.0, Some(matrix.into())).unwrap();
     let slopes = of(&model, &tolerances, (1.0, f64::INFINITY))
         .derivatives
         .unwrap();
@@ -145,8 +141,8 @@ fn nothing_varies() {
     // No slope, yet curvature: first order sees nothing, the corrected probability does.
     let flat = Quadratic {
         value: 0.0,
-        slopes: [0.0],
-        curvature: [[2.0]],
+        slopes: [0.0].into(),
+        curvature: [[2.0]].into(),
     };
     let found = of(&flat, &independent([1.0]), (-1.0, 1.0));
     assert_eq!(found.first_order, 1.0);
@@ -165,15 +161,15 @@ fn nonsense_is_refused() {
     }
     let broken = Quadratic {
         value: f64::NAN,
-        ..model
+        ..model.clone()
     };
     let found = margin(&broken, &tolerances, (0.0, 1.0));
     assert!(matches!(found, Err(Error::NotFinite { .. })));
     // Derivatives beyond the range of a double are left out; the rest stands.
     let steep = Quadratic {
         value: 0.0,
-        slopes: [1e-300],
-        curvature: [[0.0]],
+        slopes: [1e-300].into(),
+        curvature: [[0.0]].into(),
     };
     let found = of(&steep, &independent([1e-20]), (0.0, 1.0));
     assert_eq!(found.sigma, 1e-320);
@@ -185,8 +181,8 @@ fn nonsense_is_refused() {
 fn margins_print_themselves() {
     let model = Quadratic {
         value: 10.0,
-        slopes: [0.0, 2.0],
-        curvature: [[0.0; 2]; 2],
+        slopes: [0.0, 2.0].into(),
+        curvature: [[0.0; 2]; 2].into(),
     };
     let tolerances = Tolerances::new([0.0, 0.75], 3.0, None).unwrap();
     let margin = of(&model, &tolerances, (11.0, 12.0));
@@ -195,7 +191,7 @@ fn margins_print_themselves() {
             margin,
             quantity: "frequency 1",
             unit: SPEED,
-            description: &<Pendulum as Mechanism<1, 1, 2, 1>>::DESCRIPTION,
+            description: &Pendulum::DESCRIPTION,
         }
         .to_string()
     };

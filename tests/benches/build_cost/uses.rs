@@ -1,22 +1,20 @@
 use std::hint::black_box;
 
-use eigentol::{Mechanism, mechanism};
+use eigentol::{Array, Mechanism, mechanism};
 
 #[allow(dead_code)]
-fn one<M, const N: usize, const U: usize, const P: usize, const O: usize>(m: M)
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&black_box([0.1; N]), &black_box([5.0; U]), &black_box([1.0; P]));
+fn one<M: Mechanism>(m: M) {
+    let q: &M::Coordinates<f64> = &black_box(Array::filled(0.1));
+    let u: &M::Inputs<f64> = &black_box(Array::filled(5.0));
+    let b: &M::Design<f64> = &black_box(Array::filled(1.0));
     black_box(m.residual(q, u, b));
 }
 
 #[allow(dead_code)]
-fn all<M, const N: usize, const U: usize, const P: usize, const O: usize>(m: M)
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let (q, u, b) = (&black_box([0.1; N]), &black_box([5.0; U]), &black_box([1.0; P]));
+fn all<M: Mechanism>(m: M) {
+    let q: &M::Coordinates<f64> = &black_box(Array::filled(0.1));
+    let u: &M::Inputs<f64> = &black_box(Array::filled(5.0));
+    let b: &M::Design<f64> = &black_box(Array::filled(1.0));
     black_box(m.residual(q, u, b));
     black_box(m.residual_parts(q, u, b));
     black_box(m.motion_residual(q, q, q, u, b));

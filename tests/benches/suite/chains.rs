@@ -2,17 +2,15 @@
 
 use std::hint::black_box;
 
-use eigentol::{Linear, LinearPartials, Mechanism};
+use eigentol::{Array, Linear, LinearPartials, Mechanism, PartialsOf, Square};
 
 use crate::casadi::CasadiWork;
 use crate::tools::{Tools, newer, source};
-use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work};
+use crate::work::{AGREEMENT, Closures, INPUTS, Random, Task, Work, flat};
 
 /// Sees every chain.
 pub(crate) trait Visitor {
-    fn visit<M, const N: usize, const P: usize>(&mut self, chain: M)
-    where
-        M: Mechanism<N, 1, P, 0> + 'static;
+    fn visit<M: Mechanism + 'static>(&mut self, chain: M);
 }
 
 #[allow(unused_mut)]
@@ -48,13 +46,11 @@ struct Collector<'a> {
 }
 
 impl Visitor for Collector<'_> {
-    fn visit<M, const N: usize, const P: usize>(&mut self, chain: M)
-    where
-        M: Mechanism<N, 1, P, 0> + 'static,
-    {
+    fn visit<M: Mechanism + 'static>(&mut self, chain: M) {
+        let bars = bars::<M>();
         for function in FUNCTIONS {
-            let name = format!("chain{N}/{function}");
-            if (function == "all" && N > MOST_WITH_ALL) || !(self.wanted)(&name) {
+            let name = format!("chain{bars}/{function}");
+            if (function == "all" && bars > MOST_WITH_ALL) || !(self.wanted)(&name) {
                 continue;
             }
             self.tasks.push(Task {
@@ -62,23 +58,28 @@ impl Visitor for Collector<'_> {
                 units: [1, 1],
                 agreement: AGREEMENT,
                 ours: ours(chain.clone(), function),
-                peer: peer::<N, P>(self.tools, function),
+                peer: peer::<M>(self.tools, function),
             });
         }
     }
 }
 
+/// The number of bars of a chain.
+pub(crate) fn bars<M: Mechanism>() -> usize {
+    M::Coordinates::<f64>::LEN
+}
+
 /// Arguments of an evaluation.
-pub(crate) struct State<const N: usize, const P: usize> {
-    pub(crate) q: [f64; N],
-    pub(crate) u: [f64; 1],
-    pub(crate) b: [f64; P],
-    pub(crate) phi: [f64; N],
+pub(crate) struct State<M: Mechanism> {
+    pub(crate) q: M::Coordinates<f64>,
+    pub(crate) u: M::Inputs<f64>,
+    pub(crate) b: M::Design<f64>,
+    pub(crate) phi: M::Coordinates<f64>,
     pub(crate) lambda: f64,
 }
 
-pub(crate) fn states<const N: usize, const P: usize>() -> Vec<State<N, P>> {
-    let mut random = Random(N as u64);
+pub(crate) fn states<M: Mechanism>() -> Vec<State<M>> {
+    let mut random = Random(bars::<M>() as u64);
     let state = |_| State {
         q: random.array(-1.5, 1.5),
         u: random.array(0.5, 4.0),
@@ -89,100 +90,119 @@ pub(crate) fn states<const N: usize, const P: usize>() -> Vec<State<N, P>> {
     (0..INPUTS).map(state).collect()
 }
 
-fn ours<M, const N: usize, const P: usize>(chain: M, function: &str) -> Box<dyn Work>
-where
-    M: Mechanism<N, 1, P, 0> + 'static,
-{
-    let inputs = states::<N, P>();
+fn ours<M: Mechanism + 'static>(chain: M, function: &str) -> Box<dyn Work> {
+    let inputs = states();
     let again = chain.clone();
-    let mut room = Box::new(LinearPartials::default());
     match function {
         "residual_and_stiffness" => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 black_box(&chain.residual_and_stiffness(&s.q, &s.u, &s.b));
             },
-            results: move |s: &State<N, P>| {
+            results: move |s: &State<M>| {
                 let (residual, stiffness) = again.residual_and_stiffness(&s.q, &s.u, &s.b);
-                vec![residual.to_vec(), stiffness.concat()]
+                vec![residual.as_ref().to_vec(), flat(stiffness)]
             },
         }),
         "linear" => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 black_box(&chain.linear(&s.q, &s.u, &s.b));
             },
-            results: move |s: &State<N, P>| {
+            results: move |s: &State<M>| {
                 let linear = again.linear(&s.q, &s.u, &s.b);
-                vec![linear.mass.concat(), linear.stiffness.concat()]
+                vec![flat(linear.mass), flat(linear.stiffness)]
             },
         }),
         "mode_gradient" => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 black_box(&chain.mode_gradient(&s.q, &s.u, &s.b, &s.phi, s.lambda));
             },
-            results: move |s: &State<N, P>| {
+            results: move |s: &State<M>| {
                 let gradient = again.mode_gradient(&s.q, &s.u, &s.b, &s.phi, s.lambda);
-                let by_coordinate = gradient.coordinates.to_vec();
                 vec![
-                    by_coordinate,
-                    gradient.inputs.to_vec(),
-                    gradient.design.to_vec(),
+                    gradient.coordinates.as_ref().to_vec(),
+                    gradient.inputs.as_ref().to_vec(),
+                    gradient.design.as_ref().to_vec(),
                 ]
             },
         }),
-        _ => Box::new(Closures {
-            inputs,
-            evaluate: move |s: &State<N, P>| {
-                if N < 8 {
-                    black_box(&chain.partials(&s.q, &s.u, &s.b));
-                } else {
-                    black_box(&chain.residual_partials(&s.q, &s.u, &s.b));
-                    chain.linear_partials_into(&s.q, &s.u, &s.b, &mut room);
-                    black_box(&room);
-                }
-            },
-            results: move |s: &State<N, P>| all_partials(&again, s),
-        }),
+        _ => {
+            let mut room = Box::new(zeros::<M>());
+            Box::new(Closures {
+                inputs,
+                evaluate: move |s: &State<M>| {
+                    if bars::<M>() < 8 {
+                        black_box(&chain.partials(&s.q, &s.u, &s.b));
+                    } else {
+                        black_box(&chain.residual_partials(&s.q, &s.u, &s.b));
+                        chain.linear_partials_into(&s.q, &s.u, &s.b, &mut room);
+                        black_box(&room);
+                    }
+                },
+                results: move |s: &State<M>| all_partials(&again, s),
+            })
+        }
     }
 }
 
 /// Every explicit partial derivative in the order of CasADi's "all": one matrix after the other, by columns.
-fn all_partials<M, const N: usize, const P: usize>(chain: &M, s: &State<N, P>) -> Vec<Vec<f64>>
-where
-    M: Mechanism<N, 1, P, 0>,
-{
+fn all_partials<M: Mechanism>(chain: &M, s: &State<M>) -> Vec<Vec<f64>> {
     let (by_input, by_design) = chain.residual_partials(&s.q, &s.u, &s.b);
-    let columns = (0..P).flat_map(|k| by_design.map(|row| row[k])).collect();
+    let rows = by_design.as_ref();
+    let column = |k: usize| rows.iter().map(move |row| row.as_ref()[k]);
+    let columns = (0..M::Design::<f64>::LEN).flat_map(column).collect();
     let partials = chain.linear_partials(&s.q, &s.u, &s.b);
-    let mut results = vec![by_input.concat(), columns];
-    for mass in [true, false] {
-        let matrix = |x: &Linear<f64, N>| if mass { x.mass } else { x.stiffness };
-        let flat = |all: &[Linear<f64, N>]| all.iter().flat_map(|x| matrix(x).concat()).collect();
-        results.push(flat(&partials.by_coordinate));
-        results.push(flat(&partials.by_input));
-        results.push(flat(&partials.by_design));
+    let mut results = vec![flat(by_input), columns];
+    let lists = [
+        partials.by_coordinate.as_ref(),
+        partials.by_input.as_ref(),
+        partials.by_design.as_ref(),
+    ];
+    for matrix in [
+        |x: &Linear<Square<M, f64>>| flat(x.mass),
+        |x: &Linear<Square<M, f64>>| flat(x.stiffness),
+    ] {
+        results.extend(lists.map(|list| list.iter().flat_map(matrix).collect()));
     }
     results
 }
 
-pub(crate) fn peer<const N: usize, const P: usize>(
+/// What [`Mechanism::linear_partials_into`] starts from.
+fn zeros<M: Mechanism>() -> PartialsOf<M, f64> {
+    let zeros: Square<M, f64> = Array::filled(Array::filled(0.0));
+    let zeros = Linear {
+        mass: zeros,
+        damping: zeros,
+        stiffness: zeros,
+    };
+    LinearPartials {
+        by_coordinate: Array::filled(zeros),
+        by_input: Array::filled(zeros),
+        by_design: Array::filled(zeros),
+    }
+}
+
+pub(crate) fn peer<M: Mechanism>(
     tools: &mut Tools,
     function: &str,
 ) -> Result<Box<dyn Work>, String> {
+    let bars = bars::<M>();
     let (script, folder) = ("chain.py", tools.written()?);
-    let name = format!("chain{N}_{function}");
+    let name = format!("chain{bars}_{function}");
     let file = folder.join(format!("{name}.c"));
     if !newer(&file, &source(script)) {
-        let (size, folder) = (N.to_string(), folder.to_string_lossy());
+        let (size, folder) = (bars.to_string(), folder.to_string_lossy());
         tools.casadi(script, &["emit", &size, &folder, function])?;
     }
     let library = tools.library(&file)?;
-    let inputs = states::<N, P>().into_iter().map(|s| {
-        let mut arguments = vec![s.q.to_vec(), s.u.to_vec(), s.b.to_vec()];
+    let inputs = states::<M>().into_iter().map(|s| {
+        let mut arguments = [s.q.as_ref(), s.u.as_ref(), s.b.as_ref()]
+            .map(<[f64]>::to_vec)
+            .to_vec();
         if function == "mode_gradient" {
-            arguments.extend([s.phi.to_vec(), vec![s.lambda]]);
+            arguments.extend([s.phi.as_ref().to_vec(), vec![s.lambda]]);
         }
         arguments
     });

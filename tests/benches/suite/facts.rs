@@ -6,11 +6,12 @@ use std::thread;
 use std::time::Instant;
 
 use eigentol::equilibrium::equilibrium;
+use eigentol::kernels::DirectionalKernels;
 use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
 use eigentol::sensitivity::{mode_curvature, sensitivities};
 use eigentol::tolerance::second_order;
-use eigentol::{Error, Mechanism, Policy, Study, Tolerances};
+use eigentol::{Error, Policy, Study, Tolerances, Vector};
 
 use crate::chains::{LONGEST, Longest};
 use crate::pendulum::DoublePendulum;
@@ -30,7 +31,7 @@ fn speed(k: usize) -> f64 {
     8.0 * (k + 1) as f64 / SPEEDS as f64
 }
 
-type PendulumStudy = Study<DoublePendulum, 2, 1, 4, 0>;
+type PendulumStudy = Study<DoublePendulum>;
 
 /// One study per speed, below and above the critical speed, looked for from the same start as the paper does.
 fn studies() -> Vec<PendulumStudy> {
@@ -112,7 +113,7 @@ pub(crate) fn pendulum() -> Vec<Fact> {
     ]
 }
 
-/// Stack for the long chain: its results are arrays. `RUST_MIN_STACK` overrides it.
+/// Stack for the long chain: its kernels return arrays. `RUST_MIN_STACK` overrides it.
 const STACK: usize = 1 << 29;
 
 /// Every step of the analysis of the longest chain, all its design variables, second order included.
@@ -142,10 +143,7 @@ pub(crate) fn long_chain() -> Vec<Fact> {
 type Step = (String, Result<f64, String>);
 
 /// Time of every step; stops at the first that fails.
-fn analysis<M, const N: usize, const P: usize>(chain: &M) -> Vec<Step>
-where
-    M: Mechanism<N, 1, P, 0>,
-{
+fn analysis(chain: &dyn DirectionalKernels) -> Vec<Step> {
     let mut steps = Vec::new();
     if let Err(error) = measure(chain, &mut steps) {
         steps.push(("stopped".to_owned(), Err(error.to_string())));
@@ -153,20 +151,16 @@ where
     steps
 }
 
-fn measure<M, const N: usize, const P: usize>(chain: &M, steps: &mut Vec<Step>) -> Result<(), Error>
-where
-    M: Mechanism<N, 1, P, 0>,
-{
-    let description = const { &M::DESCRIPTION };
-    let (u, b) = (
-        [1.0],
-        core::array::from_fn(|k| description.design[k].nominal),
-    );
-    let tolerances = Tolerances::<P>::declared(description)?;
+fn measure(chain: &dyn DirectionalKernels, steps: &mut Vec<Step>) -> Result<(), Error> {
+    let description = chain.description();
+    let n = description.coordinates.len();
+    let u = [1.0];
+    let b: Vector = description.design.iter().map(|info| info.nominal).collect();
+    let tolerances = Tolerances::declared(&description)?;
     let mut timed = |name: &str, runs: usize, run: &mut dyn FnMut()| {
         steps.push((name.to_owned(), Ok(fastest(runs, run))));
     };
-    let hanging = [0.1; N];
+    let hanging = vec![0.1; n];
     let find = || equilibrium(chain, &u, &b, &hanging, Policy::Stable);
     let state = find()?;
     timed("equilibrium", 5, &mut || {
@@ -190,8 +184,8 @@ where
         solved = spreads.modes.iter().filter(|mode| mode.is_ok()).count();
         black_box(&spreads);
     });
-    if solved < N {
-        let reason = format!("{} of {N} modes", N - solved);
+    if solved < n {
+        let reason = format!("{} of {n} modes", n - solved);
         steps.push(("second order".to_owned(), Err(reason)));
     }
     Ok(())

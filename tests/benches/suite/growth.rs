@@ -2,40 +2,48 @@
 
 use std::hint::black_box;
 
-use eigentol::{Description, Dual, Gradient, Real};
+use eigentol::{Array, Description, Dual, Gradient, Real};
 
 use crate::work::{Closures, INPUTS, Random, Work};
 
 /// The contract cut down to the kernels that have to grow linearly.
-pub(crate) trait Kernels<const N: usize, const P: usize> {
+pub(crate) trait Kernels: Copy + 'static {
+    type Coordinates<T: Copy>: Array<T>;
+    type Inputs<T: Copy>: Array<T>;
+    type Design<T: Copy>: Array<T>;
+    type Outputs<T: Copy>: Array<T>;
+
     const DESCRIPTION: Description;
 
-    fn residual<T: Real>(&self, q: &[T; N], u: &[T; 1], b: &[T; P]) -> [T; N];
+    fn residual<T: Real>(
+        &self,
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+    ) -> Self::Coordinates<T>;
 
     fn mode_gradient<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; 1],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        phi: &Self::Coordinates<T>,
         lambda: T,
-    ) -> Gradient<T, N, 1, P>;
+    ) -> Gradient<Self::Coordinates<T>, Self::Inputs<T>, Self::Design<T>>;
 
     fn mode_gradient_inlined<T: Real>(
         &self,
-        q: &[T; N],
-        u: &[T; 1],
-        b: &[T; P],
-        phi: &[T; N],
+        q: &Self::Coordinates<T>,
+        u: &Self::Inputs<T>,
+        b: &Self::Design<T>,
+        phi: &Self::Coordinates<T>,
         lambda: T,
-    ) -> Gradient<T, N, 1, P>;
+    ) -> Gradient<Self::Coordinates<T>, Self::Inputs<T>, Self::Design<T>>;
 }
 
 /// Sees every chain, with the bytes of its emitted text.
 pub(crate) trait Visitor {
-    fn visit<M, const N: usize, const P: usize>(&mut self, chain: M, bytes: usize)
-    where
-        M: Kernels<N, P> + Copy + 'static;
+    fn visit<M: Kernels>(&mut self, chain: M, bytes: usize);
 }
 
 mod generated {
@@ -71,16 +79,14 @@ pub(crate) fn kernels() -> Vec<Grown> {
 struct Collector(Vec<Grown>);
 
 impl Visitor for Collector {
-    fn visit<M, const N: usize, const P: usize>(&mut self, chain: M, bytes: usize)
-    where
-        M: Kernels<N, P> + Copy + 'static,
-    {
+    fn visit<M: Kernels>(&mut self, chain: M, bytes: usize) {
+        let description = M::DESCRIPTION;
         let mut add = |kernel, name: &str| {
-            let info = M::DESCRIPTION.kernels.iter().find(|info| info.name == name);
+            let info = description.kernel(name);
             let operations = info.map_or(0, |info| info.operations + info.functions);
             self.0.push(Grown {
                 kernel,
-                bars: N,
+                bars: bars::<M>(),
                 operations,
                 bytes,
                 work: work(chain, kernel),
@@ -92,25 +98,35 @@ impl Visitor for Collector {
     }
 }
 
+/// The number of bars of a chain.
+fn bars<M: Kernels>() -> usize {
+    M::Coordinates::<f64>::LEN
+}
+
 /// A point and a direction.
-struct State<const N: usize, const P: usize> {
-    q: [f64; N],
-    u: [f64; 1],
-    b: [f64; P],
-    phi: [f64; N],
-    dq: [f64; N],
-    du: [f64; 1],
-    db: [f64; P],
-    dphi: [f64; N],
+struct State<M: Kernels> {
+    q: M::Coordinates<f64>,
+    u: M::Inputs<f64>,
+    b: M::Design<f64>,
+    phi: M::Coordinates<f64>,
+    dq: M::Coordinates<f64>,
+    du: M::Inputs<f64>,
+    db: M::Design<f64>,
+    dphi: M::Coordinates<f64>,
     lambda: [f64; 2],
 }
 
-fn work<M, const N: usize, const P: usize>(chain: M, kernel: &str) -> Box<dyn Work>
-where
-    M: Kernels<N, P> + Copy + 'static,
-{
-    let mut random = Random(N as u64);
-    let state = |_| State::<N, P> {
+/// Values that move in a direction.
+fn along<A: Array<f64>, D: Array<Dual<f64>>>(values: &A, direction: &A) -> D {
+    D::from_fn(|k| Dual {
+        value: values.as_ref()[k],
+        slope: direction.as_ref()[k],
+    })
+}
+
+fn work<M: Kernels>(chain: M, kernel: &str) -> Box<dyn Work> {
+    let mut random = Random(bars::<M>() as u64);
+    let state = |_| State::<M> {
         q: random.array(-1.5, 1.5),
         u: random.array(0.5, 4.0),
         b: random.array(0.5, 2.0),
@@ -122,31 +138,31 @@ where
         lambda: random.array(1.0, 20.0),
     };
     let inputs = (0..INPUTS).map(state).collect();
-    let results = |_: &State<N, P>| Vec::new();
+    let results = |_: &State<M>| Vec::new();
     match kernel {
         "residual" => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 black_box(&chain.residual(&s.q, &s.u, &s.b));
             },
             results,
         }),
         "mode_gradient" => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 black_box(&chain.mode_gradient(&s.q, &s.u, &s.b, &s.phi, s.lambda[0]));
             },
             results,
         }),
         _ => Box::new(Closures {
             inputs,
-            evaluate: move |s: &State<N, P>| {
+            evaluate: move |s: &State<M>| {
                 let [value, slope] = s.lambda;
                 black_box(&chain.mode_gradient(
-                    &Dual::along(&s.q, &s.dq),
-                    &Dual::along(&s.u, &s.du),
-                    &Dual::along(&s.b, &s.db),
-                    &Dual::along(&s.phi, &s.dphi),
+                    &along(&s.q, &s.dq),
+                    &along(&s.u, &s.du),
+                    &along(&s.b, &s.db),
+                    &along(&s.phi, &s.dphi),
                     Dual { value, slope },
                 ));
             },

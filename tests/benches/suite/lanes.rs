@@ -2,8 +2,9 @@
 
 use std::hint::black_box;
 
-use eigentol::lanes::{self, Batch, Instructions, WIDTH};
-use eigentol::{Gradient, Linear, Mechanism};
+use eigentol::kernels::{BatchKernels, BatchPoint, Gradient, Linear};
+use eigentol::lanes::{Batch, Instructions, WIDTH};
+use eigentol::{Matrix, Mechanism, Vector};
 
 use crate::chains::{self, State, Visitor, visit_short};
 use crate::tools::Tools;
@@ -36,13 +37,11 @@ struct Collector<'a> {
 }
 
 impl Visitor for Collector<'_> {
-    fn visit<M, const N: usize, const P: usize>(&mut self, chain: M)
-    where
-        M: Mechanism<N, 1, P, 0> + 'static,
-    {
+    fn visit<M: Mechanism + 'static>(&mut self, chain: M) {
+        let bars = chains::bars::<M>();
         for function in FUNCTIONS {
             for (lanes, instructions) in vectors() {
-                let name = format!("chain{N}/{function}-{lanes}");
+                let name = format!("chain{bars}/{function}-{lanes}");
                 if !(self.wanted)(&name) {
                     continue;
                 }
@@ -50,8 +49,13 @@ impl Visitor for Collector<'_> {
                     name,
                     units: [WIDTH, 1],
                     agreement: AGREEMENT,
-                    ours: ours(chain.clone(), function, instructions),
-                    peer: chains::peer::<N, P>(self.tools, function),
+                    ours: ours(
+                        Box::new(chain.clone()),
+                        states::<M>(),
+                        function,
+                        instructions,
+                    ),
+                    peer: chains::peer::<M>(self.tools, function),
                 });
             }
         }
@@ -59,27 +63,33 @@ impl Visitor for Collector<'_> {
 }
 
 /// As many states as a batch holds.
-struct States<const N: usize, const P: usize> {
-    q: [Batch; N],
-    u: [Batch; 1],
-    b: [Batch; P],
-    phi: [Batch; N],
+struct States {
+    q: Vec<Batch>,
+    u: Vec<Batch>,
+    b: Vec<Batch>,
+    phi: Vec<Batch>,
     lambda: Batch,
 }
 
-fn states<const N: usize, const P: usize>() -> Vec<States<N, P>> {
-    fn gather<const N: usize, const P: usize, const K: usize>(
-        states: &[State<N, P>],
-        field: fn(&State<N, P>) -> &[f64; K],
-    ) -> [Batch; K] {
-        std::array::from_fn(|k| Batch::from_fn(|lane| field(&states[lane])[k]))
+impl States {
+    fn point(&self) -> BatchPoint<'_> {
+        let Self { q, u, b, .. } = self;
+        BatchPoint { q, u, b }
     }
-    let all = chains::states::<N, P>();
+}
+
+fn states<M: Mechanism>() -> Vec<States> {
+    fn gather<M: Mechanism>(states: &[State<M>], field: fn(&State<M>) -> &[f64]) -> Vec<Batch> {
+        let count = field(&states[0]).len();
+        let batch = |k| Batch::from_fn(|lane| field(&states[lane])[k]);
+        (0..count).map(batch).collect()
+    }
+    let all = chains::states::<M>();
     let batches = all.chunks_exact(WIDTH).map(|states| States {
-        q: gather(states, |s| &s.q),
-        u: gather(states, |s| &s.u),
-        b: gather(states, |s| &s.b),
-        phi: gather(states, |s| &s.phi),
+        q: gather(states, |s| s.q.as_ref()),
+        u: gather(states, |s| s.u.as_ref()),
+        b: gather(states, |s| s.b.as_ref()),
+        phi: gather(states, |s| s.phi.as_ref()),
         lambda: Batch::from_fn(|lane| states[lane].lambda),
     });
     batches.collect()
@@ -89,16 +99,16 @@ fn states<const N: usize, const P: usize>() -> Vec<States<N, P>> {
 type OfLane<'a> = &'a dyn Fn(&[Batch]) -> Vec<f64>;
 
 /// A kernel on batches: what it fills, and how the numbers of one lane are read from that.
-struct Lanes<S, R, E, F> {
-    inputs: Vec<S>,
+struct Lanes<R, E, F> {
+    inputs: Vec<States>,
     out: R,
     evaluate: E,
     lane: F,
 }
 
-impl<S, R, E, F> Work for Lanes<S, R, E, F>
+impl<R, E, F> Work for Lanes<R, E, F>
 where
-    E: FnMut(&S, &mut R),
+    E: FnMut(&States, &mut R),
     F: Fn(&R, OfLane<'_>) -> Vec<Vec<f64>>,
 {
     fn inputs(&self) -> usize {
@@ -118,46 +128,49 @@ where
     }
 }
 
-fn ours<M, const N: usize, const P: usize>(
-    chain: M,
+fn ours(
+    chain: Box<dyn BatchKernels>,
+    inputs: Vec<States>,
     function: &str,
     instructions: Instructions,
-) -> Box<dyn Work>
-where
-    M: Mechanism<N, 1, P, 0> + 'static,
-{
-    let inputs = states::<N, P>();
-    let zero = Batch::default();
+) -> Box<dyn Work> {
+    let sizes = chain.sizes();
+    let n = sizes.coordinates;
     match function {
         "residual_and_stiffness" => Box::new(Lanes {
             inputs,
-            out: ([zero; N], [[zero; N]; N]),
-            evaluate: move |s: &States<N, P>, out: &mut _| {
-                lanes::residual_and_stiffness(instructions, &chain, &s.q, &s.u, &s.b, out);
-            },
-            lane: |out: &([Batch; N], [[Batch; N]; N]), of_lane: OfLane<'_>| {
+            out: (Vector::zeros(n), Matrix::zeros(n, n)),
+            evaluate:
+                move |s: &States, (residual, stiffness): &mut (Vector<Batch>, Matrix<Batch>)| {
+                    chain.residual_and_stiffness_batch(
+                        instructions,
+                        s.point(),
+                        residual,
+                        stiffness,
+                    );
+                },
+            lane: |out: &(Vector<Batch>, Matrix<Batch>), of_lane: OfLane<'_>| {
                 vec![of_lane(&out.0), of_lane(out.1.as_flattened())]
             },
         }),
         "linear" => Box::new(Lanes {
             inputs,
-            out: Linear::<Batch, N>::default(),
-            evaluate: move |s: &States<N, P>, out: &mut _| {
-                lanes::linear(instructions, &chain, &s.q, &s.u, &s.b, out);
+            out: Linear::zeros(n),
+            evaluate: move |s: &States, out: &mut _| {
+                chain.linear_batch(instructions, s.point(), out);
             },
-            lane: |out: &Linear<Batch, N>, of_lane: OfLane<'_>| {
+            lane: |out: &Linear<Batch>, of_lane: OfLane<'_>| {
                 let matrices = [&out.mass, &out.stiffness];
                 matrices.map(|x| of_lane(x.as_flattened())).to_vec()
             },
         }),
         _ => Box::new(Lanes {
             inputs,
-            out: Gradient::<Batch, N, 1, P>::default(),
-            evaluate: move |s: &States<N, P>, out: &mut _| {
-                let (phi, lambda) = (&s.phi, &s.lambda);
-                lanes::mode_gradient(instructions, &chain, &s.q, &s.u, &s.b, phi, lambda, out);
+            out: Gradient::zeros(sizes),
+            evaluate: move |s: &States, out: &mut _| {
+                chain.mode_gradient_batch(instructions, s.point(), &s.phi, &s.lambda, out);
             },
-            lane: |out: &Gradient<Batch, N, 1, P>, of_lane: OfLane<'_>| {
+            lane: |out: &Gradient<Batch>, of_lane: OfLane<'_>| {
                 vec![
                     of_lane(&out.coordinates),
                     of_lane(&out.inputs),

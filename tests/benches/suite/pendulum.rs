@@ -47,7 +47,7 @@ const START: [f64; 2] = [1.0, 0.1];
 /// Numbers per speed that the C++ writes.
 const WIDTH: usize = 12;
 
-type State = Equilibrium<2, 1, 4>;
+type State = Equilibrium;
 
 /// Finite differences agree to what their step allows.
 const DIFFERENCE_ERROR: f64 = 1e-6;
@@ -125,7 +125,7 @@ struct Sweep {
 fn sweeps() -> Vec<Sweep> {
     let mut random = Random(2);
     let sweep = |_| {
-        let [l1, l2, m1, m2] = random.array(1.0, 1.1);
+        let [l1, l2, m1, m2]: [f64; 4] = random.array(1.0, 1.1);
         let (low, high) = (random.between(3.2, 3.3), random.between(7.5, 8.0));
         let speed = |k| low + (high - low) * k as f64 / (SPEEDS - 1) as f64;
         Sweep {
@@ -140,14 +140,14 @@ fn sweeps() -> Vec<Sweep> {
 fn follow(
     sweep: &Sweep,
     vectors: Option<Instructions>,
-    each: impl FnMut(&SweepPoint<2, 1, 4>, &Result<Sensitivities<2, 1, 4>, Error>),
+    each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
 ) {
     let following = Following {
         vectors,
         ..Policy::Stable.into()
     };
-    let along = (DoublePendulum::omega, &sweep.speeds[..]);
-    let values = (&[0.0], &sweep.design);
+    let along = (DoublePendulum::omega.any(), &sweep.speeds[..]);
+    let values = (&[0.0][..], &sweep.design[..]);
     let done = sensitivity_sweep(&DoublePendulum, values, &START, following, along, each);
     debug_assert!(done.is_ok());
 }
@@ -170,7 +170,7 @@ fn sweep(vectors: Option<Instructions>) -> Box<dyn Work> {
                 arrays.push(state.coordinates.to_vec());
                 arrays.push(found.frequencies().iter().flatten().copied().collect());
                 for mode in slopes.modes.iter() {
-                    arrays.push(mode.omega_by_design.into_iter().flatten().collect());
+                    arrays.push(mode.omega_by_design.iter().flatten().copied().collect());
                 }
             });
             arrays
@@ -246,8 +246,8 @@ impl Work for SweepByHand {
 /// One Monte Carlo: nominal state and the seed.
 struct Samples {
     state: State,
-    modes: Modes<2>,
-    tolerances: Tolerances<4>,
+    modes: Modes,
+    tolerances: Tolerances,
     seed: u64,
 }
 
@@ -255,8 +255,7 @@ struct Samples {
 const SEEDS: usize = 8;
 
 fn samples() -> Result<Vec<Samples>, Error> {
-    let description = const { &<DoublePendulum as Mechanism<2, 1, 4, 0>>::DESCRIPTION };
-    let tolerances = Tolerances::declared(description)?;
+    let tolerances = Tolerances::declared(&DoublePendulum::DESCRIPTION)?;
     let set = |(seed, sweep): (usize, Sweep)| {
         let (inputs, design) = ([sweep.speeds[10 * seed]], &sweep.design);
         let state = equilibrium(&DoublePendulum, &inputs, design, &START, Policy::Stable)?;
@@ -264,7 +263,7 @@ fn samples() -> Result<Vec<Samples>, Error> {
         Ok(Samples {
             state,
             modes,
-            tolerances,
+            tolerances: tolerances.clone(),
             seed: seed as u64,
         })
     };
@@ -276,7 +275,7 @@ fn draw(
     samples: &Samples,
     vectors: Option<Instructions>,
     keep_samples: bool,
-) -> Result<MonteCarlo<2, 4>, Error> {
+) -> Result<MonteCarlo, Error> {
     let sampling = Sampling {
         samples: SAMPLES,
         seed: samples.seed,
@@ -303,7 +302,7 @@ fn sampling(inputs: Vec<Samples>, vectors: Option<Instructions>) -> Box<dyn Work
         results: move |samples: &Samples| {
             let statistics = draw(samples, vectors, false).map(|run| run.modes);
             let statistics = statistics.iter().flat_map(|modes| modes.iter().flatten());
-            let flat = statistics.flat_map(|mode| [Some(mode.mean), mode.standard_deviation]);
+            let flat = statistics.flat_map(|mode| [Some(mode.mean), mode.sigma]);
             vec![flat.flatten().collect()]
         },
     })
@@ -333,7 +332,11 @@ impl MonteCarloByHand {
         };
         let designs = |samples: Samples| {
             let all = draw(&samples, None, true)?.all.unwrap_or_default();
-            let flat = all.iter().flat_map(|sample| sample.design).collect();
+            let flat = all
+                .iter()
+                .flat_map(|sample| &sample.design)
+                .copied()
+                .collect();
             Ok((samples.state, flat))
         };
         let samples = samples().map_err(|error| error.to_string())?.into_iter();

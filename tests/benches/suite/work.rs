@@ -2,6 +2,8 @@
 
 use std::hint::black_box;
 
+use eigentol::Array;
+
 /// Prepared inputs of every task; a run goes round them, so that nothing can be carried over from call to call.
 pub(crate) const INPUTS: usize = 64;
 
@@ -95,6 +97,12 @@ pub(crate) fn difference(ours: &[Vec<f64>], peer: &[Vec<f64>]) -> Result<f64, St
     Ok(worst)
 }
 
+/// The entries of a matrix, row by row.
+pub(crate) fn flat<R: AsRef<[f64]>>(rows: impl AsRef<[R]>) -> Vec<f64> {
+    let rows = rows.as_ref().iter();
+    rows.flat_map(|row| row.as_ref()).copied().collect()
+}
+
 /// Random numbers for inputs, the same in every run: splitmix64.
 pub(crate) struct Random(pub(crate) u64);
 
@@ -109,7 +117,7 @@ impl Random {
         low + (high - low) * ((bits >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    pub(crate) fn array<const K: usize>(&mut self, low: f64, high: f64) -> [f64; K] {
-        std::array::from_fn(|_| self.between(low, high))
+    pub(crate) fn array<A: Array<f64>>(&mut self, low: f64, high: f64) -> A {
+        A::from_fn(|_| self.between(low, high))
     }
 }

@@ -15,7 +15,7 @@ mechanism! {
     }
 }
 
-fn set(_: Input, _: f64) {}
+fn set(_: Input<Pendulum>, _: f64) {}
 
 fn main() {
     set(Pendulum::omgea, 5.0);

@@ -17,13 +17,12 @@ pub(crate) use machine;
 /// Does something to every machine of the corpus, whatever its size.
 pub trait Visitor {
     /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy;
+    );
 }
 
 macro_rules! corpus {

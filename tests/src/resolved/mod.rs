@@ -17,7 +17,7 @@ mod spectrum;
 
 pub use machine::{Machine, State};
 pub use modes::{ComplexDerived, GeneralMode, UndampedMode};
-pub use operation::{Comparison, every_machine, operating_points};
+pub use operation::{Comparison, Operation, every_machine, operating_points};
 
 use crate::hyper::Hyper;
 

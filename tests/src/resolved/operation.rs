@@ -1,6 +1,7 @@
 //! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
 
 use eigentol::equilibrium::{Equilibrium, equilibrium};
+use eigentol::kernels::DirectionalKernels;
 use eigentol::{Mechanism, Policy};
 
 use super::{Machine, State};
@@ -72,39 +73,35 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
 pub trait Comparison {
     /// Called for each machine at each of its operating points, design variables nominal. `state` is the
     /// same equilibrium as `at`.
-    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn compare(
         &mut self,
         what: &str,
-        machine: &M,
-        at: &Equilibrium<N, U, P>,
+        machine: &dyn DirectionalKernels,
+        at: &Equilibrium,
         state: &State,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy;
+    );
 }
 
 struct Every<'a, C>(&'a mut C);
 
 impl<C: Comparison> Visitor for Every<'_, C> {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         let resolved = Machine::new(declaration);
-        let b: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
+        let design = M::DESCRIPTION.design;
+        let b: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
         assert_eq!(resolved.nominal(), b, "{name}");
         for operation in operating_points(name) {
             let Operation {
-                inputs,
+                inputs: u,
                 start,
                 policy,
             } = operation;
-            let what = format!("{name} at {inputs:?}");
-            let u: [f64; U] = inputs[..].try_into().expect("one value per input");
-            let start: [f64; N] = start[..].try_into().expect("one value per coordinate");
+            let what = format!("{name} at {u:?}");
             let at = equilibrium(&machine, &u, &b, &start, policy)
                 .unwrap_or_else(|error| panic!("{what}: {error}"));
             let state = resolved.at(&u, &b, &at.coordinates);

@@ -1,6 +1,6 @@
 //! Interpreter and generated code: every number the same to the last bit, for every kernel of every machine.
 
-use eigentol::{LinearPartials, Mechanism};
+use eigentol::{Array, Kernels, Linear, LinearPartials, Mechanism, PartialsOf, Square};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{compile, program};
@@ -41,14 +41,12 @@ struct Agreement {
 }
 
 impl Visitor for Agreement {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         let program = interpreted(name, declaration);
         let mut numbers = Numbers::new(1);
         for kernel in &program.kernels {
@@ -98,20 +96,11 @@ impl Visitor for Agreement {
 }
 
 /// The generated distance from singular poses at `q`, `u`, `b`.
-fn pose_margin<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: &M,
-    arguments: &[Vec<f64>],
-) -> Option<f64>
-where
-    M: Mechanism<N, U, P, O>,
-{
+fn pose_margin(machine: &dyn Kernels, arguments: &[Vec<f64>]) -> Option<f64> {
     let [q, u, b] = arguments else {
         panic!("three arguments")
     };
-    let q: [f64; N] = q[..].try_into().expect("coordinates");
-    let u: [f64; U] = u[..].try_into().expect("inputs");
-    let b: [f64; P] = b[..].try_into().expect("design variables");
-    machine.pose_margin(&q, &u, &b).map(|pose| pose.margin)
+    machine.pose_margin(q, u, b).map(|pose| pose.margin)
 }
 
 #[test]
@@ -129,22 +118,27 @@ struct Requirements {
 }
 
 impl Visitor for Requirements {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
+        self.check(name, declaration, &machine);
+    }
+}
+
+impl Requirements {
+    fn check(&mut self, name: &str, declaration: &str, machine: &dyn Kernels) {
         let program = interpreted(name, declaration);
         let kernel = program.kernel("violation").expect("a check");
-        let inputs = [1.0; U];
-        let nominal: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
+        let description = machine.description();
+        let inputs = vec![1.0; description.inputs.len()];
+        let nominal: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
         assert_eq!(machine.violation(&inputs, &nominal), None, "{name}");
-        for j in 0..P {
+        for j in 0..nominal.len() {
             for value in [0.0, -0.0, -1.0, -nominal[j], f64::NAN, f64::NEG_INFINITY] {
-                let mut design = nominal;
+                let mut design = nominal.clone();
                 design[j] = value;
                 let values = &kernel.evaluate(&[&inputs, &design])[0];
                 let expected = values
@@ -158,7 +152,7 @@ impl Visitor for Requirements {
                     found.map(f64::to_bits),
                     expected.map(f64::to_bits),
                     "{name}: {} = {value}",
-                    M::DESCRIPTION.design[j].name
+                    description.design[j].name
                 );
                 self.broken += usize::from(found.is_some());
             }
@@ -179,14 +173,12 @@ struct Columns {
 }
 
 impl Visitor for Columns {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         if M::DESCRIPTION
             .kernels
             .iter()
@@ -200,8 +192,7 @@ impl Visitor for Columns {
             .expect("it compiles")
             .program;
         let kernel = program.kernel("linear_partials").expect("no limit");
-        let parameters = [("q", N), ("u", U), ("b", P)];
-        let arguments = Numbers::new(2).arguments(&machine, &parameters);
+        let arguments = Numbers::new(2).point(&machine);
         let slices: Vec<&[f64]> = arguments.iter().map(Vec::as_slice).collect();
         let expected = kernel.evaluate(&slices);
         let found = evaluate(&machine, "linear_partials", &arguments).expect("in the contract");
@@ -237,38 +228,62 @@ struct Reused {
 }
 
 impl Visitor for Reused {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &mut self,
-        name: &'static str,
-        _: &'static str,
-        machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
         let mut numbers = Numbers::new(6);
-        let mut result: Box<LinearPartials<f64, N, U, P>> = Box::default();
+        let mut result = zeros::<M>();
         for _ in 0..3 {
-            let arguments = numbers.arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
-            let q = arguments[0][..].try_into().expect("N");
-            let u = arguments[1][..].try_into().expect("U");
-            let b = arguments[2][..].try_into().expect("P");
-            machine.linear_partials_into(q, u, b, &mut result);
-            assert_eq!(*result, machine.linear_partials(q, u, b), "{name}");
+            let arguments = numbers.point(&machine);
+            let q = Array::view(&arguments[0]);
+            let u = Array::view(&arguments[1]);
+            let b = Array::view(&arguments[2]);
+            Mechanism::linear_partials_into(&machine, q, u, b, &mut result);
+            let new = machine.linear_partials(q, u, b);
+            assert_eq!(entries::<M>(&result), entries::<M>(&new), "{name}");
         }
-        let mut marked = LinearPartials::default();
-        for matrices in &mut marked.by_coordinate {
-            matrices.damping = [[f64::NAN; N]; N];
+        let mut marked = zeros::<M>();
+        for matrices in marked.by_coordinate.as_mut() {
+            matrices.damping = filled::<M>(f64::NAN);
         }
-        machine.linear_partials_into(&[0.1; N], &[1.0; U], &[1.0; P], &mut marked);
-        let kept = |list: &[eigentol::Linear<f64, N>]| {
-            let entries = list.iter().flat_map(|one| one.damping.as_flattened());
-            entries.filter(|entry| entry.is_nan()).count()
-        };
-        if kept(&marked.by_coordinate) > 0 {
-            self.largest = self.largest.max(3 * N * N * (N + U + P));
+        let (q, u, b) = (Array::filled(0.1), Array::filled(1.0), Array::filled(1.0));
+        Mechanism::linear_partials_into(&machine, &q, &u, &b, &mut marked);
+        let entries = entries::<M>(&marked);
+        if entries.iter().any(|entry| entry.is_nan()) {
+            self.largest = self.largest.max(entries.len());
         }
         self.machines += 1;
     }
+}
+
+fn filled<M: Mechanism>(value: f64) -> Square<M, f64> {
+    Array::filled(Array::filled(value))
+}
+
+/// What partial derivatives are first written into.
+fn zeros<M: Mechanism>() -> Box<PartialsOf<M, f64>> {
+    let zero = Linear {
+        mass: filled::<M>(0.0),
+        damping: filled::<M>(0.0),
+        stiffness: filled::<M>(0.0),
+    };
+    Box::new(LinearPartials {
+        by_coordinate: Array::filled(zero),
+        by_input: Array::filled(zero),
+        by_design: Array::filled(zero),
+    })
+}
+
+fn entries<M: Mechanism>(partials: &PartialsOf<M, f64>) -> Vec<f64> {
+    let lists = [
+        partials.by_coordinate.as_ref(),
+        partials.by_input.as_ref(),
+        partials.by_design.as_ref(),
+    ];
+    let matrices = lists
+        .into_iter()
+        .flatten()
+        .flat_map(|one: &Linear<Square<M, f64>>| [&one.mass, &one.damping, &one.stiffness]);
+    let rows = matrices.flat_map(|matrix| matrix.as_ref());
+    rows.flat_map(|row| row.as_ref()).copied().collect()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! differentiated already. Those are interpreted: generated code does the same to the last bit, and rustc would need
 //! minutes to translate every kernel once more.
 
-use eigentol::Mechanism;
+use eigentol::{Array, Kernels, Mechanism};
 use eigentol_compiler::program;
 use eigentol_compiler::program::Program;
 use eigentol_consistency::interpreter::interpret;
@@ -41,15 +41,8 @@ fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
 struct SinglePrecision(usize);
 
 impl Visitor for SinglePrecision {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &mut self,
-        name: &'static str,
-        _: &'static str,
-        machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
-        let arguments = Numbers::new(3).arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
+        let arguments = Numbers::new(3).point(&machine);
         let single: Vec<Vec<f32>> = arguments
             .iter()
             .map(|list| list.iter().map(|&value| value as f32).collect())
@@ -137,20 +130,19 @@ fn bilinear(x: &[f64], matrix: &[f64], y: &[f64]) -> f64 {
 }
 
 impl Visitor for Duals {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         const TIGHT: f64 = 1e-12;
         let tokens = declaration.parse().expect("the text has tokens");
         let program = program(tokens).expect("a declaration of the corpus");
         let mut numbers = Numbers::new(4);
-        let sizes = [N, U, P];
-        let at = numbers.arguments(&machine, &[("q", N), ("u", U), ("b", P)]);
+        let at = numbers.point(&machine);
+        let sizes = [at[0].len(), at[1].len(), at[2].len()];
+        let n = sizes[0];
         let value = |kernel: &str, arguments: &[Vec<f64>]| {
             evaluate(&machine, kernel, arguments).expect("in the contract")
         };
@@ -180,7 +172,7 @@ impl Visitor for Duals {
                 &format!("{name} dg"),
             );
         }
-        let at_rest: Vec<Vec<f64>> = [vec![vec![0.0; N]; 2], at.clone()].concat();
+        let at_rest: Vec<Vec<f64>> = [vec![vec![0.0; n]; 2], at.clone()].concat();
         for (which, expected) in [(0, &linear[0]), (1, &linear[1]), (2, &linear[2])] {
             let found = jacobian("motion_residual", &at_rest, which);
             assert_close(
@@ -206,7 +198,7 @@ impl Visitor for Duals {
             for entry in 0..sizes[which] {
                 let found = slope(&program, "linear", &at, &unit(&sizes, which, entry));
                 for (found, expected) in found.iter().zip(matrices) {
-                    let expected = &expected[entry * N * N..(entry + 1) * N * N];
+                    let expected = &expected[entry * n * n..(entry + 1) * n * n];
                     let what = format!("{name} linear_partials {which} {entry}");
                     assert_close_to(found, expected, TIGHT * largest(matrices), &what);
                 }
@@ -220,7 +212,7 @@ impl Visitor for Duals {
         }
 
         // Gradients of a = phi^T (K - lambda M) phi and of w^T g, and their directional derivatives.
-        let (phi, lambda, w) = (numbers.list(N), numbers.next(), numbers.list(N));
+        let (phi, lambda, w) = (numbers.list(n), numbers.next(), numbers.list(n));
         let gradients = value(
             "mode_gradient",
             &[at.clone(), vec![phi.clone(), vec![lambda]]].concat(),
@@ -248,7 +240,7 @@ impl Visitor for Duals {
                 &format!("{name} pull"),
             );
         }
-        let (dphi, dlambda, dw) = (numbers.list(N), numbers.next(), numbers.list(N));
+        let (dphi, dlambda, dw) = (numbers.list(n), numbers.next(), numbers.list(n));
         let mode = [at.clone(), vec![phi, vec![lambda]]].concat();
         let mode_along = [along.clone(), vec![dphi, vec![dlambda]]].concat();
         let found = slope(&program, "mode_gradient", &mode, &mode_along);
@@ -261,7 +253,7 @@ impl Visitor for Duals {
                 &format!("{name} mode_gradient_along"),
             );
         }
-        let vectors: Vec<Vec<f64>> = (0..4).map(|_| numbers.list(N)).collect();
+        let vectors: Vec<Vec<f64>> = (0..4).map(|_| numbers.list(n)).collect();
         let pencil = [at.clone(), vectors.clone()].concat();
         let gradients = value("pencil_gradient", &pencil);
         // The explicit partial derivatives, contracted.
@@ -269,7 +261,7 @@ impl Visitor for Duals {
             let found: Vec<f64> = (0..sizes[which])
                 .map(|entry| {
                     let form = |(matrix, vector): (&Vec<f64>, &Vec<f64>)| {
-                        let matrix = &matrix[entry * N * N..(entry + 1) * N * N];
+                        let matrix = &matrix[entry * n * n..(entry + 1) * n * n];
                         bilinear(&vectors[0], matrix, vector)
                     };
                     matrices.iter().zip(&vectors[1..]).map(form).sum()
@@ -282,7 +274,7 @@ impl Visitor for Duals {
                 &format!("{name} pencil_gradient {which}"),
             );
         }
-        let vectors_along = (0..4).map(|_| numbers.list(N)).collect();
+        let vectors_along = (0..4).map(|_| numbers.list(n)).collect();
         let pencil_along = [along.clone(), vectors_along].concat();
         let found = slope(&program, "pencil_gradient", &pencil, &pencil_along);
         let expected = value("pencil_gradient_along", &[pencil, pencil_along].concat());
@@ -341,34 +333,32 @@ fn duals_agree_with_every_derivative_kernel() {
 struct AlongMotion(usize);
 
 impl Visitor for AlongMotion {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         let program = program(declaration.parse().expect("tokens")).expect("it compiles");
         let kernel = program.kernel("motion_residual").expect("in the contract");
-        let sizes = [
-            ("acceleration", N),
-            ("velocity", N),
-            ("q", N),
-            ("u", U),
-            ("b", P),
+        let sizes = machine.sizes();
+        let n = sizes.coordinates;
+        let lengths = [
+            ("acceleration", n),
+            ("velocity", n),
+            ("q", n),
+            ("u", sizes.inputs),
+            ("b", sizes.design),
         ];
-        let arguments = Numbers::new(8).arguments(&machine, &sizes);
-        let [acceleration, velocity, q] =
-            [0, 1, 2].map(|k| arguments[k][..].try_into().expect("N"));
-        let u = arguments[3][..].try_into().expect("U");
-        let b = arguments[4][..].try_into().expect("P");
+        let arguments = Numbers::new(8).arguments(&machine, &lengths);
+        let [acceleration, velocity, q] = [0, 1, 2].map(|k| Array::view(&arguments[k]));
+        let (u, b) = (Array::view(&arguments[3]), Array::view(&arguments[4]));
         let found = machine.motion_linear::<f64>(acceleration, velocity, q, u, b);
         for (list, matrix) in [found.mass, found.damping, found.stiffness]
             .iter()
             .enumerate()
         {
-            for j in 0..N {
+            for j in 0..n {
                 let duals: Vec<Vec<Dual>> = arguments
                     .iter()
                     .enumerate()
@@ -386,8 +376,9 @@ impl Visitor for AlongMotion {
                     .iter()
                     .map(|entry| entry.slope())
                     .collect();
-                let column: Vec<f64> = matrix.iter().map(|row| row[j]).collect();
-                let scale = flat_largest(matrix);
+                let rows = matrix.as_ref().iter();
+                let column: Vec<f64> = rows.map(|row| row.as_ref()[j]).collect();
+                let scale = flat_largest(matrix.as_ref());
                 for (one, other) in column.iter().zip(&expected) {
                     assert!(
                         (one - other).abs() <= 1e-11 * scale,
@@ -400,10 +391,10 @@ impl Visitor for AlongMotion {
     }
 }
 
-fn flat_largest<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+fn flat_largest(matrix: &[impl AsRef<[f64]>]) -> f64 {
     matrix
         .iter()
-        .flatten()
+        .flat_map(AsRef::as_ref)
         .fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 

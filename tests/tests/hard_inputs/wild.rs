@@ -2,7 +2,7 @@
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::tolerance::Tolerances;
-use eigentol::{Coordinate, DesignVariable, Input, Mechanism, Policy, Study};
+use eigentol::{Coordinate, DesignVariable, Input, Kernels, Mechanism, Policy, Study};
 use eigentol_tests::corpus::gimbal::Gimbal;
 use eigentol_tests::corpus::governor::Governor;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
@@ -33,23 +33,14 @@ pub(crate) fn design(powers: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: M,
-    u: &[f64],
-    b: &[f64],
-    start: &[f64],
-    widths: &[f64],
-) where
-    M: Mechanism<N, U, P, O> + Copy,
-{
-    let u: [f64; U] = std::array::from_fn(|j| u[j]);
-    let b: [f64; P] = std::array::from_fn(|j| b[j]);
-    let start: [f64; N] = std::array::from_fn(|i| start[i]);
-    let usual = Tolerances::declared(&M::DESCRIPTION).expect("declared");
-    let tolerances =
-        Tolerances::new(std::array::from_fn(|j| widths[j]), 3.0, None).unwrap_or(usual);
+fn ask<M: Mechanism + Copy>(machine: M, u: &[f64], b: &[f64], start: &[f64], widths: &[f64]) {
+    let sizes = machine.sizes();
+    let (u, b) = (&u[..sizes.inputs], &b[..sizes.design]);
+    let (start, widths) = (&start[..sizes.coordinates], &widths[..sizes.design]);
+    let usual = Tolerances::declared(&Kernels::description(&machine)).expect("declared");
+    let tolerances = Tolerances::new(widths, 3.0, None).unwrap_or(usual.clone());
     for policy in [Policy::Stable, Policy::Nearest] {
-        if let Ok(state) = equilibrium(&machine, &u, &b, &start, policy) {
+        if let Ok(state) = equilibrium(&machine, u, b, start, policy) {
             assert_answers(&machine, &state, &tolerances);
         }
     }
@@ -58,44 +49,48 @@ fn ask<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         .threads(1)
         .steps(4)
         .keep_samples(true);
-    for (j, value) in u.into_iter().enumerate() {
-        study = study.input(Input(j), value);
+    for (j, &value) in u.iter().enumerate() {
+        study = study.input(Input::new(j), value);
     }
-    for (i, value) in start.into_iter().enumerate() {
-        study = study.start(Coordinate(i), value);
+    for (i, &value) in start.iter().enumerate() {
+        study = study.start(Coordinate::new(i), value);
     }
-    for j in 0..P {
+    for j in 0..sizes.design {
         study = study
-            .design(DesignVariable(j), b[j])
-            .tolerance(DesignVariable(j), widths[j]);
+            .design(DesignVariable::new(j), b[j])
+            .tolerance(DesignVariable::new(j), widths[j]);
     }
     if let Ok(run) = study.monte_carlo() {
         assert_eq!(run.counts.total(), 8);
         for sample in run.all.iter().flatten() {
-            assert_numbers(sample.coordinates.into_iter().flatten(), "sample");
+            assert_numbers(sample.coordinates.iter().flatten(), "sample");
             let s = sample.eigenvalues.iter().flatten();
             assert_numbers(s.flat_map(|s| [s.re, s.im]), "sample");
             assert_numbers(sample.frequencies.iter().flatten().copied(), "sample");
         }
         for found in run.modes.iter().flatten() {
-            let spread = [found.standard_deviation, found.standard_error];
+            let spread = [found.sigma, found.standard_error];
             assert_numbers(spread.into_iter().flatten().chain([found.mean]), "moments");
         }
     }
-    if U > 0 {
+    if sizes.inputs > 0 {
         let (low, high) = (start[0], u[0]);
-        if let Ok(critical) = study.critical_state(Input(0), low, high) {
+        if let Ok(critical) = study.critical_state(Input::new(0), low, high) {
             assert_numbers([critical.value], "critical");
             assert_numbers(critical.equilibrium.coordinates, "critical");
         }
         for crossing in study
-            .crossings(Input(0), low, high, 1.0)
+            .crossings(Input::new(0), low, high, 1.0)
             .into_iter()
             .flatten()
         {
             assert_numbers([crossing.value], "crossing");
         }
-        for point in study.sweep(Input(0), &[low, high]).into_iter().flatten() {
+        for point in study
+            .sweep(Input::new(0), &[low, high])
+            .into_iter()
+            .flatten()
+        {
             if let Ok(state) = point.equilibrium {
                 assert_answers(&machine, &state, &usual);
             }

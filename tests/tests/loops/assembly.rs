@@ -1,56 +1,44 @@
 //! Assembly from values that close no loop: the held coordinates decide, the start values of the others choose the mode.
 
 use eigentol::equilibrium::{Assembly, AssemblyMode, assemble};
-use eigentol::{Coordinate, Error, Mechanism};
+use eigentol::{Coordinate, Error, Mechanism, Study};
 use eigentol_tests::loops::{FiveBar, FourBar};
 
 use super::common::{Case, Point, assert_close};
 use super::study::study;
 
-fn place<M, const N: usize, const P: usize, const O: usize>(name: &str) -> Coordinate
-where
-    M: Mechanism<N, 1, P, O>,
-{
-    let list = M::DESCRIPTION.coordinates;
-    let found = list.iter().position(|unknown| unknown.name == name);
-    Coordinate(found.unwrap_or_else(|| panic!("there is a coordinate {name}")))
-}
-
 /// Assembled with the named coordinates at the file's values and the others near them.
-fn assembled<M, const N: usize, const P: usize, const O: usize>(
-    machine: M,
+fn assembled(
+    study: &Study<impl Mechanism>,
     case: &Case,
     point: &Point,
     held: &[&str],
-) -> Result<Assembly<N>, Error>
-where
-    M: Mechanism<N, 1, P, O> + Copy,
-{
-    let mut start = *study(machine, case, point).start_values();
-    let held: Vec<Coordinate> = held.iter().map(|name| place::<M, N, P, O>(name)).collect();
-    for one in &held {
-        let name = M::DESCRIPTION.coordinates[one.0].name;
-        start[one.0] = point.truth.get("coordinates").get(name).number();
+) -> Result<Assembly, Error> {
+    let mut start = study.start_values().to_vec();
+    let place = |name: &&str| study.find_coordinate(name).expect("declared").any();
+    let places: Vec<Coordinate> = held.iter().map(place).collect();
+    for (name, place) in held.iter().zip(&places) {
+        start[place.index()] = point.truth.get("coordinates").get(name).number();
     }
-    let design: [f64; P] = std::array::from_fn(|j| case.design[j]);
-    assemble(&machine, &[point.input], &design, &start, &held)
+    assemble(
+        study.mechanism(),
+        &[point.input],
+        &case.design,
+        &start,
+        &places,
+    )
 }
 
-fn check<M, const N: usize, const P: usize, const O: usize>(
-    machine: M,
-    name: &'static str,
-) -> AssemblyMode
-where
-    M: Mechanism<N, 1, P, O> + Copy,
-{
+fn check(machine: impl Mechanism, name: &'static str) -> AssemblyMode {
     let case = Case::new(name);
     let held: Vec<&str> = case.independent.iter().map(String::as_str).collect();
     let mut modes = Vec::new();
     for point in case.points() {
-        let found = assembled(machine, &case, &point, &held)
+        let study = study(machine.clone(), &case, &point);
+        let found = assembled(&study, &case, &point, &held)
             .unwrap_or_else(|error| panic!("{}: {error}", point.what));
-        for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
-            if let Some(expected) = point.truth.get("coordinates").find(unknown.name) {
+        for (i, unknown) in study.description().coordinates.iter().enumerate() {
+            if let Some(expected) = point.truth.get("coordinates").find(&unknown.name) {
                 let what = format!("{}: {}", point.what, unknown.name);
                 assert_close(found.coordinates[i], expected.number(), 1e-3, &what);
             }
@@ -83,7 +71,12 @@ fn the_five_bar_holds_both_cranks() {
 fn bars_that_do_not_reach_are_told() {
     let case = Case::new("four_bar_open").with("spacing", 0.9);
     let point = case.points().remove(1);
-    let refused = assembled(FourBar, &case, &point, &["crank_angle"]);
+    let refused = assembled(
+        &study(FourBar, &case, &point),
+        &case,
+        &point,
+        &["crank_angle"],
+    );
     let Err(error) = refused else {
         panic!("bars of 0.63 m do not reach 0.9 m");
     };
@@ -96,7 +89,12 @@ fn bars_that_do_not_reach_are_told() {
 fn too_much_held_is_told() {
     let case = Case::new("four_bar_open").with("rocker", 0.23);
     let point = case.points().remove(1);
-    let refused = assembled(FourBar, &case, &point, &["crank_angle", "rocker_angle"]);
+    let refused = assembled(
+        &study(FourBar, &case, &point),
+        &case,
+        &point,
+        &["crank_angle", "rocker_angle"],
+    );
     assert!(
         matches!(refused, Err(Error::NotAssembled { .. })),
         "{refused:?}"

@@ -2,32 +2,23 @@
 //! side, of a distance the tension, of an equation the force in the direction in which its expression grows. For each kind of
 //! constraint statics by hand.
 
-use eigentol::{Equilibrium, Input, Mechanism, Policy, Study, mechanism};
+use eigentol::{Equilibrium, Input, Kernels, Policy, Study, mechanism};
 use eigentol_tests::wheels::{PushedCart, RollingDisk};
 
 const WEIGHT: f64 = 2.0 * 9.81;
 
 /// The reaction of this name among the unknowns.
 #[track_caller]
-fn unknown<const N: usize, const U: usize, const P: usize>(
-    state: &Equilibrium<N, U, P>,
-    name: &str,
-) -> f64 {
-    let list = state.description.coordinates;
+fn unknown(state: &Equilibrium, name: &str) -> f64 {
+    let list = &state.description.coordinates;
     let place = list.iter().position(|unknown| unknown.name == name);
-    let names: Vec<_> = list.iter().map(|unknown| unknown.name).collect();
+    let names: Vec<_> = list.iter().map(|unknown| &unknown.name).collect();
     state.coordinates[place.unwrap_or_else(|| panic!("no {name} among {names:?}"))]
 }
 
 /// Compares unknowns and report, then outputs, with the expected values.
 #[track_caller]
-fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
-    unknowns: &[(&str, f64)],
-    outputs: [f64; O],
-) where
-    M: Mechanism<N, U, P, O>,
-{
+fn check(study: &Study<impl Kernels>, unknowns: &[(&str, f64)], outputs: &[f64]) {
     let state = study.equilibrium().expect("an equilibrium");
     let report = state.to_string();
     for &(name, expected) in unknowns {
@@ -46,8 +37,8 @@ fn check<M, const N: usize, const U: usize, const P: usize, const O: usize>(
         assert!((value - expected).abs() < 1e-5 * WEIGHT, "{line}");
     }
     let found = study.outputs().expect("outputs").values;
-    for (k, expected) in outputs.into_iter().enumerate() {
-        let name = M::DESCRIPTION.outputs[k].name;
+    for (k, expected) in outputs.iter().enumerate() {
+        let name = &study.description().outputs[k].name;
         let off = (found[k] - expected).abs();
         assert!(off < 1e-9 * WEIGHT, "{name}: {}, not {expected}", found[k]);
     }
@@ -90,12 +81,12 @@ mechanism! {
 #[test]
 fn a_hook_pulls_a_weight_up_and_the_weight_pulls_the_hook_down() {
     let held = [("held.x", -3.0), ("held.z", WEIGHT)];
-    check(&Study::new(Hooked), &held, held.map(|(_, value)| value));
+    check(&Study::new(Hooked), &held, &held.map(|(_, value)| value));
     let held = held.map(|(name, value)| (name, -value));
     check(
         &Study::new(HookedFromBelow),
         &held,
-        held.map(|(_, value)| value),
+        &held.map(|(_, value)| value),
     );
 }
 
@@ -117,11 +108,11 @@ mechanism! {
 #[test]
 fn a_rod_is_pulled_by_what_hangs_and_pushed_by_what_stands() {
     let study = Study::new(Pendulum).guess(Pendulum::z, -0.4);
-    check(&study, &[("rod", WEIGHT)], [WEIGHT]);
+    check(&study, &[("rod", WEIGHT)], &[WEIGHT]);
     let study = Study::new(Pendulum)
         .guess(Pendulum::z, 0.4)
         .policy(Policy::Nearest);
-    check(&study, &[("rod", -WEIGHT)], [-WEIGHT]);
+    check(&study, &[("rod", -WEIGHT)], &[-WEIGHT]);
 }
 
 mechanism! {
@@ -141,7 +132,7 @@ mechanism! {
 fn the_moment_on_a_level_bar_turns_its_end_up() {
     // About y a positive moment turns x to -z.
     let moment = -WEIGHT * 0.3;
-    check(&Study::new(Level), &[("level.about_y", moment)], [moment]);
+    check(&Study::new(Level), &[("level.about_y", moment)], &[moment]);
 }
 
 mechanism! {
@@ -162,7 +153,7 @@ mechanism! {
 #[test]
 fn a_coupling_pulls_in_the_direction_of_its_first_coordinate() {
     let sunk = -WEIGHT * 0.2 * 0.2 / 50.0;
-    check(&Study::new(Hoist), &[("rope", WEIGHT)], [WEIGHT, sunk]);
+    check(&Study::new(Hoist), &[("rope", WEIGHT)], &[WEIGHT, sunk]);
 }
 
 mechanism! {
@@ -189,8 +180,8 @@ mechanism! {
 
 #[test]
 fn an_equation_pushes_in_the_direction_in_which_its_expression_grows() {
-    check(&Study::new(Shelf), &[("height", WEIGHT)], [WEIGHT]);
-    check(&Study::new(Hung), &[("depth", -WEIGHT)], [-WEIGHT]);
+    check(&Study::new(Shelf), &[("height", WEIGHT)], &[WEIGHT]);
+    check(&Study::new(Hung), &[("depth", -WEIGHT)], &[-WEIGHT]);
 }
 
 mechanism! {
@@ -221,9 +212,9 @@ mechanism! {
 fn a_cut_joint_has_the_sign_of_every_joint() {
     let (up, moment) = (WEIGHT, -WEIGHT * 0.3);
     let unknowns = [("weld.z", up), ("weld.about_y", moment)];
-    check(&Study::new(Welded), &unknowns, [up, moment]);
+    check(&Study::new(Welded), &unknowns, &[up, moment]);
     let unknowns = unknowns.map(|(name, value)| (name, -value));
-    check(&Study::new(WeldedFromBar), &unknowns, [-up, -moment]);
+    check(&Study::new(WeldedFromBar), &unknowns, &[-up, -moment]);
 }
 
 #[test]
@@ -236,18 +227,19 @@ fn the_road_carries_a_wheel() {
     check(
         &study,
         &[("contact.normal", weight), ("contact.lateral", 0.0)],
-        [0.0, weight],
+        &[0.0, weight],
     );
     // In a circle to the left the road pushes to the left.
-    let study = study.input(Input(0), 4.0).input(Input(1), 0.2);
+    let study = study.input(Input::new(0), 4.0).input(Input::new(1), 0.2);
     let state = study.equilibrium().expect("an equilibrium");
-    let [aside, up] = study.outputs().expect("outputs").values;
+    let values = study.outputs().expect("outputs").values;
+    let (aside, up) = (values[0], values[1]);
     assert!((unknown(&state, "contact.lateral") - aside).abs() < 1e-9 * weight);
     assert!((unknown(&state, "contact.normal") - up).abs() < 1e-9 * weight);
     assert!(aside > 1.0 && (up - weight).abs() < 1e-9 * weight);
     // A push against drag, which the wheel, free on its axle, does not feel.
     let state = Study::new(PushedCart)
-        .input(Input(0), 2.0)
+        .input(Input::new(0), 2.0)
         .equilibrium()
         .expect("an equilibrium");
     assert!(unknown(&state, "contact.forward").abs() < 1e-9);

@@ -6,7 +6,9 @@ use eigentol::sensitivity::{
     EquilibriumShift, SecondDerivatives, Slopes, equilibrium_shift, sensitivities,
     sensitivities_explicit,
 };
-use eigentol::{Complex, Coordinate, Equilibrium, Input, Mechanism, Mode, Modes, Role, Study};
+use eigentol::{
+    Complex, Coordinate, Equilibrium, Input, Kernels, Mechanism, Mode, Modes, Role, Study,
+};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{
     FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
@@ -17,27 +19,23 @@ use super::common::{Case, Point, assert_close, assert_near, complex};
 
 /// A study of a point that starts from angles to the nearest tenth of a radian and displacements to the nearest centimetre, so
 /// that no loop is closed; speeds start from zero.
-pub(super) fn study<M, const N: usize, const P: usize, const O: usize>(
-    machine: M,
-    case: &Case,
-    point: &Point,
-) -> Study<M, N, 1, P, O>
-where
-    M: Mechanism<N, 1, P, O>,
-{
-    let mut study = Study::new(machine).input(Input(0), point.input).threads(1);
-    for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
+pub(super) fn study<M: Mechanism>(machine: M, case: &Case, point: &Point) -> Study<M> {
+    let mut study = Study::new(machine)
+        .input(Input::new(0), point.input)
+        .threads(1);
+    let description = Kernels::description(study.mechanism());
+    for (i, unknown) in description.coordinates.iter().enumerate() {
         if unknown.role == Role::Position {
-            let value = point.truth.get("coordinates").get(unknown.name).number();
-            let step = match unknown.unit.symbol {
+            let value = point.truth.get("coordinates").get(&unknown.name).number();
+            let step = match &*unknown.unit.symbol {
                 "rad" => 0.1,
                 _ => 0.01,
             };
             let value = (value / step).round() * step;
-            let decides = case.independent.iter().any(|name| name == unknown.name);
+            let decides = case.independent.iter().any(|name| unknown.name == **name);
             study = match decides {
-                true => study.start(Coordinate(i), value),
-                false => study.guess(Coordinate(i), value),
+                true => study.start(Coordinate::new(i), value),
+                false => study.guess(Coordinate::new(i), value),
             };
         }
     }
@@ -45,26 +43,20 @@ where
 }
 
 /// By design variable, then by the input.
-fn joined<T: Copy, const P: usize>(slopes: &Slopes<T, 1, P>) -> Vec<T> {
+fn joined<T: Copy>(slopes: &Slopes<T>) -> Vec<T> {
     [&slopes.by_design[..], &slopes.by_input].concat()
 }
 
-fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &'static str)
-where
-    M: Mechanism<N, 1, P, O> + Copy,
-{
+fn check(machine: impl Mechanism, name: &'static str) {
     let case = Case::new(name);
-    for (info, truth) in M::DESCRIPTION
-        .design
-        .iter()
-        .zip(case.truth.get("design").list())
-    {
-        assert_eq!(info.name, truth.get("name").text());
+    let declared = Kernels::description(&machine);
+    for (info, truth) in declared.design.iter().zip(case.truth.get("design").list()) {
+        assert_eq!(*info.name, *truth.get("name").text());
         let tolerance = truth.get("tolerance").number();
         assert!((info.tolerance - tolerance).abs() < 1e-15 + 1e-14 * tolerance);
     }
     for point in case.points() {
-        let study = study(machine, &case, &point);
+        let study = study(machine.clone(), &case, &point);
         let at = study
             .equilibrium()
             .unwrap_or_else(|error| panic!("{}: {error}", point.what));
@@ -74,24 +66,17 @@ where
     }
 }
 
-fn check_equilibrium<M, const N: usize, const P: usize, const O: usize>(
-    machine: &M,
-    case: &Case,
-    point: &Point,
-    at: &Equilibrium<N, 1, P>,
-) where
-    M: Mechanism<N, 1, P, O>,
-{
+fn check_equilibrium(machine: &dyn Kernels, case: &Case, point: &Point, at: &Equilibrium) {
     assert_eq!(at.stability, Stability::Stable, "{}", point.what);
-    let shift: EquilibriumShift<N, 1, P> = equilibrium_shift(machine, at).expect("a shift");
-    for (i, unknown) in M::DESCRIPTION.coordinates.iter().enumerate() {
+    let shift: EquilibriumShift = equilibrium_shift(machine, at).expect("a shift");
+    for (i, unknown) in at.description.coordinates.iter().enumerate() {
         if !matches!(unknown.role, Role::Position | Role::Speed) {
             continue;
         }
         let what = format!("{}: {}", point.what, unknown.name);
-        let expected = point.truth.get("coordinates").get(unknown.name).number();
+        let expected = point.truth.get("coordinates").get(&unknown.name).number();
         assert_close(at.coordinates[i], expected, 1e-3, &what);
-        let slopes = point.truth.get("coordinates_by").get(unknown.name);
+        let slopes = point.truth.get("coordinates_by").get(&unknown.name);
         let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
         for (j, variable) in case.variables.iter().enumerate() {
             let what = format!("{what} by {variable}");
@@ -101,38 +86,32 @@ fn check_equilibrium<M, const N: usize, const P: usize, const O: usize>(
     }
 }
 
-fn check_outputs<M, const N: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, 1, P, O>,
-    case: &Case,
-    point: &Point,
-) where
-    M: Mechanism<N, 1, P, O>,
-{
+fn check_outputs(study: &Study<impl Mechanism>, case: &Case, point: &Point) {
     let found = study.outputs().expect("outputs");
     let spread = study.output_tolerances().expect("spreads of outputs");
-    let truth = |field: &str, name| point.truth.get(field).get(name);
-    for (k, output) in M::DESCRIPTION.outputs.iter().enumerate() {
+    let truth = |field: &str, name: &str| point.truth.get(field).get(name);
+    for (k, output) in found.description.outputs.iter().enumerate() {
         let what = format!("{}: {}", point.what, output.name);
-        let expected = truth("outputs", output.name).number();
+        let expected = truth("outputs", &output.name).number();
         assert_close(found.values[k], expected, 1e-2, &what);
         let size = expected.abs().max(1e-2);
-        let by_design = found.by_design[k].expect("derivatives");
-        let by_input = found.by_input[k].expect("derivatives");
-        let slopes = [&by_design[..], &by_input].concat();
+        let by_design = found.by_design[k].as_ref().expect("derivatives");
+        let by_input = found.by_input[k].as_ref().expect("derivatives");
+        let slopes = [&by_design[..], &by_input[..]].concat();
         for (j, variable) in case.variables.iter().enumerate() {
             let what = format!("{what} by {variable}");
-            let expected = truth("outputs_by", output.name).get(variable).number();
+            let expected = truth("outputs_by", &output.name).get(variable).number();
             assert_close(slopes[j], expected, point.scale(size, &[j]), &what);
         }
-        let sigma = truth("outputs_sigma", output.name).number();
-        let found = spread.outputs[k].sigma.expect("a standard deviation");
+        let sigma = truth("outputs_sigma", &output.name).number();
+        let found = spread.spreads[k].as_ref().expect("a spread").sigma;
         assert_close(found, sigma, 1e-4 * size, &what);
     }
 }
 
 /// The mode of an eigenvalue, which is nowhere near another.
-fn place_of<const N: usize>(modes: &Modes<N>, s: Complex, what: &str) -> usize {
-    let apart = |mode: &Mode<N>| (mode.s - s).norm();
+fn place_of(modes: &Modes, s: Complex, what: &str) -> usize {
+    let apart = |mode: &Mode| (mode.s - s).norm();
     let near = |&place: &usize| apart(&modes.modes[place]) < 1e-6 * s.norm();
     let places: Vec<usize> = (0..modes.modes.len()).filter(near).collect();
     let &[place] = &places[..] else {
@@ -141,14 +120,7 @@ fn place_of<const N: usize>(modes: &Modes<N>, s: Complex, what: &str) -> usize {
     place
 }
 
-fn check_modes<M, const N: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, 1, P, O>,
-    case: &Case,
-    point: &Point,
-    at: &Equilibrium<N, 1, P>,
-) where
-    M: Mechanism<N, 1, P, O>,
-{
+fn check_modes(study: &Study<impl Mechanism>, case: &Case, point: &Point, at: &Equilibrium) {
     let machine = study.mechanism();
     let modes = study.modes().expect("modes");
     let truths = point.modes();
@@ -162,7 +134,7 @@ fn check_modes<M, const N: usize, const P: usize, const O: usize>(
         let r = place_of(&modes, s, &what);
         assert_near(modes.modes[r].s, s, 0.0, &what);
         for (way, found) in [("adjoint", &adjoint), ("explicit", &explicit)] {
-            let found = joined(&found.modes[r].s.expect("derivatives"));
+            let found = joined(found.modes[r].s.as_ref().expect("derivatives"));
             for (j, variable) in case.variables.iter().enumerate() {
                 let what = format!("{what} by {variable}, {way}");
                 let expected = complex(&truth.get("s_by").get(variable));
@@ -175,30 +147,30 @@ fn check_modes<M, const N: usize, const P: usize, const O: usize>(
             "{what}: {}",
             curvature.asymmetry
         );
-        let second = curvature.eigenvalue.expect("second derivatives");
-        check_second(case, point, &second, truth, s, &what);
+        let second = curvature.eigenvalue.as_ref().expect("second derivatives");
+        check_second(case, point, second, truth, s, &what);
 
         let own = &spread.modes[r];
         let sigma = truth.get("sigma_frequency").number();
-        let frequency = own.sigma.unwrap_or(0.0);
+        let frequency = own.frequency.as_ref().map_or(0.0, |own| own.sigma);
         assert_close(frequency, sigma, 1e-4 * s.norm(), &format!("{what}, sigma"));
         let sigma = truth.get("sigma_growth").number();
-        let growth = own.growth.map_or(0.0, |growth| growth.sigma);
+        let growth = own.growth.as_ref().map_or(0.0, |own| own.sigma);
         assert_close(growth, sigma, 1e-4 * s.norm(), &format!("{what}, growth"));
     }
 }
 
-fn check_second<const P: usize>(
+fn check_second(
     case: &Case,
     point: &Point,
-    found: &SecondDerivatives<Complex, 1, P>,
+    found: &SecondDerivatives<Complex>,
     truth: &Truth,
     s: Complex,
     what: &str,
 ) {
     for (i, row) in truth.get("s_second").list().iter().enumerate() {
         for (j, expected) in row.list().iter().enumerate() {
-            let found = match (i < P, j < P) {
+            let found = match (i < case.design.len(), j < case.design.len()) {
                 (true, _) => found.by_design[i][j],
                 (false, true) => found.by_input_and_design[0][j],
                 (false, false) => found.by_input[0][0],

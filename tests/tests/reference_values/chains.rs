@@ -1,17 +1,18 @@
 //! `W1`, `W2`, `W3`: bars in series. The file's angles are absolute, a machine's coordinates are relative; frequencies and
 //! their derivatives do not depend on that.
 
+use eigentol::kernels::{BatchKernels, Linear};
 use eigentol::sensitivity::{
     equilibrium_shift, sensitivities, sensitivities_explicit, sensitivities_with_frozen_equilibrium,
 };
-use eigentol::{Coordinate, DesignVariable, Input, Linear, Mechanism, Stability, Study};
+use eigentol::{Coordinate, DesignVariable, Input, Kernels, Matrix, Stability, Study, Vector};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::chain_of_eight::ChainOfEight;
 use eigentol_tests::corpus::chain_of_four::ChainOfFour;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 
-use super::common::{By, assert_close, assert_equilibrium, flat, moved};
+use super::common::{By, assert_close, assert_equilibrium, flat, frequencies, moved};
 
 /// Absolute angles: cumulative sums.
 fn absolute(relative: &[f64]) -> Vec<f64> {
@@ -34,45 +35,33 @@ fn absolute_forces(relative: &[f64]) -> Vec<f64> {
 }
 
 /// `D^T A D`.
-fn absolute_matrix<const N: usize>(relative: &[[f64; N]; N]) -> [[f64; N]; N] {
-    let entry = |i: usize, j: usize| if i < N && j < N { relative[i][j] } else { 0.0 };
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
-            entry(i, j) - entry(i + 1, j) - entry(i, j + 1) + entry(i + 1, j + 1)
-        })
+fn absolute_matrix(relative: &Matrix) -> Matrix {
+    let n = relative.row_count();
+    let entry = |i: usize, j: usize| if i < n && j < n { relative[i][j] } else { 0.0 };
+    Matrix::from_fn(n, n, |i, j| {
+        entry(i, j) - entry(i + 1, j) - entry(i, j + 1) + entry(i + 1, j + 1)
     })
 }
 
-fn study<M, const N: usize, const P: usize, const O: usize>(
-    machine: M,
-    case: &Truth,
-) -> Study<M, N, 1, P, O>
-where
-    M: Mechanism<N, 1, P, O>,
-{
+fn study<M: Kernels>(machine: M, case: &Truth) -> Study<M> {
     let values = [case.get("L").numbers(), case.get("m").numbers()].concat();
-    assert_eq!(values.len(), P);
-    let set = |study: Study<M, N, 1, P, O>, (j, value)| study.design(DesignVariable(j), value);
-    values
-        .into_iter()
-        .enumerate()
-        .fold(Study::new(machine), set)
+    let study = Study::new(machine);
+    assert_eq!(values.len(), study.design_values().len());
+    let set = |study: Study<M>, (j, value)| study.design(DesignVariable::new(j), value);
+    values.into_iter().enumerate().fold(study, set)
 }
 
 /// Every point of one chain. Where the point lies above the critical speed, a frozen equilibrium must fail.
-fn check<M, const N: usize, const P: usize, const O: usize>(machine: M, name: &str)
-where
-    M: Mechanism<N, 1, P, O> + Copy,
-{
+fn check<M: BatchKernels + Copy>(machine: M, name: &str) {
     let case = Truth::load("w1_w2_w3").get(name);
     let mut above = 0;
     for point in case.get("points").list() {
         let omega = point.get("Omega").number();
         let what = format!("{name} at {omega} rad/s");
-        let mut study = study(machine, &case).input(Input(0), omega);
-        for i in 0..N {
+        let mut study = study(machine, &case).input(Input::new(0), omega);
+        for i in 0..machine.sizes().coordinates {
             // Leaning outwards, as the branch of the file does.
-            study = study.start(Coordinate(i), if i == 0 { 0.9 } else { 0.1 });
+            study = study.start(Coordinate::new(i), if i == 0 { 0.9 } else { 0.1 });
         }
         let at = study.equilibrium().expect("an equilibrium");
         let theta = point.get("theta_star").numbers();
@@ -88,10 +77,12 @@ where
 
         let modes = study.modes().expect("modes");
         assert!(!modes.damping_ignored, "{what}");
-        let frequencies = modes
-            .frequencies()
-            .map(|omega| omega.expect("it oscillates"));
-        assert_close(&frequencies, &point.get("omega_n").numbers(), 0.0, &what);
+        assert_close(
+            &frequencies(&modes),
+            &point.get("omega_n").numbers(),
+            0.0,
+            &what,
+        );
 
         let adjoint = sensitivities(&machine, &at, &modes).expect("derivatives");
         let explicit = sensitivities_explicit(&machine, &at, &modes).expect("derivatives");
@@ -103,10 +94,16 @@ where
             // A mass that hardly matters: relative to the greatest derivative of the mode.
             let scale = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             for found in [&adjoint, &explicit] {
-                let found = found.modes[r].omega_by_design.expect("it oscillates");
-                assert_close(&found, &expected, 1e-2 * scale, &format!("{what} mode {r}"));
+                let found = found.modes[r]
+                    .omega_by_design
+                    .as_ref()
+                    .expect("it oscillates");
+                assert_close(found, &expected, 1e-2 * scale, &format!("{what} mode {r}"));
             }
-            let found = frozen.modes[r].omega_by_design.expect("it oscillates");
+            let found = frozen.modes[r]
+                .omega_by_design
+                .as_ref()
+                .expect("it oscillates");
             misses += found
                 .iter()
                 .zip(&expected)
@@ -161,25 +158,22 @@ fn eight_bars() {
 }
 
 /// `sum_ij sin(3 i + 7 j + 1) D_ij`.
-fn checksum<const N: usize>(matrix: &[[f64; N]; N]) -> f64 {
+fn checksum(matrix: &Matrix) -> f64 {
     let term = |i: usize, j: usize| ((3 * i + 7 * j + 1) as f64).sin() * matrix[i][j];
-    (0..N)
-        .flat_map(|i| (0..N).map(move |j| (i, j)))
+    let n = matrix.row_count();
+    (0..n)
+        .flat_map(|i| (0..n).map(move |j| (i, j)))
         .map(|(i, j)| term(i, j))
         .sum()
 }
 
-fn away_from_equilibrium<M, const N: usize, const P: usize, const O: usize>(
-    machine: M,
-    case: &Truth,
-) where
-    M: Mechanism<N, 1, P, O>,
-{
+fn away_from_equilibrium(machine: &dyn Kernels, case: &Truth) {
     let what = case.get("name").text();
     let theta = case.get("q").numbers();
-    let q: [f64; N] = std::array::from_fn(|i| theta[i] - if i > 0 { theta[i - 1] } else { 0.0 });
-    let values = [case.get("L").numbers(), case.get("m").numbers()].concat();
-    let b: [f64; P] = std::array::from_fn(|j| values[j]);
+    let q = Vector::from_fn(theta.len(), |i| {
+        theta[i] - if i > 0 { theta[i - 1] } else { 0.0 }
+    });
+    let b = [case.get("L").numbers(), case.get("m").numbers()].concat();
     let u = [case.get("Omega").number()];
 
     let linear = machine.linear(&q, &u, &b);
@@ -196,7 +190,7 @@ fn away_from_equilibrium<M, const N: usize, const P: usize, const O: usize>(
     assert_close(&residual, &case.get("R").numbers(), 1e-2, &what);
 
     let partials = machine.linear_partials(&q, &u, &b);
-    let sums = |list: &[Linear<f64, N>], part: fn(&Linear<f64, N>) -> &[[f64; N]; N]| {
+    let sums = |list: &[Linear], part: fn(&Linear) -> &Matrix| {
         list.iter()
             .map(|linear| checksum(&absolute_matrix(part(linear))))
             .collect::<Vec<f64>>()
@@ -225,9 +219,9 @@ fn matrices_and_their_derivatives_away_from_equilibrium() {
     for case in Truth::load("w1_w2_w3").get("given_q").list() {
         let bars = case.get("L").numbers().len();
         match bars {
-            2 => away_from_equilibrium(RotatingDoublePendulum, &case),
-            4 => away_from_equilibrium(ChainOfFour, &case),
-            8 => away_from_equilibrium(ChainOfEight, &case),
+            2 => away_from_equilibrium(&RotatingDoublePendulum, &case),
+            4 => away_from_equilibrium(&ChainOfFour, &case),
+            8 => away_from_equilibrium(&ChainOfEight, &case),
             _ => panic!("no machine of {bars} bars"),
         }
         seen.push(bars);

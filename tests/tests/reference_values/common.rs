@@ -1,7 +1,8 @@
 //! Comparisons, and totals of matrices along a moving equilibrium.
 
+use eigentol::kernels::{DirectionalKernels, Kernels, Linear};
 use eigentol::sensitivity::EquilibriumShift;
-use eigentol::{Equilibrium, Linear, Mechanism};
+use eigentol::{Equilibrium, Matrix, Modes, Vector};
 
 /// Relative error to which derivatives and frequencies must match.
 pub(crate) const TIGHT: f64 = 1e-9;
@@ -24,8 +25,16 @@ pub(crate) fn assert_equilibrium(found: &[f64], expected: &[f64], what: &str) {
     assert_close(found, expected, 1e-3, what);
 }
 
-pub(crate) fn flat<const R: usize, const C: usize>(matrix: &[[f64; C]; R]) -> Vec<f64> {
-    matrix.iter().flatten().copied().collect()
+pub(crate) fn flat(matrix: &Matrix) -> Vec<f64> {
+    matrix.as_flattened().to_vec()
+}
+
+/// Frequencies of modes that all oscillate.
+pub(crate) fn frequencies(modes: &Modes) -> Vec<f64> {
+    let frequencies = modes.frequencies().into_iter();
+    frequencies
+        .map(|omega| omega.expect("it oscillates"))
+        .collect()
 }
 
 /// What a derivative is taken by.
@@ -35,36 +44,31 @@ pub(crate) enum By {
     Design(usize),
 }
 
-fn unit<const K: usize>(k: usize) -> [f64; K] {
-    std::array::from_fn(|i| f64::from(u8::from(i == k)))
+fn unit(n: usize, k: usize) -> Vector {
+    Vector::from_fn(n, |i| f64::from(u8::from(i == k)))
 }
 
 /// `dq*/db`.
-pub(crate) fn moved<const N: usize, const U: usize, const P: usize>(
-    shift: &EquilibriumShift<N, U, P>,
-    by: By,
-) -> [f64; N] {
-    std::array::from_fn(|i| match by {
-        By::Input(k) => shift.by_input[i][k],
-        By::Design(k) => shift.by_design[i][k],
-    })
+pub(crate) fn moved(shift: &EquilibriumShift, by: By) -> Vector {
+    match by {
+        By::Input(k) => shift.by_input.column(k),
+        By::Design(k) => shift.by_design.column(k),
+    }
 }
 
 /// `dM/db`, `dC/db`, `dK/db`, explicit and through the equilibrium: from explicit partials, and in one direction.
-pub(crate) fn total_linear<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    machine: &M,
-    at: &Equilibrium<N, U, P>,
-    dq: &[f64; N],
+pub(crate) fn total_linear(
+    machine: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    dq: &[f64],
     by: By,
-) -> [Linear<f64, N>; 2]
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> [Linear; 2] {
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let partials = machine.linear_partials(q, u, b);
+    let kernels: &dyn Kernels = machine;
+    let partials = kernels.linear_partials(q, u, b);
     let mut sum = match by {
-        By::Input(k) => partials.by_input[k],
-        By::Design(k) => partials.by_design[k],
+        By::Input(k) => partials.by_input[k].clone(),
+        By::Design(k) => partials.by_design[k].clone(),
     };
     for (part, rate) in partials.by_coordinate.iter().zip(dq) {
         for (total, part) in [
@@ -72,14 +76,15 @@ where
             (&mut sum.damping, &part.damping),
             (&mut sum.stiffness, &part.stiffness),
         ] {
-            for (total, part) in total.iter_mut().flatten().zip(part.iter().flatten()) {
+            let total = total.as_flattened_mut().iter_mut();
+            for (total, part) in total.zip(part.as_flattened()) {
                 *total += rate * part;
             }
         }
     }
     let (du, db) = match by {
-        By::Input(k) => (unit(k), [0.0; P]),
-        By::Design(k) => ([0.0; U], unit(k)),
+        By::Input(k) => (unit(u.len(), k), Vector::zeros(b.len())),
+        By::Design(k) => (Vector::zeros(u.len()), unit(b.len(), k)),
     };
-    [sum, machine.linear_along(q, u, b, dq, &du, &db)]
+    [sum, machine.linear_along(q, u, b, [dq, &du, &db])]
 }

@@ -1,18 +1,18 @@
 //! Monte Carlo against moments by quadrature: `w1_moments`, and closed integrals near the critical speed.
 
-use eigentol::{Coordinate, DesignVariable, Input, MonteCarlo, Study};
+use eigentol::{MonteCarlo, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_pendulum::RotatingPendulum;
 
 const SAMPLES: usize = 20_000;
 
 /// The pendulum with a tolerance on its length alone, sampled.
-fn sampled(omega: f64, half_width: f64) -> MonteCarlo<1, 2> {
+fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
     Study::new(RotatingPendulum)
-        .input(Input(0), omega)
-        .start(Coordinate(0), 0.5)
-        .tolerance(DesignVariable(0), half_width)
-        .tolerance(DesignVariable(1), 0.0)
+        .input(RotatingPendulum::omega, omega)
+        .start(RotatingPendulum::theta, 0.5)
+        .tolerance(RotatingPendulum::l, half_width)
+        .tolerance(RotatingPendulum::m, 0.0)
         .samples(SAMPLES)
         .seed(1)
         .monte_carlo()
@@ -21,9 +21,9 @@ fn sampled(omega: f64, half_width: f64) -> MonteCarlo<1, 2> {
 
 /// Mean and deviation within four standard errors, as a normal sample has them.
 #[track_caller]
-fn assert_moments(run: &MonteCarlo<1, 2>, mean: f64, deviation: f64, what: &str) {
+fn assert_moments(run: &MonteCarlo, mean: f64, deviation: f64, what: &str) {
     assert_eq!(run.counts.stable, SAMPLES, "{what}");
-    let found = run.modes[0].expect("values");
+    let found = run.modes[0].as_ref().expect("values");
     assert_eq!(found.count, SAMPLES, "{what}");
     let error = deviation / (SAMPLES as f64).sqrt();
     let off = (found.mean - mean) / error;
@@ -33,7 +33,7 @@ fn assert_moments(run: &MonteCarlo<1, 2>, mean: f64, deviation: f64, what: &str)
         found.mean
     );
     let error = deviation / (2.0 * SAMPLES as f64).sqrt();
-    let sampled = found.standard_deviation.expect("many values");
+    let sampled = found.sigma.expect("many values");
     let off = (sampled - deviation) / error;
     assert!(
         off.abs() <= 4.0,

@@ -1,9 +1,10 @@
 //! Mechanisms with constraints: the bordered equations solved again in hyper-dual numbers, reactions included.
 
 use eigentol::equilibrium::equilibrium;
+use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::{Family, modes_of};
 use eigentol::sensitivity::equilibrium_shift;
-use eigentol::{Mechanism, Policy};
+use eigentol::{Mechanism, Policy, Vector};
 use eigentol_tests::corpus::Visitor;
 use eigentol_tests::resolved::Machine;
 use eigentol_tests::{loops, wheels};
@@ -64,33 +65,38 @@ fn operation(name: &str) -> Option<Operation> {
 struct Every(Product, usize);
 
 impl Visitor for Every {
-    fn visit<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn visit<M: Mechanism + Copy>(
         &mut self,
         name: &'static str,
         declaration: &'static str,
         machine: M,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
+        self.check(name, declaration, &machine);
+    }
+}
+
+impl Every {
+    fn check(&mut self, name: &str, declaration: &str, machine: &dyn DirectionalKernels) {
         let Some((inputs, near)) = operation(name) else {
             return;
         };
-        let b: [f64; P] = std::array::from_fn(|j| M::DESCRIPTION.design[j].nominal);
-        let mut u = [0.0; U];
+        let description = machine.description();
+        let b: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
+        let mut u = vec![0.0; description.inputs.len()];
         u[..inputs.len()].copy_from_slice(inputs);
-        let start: [f64; N] = std::array::from_fn(|i| {
-            let own = M::DESCRIPTION.coordinates[i].name;
+        let start = Vector::from_fn(description.coordinates.len(), |i| {
+            let own = &description.coordinates[i].name;
             near.iter()
-                .find(|(name, _)| *name == own)
+                .find(|(name, _)| *own == *name)
                 .map_or(0.0, |(_, x)| *x)
         });
-        let at = equilibrium(&machine, &u, &b, &start, Policy::Nearest)
+        let at = equilibrium(machine, &u, &b, &start, Policy::Nearest)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         let state = Machine::new(declaration).at(&u, &b, &at.coordinates);
-        let shift = equilibrium_shift(&machine, &at).expect("a shift");
+        let shift = equilibrium_shift(machine, &at).expect("a shift");
         for (i, solved) in state.equilibrium().into_iter().enumerate() {
             let found = [&shift.by_design[i][..], &shift.by_input[i]].concat();
-            let what = format!("{name} {}", M::DESCRIPTION.coordinates[i].name);
+            let what = format!("{name} {}", description.coordinates[i].name);
             let variables = b.iter().chain(&u).copied();
             for ((found, exact), value) in found.iter().zip(&solved.gradient).zip(variables) {
                 let size = if value == 0.0 { 1.0 } else { value.abs() };
@@ -99,9 +105,9 @@ impl Visitor for Every {
                 self.1 += 1;
             }
         }
-        let general = modes_of(&at.linear, Family::General, at.description)
+        let general = modes_of(&at.linear, Family::General, &at.description)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
-        self.0.general(name, &machine, &at, &general, &state);
+        self.0.general(name, machine, &at, &general, &state);
     }
 }
 

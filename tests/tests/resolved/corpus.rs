@@ -1,9 +1,10 @@
 //! Every machine: derivatives by the product and by solving again.
 
+use eigentol::Error;
 use eigentol::equilibrium::Equilibrium;
+use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
-use eigentol::{Error, Mechanism};
 use eigentol_tests::corpus::corpus;
 use eigentol_tests::resolved::{
     Comparison, ComplexDerived, Derived, GeneralMode, State, every_machine,
@@ -39,15 +40,13 @@ struct Gradients {
 }
 
 impl Comparison for Gradients {
-    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn compare(
         &mut self,
         what: &str,
-        machine: &M,
-        at: &Equilibrium<N, U, P>,
+        machine: &dyn DirectionalKernels,
+        at: &Equilibrium,
         state: &State,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    ) {
         self.points += 1;
         let variables = [&at.design[..], &at.inputs].concat();
 
@@ -65,9 +64,9 @@ impl Comparison for Gradients {
 
         let outputs = output_sensitivities(machine, at).expect("outputs");
         for (k, output) in state.outputs().iter().enumerate() {
-            let (by_design, by_input) = (outputs.by_design[k], outputs.by_input[k]);
+            let (by_design, by_input) = (&outputs.by_design[k], &outputs.by_input[k]);
             if let (Some(by_design), Some(by_input)) = (by_design, by_input) {
-                let found = [&by_design[..], &by_input].concat();
+                let found = [&by_design[..], by_input].concat();
                 assert_gradient(&found, output, &variables, &format!("{what} output {k}"));
             }
         }
@@ -98,9 +97,9 @@ impl Comparison for Gradients {
                 "{what}"
             );
             if let Some(omega) = mode.omega {
-                let by_design = own.omega_by_design.expect("checked");
-                let by_input = own.omega_by_input.expect("checked");
-                let by = [&by_design[..], &by_input].concat();
+                let by_design = own.omega_by_design.as_ref().expect("checked");
+                let by_input = own.omega_by_input.as_ref().expect("checked");
+                let by = [&by_design[..], by_input].concat();
                 assert_gradient(&by, &omega, &variables, &what);
             }
             let shape: Vec<f64> = mode.shape.iter().map(|x| x.value).collect();
@@ -134,18 +133,11 @@ struct Pencils {
 }
 
 impl Comparison for Pencils {
-    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-        &mut self,
-        what: &str,
-        _: &M,
-        _: &Equilibrium<N, U, P>,
-        state: &State,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
+    fn compare(&mut self, what: &str, _: &dyn DirectionalKernels, _: &Equilibrium, state: &State) {
+        let n = state.coordinates.len();
         let matrices = state
             .matrices()
-            .map(|matrix| DMatrix::from_row_iterator(N, N, matrix.iter().map(complex)));
+            .map(|matrix| DMatrix::from_row_iterator(n, n, matrix.iter().map(complex)));
         for (r, mode) in state.general_modes().into_iter().enumerate() {
             let mode = mode.unwrap_or_else(|| panic!("{what} mode {r} is repeated"));
             let numbers = [&mode.s.re, &mode.s.im, &mode.magnitude, &mode.damping_ratio];

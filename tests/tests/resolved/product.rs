@@ -2,11 +2,12 @@
 //! what is asked of it, first ones of both shapes.
 
 use eigentol::equilibrium::Equilibrium;
+use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
 use eigentol::sensitivity::{
     Quantity, SecondDerivatives, mode_curvature, sensitivities, shape_sensitivity,
 };
-use eigentol::{Complex, Description, Error, Mechanism, Role, Sensitivities};
+use eigentol::{Complex, Description, Error, Role, Sensitivities};
 use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
 
 use super::expected::Expected;
@@ -27,18 +28,17 @@ pub(super) struct Product {
 }
 
 /// Second derivatives by design variables, then inputs.
-fn ordered<T: Copy, const U: usize, const P: usize>(
-    all: &SecondDerivatives<T, U, P>,
-) -> Vec<Vec<T>> {
-    let by = |i: usize, j: usize| match (i < P, j < P) {
+fn ordered<T: Copy>(all: &SecondDerivatives<T>) -> Vec<Vec<T>> {
+    let (design, inputs) = (all.by_design.row_count(), all.by_input.row_count());
+    let by = |i: usize, j: usize| match (i < design, j < design) {
         (true, true) => all.by_design[i][j],
-        (true, false) => all.by_input_and_design[j - P][i],
-        (false, true) => all.by_input_and_design[i - P][j],
-        (false, false) => all.by_input[i - P][j - P],
+        (true, false) => all.by_input_and_design[j - design][i],
+        (false, true) => all.by_input_and_design[i - design][j],
+        (false, false) => all.by_input[i - design][j - design],
     };
-    (0..P + U)
-        .map(|i| (0..P + U).map(|j| by(i, j)).collect())
-        .collect()
+    let variables = 0..design + inputs;
+    let row = |i| variables.clone().map(|j| by(i, j)).collect();
+    variables.clone().map(row).collect()
 }
 
 impl Product {
@@ -103,17 +103,15 @@ impl Product {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn mode<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn mode(
         &mut self,
         what: &str,
-        machine: &M,
-        at: &Equilibrium<N, U, P>,
-        (modes, all): (&Modes<N>, &Sensitivities<N, U, P>),
+        machine: &dyn DirectionalKernels,
+        at: &Equilibrium,
+        (modes, all): (&Modes, &Sensitivities),
         r: usize,
         expected: &Expected,
-    ) where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) {
         let b: Vec<f64> = [&at.design[..], &at.inputs]
             .concat()
             .iter()
@@ -130,9 +128,12 @@ impl Product {
             self.second(&found, lambda, &b, size * size, &format!("{what} lambda"));
         }
         if let Some(s) = &expected.s {
-            let slopes = own.s.unwrap_or_else(|| panic!("{what} has no derivative"));
+            let slopes = own
+                .s
+                .as_ref()
+                .unwrap_or_else(|| panic!("{what} has no derivative"));
             let slopes = [&slopes.by_design[..], &slopes.by_input].concat();
-            let second = ordered(&curvature.eigenvalue.expect("second derivatives"));
+            let second = ordered(curvature.eigenvalue.as_ref().expect("second derivatives"));
             for (part, number) in s.iter().enumerate() {
                 let of = |x: &Complex| [x.re, x.im][part];
                 let what = format!("{what} part {part} of s");
@@ -165,10 +166,12 @@ impl Product {
         let shapes = shape_sensitivity(machine, at, modes, r)
             .unwrap_or_else(|error| panic!("{what}: {error}"));
         for (k, &b) in b.iter().enumerate() {
-            let (right, left) = if k < P {
+            let design = at.design.len();
+            let (right, left) = if k < design {
                 (&shapes.right_by_design[k], &shapes.left_by_design[k])
             } else {
-                (&shapes.right_by_input[k - P], &shapes.left_by_input[k - P])
+                let k = k - design;
+                (&shapes.right_by_input[k], &shapes.left_by_input[k])
             };
             self.shape(right, &expected.right, k, b, &format!("{what} right"));
             self.shape(left, &expected.left, k, b, &format!("{what} left"));
@@ -179,13 +182,14 @@ impl Product {
 
 /// The components that the product made real: the greatest of coordinates and speeds that are; of a left vector beside
 /// constraints on velocities, of all unknowns.
-fn leads<const N: usize>(mode: &Mode<N>, description: &Description) -> [usize; 2] {
+fn leads(mode: &Mode, description: &Description) -> [usize; 2] {
     let roles = || description.coordinates.iter().map(|info| info.role);
     let motions = roles()
         .filter(|role| matches!(role, Role::Position | Role::Speed))
         .count();
     let holonomic = roles().all(|role| matches!(role, Role::Position | Role::PositionReaction));
-    let of_left = if holonomic { motions } else { N };
+    let unknowns = description.coordinates.len();
+    let of_left = if holonomic { motions } else { unknowns };
     [(&mode.shape, motions), (&mode.left, of_left)].map(|(shape, count)| {
         let real = (0..count).filter(|&i| shape[i].im.abs() <= 1e-12 * shape[i].re);
         real.max_by(|&i, &j| shape[i].re.total_cmp(&shape[j].re))
@@ -193,7 +197,7 @@ fn leads<const N: usize>(mode: &Mode<N>, description: &Description) -> [usize; 2
     })
 }
 
-fn assert_shape<const N: usize>(mode: &Mode<N>, expected: &Expected, what: &str) {
+fn assert_shape(mode: &Mode, expected: &Expected, what: &str) {
     for (shape, exact) in [(&mode.shape, &expected.right), (&mode.left, &expected.left)] {
         let most = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
         for (x, [re, im]) in shape.iter().zip(exact) {
@@ -204,16 +208,14 @@ fn assert_shape<const N: usize>(mode: &Mode<N>, expected: &Expected, what: &str)
 }
 
 impl Comparison for Product {
-    fn compare<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    fn compare(
         &mut self,
         what: &str,
-        machine: &M,
-        at: &Equilibrium<N, U, P>,
+        machine: &dyn DirectionalKernels,
+        at: &Equilibrium,
         state: &State,
-    ) where
-        M: Mechanism<N, U, P, O> + Copy,
-    {
-        let general = eigentol::modes::modes_of(&at.linear, Family::General, at.description)
+    ) {
+        let general = eigentol::modes::modes_of(&at.linear, Family::General, &at.description)
             .unwrap_or_else(|error| panic!("{what}: {error}"));
         assert_eq!(general.modes.len(), state.eigenvalues().len(), "{what}");
         self.general(what, machine, at, &general, state);
@@ -244,22 +246,20 @@ impl Comparison for Product {
 
 impl Product {
     /// Every general mode.
-    pub(super) fn general<M, const N: usize, const U: usize, const P: usize, const O: usize>(
+    pub(super) fn general(
         &mut self,
         what: &str,
-        machine: &M,
-        at: &Equilibrium<N, U, P>,
-        general: &Modes<N>,
+        machine: &dyn DirectionalKernels,
+        at: &Equilibrium,
+        general: &Modes,
         state: &State,
-    ) where
-        M: Mechanism<N, U, P, O>,
-    {
+    ) {
         let all =
             sensitivities(machine, at, general).unwrap_or_else(|error| panic!("{what}: {error}"));
         for (r, mode) in general.modes.iter().enumerate() {
             let what = format!("{what} general mode {r}");
             let near = nalgebra::Complex::new(mode.s.re, mode.s.im);
-            let leads = leads(mode, at.description).map(Some);
+            let leads = leads(mode, &at.description).map(Some);
             let Some(solved) = state.general_mode(near, leads) else {
                 panic!("{what} is repeated");
             };

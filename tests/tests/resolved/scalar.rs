@@ -98,7 +98,8 @@ fn interpreter_and_generated_code_agree_in_hyper_dual_numbers() {
         let k = k as f64;
         Hyper::new([value, (k + 1.0).sin(), (2.0 * k).cos(), 0.1 * k])
     };
-    let design = Governor::DESCRIPTION.design.iter().map(|info| info.nominal);
+    let description = Governor::DESCRIPTION;
+    let design = description.design.iter().map(|info| info.nominal);
     let arguments = [
         vec![number(0, 0.7)],
         vec![number(1, 12.0), number(2, 0.08)],

@@ -1,7 +1,7 @@
 //! Comparisons.
 
-use eigentol::Complex;
 use eigentol::tolerance::EventTolerance;
+use eigentol::{Complex, Kernels, Study};
 
 /// Relative error allowed against a closed form.
 pub(crate) const TIGHT: f64 = 1e-9;
@@ -22,19 +22,25 @@ pub(crate) fn near(found: Complex, expected: Complex) {
     );
 }
 
+/// The design variables of a study, as many as are asked for.
+pub(crate) fn design<const P: usize>(study: &Study<impl Kernels>) -> [f64; P] {
+    let values = study.design_values().try_into();
+    values.expect("a place for each design variable")
+}
+
 /// An event against its value and its derivatives by `design`; its standard deviation against theirs.
 #[track_caller]
-pub(crate) fn event<const P: usize>(
-    found: &EventTolerance<P>,
+pub(crate) fn event(
+    found: &EventTolerance,
     value: f64,
-    slopes: [f64; P],
-    design: &[f64; P],
-    half_widths: &[f64; P],
+    slopes: &[f64],
+    design: &[f64],
+    half_widths: &[f64],
 ) {
     close(found.value, value);
     let spread = found.spread.as_ref().expect("a spread");
     let mut variance = 0.0;
-    for (j, slope) in slopes.into_iter().enumerate() {
+    for (j, &slope) in slopes.iter().enumerate() {
         let own = spread.by_design[j];
         let scale = 1e-2 * (value / design[j]).abs();
         assert!(

@@ -3,9 +3,9 @@
 use eigentol::{Behaviour, Error, Stability, Study};
 use eigentol_tests::machines::ZieglerColumn;
 
-use super::common::{close, event};
+use super::common::{close, design, event};
 
-type Column = Study<ZieglerColumn, 2, 1, 4, 0>;
+type Column = Study<ZieglerColumn>;
 
 fn column(damping: f64) -> Column {
     Study::new(ZieglerColumn).design(ZieglerColumn::damping, damping)
@@ -14,7 +14,7 @@ fn column(damping: f64) -> Column {
 #[test]
 fn stability_under_a_follower_load() {
     let study = column(0.0);
-    let [_, l, k, _] = *study.design_values();
+    let [_, l, k, _] = design(&study);
     let at = |p: f64| {
         let study = study.clone().input(ZieglerColumn::load, p * k / l);
         study.equilibrium().expect("straight").stability
@@ -33,7 +33,7 @@ fn stability_under_a_follower_load() {
 #[test]
 fn frequencies_that_merge_have_an_onset_without_derivative() {
     let study = column(0.0);
-    let [_, l, k, _] = *study.design_values();
+    let [_, l, k, _] = design(&study);
     let boundary = (3.5 - 2f64.sqrt()) * k / l;
     let found = study
         .flutter_onset_tolerances(ZieglerColumn::load, 0.0, 1.3 * boundary)
@@ -55,7 +55,7 @@ fn frequencies_that_merge_have_an_onset_without_derivative() {
 #[test]
 fn damping_destabilises() {
     let study = column(0.05);
-    let [m, l, k, c] = *study.design_values();
+    let [m, l, k, c] = design(&study);
     let p = 41.0 / 28.0 + c * c / (2.0 * m * l * l * k);
     let load = p * k / l;
     // P = 41 k / (28 l) + c^2 / (2 m l^3).
@@ -72,8 +72,14 @@ fn damping_destabilises() {
     let [only] = &found[..] else {
         panic!("{found:?}")
     };
-    let widths = *study.tolerances().expect("declared").half_widths();
-    event(only, load, slopes, study.design_values(), &widths);
+    let tolerances = study.tolerances().expect("declared");
+    event(
+        only,
+        load,
+        &slopes,
+        study.design_values(),
+        tolerances.half_widths(),
+    );
     let there = study.input(ZieglerColumn::load, load + 0.5);
     let found = there.modes().expect("modes");
     let growing = found.modes.iter().find(|mode| mode.behaviour.grows());

@@ -5,9 +5,9 @@ use eigentol::tolerance::Event;
 use eigentol::{Behaviour, Complex, Stability, Study};
 use eigentol_tests::machines::{JeffcottRotor, OverhungRotor};
 
-use super::common::{close, event, near};
+use super::common::{close, design, event, near};
 
-type Rotor = Study<JeffcottRotor, 2, 1, 4, 1>;
+type Rotor = Study<JeffcottRotor>;
 
 fn rotor() -> Rotor {
     Study::new(JeffcottRotor)
@@ -32,7 +32,7 @@ fn onset([m, k, external, internal]: [f64; 4]) -> f64 {
 
 #[test]
 fn whirl_forward_and_backward() {
-    let design = *rotor().design_values();
+    let design = design(&rotor());
     for share in [0.1, 0.7, 0.99, 1.01, 2.0] {
         let speed = share * onset(design);
         let study = rotor().input(JeffcottRotor::speed, speed);
@@ -63,7 +63,7 @@ fn whirl_forward_and_backward() {
 #[test]
 fn onset_of_instability_by_internal_damping() {
     let study = rotor();
-    let design = *study.design_values();
+    let design = design(&study);
     let [m, k, external, internal] = design;
     let expected = onset(design);
     let slopes = [
@@ -72,14 +72,14 @@ fn onset_of_instability_by_internal_damping() {
         (k / m).sqrt() / internal,
         -(k / m).sqrt() * external / (internal * internal),
     ];
-    let widths = *study.tolerances().expect("declared").half_widths();
+    let tolerances = study.tolerances().expect("declared");
     let found = study
         .flutter_onset_tolerances(JeffcottRotor::speed, 1.0, 2.0 * expected)
         .expect("a search");
     let [only] = &found[..] else {
         panic!("{found:?}")
     };
-    event(only, expected, slopes, &design, &widths);
+    event(only, expected, &slopes, &design, tolerances.half_widths());
     // Slightly above, samples are on both sides; the shares follow the spread of the onset itself.
     let sigma = only.sigma().expect("a spread");
     let run = study
@@ -97,7 +97,7 @@ fn onset_of_instability_by_internal_damping() {
 #[test]
 fn synchronous_critical_speed() {
     let study = rotor();
-    let design = *study.design_values();
+    let design = design(&study);
     let excess = |speed: f64| roots(design, speed).0.im - speed;
     let (mut low, mut high) = (70.0, 90.0);
     for _ in 0..80 {
@@ -119,7 +119,7 @@ fn synchronous_critical_speed() {
     close(forward.value, low);
 }
 
-type Disk = Study<OverhungRotor, 2, 1, 3, 0>;
+type Disk = Study<OverhungRotor>;
 
 fn disk() -> Disk {
     Study::new(OverhungRotor)
@@ -128,7 +128,7 @@ fn disk() -> Disk {
 #[test]
 fn conical_whirl_and_its_critical_speeds() {
     let study = disk();
-    let [it, ip, k] = *study.design_values();
+    let [it, ip, k] = design(&study);
     for speed in [1.0, 50.0, 120.0, 400.0] {
         let at = study.clone().input(OverhungRotor::speed, speed);
         let found = at.modes().expect("modes");
@@ -145,7 +145,7 @@ fn conical_whirl_and_its_critical_speeds() {
             assert_eq!(own.expect("it circles").sense(), sense);
         }
     }
-    let widths = *study.tolerances().expect("declared").half_widths();
+    let tolerances = study.tolerances().expect("declared");
     let found = study
         .crossing_tolerances(OverhungRotor::speed, 10.0, 300.0, 1.0)
         .expect("a search");
@@ -161,7 +161,13 @@ fn conical_whirl_and_its_critical_speeds() {
             -0.5 * sign * speed / inertia,
             0.5 * speed / k,
         ];
-        event(crossing, speed, slopes, study.design_values(), &widths);
+        event(
+            crossing,
+            speed,
+            &slopes,
+            study.design_values(),
+            tolerances.half_widths(),
+        );
         assert!(matches!(crossing.event, Event::Crossing { .. }));
     }
 }
@@ -170,7 +176,7 @@ fn conical_whirl_and_its_critical_speeds() {
 #[test]
 fn the_campbell_diagram_of_the_disk() {
     let study = disk();
-    let [it, ip, k] = *study.design_values();
+    let [it, ip, k] = design(&study);
     let values: Vec<f64> = (0..=40).map(|step| 10.0 * f64::from(step)).collect();
     let diagram = study
         .campbell(OverhungRotor::speed, &values, &[1.0, 2.0])
@@ -195,7 +201,7 @@ fn the_campbell_diagram_of_the_disk() {
         for (speed, mode) in &branch[1..] {
             let half = 0.5 * speed * ip / it;
             let root = (half * half + k / it).sqrt();
-            let spread = mode.frequency.expect("it oscillates");
+            let spread = mode.frequency.as_ref().expect("it oscillates");
             close(spread.mean, root + sign * half);
             let by_k = 0.5 / (it * root);
             let by_ip = sign * 0.5 * speed / it + 0.5 * half * speed / (it * root);

@@ -9,7 +9,7 @@ use super::common::{
 };
 use super::projection::onto;
 
-fn bicycle() -> Study<WhippleBicycle, 14, 1, 26, 2> {
+fn bicycle() -> Study<WhippleBicycle> {
     Study::new(WhippleBicycle)
 }
 
@@ -28,21 +28,21 @@ fn same(found: &[Vec<f64>], expected: &[f64], tolerance: f64, what: &str) {
 
 #[test]
 fn the_parameters_are_those_of_the_benchmark() {
-    check_design::<WhippleBicycle, 14, 1, 26, 2>(&truth("bicycle").get("parameters"));
+    check_design::<WhippleBicycle>(&truth("bicycle").get("parameters"));
 }
 
 /// `M`, `v C1` and `g K0 + v^2 K2`, as printed in the paper and as its formulas say.
 #[test]
 fn canonical_matrices() {
     let truth = truth("bicycle");
-    let kept = [WhippleBicycle::lean.0, WhippleBicycle::steer.0];
+    let kept = [WhippleBicycle::lean.index(), WhippleBicycle::steer.index()];
     for (source, tolerance) in [("matrices", 1e-12), ("published", 1e-12)] {
         let matrix = |name: &str| truth.get(source).get(name).matrix();
         let [m, c1, k0, k2] = ["M", "C1", "K0", "K2"].map(matrix);
         for speed in [0.0, 0.3, 1.0, 4.6, 10.0] {
             let study = bicycle().input(WhippleBicycle::v, speed);
             let state = study.equilibrium().expect("rolling straight ahead");
-            let found = onto(&state.linear, state.description, &kept);
+            let found = onto(&state.linear, &state.description, &kept);
             let scaled = |a: &[f64], factor: f64| a.iter().map(|x| factor * x).collect::<Vec<_>>();
             let (gravity, speeds) = (scaled(&k0, 9.81), scaled(&k2, speed * speed));
             let stiffness: Vec<f64> = gravity.iter().zip(&speeds).map(|(a, b)| a + b).collect();
@@ -72,7 +72,7 @@ fn published_eigenvalues() {
         let row = row.list();
         assert_eq!(found.modes.len(), row.len());
         for s in row.iter().map(complex) {
-            let off = |mode: &eigentol::Mode<14>| (mode.s - s).norm();
+            let off = |mode: &eigentol::Mode| (mode.s - s).norm();
             let best = found.modes.iter().map(off).fold(f64::INFINITY, f64::min);
             assert!(
                 best <= 2e-12 * (1.0 + s.norm()),
@@ -112,7 +112,7 @@ fn the_double_root() {
 #[test]
 fn wheel_loads() {
     let loads = truth("bicycle").get("loads");
-    let names = design_names::<WhippleBicycle, 14, 1, 26, 2>();
+    let names = design_names::<WhippleBicycle>();
     for speed in [0.0, 5.0] {
         let study = bicycle().input(WhippleBicycle::v, speed);
         let found = study.outputs().expect("loads");
@@ -121,9 +121,9 @@ fn wheel_loads() {
             close(found.values[k], load, 0.0, name);
             let by = loads.get("by_design");
             let by: Vec<f64> = names.iter().map(|name| by.get(name).numbers()[k]).collect();
-            let own = found.by_design[k].expect("derivatives");
-            close_real_slopes(&own, &by, study.design_values(), &names, name);
-            let by_speed = found.by_input[k].expect("derivatives")[0];
+            let own = found.by_design[k].as_ref().expect("derivatives");
+            close_real_slopes(own, &by, study.design_values(), &names, name);
+            let by_speed = found.by_input[k].as_ref().expect("derivatives")[0];
             assert!(by_speed.abs() < 1e-9 * load, "{by_speed}");
         }
     }
@@ -136,7 +136,7 @@ fn curvature_of_the_weave() {
     let s = complex(&hessian.get("s"));
     let order = hessian.get("order").list();
     let order: Vec<String> = order.iter().map(Truth::text).collect();
-    assert_eq!(order, design_names::<WhippleBicycle, 14, 1, 26, 2>());
+    assert_eq!(order, design_names::<WhippleBicycle>());
     let study = bicycle().input(WhippleBicycle::v, hessian.get("speed").number());
     let modes = study.modes().expect("modes");
     let weave = modes
@@ -146,7 +146,7 @@ fn curvature_of_the_weave() {
     let found = study
         .mode_curvature(weave.expect("the weave"))
         .expect("curvature");
-    let found = found.eigenvalue.expect("it oscillates").by_design;
+    let found = &found.eigenvalue.as_ref().expect("it oscillates").by_design;
     let rows = |part: &str| -> Vec<Vec<f64>> {
         let rows = hessian.get(part).list();
         rows.iter().map(Truth::numbers).collect()

@@ -1,6 +1,6 @@
 //! Comparisons with `truth/rolling.json`.
 
-use eigentol::{Complex, Input, Mechanism, Study};
+use eigentol::{Complex, Description, Input, Mechanism, Study};
 use eigentol_oracle::truth::Truth;
 
 /// Relative error allowed.
@@ -68,51 +68,46 @@ pub(crate) fn close_real_slopes(
     close_slopes(&real(found), &real(expected), values, names, what);
 }
 
+/// What a mechanism is made of.
+pub(crate) fn description<M: Mechanism>() -> &'static Description {
+    const { &M::DESCRIPTION }
+}
+
 /// Names of the design variables.
-pub(crate) fn design_names<M, const N: usize, const U: usize, const P: usize, const O: usize>()
--> Vec<&'static str>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    M::DESCRIPTION.design.iter().map(|info| info.name).collect()
+pub(crate) fn design_names<M: Mechanism>() -> Vec<&'static str> {
+    let all = description::<M>().design.iter();
+    all.map(|info| &*info.name).collect()
+}
+
+/// Names of the inputs.
+pub(crate) fn input_names<M: Mechanism>() -> Vec<&'static str> {
+    let all = description::<M>().inputs.iter();
+    all.map(|info| &*info.name).collect()
 }
 
 /// The study at the inputs of a point.
-pub(crate) fn at<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
-    point: &Truth,
-) -> Study<M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+pub(crate) fn at<M: Mechanism>(study: &Study<M>, point: &Truth) -> Study<M> {
     let inputs = point.get("inputs");
     let mut study = study.clone();
-    for (k, info) in M::DESCRIPTION.inputs.iter().enumerate() {
-        study = study.input(Input(k), inputs.get(info.name).number());
+    for (k, name) in input_names::<M>().into_iter().enumerate() {
+        study = study.input(Input::new(k), inputs.get(name).number());
     }
     study
 }
 
 /// The declared nominal values are those of the reference.
-pub(crate) fn check_design<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    design: &Truth,
-) where
-    M: Mechanism<N, U, P, O>,
-{
-    assert_eq!(design.fields().len(), P);
-    for info in M::DESCRIPTION.design {
-        close(info.nominal, design.get(info.name).number(), 0.0, info.name);
+pub(crate) fn check_design<M: Mechanism>(design: &Truth) {
+    let declared = &description::<M>().design;
+    assert_eq!(design.fields().len(), declared.len());
+    for info in declared.iter() {
+        let value = design.get(&info.name).number();
+        close(info.nominal, value, 0.0, &info.name);
     }
 }
 
 /// All eigenvalues at a point of the reference, and all their derivatives.
-pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
-    point: &Truth,
-) where
-    M: Mechanism<N, U, P, O>,
-{
-    let what = format!("{} at {:?}", M::DESCRIPTION.name, study.input_values());
+pub(crate) fn check_modes<M: Mechanism>(study: &Study<M>, point: &Truth) {
+    let what = format!("{} at {:?}", description::<M>().name, study.input_values());
     let found = study
         .modes()
         .unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -121,8 +116,8 @@ pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, con
         .unwrap_or_else(|error| panic!("{what}: {error}"));
     let expected = point.get("modes").list();
     assert_eq!(found.modes.len(), expected.len(), "{what}: {found:?}");
-    let names = design_names::<M, N, U, P, O>();
-    let inputs: Vec<&str> = M::DESCRIPTION.inputs.iter().map(|info| info.name).collect();
+    let names = design_names::<M>();
+    let inputs = input_names::<M>();
     let mut left: Vec<usize> = (0..expected.len()).collect();
     for mode in &expected {
         let s = complex(&mode.get("s"));
@@ -136,19 +131,15 @@ pub(crate) fn check_modes<M, const N: usize, const U: usize, const P: usize, con
         );
         let own = slopes.modes[nearest]
             .s
+            .as_ref()
             .expect("an eigenvalue with derivatives");
         let what = format!("{what}, {s}");
         for (found, names, values, field) in [
-            (
-                &own.by_input[..],
-                &inputs,
-                &study.input_values()[..],
-                "by_input",
-            ),
+            (&own.by_input[..], &inputs, study.input_values(), "by_input"),
             (
                 &own.by_design[..],
                 &names,
-                &study.design_values()[..],
+                study.design_values(),
                 "by_design",
             ),
         ] {

@@ -8,22 +8,16 @@ use eigentol_tests::wheels::{CirclingTrailer, TowedCaster, WhippleBicycle};
 use super::common::{close, close_real_slopes, design_names, truth};
 
 /// An event against its speed, its derivatives, and the standard deviation that they give.
-fn check_event<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    study: &Study<M, N, U, P, O>,
-    found: &EventTolerance<P>,
-    expected: &Truth,
-) where
-    M: Mechanism<N, U, P, O>,
-{
+fn check_event<M: Mechanism>(study: &Study<M>, found: &EventTolerance, expected: &Truth) {
     let speed = expected.get("speed").number();
-    let what = format!("{} at {speed}", M::DESCRIPTION.name);
+    let what = format!("{} at {speed}", study.description().name);
     close(found.value, speed, 0.0, &what);
     let spread = found.spread.as_ref().expect("a spread");
-    let names = design_names::<M, N, U, P, O>();
+    let names = design_names::<M>();
     let by = expected.get("by_design");
     let by: Vec<f64> = names.iter().map(|name| by.get(name).number()).collect();
     close_real_slopes(&spread.by_design, &by, study.design_values(), &names, &what);
-    let shares = by.iter().zip(M::DESCRIPTION.design);
+    let shares = by.iter().zip(study.description().design.iter());
     let variance: f64 = shares
         .map(|(slope, info)| (slope * info.tolerance / 3.0).powi(2))
         .sum();
@@ -33,7 +27,7 @@ fn check_event<M, const N: usize, const U: usize, const P: usize, const O: usize
 #[test]
 fn weave_speed() {
     let weave = truth("bicycle").get("events").get("weave");
-    let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle);
+    let study = Study::<WhippleBicycle>::new(WhippleBicycle);
     let found = study
         .flutter_onsets(WhippleBicycle::v, 1.0, 10.0)
         .expect("onsets");
@@ -56,7 +50,7 @@ fn weave_speed() {
 #[test]
 fn capsize_speed() {
     let capsize = truth("bicycle").get("events").get("capsize");
-    let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle);
+    let study = Study::<WhippleBicycle>::new(WhippleBicycle);
     let found = study
         .critical_state(WhippleBicycle::v, 5.0, 8.0)
         .expect("a critical speed");
@@ -71,7 +65,7 @@ fn capsize_speed() {
 /// Between the two speeds the bicycle stays upright by itself, below it weaves, above it capsizes.
 #[test]
 fn stability_of_the_bicycle() {
-    let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle);
+    let study = Study::<WhippleBicycle>::new(WhippleBicycle);
     let at = |speed: f64| {
         let study = study.clone().input(WhippleBicycle::v, speed);
         let state = study.equilibrium().expect("rolling straight ahead");
@@ -101,7 +95,7 @@ fn stability_of_the_bicycle() {
 #[test]
 fn shimmy_speeds() {
     let onsets = truth("caster").get("onsets").list();
-    let study = Study::<TowedCaster, 5, 1, 13, 0>::new(TowedCaster);
+    let study = Study::<TowedCaster>::new(TowedCaster);
     let found = study
         .flutter_onset_tolerances(TowedCaster::v, 0.5, 12.0)
         .expect("onsets");
@@ -131,8 +125,7 @@ fn shimmy_speeds() {
 /// On a circle smaller than its length the trailer has no steady motion; at that radius its last one folds.
 #[test]
 fn the_trailer_jackknifes() {
-    let study = Study::<CirclingTrailer, 7, 2, 9, 1>::new(CirclingTrailer)
-        .input(CirclingTrailer::speed, 0.8);
+    let study = Study::<CirclingTrailer>::new(CirclingTrailer).input(CirclingTrailer::speed, 0.8);
     let small = study.clone().input(CirclingTrailer::radius, 2.9);
     assert!(matches!(
         small.equilibrium(),

@@ -10,7 +10,7 @@ use super::common::close;
 /// `(A + m r^2) s^2 = m g r - (C + m r^2) C spin^2 / A`.
 #[test]
 fn a_disk_without_drag() {
-    let free = Study::<RollingDisk, 8, 2, 6, 2>::new(RollingDisk)
+    let free = Study::<RollingDisk>::new(RollingDisk)
         .design(RollingDisk::drag, 0.0)
         .design(RollingDisk::stiffness, 0.0);
     let [m, r, a, c] = [3.0, 0.25, 0.05, 0.09];
@@ -51,7 +51,7 @@ fn a_disk_without_drag() {
 /// cart: `s^2 = -g b l / (J - b^2 l^2 / m)`, `b` the bob, `J` its inertia about the hinge, `m` all masses.
 #[test]
 fn a_cart_without_drag() {
-    let study = Study::<PushedCart, 4, 1, 9, 1>::new(PushedCart)
+    let study = Study::<PushedCart>::new(PushedCart)
         .design(PushedCart::drag, 0.0)
         .design(PushedCart::air, 0.0);
     let pushed = study.clone().input(PushedCart::push, 1.0).equilibrium();
@@ -82,8 +82,7 @@ fn a_cart_without_drag() {
 /// At rest the trailer stays at any angle: a single zero eigenvalue, because its rate is no state.
 #[test]
 fn a_trailer_at_rest() {
-    let study = Study::<CirclingTrailer, 7, 2, 9, 1>::new(CirclingTrailer)
-        .input(CirclingTrailer::radius, 5.0);
+    let study = Study::<CirclingTrailer>::new(CirclingTrailer).input(CirclingTrailer::radius, 5.0);
     let state = study.equilibrium().expect("at rest");
     assert_eq!(state.stability, Stability::Neutral { zero: 1 });
     let modes = study.modes().expect("modes");

@@ -1,6 +1,7 @@
 //! From the bordered matrices to those of chosen coordinates, by elimination: nothing of the library is used.
 
-use eigentol::{Description, Linear, Role};
+use eigentol::kernels::Linear;
+use eigentol::{Description, Role};
 
 /// A dense matrix by rows.
 pub(crate) type Matrix = Vec<Vec<f64>>;
@@ -20,7 +21,7 @@ fn places(description: &Description, role: Role) -> Vec<usize> {
         .collect()
 }
 
-fn part<const N: usize>(matrix: &[[f64; N]; N], rows: &[usize], columns: &[usize]) -> Matrix {
+fn part(matrix: &eigentol::Matrix, rows: &[usize], columns: &[usize]) -> Matrix {
     let row = |&i: &usize| columns.iter().map(|&j| matrix[i][j]).collect();
     rows.iter().map(row).collect()
 }
@@ -78,11 +79,7 @@ fn solve_negative(a: &Matrix, b: &Matrix) -> Matrix {
 
 /// The equations of motion of the coordinates `kept`, of which as many must be free, all others following:
 /// displacements `P y`, velocities `Z ydot + E y`, powers of virtual velocities `Z`.
-pub(crate) fn onto<const N: usize>(
-    linear: &Linear<f64, N>,
-    description: &Description,
-    kept: &[usize],
-) -> Projected {
+pub(crate) fn onto(linear: &Linear, description: &Description, kept: &[usize]) -> Projected {
     let q = places(description, Role::Position);
     let v = places(description, Role::Speed);
     let on_positions = places(description, Role::PositionReaction);

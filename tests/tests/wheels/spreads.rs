@@ -19,7 +19,7 @@ fn samples_spread_as_the_derivatives_say() {
         .iter()
         .find(|mode| (complex(&mode.get("s")) - s).norm() < 1e-9);
     let by_design = mode.expect("the weave").get("by_design");
-    let study = Study::<WhippleBicycle, 14, 1, 26, 2>::new(WhippleBicycle)
+    let study = Study::new(WhippleBicycle)
         .input(WhippleBicycle::v, 5.0)
         .samples(SAMPLES)
         .seed(11);
@@ -29,10 +29,8 @@ fn samples_spread_as_the_derivatives_say() {
         .iter()
         .map(Truth::text)
         .collect();
-    let sigma = study
-        .tolerances()
-        .expect("tolerances")
-        .standard_deviations();
+    let tolerances = study.tolerances().expect("tolerances");
+    let sigma = tolerances.sigmas();
     let [real, imaginary] = ["real", "imag"].map(|part| hessian.get(part).matrix());
     let scaled = |i: usize, j: usize| {
         Complex::new(real[26 * i + j], imaginary[26 * i + j]) * sigma[i] * sigma[j]
@@ -55,8 +53,9 @@ fn samples_spread_as_the_derivatives_say() {
         .sum();
     let spread = (linear + curved).sqrt();
 
-    let first_order = study.first_order().expect("first order").modes[weave];
-    let sigma = first_order.sigma.expect("it oscillates");
+    let first_order = study.first_order().expect("first order");
+    let first_order = first_order.modes[weave].frequency.as_ref();
+    let sigma = first_order.expect("it oscillates").sigma;
     close(sigma, linear.sqrt(), 0.0, "sigma of first order");
     let second_order = study.second_order().expect("second order");
     let second_order = second_order.modes[weave].as_ref().expect("it oscillates");
@@ -65,7 +64,7 @@ fn samples_spread_as_the_derivatives_say() {
     close(model.mean_shift, mean, 0.0, "mean of second order");
 
     let omega = drawn.modes[weave].expect("it oscillates");
-    let deviation = omega.standard_deviation.expect("many samples");
+    let deviation = omega.sigma.expect("many samples");
     let error = spread / (SAMPLES as f64).sqrt();
     let off = omega.mean - s.im - mean;
     assert!(

@@ -9,15 +9,6 @@ use crate::program::Kernel;
 use super::names::local;
 use super::results::Results;
 
-/// Numbers of free coordinates, inputs, design variables and outputs.
-#[derive(Clone, Copy)]
-pub(super) struct Sizes {
-    pub(super) coordinates: usize,
-    pub(super) inputs: usize,
-    pub(super) design: usize,
-    pub(super) outputs: usize,
-}
-
 /// How a method returns its results.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
@@ -25,8 +16,8 @@ pub(super) enum Form {
     Single,
     /// Arrays side by side.
     Tuple,
-    /// A struct of the runtime with one field per array, generic over the scalar and some sizes.
-    Record(&'static str, fn(Sizes) -> Vec<usize>),
+    /// A struct of the runtime with one field per array, generic over the types of the first so many.
+    Record(&'static str, usize),
     /// `LinearPartials`: three lists of three matrices.
     Partials,
 }
@@ -42,13 +33,11 @@ pub(super) fn form(kernel: KernelName) -> Option<Form> {
         | KernelName::ResidualAndStiffness
         | KernelName::ResidualPartials
         | KernelName::OutputPartials => Form::Tuple,
-        KernelName::ResidualParts => Form::Record("RestParts", |s| vec![s.coordinates]),
-        KernelName::Linear | KernelName::MotionLinear => {
-            Form::Record("Linear", |s| vec![s.coordinates])
-        }
+        KernelName::ResidualParts => Form::Record("RestParts", 1),
+        KernelName::Linear | KernelName::MotionLinear => Form::Record("Linear", 1),
         KernelName::LinearPartials => Form::Partials,
         KernelName::ModeGradient | KernelName::PencilGradient | KernelName::ResidualGradient => {
-            Form::Record("Gradient", |s| vec![s.coordinates, s.inputs, s.design])
+            Form::Record("Gradient", 3)
         }
         KernelName::Violation | KernelName::PoseMargin => return None,
     })
@@ -82,8 +71,8 @@ fn is_one_of(kernel: &Kernel, names: &[KernelName]) -> bool {
 }
 
 /// A method as text, with its variants.
-pub(super) fn method(kernel: &Kernel, form: Form, sizes: Sizes) -> String {
-    let results = Results::new(kernel, form, sizes);
+pub(super) fn method(kernel: &Kernel, form: Form) -> String {
+    let results = Results::new(kernel, form);
     let (name, kind) = (kernel.name, results.kind());
     let mut text = signature(kernel, &kind, "");
     if !is_one_of(kernel, &INLINED) {

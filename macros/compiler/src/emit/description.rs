@@ -24,26 +24,26 @@ pub(super) fn description(
         };
         quote! {
             ::eigentol::CoordinateInfo {
-                name: #name,
-                unit: ::eigentol::Unit { symbol: #unit, scale: 1.0 },
+                name: ::eigentol::Shared::Static(#name),
+                unit: ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#unit), scale: 1.0 },
                 role: ::eigentol::Role::#role,
             }
         }
     });
     let inputs = mechanism.inputs.iter().map(|input| {
         let (name, unit) = (input.name.to_string(), unit(&input.unit));
-        quote! { ::eigentol::InputInfo { name: #name, unit: #unit } }
+        quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let design = mechanism.design.iter().map(|variable| {
         let (name, unit) = (variable.name.to_string(), unit(&variable.unit));
         let (nominal, tolerance) = (variable.nominal, variable.tolerance);
         quote! {
-            ::eigentol::DesignInfo { name: #name, unit: #unit, nominal: #nominal, tolerance: #tolerance }
+            ::eigentol::DesignInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, nominal: #nominal, tolerance: #tolerance }
         }
     });
     let outputs = mechanism.outputs.iter().map(|output| {
         let (name, unit) = (output.name.to_string(), unit(&output.unit));
-        quote! { ::eigentol::OutputInfo { name: #name, unit: #unit } }
+        quote! { ::eigentol::OutputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
     });
     let symmetric = functions.properties.symmetric_stiffness;
     let damping = match functions.properties.damping {
@@ -55,19 +55,19 @@ pub(super) fn description(
         let (name, cost) = (kernel.name, kernel.cost);
         let (operations, functions) = (cost.operations, cost.functions);
         quote! {
-            ::eigentol::KernelInfo { name: #name, operations: #operations, functions: #functions }
+            ::eigentol::KernelInfo { name: ::eigentol::Shared::Static(#name), operations: #operations, functions: #functions }
         }
     });
     quote! {
         const DESCRIPTION: ::eigentol::Description = ::eigentol::Description {
-            name: #name,
-            coordinates: &[#(#coordinates),*],
-            inputs: &[#(#inputs),*],
-            design: &[#(#design),*],
-            outputs: &[#(#outputs),*],
+            name: ::eigentol::Shared::Static(#name),
+            coordinates: ::eigentol::Shared::Static(&[#(#coordinates),*]),
+            inputs: ::eigentol::Shared::Static(&[#(#inputs),*]),
+            design: ::eigentol::Shared::Static(&[#(#design),*]),
+            outputs: ::eigentol::Shared::Static(&[#(#outputs),*]),
             symmetric_stiffness: #symmetric,
             damping: ::eigentol::DampingKind::#damping,
-            kernels: &[#(#kernels),*],
+            kernels: ::eigentol::Shared::Static(&[#(#kernels),*]),
         };
     }
 }
@@ -80,7 +80,7 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStre
         let kind = Ident::new(kind, Span::call_site());
         quote_spanned! { name.span() =>
             #[doc = #doc]
-            #visibility const #name: ::eigentol::#kind = ::eigentol::#kind(#index);
+            #visibility const #name: ::eigentol::#kind<Self> = ::eigentol::#kind::new(#index);
         }
     };
     let mut handles = TokenStream::new();
@@ -140,7 +140,7 @@ fn shown(unit: &Unit) -> &str {
 
 fn unit(unit: &Unit) -> TokenStream {
     let Unit { symbol, scale } = unit;
-    quote! { ::eigentol::Unit { symbol: #symbol, scale: #scale } }
+    quote! { ::eigentol::Unit { symbol: ::eigentol::Shared::Static(#symbol), scale: #scale } }
 }
 
 /// A variable that nothing reads for every design variable that nothing refers to: rustc warns where that is declared, and can

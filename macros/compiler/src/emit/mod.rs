@@ -2,10 +2,12 @@
 //!
 //! ```text
 //! pub struct Pendulum;
-//! impl Pendulum { pub const theta: Coordinate = Coordinate(0); pub const omega: Input = Input(0); .. }
+//! impl Pendulum { pub const theta: Coordinate<Self> = Coordinate::new(0); .. }
 //! const _: () = {
 //! fn Pendulum() {} // so that a variable may have this name
-//! impl Mechanism<1, 1, 2, 0> for Pendulum {
+//! impl Mechanism for Pendulum {
+//!     type Coordinates<T: Copy> = [T; 1];
+//!     ..
 //!     const DESCRIPTION: Description = ..;
 //!     fn residual<T: Real>(&self, q_: &[T; 1], u_: &[T; 1], b_: &[T; 2]) -> [T; 1] {
 //!         let l_ = b_[0];
@@ -44,17 +46,11 @@ pub fn emit<E: Debug>(
     program: &Program,
     lexer: impl Fn(&str) -> Result<TokenStream, E>,
 ) -> TokenStream {
-    let sizes = contract::Sizes {
-        coordinates: functions.unknowns.len(),
-        inputs: mechanism.inputs.len(),
-        design: mechanism.design.len(),
-        outputs: mechanism.outputs.len(),
-    };
     let mut methods = String::new();
     for kernel in &program.kernels {
         let name = KernelName::named(kernel.name).expect("mechanics names the kernels");
         let method = match contract::form(name) {
-            Some(form) => contract::method(kernel, form, sizes),
+            Some(form) => contract::method(kernel, form),
             None if name == KernelName::Violation => {
                 violation::method(kernel, &functions.requirements)
             }
@@ -73,12 +69,8 @@ pub fn emit<E: Debug>(
     let handles = description::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
     let unused = description::unused(mechanism);
-    let contract::Sizes {
-        coordinates,
-        inputs,
-        design,
-        outputs,
-    } = sizes;
+    let (coordinates, inputs) = (functions.unknowns.len(), mechanism.inputs.len());
+    let (design, outputs) = (mechanism.design.len(), mechanism.outputs.len());
     let conditions: Vec<_> = attributes
         .iter()
         .filter(|attribute| attribute.path().is_ident("cfg"))
@@ -102,7 +94,11 @@ pub fn emit<E: Debug>(
             fn #name() {}
 
             #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
-            impl ::eigentol::Mechanism<#coordinates, #inputs, #design, #outputs> for #name {
+            impl ::eigentol::Mechanism for #name {
+                type Coordinates<T: ::core::marker::Copy> = [T; #coordinates];
+                type Inputs<T: ::core::marker::Copy> = [T; #inputs];
+                type Design<T: ::core::marker::Copy> = [T; #design];
+                type Outputs<T: ::core::marker::Copy> = [T; #outputs];
                 #description
                 #methods
             }

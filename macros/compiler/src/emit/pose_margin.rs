@@ -27,12 +27,12 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
             "{{
                 let volume_ = {};
                 let margin_ = if volume_ < T::constant(0.0) {{ -volume_ }} else {{ volume_ }};
-                let smaller_ = match least_ {{
+                let smaller_ = match &least_ {{
                     ::core::option::Option::Some(known_) => margin_ < known_.margin,
                     ::core::option::Option::None => true,
                 }};
                 if smaller_ {{
-                    least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: {:?}, margin: margin_ }});
+                    least_ = ::core::option::Option::Some(::eigentol::PoseMargin {{ joint: ::eigentol::Shared::Static({:?}), margin: margin_ }});
                 }}
             }}",
             body.text(volume).text,

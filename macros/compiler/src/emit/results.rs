@@ -10,13 +10,12 @@ use std::fmt::Write;
 use crate::program::{Array, Kernel, Operand};
 
 use super::body::Body;
-use super::contract::{Form, Sizes, call};
+use super::contract::{Form, call};
 
 /// The parts of a result.
 pub(super) struct Results<'a> {
     kernel: &'a Kernel,
     form: Form,
-    sizes: Sizes,
     at_once: bool,
 }
 
@@ -27,12 +26,11 @@ const MOST_AT_ONCE: usize = 4096;
 const BY: [&str; 3] = ["by_coordinate", "by_input", "by_design"];
 
 impl<'a> Results<'a> {
-    pub(super) fn new(kernel: &'a Kernel, form: Form, sizes: Sizes) -> Self {
+    pub(super) fn new(kernel: &'a Kernel, form: Form) -> Self {
         let entries: usize = kernel.results.iter().map(|array| array.values.len()).sum();
         Self {
             kernel,
             form,
-            sizes,
             at_once: entries <= MOST_AT_ONCE || !matches!(form, Form::Partials),
         }
     }
@@ -45,15 +43,20 @@ impl<'a> Results<'a> {
             Form::Single => types[0].clone(),
             Form::Tuple => format!("({})", types.join(", ")),
             Form::Record(name, generics) => {
-                let generics: String = generics(self.sizes)
-                    .iter()
-                    .fold("T".to_owned(), |list, n| format!("{list}, {n}"));
-                format!("::eigentol::{name}<{generics}>")
+                format!("::eigentol::{name}<{}>", types[..generics].join(", "))
             }
-            Form::Partials => format!(
-                "::eigentol::LinearPartials<T, {}, {}, {}>",
-                self.sizes.coordinates, self.sizes.inputs, self.sizes.design
-            ),
+            Form::Partials => {
+                let lists: Vec<String> = self
+                    .kernel
+                    .results
+                    .chunks(3)
+                    .map(|arrays| {
+                        let (count, shape) = (arrays[0].shape[0], &arrays[0].shape[1..]);
+                        format!("[::eigentol::Linear<{}>; {count}]", filled("T", shape))
+                    })
+                    .collect();
+                format!("::eigentol::LinearPartials<{}>", lists.join(", "))
+            }
         }
     }
 

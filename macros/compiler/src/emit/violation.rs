@@ -24,7 +24,7 @@ pub(super) fn method(kernel: &Kernel, requirements: &[Requirement]) -> String {
                 let value_ = {};
                 if !(value_ > T::constant(0.0)) {{
                     return ::core::option::Option::Some(::eigentol::Violation {{
-                        quantity: {:?}, requirement: {:?}, value: value_,
+                        quantity: ::eigentol::Shared::Static({:?}), requirement: ::eigentol::Shared::Static({:?}), value: value_,
                     }});
                 }}
             }}",

@@ -12,8 +12,7 @@ use super::fold::{LAST_STEP, ROUNDING, beside};
 use super::frame::{Frame, Place};
 use super::special::{Junction, SpecialKind};
 use super::station::Station;
-use crate::Mechanism;
-use crate::array::{dot, form};
+use crate::dense::{Vector, dot, form};
 
 const MAX_ITERATIONS: usize = 30;
 /// A direction with a smaller part along the input is that of the critical vector.
@@ -26,33 +25,26 @@ const NEARER: usize = 12;
 const PROBE: f64 = 1e-3;
 
 /// `mu` and its derivatives at one place.
-struct Reduced<const N: usize> {
+struct Reduced {
     /// Newton step to `g + mu c = 0` and the value of `mu` after it.
-    correction: Place<N>,
+    correction: Place,
     mu: f64,
     /// `dx/dxi`, `dx/deta`.
-    tangents: [Place<N>; 2],
-    w: [f64; N],
+    tangents: [Place; 2],
+    w: Vector,
     gradient: [f64; 2],
     hessian: [[f64; 2]; 2],
 }
 
 /// Directions that complete the equations, and the column that does.
-struct Borders<const N: usize> {
-    normals: [Place<N>; 2],
-    column: [f64; N],
+struct Borders {
+    normals: [Place; 2],
+    column: Vector,
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// The branch point between two stations.
-    pub(crate) fn branch_point(
-        &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-    ) -> Result<Junction<N, U, P>, Trouble<N>> {
+    pub(crate) fn branch_point(&self, a: &Station, b: &Station) -> Result<Junction, Trouble> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let (mut local, borders) = self.saddle(a, &end)?;
@@ -71,7 +63,7 @@ where
             (second, first)
         };
         let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
-        let stationary = |direction: &Place<N>| direction.p.abs() <= STATIONARY;
+        let stationary = |direction: &Place| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
         let kind = match (stationary(&own), stationary(&other)) {
             (true, true) => return Err(not_simple()),
@@ -89,8 +81,8 @@ where
             .fold(0.0, |most: f64, h| most.max(h.abs()));
         let gap = reduced.mu.abs() / size;
         let also = ACCEPTED * gap / CROSSING;
-        let vectors = (&critical.q, &frame.weights(&reduced.w));
-        let special = self.special(kind, &place, vectors, 1, Some(also))?;
+        let weights = frame.weights(&reduced.w);
+        let special = self.special(kind, &place, (&critical.q, &weights), 1, Some(also))?;
         Ok(Junction {
             special,
             frame: frame.at(place),
@@ -100,11 +92,7 @@ where
     }
 
     /// The saddle of `mu` between the origin of the frame and `end`, both on the branch.
-    fn saddle(
-        &self,
-        a: &Station<N, U, P>,
-        end: &Place<N>,
-    ) -> Result<(Place<N>, Borders<N>), Trouble<N>> {
+    fn saddle(&self, a: &Station, end: &Place) -> Result<(Place, Borders), Trouble> {
         let frame = &a.frame;
         let mut borders = self.borders(a, end)?;
         let mut local = end.scaled(0.5);
@@ -149,14 +137,14 @@ where
     }
 
     /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
-    fn borders(&self, a: &Station<N, U, P>, end: &Place<N>) -> Result<Borders<N>, Trouble<N>> {
+    fn borders(&self, a: &Station, end: &Place) -> Result<Borders, Trouble> {
         let first = end.unit().ok_or_else(not_simple)?;
         let factors = self.nearly_singular(&a.frame, end, &first)?;
-        let mut left = ([1.0; N], [0.5]);
+        let mut left = (Vector::filled(end.q.len(), 1.0), [0.5]);
         for (i, value) in left.0.iter_mut().enumerate() {
             *value += 0.1 * i as f64;
         }
-        let mut right = Place::ZERO;
+        let mut right = Place::zero(end.q.len());
         for _ in 0..6 {
             let (q, [p]) = factors.solve(&left.0, left.1);
             right = Place { q, p }.unit().ok_or_else(not_simple)?;
@@ -178,10 +166,10 @@ where
     /// may be softer than what becomes singular.
     fn nearly_singular(
         &self,
-        frame: &Frame<N>,
-        end: &Place<N>,
-        first: &Place<N>,
-    ) -> Result<Bordered<N, 1>, Trouble<N>> {
+        frame: &Frame,
+        end: &Place,
+        first: &Place,
+    ) -> Result<Bordered, Trouble> {
         let at = |fraction: f64| {
             let system = self.system(&frame.place(&end.scaled(fraction)))?;
             plane(&frame.scaled(&system), first).ok_or_else(not_simple)
@@ -206,11 +194,11 @@ where
 
     fn reduced(
         &self,
-        frame: &Frame<N>,
-        local: &Place<N>,
+        frame: &Frame,
+        local: &Place,
         mu: f64,
-        borders: &Borders<N>,
-    ) -> Result<Reduced<N>, Trouble<N>> {
+        borders: &Borders,
+    ) -> Result<Reduced, Trouble> {
         let place = frame.place(local);
         let scaled = frame.scaled(&self.system(&place)?);
         let [first, second] = &borders.normals;
@@ -221,45 +209,46 @@ where
             [[first.p, 0.0], [second.p, 0.0]],
         )
         .ok_or_else(not_simple)?;
-        let off = core::array::from_fn(|i| -(scaled.residual[i] + mu * borders.column[i]));
+        let n = local.q.len();
+        let off = Vector::from_fn(n, |i| -(scaled.residual[i] + mu * borders.column[i]));
         let (q, [p, change]) = factors.solve(&off, [0.0; 2]);
         let correction = Place { q, p };
         let tangents = [[1.0, 0.0], [0.0, 1.0]].map(|right| {
-            let (q, [p, _]) = factors.solve(&[0.0; N], right);
+            let (q, [p, _]) = factors.solve(&Vector::zeros(n), right);
             Place { q, p }
         });
-        let (w, slopes) = factors.solve_transposed(&[0.0; N], [0.0, 1.0]);
+        let (w, slopes) = factors.solve_transposed(&Vector::zeros(n), [0.0, 1.0]);
         let weights = frame.weights(&w);
-        let mut bent = [Place::ZERO; 2];
-        for (bent, tangent) in bent.iter_mut().zip(&tangents) {
+        let bend = |tangent: &Place| -> Result<Place, Trouble> {
             let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
-            *bent = frame.stretched(&curvature);
-        }
+            Ok(frame.stretched(&curvature))
+        };
+        let bent = [bend(&tangents[0])?, bend(&tangents[1])?];
         // w^T [Khat dg/du] + a1 n1 + a2 n2 = 0, so that the slopes of mu are a1 and a2.
         Ok(Reduced {
-            correction,
             mu: mu + change,
-            tangents,
             w,
             gradient: core::array::from_fn(|i| slopes[i] - bent[i].dot(&correction)),
             hessian: bent
                 .each_ref()
                 .map(|bent| tangents.each_ref().map(|tangent| -bent.dot(tangent))),
+            correction,
+            tangents,
         })
     }
 
     /// Sign of the third order along the critical vector, by differences of exact second orders.
     fn supercritical(
         &self,
-        frame: &Frame<N>,
-        at: &Place<N>,
-        borders: &Borders<N>,
-        v: &Place<N>,
-    ) -> Result<Option<bool>, Trouble<N>> {
+        frame: &Frame,
+        at: &Place,
+        borders: &Borders,
+        v: &Place,
+    ) -> Result<Option<bool>, Trouble> {
         let place = frame.place(at);
         let mass = self.linear(&place)?.mass;
         let parts = borders.normals.each_ref().map(|normal| normal.dot(v));
-        let probe = |distance: f64| -> Result<(f64, f64), Trouble<N>> {
+        let probe = |distance: f64| -> Result<(f64, f64), Trouble> {
             let mut local = at.plus(distance, v);
             let mut mu = 0.0;
             for _ in 0..4 {
@@ -287,12 +276,12 @@ where
     }
 }
 
-fn not_simple<const N: usize>() -> Trouble<N> {
+fn not_simple() -> Trouble {
     Trouble::Missed("the branch point is not simple")
 }
 
 /// Unit directions of the two branches: the roots of the quadratic form of second derivatives.
-fn directions<const N: usize>(reduced: &Reduced<N>) -> Result<[Place<N>; 2], Trouble<N>> {
+fn directions(reduced: &Reduced) -> Result<[Place; 2], Trouble> {
     let [[a, b], [_, c]] = reduced.hessian;
     let discriminant = b * b - a * c;
     let size = a.abs().max(b.abs()).max(c.abs());
@@ -306,11 +295,15 @@ fn directions<const N: usize>(reduced: &Reduced<N>) -> Result<[Place<N>; 2], Tro
 }
 
 /// The combination of the tangents along which the input stands still.
-fn critical<const N: usize>([x, y]: &[Place<N>; 2]) -> Option<Place<N>> {
+fn critical([x, y]: &[Place; 2]) -> Option<Place> {
     let v = x.scaled(y.p).plus(-x.p, y);
     Place { q: v.q, p: 0.0 }.unit()
 }
 
-fn unit<const N: usize>(x: &[f64; N]) -> Option<[f64; N]> {
-    Place { q: *x, p: 0.0 }.unit().map(|place| place.q)
+fn unit(x: &[f64]) -> Option<Vector> {
+    let direction = Place {
+        q: x.into(),
+        p: 0.0,
+    };
+    direction.unit().map(|place| place.q)
 }

@@ -7,35 +7,38 @@ use super::super::{Failure, Problem};
 use super::bordered::Bordered;
 use super::frame::{Frame, Place, System};
 use super::settings::Continuation;
-use crate::array::all_finite;
 use crate::constraints::{Structure, redundant_rows};
+use crate::dense::{Vector, all_finite};
+use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
-use crate::{Description, Equilibrium, Error, Linear, Mechanism};
+use crate::{Description, Equilibrium, Error, Shared};
 
 /// A mechanism of which one input varies.
-pub(crate) struct Curve<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    pub(crate) mechanism: &'a M,
-    pub(crate) inputs: &'a [f64; U],
-    pub(crate) design: &'a [f64; P],
+pub(crate) struct Curve<'a> {
+    pub(crate) mechanism: &'a dyn DirectionalKernels,
+    pub(crate) description: Shared<Description>,
+    pub(crate) structure: Structure,
+    pub(crate) inputs: &'a [f64],
+    pub(crate) design: &'a [f64],
     pub(crate) settings: &'a Continuation,
     /// Redundant constraints, which Newton's method is better off without; every point is held to all of them.
-    dropped: [bool; N],
+    dropped: Vec<bool>,
 }
 
 /// Why a point was not reached.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Trouble<const N: usize> {
+pub(crate) enum Trouble {
     /// The equations are not finite there.
-    OutsideDomain([f64; N]),
+    OutsideDomain(Vector),
     /// The input describes no body that can exist.
     Unphysical(Error),
     /// The point does not pass as an equilibrium.
-    Refused(Failure<N>),
+    Refused(Failure),
     /// The reason in words.
     Missed(&'static str),
 }
 
-impl<const N: usize> Trouble<N> {
+impl Trouble {
     /// Whether the equations end there.
     pub(crate) fn at_edge(&self) -> bool {
         matches!(
@@ -48,10 +51,10 @@ impl<const N: usize> Trouble<N> {
 }
 
 /// A point of the branch on a given plane.
-pub(crate) struct Corrected<const N: usize> {
-    pub(crate) local: Place<N>,
-    pub(crate) place: Place<N>,
-    pub(crate) system: System<N>,
+pub(crate) struct Corrected {
+    pub(crate) local: Place,
+    pub(crate) place: Place,
+    pub(crate) system: System,
     pub(crate) iterations: usize,
 }
 
@@ -64,67 +67,74 @@ const ROUNDING: f64 = 1e-8;
 /// A Newton step that keeps more than this share of the one before does not converge.
 const CONTRACTION: f64 = 0.5;
 
-impl<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'a, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    pub(crate) const DESCRIPTION: &'static Description = &M::DESCRIPTION;
-    /// Number of coordinates and speeds.
-    pub(crate) const MOTIONS: usize =
-        N.saturating_sub(Structure::of(&M::DESCRIPTION).constraints());
-
+impl<'a> Curve<'a> {
     pub(crate) fn new(
-        mechanism: &'a M,
-        inputs: &'a [f64; U],
-        design: &'a [f64; P],
+        mechanism: &'a dyn DirectionalKernels,
+        inputs: &'a [f64],
+        design: &'a [f64],
         settings: &'a Continuation,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, Error> {
+        let description = mechanism.description();
+        settings.check(&description)?;
+        Ok(Self {
             mechanism,
+            structure: Structure::of(&description),
+            dropped: Vec::new(),
+            description,
             inputs,
             design,
             settings,
-            dropped: [false; N],
-        }
+        })
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn size(&self) -> usize {
+        self.description.coordinates.len()
+    }
+
+    /// The problem at these inputs, with all constraints.
+    pub(crate) fn problem<'b>(&'b self, inputs: &'b [f64]) -> Problem<'b> {
+        Problem::unchecked(self.mechanism, inputs, self.design)
     }
 
     /// The same for branches near a state.
-    pub(crate) fn about(mut self, state: &Equilibrium<N, U, P>) -> Self {
-        let structure = const { Structure::of(&M::DESCRIPTION) };
-        if structure.constraints() > 1 {
-            self.dropped = redundant_rows(&state.linear.stiffness, structure);
+    pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
+        if self.structure.constraints() > 1 {
+            self.dropped = redundant_rows(&state.linear.stiffness, self.structure);
         }
         self
     }
 
-    pub(crate) fn inputs_at(&self, p: f64) -> [f64; U] {
-        let input = self.settings.input.0;
-        core::array::from_fn(|j| if j == input { p } else { self.inputs[j] })
+    pub(crate) fn inputs_at(&self, p: f64) -> Vector {
+        let mut inputs = Vector::from(self.inputs);
+        if let Some(value) = inputs.get_mut(self.settings.input.index()) {
+            *value = p;
+        }
+        inputs
     }
 
     /// The linearised mechanism at a place.
-    pub(crate) fn linear(&self, at: &Place<N>) -> Result<Linear<f64, N>, Trouble<N>> {
-        Problem::unchecked(self.mechanism, &self.inputs_at(at.p), self.design)
+    pub(crate) fn linear(&self, at: &Place) -> Result<Linear, Trouble> {
+        self.problem(&self.inputs_at(at.p))
             .linear(&at.q)
             .map_err(Trouble::Refused)
     }
 
-    pub(crate) fn system(&self, at: &Place<N>) -> Result<System<N>, Trouble<N>> {
+    pub(crate) fn system(&self, at: &Place) -> Result<System, Trouble> {
         let inputs = self.inputs_at(at.p);
-        let (residual, stiffness) = Problem::unchecked(self.mechanism, &inputs, self.design)
-            .without(&self.dropped)
+        let problem = self.problem(&inputs).without(&self.dropped);
+        let (residual, stiffness) = problem
             .evaluate(&at.q)
-            .ok_or(Trouble::OutsideDomain(at.q))?;
-        let (by_inputs, _) = self
+            .ok_or_else(|| Trouble::OutsideDomain(at.q.clone()))?;
+        let (by_inputs, _) = problem
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
-        let by_input = core::array::from_fn(|i| {
-            if self.dropped[i] {
-                0.0
-            } else {
-                by_inputs[i][self.settings.input.0]
+        let mut by_input = by_inputs.column(self.settings.input.index());
+        for (value, dropped) in by_input.iter_mut().zip(&self.dropped) {
+            if *dropped {
+                *value = 0.0;
             }
-        });
+        }
         if all_finite(&by_input) {
             Ok(System {
                 residual,
@@ -132,28 +142,31 @@ where
                 by_input,
             })
         } else {
-            Err(Trouble::OutsideDomain(at.q))
+            Err(Trouble::OutsideDomain(at.q.clone()))
         }
     }
 
     /// Gradient by `(q, u_k)` of the derivative of `w^T g` along `direction`.
     pub(crate) fn curvature(
         &self,
-        at: &Place<N>,
-        w: &[f64; N],
-        direction: &Place<N>,
-    ) -> Result<Place<N>, Trouble<N>> {
-        let input = self.settings.input.0;
-        let along = core::array::from_fn(|j| if j == input { direction.p } else { 0.0 });
+        at: &Place,
+        w: &[f64],
+        direction: &Place,
+    ) -> Result<Place, Trouble> {
+        let input = self.settings.input.index();
+        let mut along = Vector::zeros(self.inputs.len());
+        along[input] = direction.p;
         let gradient = self.mechanism.residual_gradient_along(
             &at.q,
             &self.inputs_at(at.p),
             self.design,
             w,
-            &direction.q,
-            &along,
-            &[0.0; P],
-            &[0.0; N],
+            [
+                &direction.q,
+                &along,
+                &Vector::zeros(self.design.len()),
+                &Vector::zeros(self.size()),
+            ],
         );
         let found = Place {
             q: gradient.coordinates,
@@ -162,7 +175,7 @@ where
         if found.finite() {
             Ok(found)
         } else {
-            Err(Trouble::OutsideDomain(at.q))
+            Err(Trouble::OutsideDomain(at.q.clone()))
         }
     }
 
@@ -171,11 +184,11 @@ where
     /// another measure of it.
     pub(crate) fn equilibrium(
         &self,
-        at: &Place<N>,
-        system: &System<N>,
+        at: &Place,
+        system: &System,
         iterations: usize,
         also: Option<f64>,
-    ) -> Result<Equilibrium<N, U, P>, Trouble<N>> {
+    ) -> Result<Equilibrium, Trouble> {
         let inputs = self.inputs_at(at.p);
         if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
             return Err(Trouble::Unphysical(Error::Unphysical {
@@ -184,12 +197,12 @@ where
                 value: violation.value,
             }));
         }
-        let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
+        let problem = self.problem(&inputs);
         let linear = problem.linear(&at.q).map_err(Trouble::Refused)?;
         let residual = if self.dropped.contains(&true) {
             problem.residual(&at.q)
         } else {
-            system.residual
+            system.residual.clone()
         };
         let mut relative = relative_residual(&problem, &at.q, &residual, &linear.stiffness);
         if relative.is_nan() || relative > ACCEPTED {
@@ -200,7 +213,7 @@ where
         if relative > ACCEPTED {
             return Err(Trouble::Refused(Failure::NotFound {
                 reason: "the residual stays larger than rounding explains",
-                coordinates: at.q,
+                coordinates: at.q.to_vec(),
                 iterations,
                 relative,
             }));
@@ -219,9 +232,10 @@ where
             judge(self.mechanism, &place, &linear).map_err(Trouble::Refused)?
         };
         Ok(Equilibrium {
-            coordinates: at.q,
+            pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
+            coordinates: at.q.clone(),
             inputs,
-            design: *self.design,
+            design: self.design.into(),
             stability,
             rounding,
             constraints,
@@ -229,17 +243,16 @@ where
             residual,
             relative_residual: relative,
             iterations,
-            pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
             left_unstable_region: false,
-            description: Self::DESCRIPTION,
+            description: self.description.clone(),
         })
     }
 
     /// Greatest residual, each relative to what a thousandth of the range or of a coordinate's unit restores.
-    fn with_input(&self, q: &[f64; N], system: &System<N>) -> f64 {
-        (0..N).fold(0.0, |most: f64, i| {
+    fn with_input(&self, q: &[f64], system: &System) -> f64 {
+        (0..q.len()).fold(0.0, |most: f64, i| {
             let input = system.by_input[i].abs() * self.settings.range();
-            let scale = (0..N).fold(input, |sum, j| {
+            let scale = (0..q.len()).fold(input, |sum, j| {
                 sum + system.stiffness[i][j].abs() * (self.settings.size + q[j].abs())
             });
             let residual = system.residual[i].abs();
@@ -251,25 +264,25 @@ where
         })
     }
 
-    pub(crate) fn frame(&self, at: &Place<N>, system: &System<N>) -> Frame<N> {
+    pub(crate) fn frame(&self, at: &Place, system: &System) -> Frame {
         Frame::new(
-            *at,
+            at.clone(),
             self.settings.size,
             self.settings.range(),
             system,
-            Self::MOTIONS,
+            self.structure.motions(),
         )
     }
 
     /// Solves `g = 0` on the plane through `from` across `normal` (both local), not farther than `reach` from it.
     pub(crate) fn correct(
         &self,
-        frame: &Frame<N>,
-        from: &Place<N>,
-        normal: &Place<N>,
+        frame: &Frame,
+        from: &Place,
+        normal: &Place,
         reach: f64,
-    ) -> Result<Corrected<N>, Trouble<N>> {
-        let mut local = *from;
+    ) -> Result<Corrected, Trouble> {
+        let mut local = from.clone();
         let mut last = f64::INFINITY;
         let mut stalled = false;
         for iterations in 0..=self.settings.max_corrections + 1 {
@@ -319,10 +332,7 @@ where
 }
 
 /// `[Khat dg/du; normal^T]`.
-pub(crate) fn plane<const N: usize>(
-    scaled: &System<N>,
-    normal: &Place<N>,
-) -> Option<Bordered<N, 1>> {
+pub(crate) fn plane(scaled: &System, normal: &Place) -> Option<Bordered> {
     Bordered::new(
         &scaled.stiffness,
         [&scaled.by_input],

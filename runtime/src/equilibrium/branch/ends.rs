@@ -5,7 +5,8 @@ use super::BranchEnd;
 use super::curve::{Corrected, Curve, Trouble};
 use super::frame::Place;
 use super::station::{Station, VERTICAL};
-use crate::{Equilibrium, Error, Mechanism};
+use crate::dense::Vector;
+use crate::{Equilibrium, Error};
 
 /// Share of the range by which a branch along one of its ends may stray by rounding.
 pub(super) const STRAY: f64 = 1e-9;
@@ -13,25 +14,21 @@ pub(super) const STRAY: f64 = 1e-9;
 const BESIDE: f64 = 1e-7;
 
 /// A last station, unless the walk already stands there, and how the branch ends.
-type LastStep<const N: usize, const U: usize, const P: usize> =
-    (Option<Station<N, U, P>>, BranchEnd);
+type LastStep = (Option<Station>, BranchEnd);
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
     pub(super) fn arrive_singular(
         &self,
-        corrected: &Corrected<N>,
-        before: &Station<N, U, P>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
-        let (place, system) = (corrected.place, &corrected.system);
-        let equilibrium = self.equilibrium(&place, system, corrected.iterations, None)?;
-        let frame = self.frame(&place, system);
+        corrected: &Corrected,
+        before: &Station,
+    ) -> Result<Station, Trouble> {
+        let (place, system) = (&corrected.place, &corrected.system);
+        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let frame = self.frame(place, system);
         let tangent = frame.direction(&before.direction()).unit();
         Ok(Station {
-            place,
+            place: place.clone(),
             equilibrium,
             frame,
             tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
@@ -48,7 +45,7 @@ where
     }
 
     /// The end of the range at which a station is about to leave it.
-    pub(super) fn leaving(&self, at: &Station<N, U, P>) -> Option<BranchEnd> {
+    pub(super) fn leaving(&self, at: &Station) -> Option<BranchEnd> {
         let (least, most) = self.settings.bounds();
         let rate = at.tangent.p;
         if at.place.p <= least && rate < -VERTICAL {
@@ -75,13 +72,13 @@ where
     /// The point of the branch exactly at an end of the range.
     pub(super) fn land(
         &self,
-        at: &Station<N, U, P>,
-        outside: &Corrected<N>,
+        at: &Station,
+        outside: &Corrected,
         bound: f64,
-    ) -> Result<Corrected<N>, Trouble<N>> {
+    ) -> Result<Corrected, Trouble> {
         let target = at.frame.local(&Place {
             p: bound,
-            ..at.place
+            ..at.place.clone()
         });
         let share = target.p / outside.local.p;
         // A step that turns back between the points would land on the wrong side of the turn.
@@ -92,7 +89,7 @@ where
         }
         let from = outside.local.scaled(share);
         let input = Place {
-            q: [0.0; N],
+            q: Vector::zeros(self.size()),
             p: 1.0,
         };
         let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
@@ -103,7 +100,7 @@ where
 
     /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
     /// is there.
-    pub(super) fn last_step(&self, at: &Station<N, U, P>) -> Option<LastStep<N, U, P>> {
+    pub(super) fn last_step(&self, at: &Station) -> Option<LastStep> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();
         let bound = if away(least).abs() < away(most).abs() {
@@ -131,19 +128,18 @@ where
         Some((Some(station), self.end_at(bound)))
     }
 
-    pub(crate) fn broken_off(&self, trouble: Trouble<N>, at: &Equilibrium<N, U, P>) -> BranchEnd {
-        let name = Self::DESCRIPTION.name;
+    pub(crate) fn broken_off(&self, trouble: Trouble, at: &Equilibrium) -> BranchEnd {
         match trouble {
             Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
-                mechanism: name,
+                mechanism: self.description.name.clone(),
                 what: "the residual",
                 coordinates: q.to_vec(),
             }),
             Trouble::Unphysical(error) => BranchEnd::Domain(error),
             Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
-                BranchEnd::Domain(failure.explain(Self::DESCRIPTION))
+                BranchEnd::Domain(failure.explain(&self.description))
             }
-            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(Self::DESCRIPTION)),
+            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(&self.description)),
             Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
                 reason,
                 iterations: self.settings.max_corrections,

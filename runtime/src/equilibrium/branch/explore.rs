@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::super::multistart::{Search, find_equilibria};
-use super::super::{Policy, Problem, equilibrium, settle};
+use super::super::{Policy, equilibrium, settle};
 use super::curve::{Curve, Trouble};
 use super::frame::Place;
 use super::settings::Continuation;
@@ -11,23 +11,24 @@ use super::special::{Junction, SpecialKind};
 use super::station::Station;
 use super::walk::{SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
-use crate::{Equilibrium, Error, Mechanism};
+use crate::dense::Vector;
+use crate::kernels::DirectionalKernels;
+use crate::{Equilibrium, Error};
 
 /// Share of the range by which a start on a singular state is moved.
 const NUDGE: f64 = 1e-6;
 
 /// A branch and the branch points passed on it, each with whether the branch is an arm that ends there.
-type Followed<const N: usize, const U: usize, const P: usize> =
-    (Branch<N, U, P>, Vec<(Junction<N, U, P>, bool)>);
+type Followed = (Branch, Vec<(Junction, bool)>);
 
 /// What is still to be followed.
-enum Lead<const N: usize, const U: usize, const P: usize> {
+enum Lead {
     /// Both ways from a regular point.
-    Start(Station<N, U, P>),
+    Start(Station),
     /// Both ways through a junction.
-    Through(Junction<N, U, P>, Place<N>),
+    Through(Junction, Place),
     /// One arm of a pitchfork.
-    Arm(Junction<N, U, P>, Place<N>),
+    Arm(Junction, Place),
 }
 
 /// Follows the branch through the stable equilibrium at `settings.low` that is found from `start`, in both directions.
@@ -37,22 +38,18 @@ enum Lead<const N: usize, const U: usize, const P: usize> {
 ///
 /// # Errors
 /// [`Error::Setting`], [`Error::UnknownHandle`], and those of [`equilibrium`] at the low end.
-pub fn branch<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn branch(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     settings: &Continuation,
-) -> Result<Branch<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve::new(mechanism, u, b, settings);
+) -> Result<Branch, Error> {
+    let curve = Curve::new(mechanism, u, b, settings)?;
     let inputs = curve.inputs_at(settings.low);
     let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
     let curve = curve.about(&state);
-    Ok(match curve.begin(state) {
+    Ok(match curve.begin(&state) {
         Ok(station) => curve.both_ways(&station).0,
         Err(trouble) => curve.lone_point(state, trouble),
     })
@@ -68,22 +65,18 @@ where
 /// # Errors
 /// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; those of [`equilibrium`] when there is no
 /// equilibrium at either end.
-pub fn branches<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    mechanism: &M,
-    u: &[f64; U],
-    b: &[f64; P],
-    start: &[f64; N],
+pub fn branches(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
     settings: &Continuation,
-    search: Option<&Search<N>>,
-) -> Result<Branches<N, U, P>, Error>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    settings.check::<U>(M::DESCRIPTION.name)?;
-    let curve = Curve::new(mechanism, u, b, settings);
+    search: Option<&Search>,
+) -> Result<Branches, Error> {
+    let curve = Curve::new(mechanism, u, b, settings)?;
     let none = Search {
-        lower: *start,
-        upper: *start,
+        lower: start.into(),
+        upper: start.into(),
         starts: 0,
         seed: 0,
     };
@@ -114,22 +107,15 @@ where
     Ok(curve.explore(states))
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// The station at an equilibrium, or beside it where branches cross there.
-    pub(crate) fn begin(
-        &self,
-        state: Equilibrium<N, U, P>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
-        self.first_station(state).or_else(|trouble| {
+    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<Station, Trouble> {
+        self.first_station(state.clone()).or_else(|trouble| {
             let (low, high) = (self.settings.low, self.settings.high);
-            let value = state.inputs[self.settings.input.0];
+            let value = state.inputs[self.settings.input.index()];
             let target = if value == low { high } else { low };
             let inputs = self.inputs_at(value + NUDGE * (target - value));
-            let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
-            match settle(&problem, &state.coordinates, Policy::Nearest) {
+            match settle(&self.problem(&inputs), &state.coordinates, Policy::Nearest) {
                 Ok(beside) => self.first_station(beside),
                 Err(_) => Err(trouble),
             }
@@ -137,7 +123,7 @@ where
     }
 
     /// The branch through a station, and the junctions on it.
-    fn both_ways(&self, station: &Station<N, U, P>) -> Followed<N, U, P> {
+    fn both_ways(&self, station: &Station) -> Followed {
         let front = self.walk(station, &station.place, |_, _| false);
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
@@ -148,12 +134,7 @@ where
     }
 
     /// One branch of two walks from one place.
-    fn joined(
-        &self,
-        back: Walk<N, U, P>,
-        start: Option<BranchPoint<N, U, P>>,
-        front: Walk<N, U, P>,
-    ) -> Followed<N, U, P> {
+    fn joined(&self, back: Walk, start: Option<BranchPoint>, front: Walk) -> Followed {
         let mut points: Vec<_> = back
             .points
             .into_iter()
@@ -171,38 +152,38 @@ where
             points,
             special,
             ends: [back.end, front.end],
-            description: Self::DESCRIPTION,
+            description: self.description.clone(),
         };
         (branch, junctions)
     }
 
     /// A branch of which nothing but one point is known.
-    fn lone_point(&self, state: Equilibrium<N, U, P>, trouble: Trouble<N>) -> Branch<N, U, P> {
+    fn lone_point(&self, state: Equilibrium, trouble: Trouble) -> Branch {
         let end = self.broken_off(trouble, &state);
         Branch {
             input: self.settings.input,
             points: vec![BranchPoint {
-                value: state.inputs[self.settings.input.0],
+                value: state.inputs[self.settings.input.index()],
                 equilibrium: state,
-                tangent: [0.0; N],
+                tangent: Vector::zeros(self.size()),
                 input_tangent: 0.0,
             }],
             special: Vec::new(),
             ends: [end.clone(), end],
-            description: Self::DESCRIPTION,
+            description: self.description.clone(),
         }
     }
 
-    fn explore(&self, states: Vec<Equilibrium<N, U, P>>) -> Branches<N, U, P> {
-        let mut found: Vec<Branch<N, U, P>> = Vec::new();
+    fn explore(&self, states: Vec<Equilibrium>) -> Branches {
+        let mut found: Vec<Branch> = Vec::new();
         let mut leads = VecDeque::new();
         for state in states {
-            match self.begin(state) {
+            match self.begin(&state) {
                 Ok(station) => leads.push_back(Lead::Start(station)),
                 Err(trouble) => found.push(self.lone_point(state, trouble)),
             }
         }
-        let mut entered: Vec<Place<N>> = Vec::new();
+        let mut entered: Vec<Place> = Vec::new();
         while let Some(lead) = leads.pop_front() {
             let Some((branch, junctions)) = self.follow(&lead, &found) else {
                 continue;
@@ -214,20 +195,21 @@ where
                 };
             }
             for (junction, ends_arm) in junctions {
-                let place = junction.frame.origin;
-                let near = |known: &Place<N>| junction.frame.local(known).norm() <= SAME;
+                let near = |known: &Place| junction.frame.local(known).norm() <= SAME;
                 if entered.iter().any(near) {
                     continue;
                 }
-                entered.push(place);
+                entered.push(junction.frame.origin.clone());
+                let (own, other) = (junction.own.clone(), junction.other.clone());
                 if ends_arm {
-                    leads.push_back(Lead::Through(junction, junction.other));
-                    leads.push_back(Lead::Arm(junction, junction.own));
+                    leads.push_back(Lead::Through(junction.clone(), other));
+                    leads.push_back(Lead::Arm(junction, own));
                 } else if matches!(junction.special.kind, SpecialKind::Pitchfork { .. }) {
-                    leads.push_back(Lead::Arm(junction, junction.other));
-                    leads.push_back(Lead::Arm(junction, junction.other.scaled(-1.0)));
+                    let opposite = other.scaled(-1.0);
+                    leads.push_back(Lead::Arm(junction.clone(), other));
+                    leads.push_back(Lead::Arm(junction, opposite));
                 } else {
-                    leads.push_back(Lead::Through(junction, junction.other));
+                    leads.push_back(Lead::Through(junction, other));
                 }
             }
             found.push(branch);
@@ -239,14 +221,14 @@ where
     }
 
     /// The branch of a lead; `None` where there is none or it is known.
-    fn follow(&self, lead: &Lead<N, U, P>, known: &[Branch<N, U, P>]) -> Option<Followed<N, U, P>> {
-        let fresh = |station: &Station<N, U, P>| !self.known(known, &station.place);
-        let from = |junction: &Junction<N, U, P>, station: &Station<N, U, P>| {
+    fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
+        let fresh = |station: &Station| !self.known(known, &station.place);
+        let from = |junction: &Junction, station: &Station| {
             let mut walk = self.walk(station, &junction.frame.origin, |_, _| false);
             walk.points.insert(0, self.point(station));
             walk
         };
-        let at = |junction: &Junction<N, U, P>, direction: &Place<N>| {
+        let at = |junction: &Junction, direction: &Place| {
             let direction = junction.frame.stretched(direction);
             Some(self.special_point(&junction.special, &direction))
         };
@@ -296,22 +278,20 @@ where
                 (branch, junctions, place)
             }
         };
-        let special = junction_of(lead).map(|junction| junction.special);
+        let special = junction_of(lead).map(|junction| junction.special.clone());
         branch.special.splice(place..place, special);
         Some((branch, junctions))
     }
 }
 
-fn junction_of<const N: usize, const U: usize, const P: usize>(
-    lead: &Lead<N, U, P>,
-) -> Option<&Junction<N, U, P>> {
+fn junction_of(lead: &Lead) -> Option<&Junction> {
     match lead {
         Lead::Start(_) => None,
         Lead::Through(junction, _) | Lead::Arm(junction, _) => Some(junction),
     }
 }
 
-fn nothing<const N: usize, const U: usize, const P: usize>(end: BranchEnd) -> Walk<N, U, P> {
+fn nothing(end: BranchEnd) -> Walk {
     Walk {
         points: Vec::new(),
         special: Vec::new(),

@@ -6,8 +6,7 @@ use super::curve::{Curve, Trouble};
 use super::frame::Place;
 use super::special::{SpecialKind, SpecialPoint};
 use super::station::Station;
-use crate::Mechanism;
-use crate::array::{dot, largest};
+use crate::dense::{Values, Vector, dot, largest};
 
 const MAX_ITERATIONS: usize = 30;
 /// A Newton step this small, in local units, leaves rounding.
@@ -15,16 +14,9 @@ pub(super) const LAST_STEP: f64 = 1e-14;
 /// A step that no longer shrinks has reached rounding below this size.
 pub(super) const ROUNDING: f64 = 1e-8;
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// The limit point between two stations, and the direction of the branch there.
-    pub(crate) fn fold(
-        &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-    ) -> Result<(SpecialPoint<N, U, P>, Place<N>), Trouble<N>> {
+    pub(crate) fn fold(&self, a: &Station, b: &Station) -> Result<(SpecialPoint, Place), Trouble> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let end_tangent = frame.direction(&b.direction());
@@ -39,6 +31,7 @@ where
         });
         let mut v = a.tangent.plus(1.0, &end_tangent).q;
         let mut w = frame.scaled(&self.system(&a.place)?).by_input;
+        let zeros = Vector::zeros(self.size());
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             let place = frame.place(&local);
@@ -49,10 +42,13 @@ where
             );
             let bordered =
                 Bordered::new(&scaled.stiffness, [&c], [&d], [[0.0]]).ok_or_else(singular)?;
-            let (right, [h]) = bordered.solve(&[0.0; N], [1.0]);
-            let (left, _) = bordered.solve_transposed(&[0.0; N], [1.0]);
+            let (right, [h]) = bordered.solve(&zeros, [1.0]);
+            let (left, _) = bordered.solve_transposed(&zeros, [1.0]);
             (v, w) = (right, left);
-            let along = frame.stretched(&Place { q: v, p: 0.0 });
+            let along = frame.stretched(&Place {
+                q: v.clone(),
+                p: 0.0,
+            });
             let weights = frame.weights(&w);
             if last <= LAST_STEP {
                 let special =
@@ -89,7 +85,7 @@ where
     }
 }
 
-fn unit<const N: usize>(x: &[f64; N]) -> Option<[f64; N]> {
+fn unit(x: &[f64]) -> Option<Vector> {
     let most = largest(x);
     let scaled = x.map(|value| value / most);
     let length = dot(&scaled, &scaled).sqrt();
@@ -97,7 +93,7 @@ fn unit<const N: usize>(x: &[f64; N]) -> Option<[f64; N]> {
 }
 
 /// Whether a local place lies between the origin and `end`, and not far from the line.
-pub(super) fn beside<const N: usize>(local: &Place<N>, end: &Place<N>) -> bool {
+pub(super) fn beside(local: &Place, end: &Place) -> bool {
     let length = end.norm();
     let along = local.dot(end) / length;
     let across = local.plus(-along / length, end).norm();

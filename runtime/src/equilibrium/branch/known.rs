@@ -1,33 +1,28 @@
 //! Whether an equilibrium lies on a branch that is already known.
 
-use super::super::Problem;
 use super::super::turns::{turned_towards, turns_do_not_count};
 use super::Branch;
 use super::curve::Curve;
 use super::frame::{Frame, Place};
-use crate::Mechanism;
 
 /// Local distance from a branch below which a place is on it.
 const CLOSE: f64 = 1e-6;
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// Whether a place, or one that differs from it by full turns and is the same state, lies on one of the branches.
-    pub(super) fn known(&self, branches: &[Branch<N, U, P>], place: &Place<N>) -> bool {
+    pub(super) fn known(&self, branches: &[Branch], place: &Place) -> bool {
         branches.iter().any(|branch| self.on(branch, place))
     }
 
-    fn on(&self, branch: &Branch<N, U, P>, place: &Place<N>) -> bool {
+    fn on(&self, branch: &Branch, place: &Place) -> bool {
         let at = |k: usize| Place {
-            q: branch.points[k].equilibrium.coordinates,
+            q: branch.points[k].equilibrium.coordinates.clone(),
             p: branch.points[k].value,
         };
         (1..branch.points.len()).any(|k| {
             let (from, to) = (at(k - 1), at(k));
             let turned = Place {
-                q: turned_towards(&place.q, &from.q, Self::DESCRIPTION),
+                q: turned_towards(&place.q, &from.q, &self.description),
                 p: place.p,
             };
             self.near(&from, &to, &turned) && (turned == *place || self.same(place, &turned))
@@ -35,11 +30,11 @@ where
     }
 
     /// Whether a place on some branch lies on the piece of branch between two neighbouring points.
-    fn near(&self, from: &Place<N>, to: &Place<N>, place: &Place<N>) -> bool {
+    fn near(&self, from: &Place, to: &Place, place: &Place) -> bool {
         let Ok(system) = self.system(from) else {
             return false;
         };
-        let frame: Frame<N> = self.frame(from, &system);
+        let frame: Frame = self.frame(from, &system);
         let (end, target) = (frame.local(to), frame.local(place));
         let length = end.norm();
         let Some(normal) = end.unit() else {
@@ -58,9 +53,8 @@ where
     }
 
     /// Whether two places that differ by full turns are the same state.
-    fn same(&self, place: &Place<N>, turned: &Place<N>) -> bool {
+    fn same(&self, place: &Place, turned: &Place) -> bool {
         let inputs = self.inputs_at(place.p);
-        let problem = Problem::unchecked(self.mechanism, &inputs, self.design);
-        turns_do_not_count(&problem, &place.q, &turned.q)
+        turns_do_not_count(&self.problem(&inputs), &place.q, &turned.q)
     }
 }

@@ -4,7 +4,6 @@ use super::super::root::{Bracket, refine};
 use super::curve::{Curve, Trouble};
 use super::special::{Located, SpecialKind};
 use super::station::{Signs, Station};
-use crate::Mechanism;
 use crate::modes::free_pairs;
 
 /// Local distance below which events are not told apart.
@@ -41,27 +40,24 @@ impl Changes {
     }
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// Appends the special points between two stations in their order along the branch.
     pub(crate) fn locate(
         &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-        found: &mut Vec<Located<N, U, P>>,
-    ) -> Result<(), Trouble<N>> {
+        a: &Station,
+        b: &Station,
+        found: &mut Vec<Located>,
+    ) -> Result<(), Trouble> {
         self.divide(a, b, found, &mut 0)
     }
 
     fn divide(
         &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-        found: &mut Vec<Located<N, U, P>>,
+        a: &Station,
+        b: &Station,
+        found: &mut Vec<Located>,
         points: &mut usize,
-    ) -> Result<(), Trouble<N>> {
+    ) -> Result<(), Trouble> {
         let changes = Changes::between(&a.signs, &b.signs);
         if changes.none() {
             return Ok(());
@@ -87,10 +83,10 @@ where
     /// The one event that explains the changes, if one does.
     fn simple(
         &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
+        a: &Station,
+        b: &Station,
         changes: Changes,
-    ) -> Result<Option<Located<N, U, P>>, Trouble<N>> {
+    ) -> Result<Option<Located>, Trouble> {
         if changes.crossed {
             let junction = match self.branch_point(a, b) {
                 Ok(junction) => junction,
@@ -103,7 +99,7 @@ where
             let explained = changes.is(false, true, 1) && !ends_arm;
             let explained_arm = changes.is(true, true, 0) && ends_arm;
             return Ok((explained || explained_arm).then(|| Located {
-                special: junction.special,
+                special: junction.special.clone(),
                 direction: junction.frame.stretched(&junction.own),
                 junction: Some(junction),
                 ends_arm,
@@ -121,11 +117,7 @@ where
     }
 
     /// A station between two.
-    fn middle(
-        &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
+    fn middle(&self, a: &Station, b: &Station) -> Result<Station, Trouble> {
         let mut trouble = Trouble::Missed("no point between two points");
         for fraction in [0.5, 0.41, 0.62] {
             match self.between(a, b, fraction) {
@@ -136,12 +128,7 @@ where
         Err(trouble)
     }
 
-    fn between(
-        &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-        fraction: f64,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
+    fn between(&self, a: &Station, b: &Station, fraction: f64) -> Result<Station, Trouble> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
         let from = end.scaled(fraction);
@@ -150,12 +137,7 @@ where
     }
 
     /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
-    fn unresolved(
-        &self,
-        a: &Station<N, U, P>,
-        b: &Station<N, U, P>,
-        changes: Changes,
-    ) -> Result<Located<N, U, P>, Trouble<N>> {
+    fn unresolved(&self, a: &Station, b: &Station, changes: Changes) -> Result<Located, Trouble> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
         let first = a
@@ -164,9 +146,9 @@ where
             .zip(b.signs.negative)
             .map_or(0, |(a, b)| a.min(b));
         let zero = changes.negative.unwrap_or(0).max(1);
-        let mean = |station: &crate::Equilibrium<N, U, P>| {
-            let pairs = free_pairs(&station.linear, Self::DESCRIPTION).ok()?;
-            let sum: f64 = pairs.lambda().iter().skip(first).take(zero).sum();
+        let mean = |station: &crate::Equilibrium| {
+            let pairs = free_pairs(&station.linear, &self.description).ok()?;
+            let sum: f64 = pairs.lambda.iter().skip(first).take(zero).sum();
             Some(sum)
         };
         let mut fraction = 0.5;

@@ -27,23 +27,24 @@ pub(crate) use station::Station;
 
 use super::turns::{coincide, turned_towards};
 use super::{Equilibrium, Stability};
-use crate::{Description, Error, Input};
+use crate::dense::Vector;
+use crate::{Description, Error, Input, Shared};
 
 /// A point of a branch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BranchPoint<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct BranchPoint {
     /// The input there, SI.
     pub value: f64,
     /// The equilibrium there; its stability counts the critical modes of special points as neutral.
-    pub equilibrium: Equilibrium<N, U, P>,
+    pub equilibrium: Equilibrium,
     /// `dq/ds` along the branch, in the order of its points; with [`Self::input_tangent`] of length one in the units of
     /// [`Continuation`].
-    pub tangent: [f64; N],
+    pub tangent: Vector,
     /// `du/ds` along the branch, SI.
     pub input_tangent: f64,
 }
 
-impl<const N: usize, const U: usize, const P: usize> BranchPoint<N, U, P> {
+impl BranchPoint {
     fn reversed(mut self) -> Self {
         self.tangent = self.tangent.map(|value| -value);
         self.input_tangent = -self.input_tangent;
@@ -74,22 +75,22 @@ pub enum BranchEnd {
 
 /// A connected line of equilibria.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Branch<const N: usize, const U: usize, const P: usize> {
+pub struct Branch {
     /// The input that varies.
     pub input: Input,
     /// Points from one end to the other, special points among them.
-    pub points: Vec<BranchPoint<N, U, P>>,
+    pub points: Vec<BranchPoint>,
     /// Points at which `Khat` is singular, in their order along the branch.
-    pub special: Vec<SpecialPoint<N, U, P>>,
+    pub special: Vec<SpecialPoint>,
     /// How it ends before its first and after its last point.
     pub ends: [BranchEnd; 2],
     /// The mechanism it belongs to.
-    pub description: &'static Description,
+    pub description: Shared<Description>,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Branch<N, U, P> {
+impl Branch {
     /// The branch cut at its special points, which belong to both sides, and where the stability changes otherwise.
-    pub fn stretches(&self) -> Vec<(Stability, &[BranchPoint<N, U, P>])> {
+    pub fn stretches(&self) -> Vec<(Stability, &[BranchPoint])> {
         let mut runs = Vec::new();
         let mut start = 0;
         let mut inside = None;
@@ -116,13 +117,13 @@ impl<const N: usize, const U: usize, const P: usize> Branch<N, U, P> {
     }
 
     /// The stretches that are stable or neutral.
-    pub fn stable(&self) -> Vec<&[BranchPoint<N, U, P>]> {
+    pub fn stable(&self) -> Vec<&[BranchPoint]> {
         let stretches = self.stretches().into_iter();
         let stable = stretches.filter(|(stability, _)| stability.holds());
         stable.map(|(_, run)| run).collect()
     }
 
-    fn is_special(&self, point: &BranchPoint<N, U, P>) -> bool {
+    fn is_special(&self, point: &BranchPoint) -> bool {
         self.special.iter().any(|special| {
             special.value == point.value
                 && special.equilibrium.coordinates == point.equilibrium.coordinates
@@ -132,16 +133,16 @@ impl<const N: usize, const U: usize, const P: usize> Branch<N, U, P> {
 
 /// Branches that were found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Branches<const N: usize, const U: usize, const P: usize> {
+pub struct Branches {
     /// The branches, in the order in which they were found; each once.
-    pub branches: Vec<Branch<N, U, P>>,
+    pub branches: Vec<Branch>,
     /// No more were looked for although some were left: [`Continuation::max_branches`].
     pub truncated: bool,
 }
 
-impl<const N: usize, const U: usize, const P: usize> Branches<N, U, P> {
+impl Branches {
     /// Stable stretches of all branches, each with its branch.
-    pub fn stable(&self) -> impl Iterator<Item = (&Branch<N, U, P>, &[BranchPoint<N, U, P>])> + '_ {
+    pub fn stable(&self) -> impl Iterator<Item = (&Branch, &[BranchPoint])> + '_ {
         let stretches = |branch| {
             Branch::stable(branch)
                 .into_iter()
@@ -151,17 +152,17 @@ impl<const N: usize, const U: usize, const P: usize> Branches<N, U, P> {
     }
 
     /// Every special point once, those that differ by full turns of an angle counting as one.
-    pub fn special(&self) -> Vec<&SpecialPoint<N, U, P>> {
+    pub fn special(&self) -> Vec<&SpecialPoint> {
         let values = self.branches.iter().flat_map(|branch| &branch.points);
         let size = values.fold(0.0, |most: f64, point| most.max(point.value.abs()));
-        let mut all: Vec<&SpecialPoint<N, U, P>> = Vec::new();
+        let mut all: Vec<&SpecialPoint> = Vec::new();
         for special in self.branches.iter().flat_map(|branch| &branch.special) {
             let at = &special.equilibrium;
-            let known = |other: &&SpecialPoint<N, U, P>| {
+            let known = |other: &&SpecialPoint| {
                 let there = &other.equilibrium;
-                let turned = turned_towards(&there.coordinates, &at.coordinates, at.description);
+                let turned = turned_towards(&there.coordinates, &at.coordinates, &at.description);
                 (other.value - special.value).abs() <= 1e-10 * size
-                    && coincide(&turned, &at.coordinates, false, at.description)
+                    && coincide(&turned, &at.coordinates, false, &at.description)
             };
             if !all.iter().any(known) {
                 all.push(special);

@@ -1,7 +1,7 @@
 //! How far and how finely branches are followed.
 
 use super::super::range::check_input;
-use crate::{Error, Input};
+use crate::{Any, Description, Error, Input};
 
 /// Settings of a continuation: the range of one input and the sizes of the steps.
 ///
@@ -9,9 +9,9 @@ use crate::{Error, Input};
 /// coordinate or speed; a reaction of a constraint counts by the work it does on a unit of the coordinates it holds,
 /// compared with the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Continuation {
+pub struct Continuation<M = Any> {
     /// The input that varies.
-    pub input: Input,
+    pub input: Input<M>,
     /// Where branches are started, SI.
     pub low: f64,
     /// The other end of the range, SI; it may be the smaller one.
@@ -33,9 +33,9 @@ pub struct Continuation {
     pub escape: f64,
 }
 
-impl Continuation {
+impl<M> Continuation<M> {
     /// From `low` to `high` with the settings that suit most mechanisms.
-    pub fn new(input: Input, low: f64, high: f64) -> Self {
+    pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
         Self {
             input,
             low,
@@ -50,8 +50,26 @@ impl Continuation {
         }
     }
 
-    pub(crate) fn check<const U: usize>(&self, mechanism: &'static str) -> Result<(), Error> {
-        check_input::<U>(self.input, mechanism)?;
+    /// The same, of any mechanism.
+    pub fn any(&self) -> Continuation {
+        Continuation {
+            input: self.input.any(),
+            low: self.low,
+            high: self.high,
+            max_step: self.max_step,
+            min_step: self.min_step,
+            max_points: self.max_points,
+            max_corrections: self.max_corrections,
+            max_branches: self.max_branches,
+            size: self.size,
+            escape: self.escape,
+        }
+    }
+}
+
+impl Continuation {
+    pub(crate) fn check(&self, description: &Description) -> Result<(), Error> {
+        check_input(self.input, description)?;
         let positive = |value: f64| value > 0.0 && value.is_finite();
         let (setting, reason) = if !(self.low.is_finite() && self.high.is_finite()) {
             ("range", "its ends must be finite")

@@ -4,9 +4,10 @@ use super::super::{Equilibrium, Stability};
 use super::curve::{Curve, Trouble};
 use super::frame::{Frame, Place};
 use super::station::symmetric_to_rounding;
-use crate::array::{dot, form, largest, times};
+use crate::dense::{Values, Vector, dot, form, largest, times};
+use crate::kernels::Linear;
 use crate::modes::free_pairs;
-use crate::{DampingKind, Input, Linear, Mechanism};
+use crate::{DampingKind, Input};
 
 /// What happens where `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +27,8 @@ pub enum SpecialKind {
 }
 
 /// A point of a branch at which `Khat` is singular.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpecialPoint<const N: usize, const U: usize, const P: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecialPoint {
     /// What happens there.
     pub kind: SpecialKind,
     /// The input that varies.
@@ -35,56 +36,53 @@ pub struct SpecialPoint<const N: usize, const U: usize, const P: usize> {
     /// Its value there, SI.
     pub value: f64,
     /// The equilibrium there; its stability counts the critical mode as neutral.
-    pub equilibrium: Equilibrium<N, U, P>,
+    pub equilibrium: Equilibrium,
     /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
-    pub v: [f64; N],
+    pub v: Vector,
     /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
-    pub w: [f64; N],
+    pub w: Vector,
 }
 
 /// Where branches cross, with what is needed to enter the other one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Junction<const N: usize, const U: usize, const P: usize> {
-    pub(crate) special: SpecialPoint<N, U, P>,
+#[derive(Clone, Debug)]
+pub(crate) struct Junction {
+    pub(crate) special: SpecialPoint,
     /// At the junction, with the units of a regular point nearby.
-    pub(crate) frame: Frame<N>,
+    pub(crate) frame: Frame,
     /// Local unit direction of the branch on which it was found, along the walk.
-    pub(crate) own: Place<N>,
+    pub(crate) own: Place,
     /// Local unit direction of the other branch.
-    pub(crate) other: Place<N>,
+    pub(crate) other: Place,
 }
 
 /// A special point on a walk.
-pub(crate) struct Located<const N: usize, const U: usize, const P: usize> {
-    pub(crate) special: SpecialPoint<N, U, P>,
+pub(crate) struct Located {
+    pub(crate) special: SpecialPoint,
     /// Tangent of the walk, SI units.
-    pub(crate) direction: Place<N>,
-    pub(crate) junction: Option<Junction<N, U, P>>,
+    pub(crate) direction: Place,
+    pub(crate) junction: Option<Junction>,
     /// The walk came along an arm of a pitchfork, which ends there.
     pub(crate) ends_arm: bool,
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// The special point at a place with these critical vectors of any length; `zero` modes are critical; `also` as for
     /// [`Self::equilibrium`].
     pub(crate) fn special(
         &self,
         kind: SpecialKind,
-        place: &Place<N>,
-        (v, w): (&[f64; N], &[f64; N]),
+        place: &Place,
+        (v, w): (&[f64], &[f64]),
         zero: usize,
         also: Option<f64>,
-    ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
+    ) -> Result<SpecialPoint, Trouble> {
         let (least, most) = self.settings.bounds();
         let place = &Place {
+            q: place.q.clone(),
             p: place.p.clamp(least, most),
-            ..*place
         };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
-        let (v, w) = normalised(&equilibrium.linear, Self::MOTIONS, v, w)
+        let (v, w) = normalised(&equilibrium.linear, self.structure.motions(), v, w)
             .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
@@ -100,20 +98,20 @@ where
     /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
     pub(crate) fn degenerate(
         &self,
-        place: &Place<N>,
-        (frame, tangent): (&Frame<N>, &Place<N>),
+        place: &Place,
+        (frame, tangent): (&Frame, &Place),
         zero: usize,
-    ) -> Result<SpecialPoint<N, U, P>, Trouble<N>> {
+    ) -> Result<SpecialPoint, Trouble> {
         let linear = self.linear(place)?;
-        let softest = symmetric_to_rounding(&linear, Self::DESCRIPTION)
-            .then(|| free_pairs(&linear, Self::DESCRIPTION).ok())
+        let softest = symmetric_to_rounding(&linear, &self.description)
+            .then(|| free_pairs(&linear, &self.description).ok())
             .flatten()
             .and_then(|pairs| {
-                let shapes = pairs.lambda().iter().zip(pairs.shapes());
+                let shapes = pairs.lambda.iter().zip(pairs.shapes.iter());
                 let (_, least) = shapes.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
-                Some(*least)
+                Some(Vector::from(least))
             });
-        let v = softest.unwrap_or(tangent.q);
+        let v = softest.unwrap_or_else(|| tangent.q.clone());
         let residual = largest(&frame.weights(&self.system(place)?.residual));
         self.special(
             SpecialKind::Degenerate,
@@ -126,12 +124,7 @@ where
 }
 
 /// `v^T M v = 1` with the largest of the first components positive, `w^T M v = 1`.
-fn normalised<const N: usize>(
-    linear: &Linear<f64, N>,
-    motions: usize,
-    v: &[f64; N],
-    w: &[f64; N],
-) -> Option<([f64; N], [f64; N])> {
+fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
     let motion = &v[..motions];
     let most = motion
         .iter()
@@ -149,11 +142,8 @@ fn normalised<const N: usize>(
 }
 
 /// Makes `zero` modes of an equilibrium critical, whatever sign rounding gives them.
-pub(crate) fn make_critical<const N: usize, const U: usize, const P: usize>(
-    at: &mut Equilibrium<N, U, P>,
-    zero: usize,
-) {
-    let (judged, description) = (at.stability, at.description);
+pub(crate) fn make_critical(at: &mut Equilibrium, zero: usize) {
+    let (judged, description) = (at.stability, &at.description);
     let flutters = matches!(judged, Stability::Flutter { .. });
     if flutters || !symmetric_to_rounding(&at.linear, description) {
         return;
@@ -161,9 +151,7 @@ pub(crate) fn make_critical<const N: usize, const U: usize, const P: usize>(
     let Ok(pairs) = free_pairs(&at.linear, description) else {
         return;
     };
-    let mut all = [0.0; N];
-    let lambda = &mut all[..pairs.lambda().len()];
-    lambda.copy_from_slice(pairs.lambda());
+    let mut lambda = pairs.lambda;
     lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (critical, others) = lambda.split_at(zero.min(lambda.len()));
     at.rounding = critical

@@ -3,19 +3,20 @@
 use super::super::Equilibrium;
 use super::curve::{Curve, Trouble, plane};
 use super::frame::{Frame, Place, System};
-use crate::array::{Cholesky, asymmetry};
+use crate::Description;
 use crate::constraints::Structure;
+use crate::dense::{Cholesky, Vector, asymmetry};
+use crate::kernels::Linear;
 use crate::modes::free_pairs;
-use crate::{Description, Linear, Mechanism};
 
 /// A regular point of a branch.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Station<const N: usize, const U: usize, const P: usize> {
-    pub(crate) place: Place<N>,
-    pub(crate) equilibrium: Equilibrium<N, U, P>,
-    pub(crate) frame: Frame<N>,
+#[derive(Clone, Debug)]
+pub(crate) struct Station {
+    pub(crate) place: Place,
+    pub(crate) equilibrium: Equilibrium,
+    pub(crate) frame: Frame,
     /// Local unit tangent.
-    pub(crate) tangent: Place<N>,
+    pub(crate) tangent: Place,
     pub(crate) signs: Signs,
 }
 
@@ -35,19 +36,16 @@ pub(crate) struct Signs {
 /// Tangents with a smaller part along the input are vertical.
 pub(crate) const VERTICAL: f64 = 1e-10;
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// The station at a place on the branch, its tangent on the side of `towards` (SI units).
     pub(crate) fn station(
         &self,
-        place: &Place<N>,
-        system: &System<N>,
-        equilibrium: Equilibrium<N, U, P>,
-        towards: &Place<N>,
+        place: &Place,
+        system: &System,
+        equilibrium: Equilibrium,
+        towards: &Place,
         before: Option<&Signs>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
+    ) -> Result<Station, Trouble> {
         let frame = self.frame(place, system);
         let scaled = frame.scaled(system);
         let singular = Trouble::Missed("the branch is not isolated");
@@ -56,10 +54,10 @@ where
         let Some(factors) = factors else {
             return Err(singular);
         };
-        let (q, [p]) = factors.solve(&[0.0; N], [1.0]);
+        let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
         let tangent = Place { q, p }.unit().ok_or(singular)?;
         let vertical = tangent.p.abs() <= VERTICAL;
-        let constraints = Structure::of(Self::DESCRIPTION).constraints();
+        let constraints = self.structure.constraints();
         let signs = Signs {
             falling: match before {
                 Some(before) if vertical => before.falling,
@@ -71,7 +69,7 @@ where
             negative: if vertical {
                 None
             } else {
-                negative(&equilibrium.linear, Self::DESCRIPTION)
+                negative(&equilibrium.linear, &self.description)
             },
         };
         // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
@@ -80,7 +78,7 @@ where
             return Err(Trouble::Missed("the stiffness is singular to rounding"));
         }
         Ok(Station {
-            place: *place,
+            place: place.clone(),
             equilibrium,
             frame,
             tangent,
@@ -89,28 +87,25 @@ where
     }
 
     /// The first station of a branch, its tangent towards the end of the range.
-    pub(crate) fn first_station(
-        &self,
-        equilibrium: Equilibrium<N, U, P>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
+    pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<Station, Trouble> {
         let place = Place {
-            q: equilibrium.coordinates,
-            p: equilibrium.inputs[self.settings.input.0],
+            q: equilibrium.coordinates.clone(),
+            p: equilibrium.inputs[self.settings.input.index()],
         };
         let system = self.system(&place)?;
         let frame = self.frame(&place, &system);
         let scaled = frame.scaled(&system);
         let axis = |k: Option<usize>| Place {
-            q: core::array::from_fn(|i| if k == Some(i) { 1.0 } else { 0.0 }),
+            q: Vector::from_fn(self.size(), |i| if k == Some(i) { 1.0 } else { 0.0 }),
             p: if k.is_none() { 1.0 } else { 0.0 },
         };
-        let mut best: Option<Place<N>> = None;
+        let mut best: Option<Place> = None;
         let mut share = 0.0;
-        for k in core::iter::once(None).chain((0..N).map(Some)) {
+        for k in core::iter::once(None).chain((0..self.size()).map(Some)) {
             let Some(factors) = plane(&scaled, &axis(k)) else {
                 continue;
             };
-            let (q, [p]) = factors.solve(&[0.0; N], [1.0]);
+            let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
             let found = Place { q, p };
             if found.finite() && 1.0 / found.norm() > share {
                 share = 1.0 / found.norm();
@@ -125,7 +120,7 @@ where
     }
 }
 
-impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
+impl Station {
     /// The same point, looking back.
     pub(crate) fn reversed(&self) -> Self {
         Self {
@@ -135,7 +130,7 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
                 crossed: !self.signs.crossed,
                 ..self.signs
             },
-            ..*self
+            ..self.clone()
         }
     }
 
@@ -146,13 +141,13 @@ impl<const N: usize, const U: usize, const P: usize> Station<N, U, P> {
     }
 
     /// Tangent in SI units.
-    pub(crate) fn direction(&self) -> Place<N> {
+    pub(crate) fn direction(&self) -> Place {
         self.frame.stretched(&self.tangent)
     }
 }
 
 /// Negative eigenvalues of a symmetric `Khat` along the directions that constraints leave free.
-fn negative<const N: usize>(linear: &Linear<f64, N>, description: &Description) -> Option<usize> {
+fn negative(linear: &Linear, description: &Description) -> Option<usize> {
     if !symmetric_to_rounding(linear, description) {
         return None;
     }
@@ -163,10 +158,7 @@ fn negative<const N: usize>(linear: &Linear<f64, N>, description: &Description) 
 }
 
 /// Whether `Khat` has modes of its own: it is symmetric, and nothing in it belongs to speeds.
-pub(crate) fn symmetric_to_rounding<const N: usize>(
-    linear: &Linear<f64, N>,
-    description: &Description,
-) -> bool {
+pub(crate) fn symmetric_to_rounding(linear: &Linear, description: &Description) -> bool {
     Structure::of(description).holonomic()
         && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
 }

@@ -6,7 +6,6 @@ use super::frame::Place;
 use super::special::{Junction, Located, SpecialPoint, make_critical};
 use super::station::Station;
 use super::{BranchEnd, BranchPoint};
-use crate::Mechanism;
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
@@ -19,34 +18,31 @@ const DEPARTURES: [f64; 6] = [2e-3, 2e-2, 0.2, 2e-4, 2e-5, 2e-6];
 pub(super) const SAME: f64 = 1e-7;
 
 /// What was passed on the way in one direction; the start itself is not in it.
-pub(crate) struct Walk<const N: usize, const U: usize, const P: usize> {
-    pub(crate) points: Vec<BranchPoint<N, U, P>>,
-    pub(crate) special: Vec<SpecialPoint<N, U, P>>,
-    pub(crate) junctions: Vec<(Junction<N, U, P>, bool)>,
+pub(crate) struct Walk {
+    pub(crate) points: Vec<BranchPoint>,
+    pub(crate) special: Vec<SpecialPoint>,
+    pub(crate) junctions: Vec<(Junction, bool)>,
     pub(crate) end: BranchEnd,
 }
 
 /// One accepted step.
-struct Step<const N: usize, const U: usize, const P: usize> {
-    station: Station<N, U, P>,
-    located: Vec<Located<N, U, P>>,
+struct Step {
+    station: Station,
+    located: Vec<Located>,
     end: Option<BranchEnd>,
     /// Factor for the length of the next step.
     growth: f64,
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Curve<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Curve<'_> {
     /// Goes on from a station along its tangent, which started at `home`, until the branch ends or `stop` says so of a
     /// special point and of the station before it.
     pub(crate) fn walk(
         &self,
-        start: &Station<N, U, P>,
-        home: &Place<N>,
-        mut stop: impl FnMut(&SpecialPoint<N, U, P>, &Station<N, U, P>) -> bool,
-    ) -> Walk<N, U, P> {
+        start: &Station,
+        home: &Place,
+        mut stop: impl FnMut(&SpecialPoint, &Station) -> bool,
+    ) -> Walk {
         let settings = self.settings;
         let mut walk = Walk {
             points: Vec::new(),
@@ -54,14 +50,14 @@ where
             junctions: Vec::new(),
             end: BranchEnd::PointLimit,
         };
-        let largest = |place: &Place<N>| {
-            let q = place.q[..Self::MOTIONS].iter();
+        let largest = |place: &Place| {
+            let q = place.q[..self.structure.motions()].iter();
             q.fold(0.0, |most: f64, value| most.max(value.abs()))
         };
         let far = settings.escape * (settings.size + largest(home));
-        let mut at = *start;
+        let mut at = start.clone();
         let mut length = 0.2 * settings.max_step;
-        let mut refused: Option<Trouble<N>> = None;
+        let mut refused: Option<Trouble> = None;
         while walk.points.len() < settings.max_points {
             if let Some(end) = self.leaving(&at) {
                 walk.end = end;
@@ -98,10 +94,11 @@ where
                 let special = located.special;
                 walk.points
                     .push(self.special_point(&special, &located.direction));
-                walk.special.push(special);
+                walk.special.push(special.clone());
                 if let Some(junction) = located.junction {
+                    let frame = at.frame.at(junction.frame.origin.clone());
+                    let home_again = frame.local(home).norm() <= SAME;
                     walk.junctions.push((junction, located.ends_arm));
-                    let home_again = at.frame.at(junction.frame.origin).local(home).norm() <= SAME;
                     if steps > 2 && home_again && !located.ends_arm {
                         walk.end = BranchEnd::Closed;
                         return walk;
@@ -127,9 +124,9 @@ where
         walk
     }
 
-    pub(crate) fn point(&self, station: &Station<N, U, P>) -> BranchPoint<N, U, P> {
+    pub(crate) fn point(&self, station: &Station) -> BranchPoint {
         let direction = station.direction();
-        let mut equilibrium = station.equilibrium;
+        let mut equilibrium = station.equilibrium.clone();
         if station.signs.vertical {
             // Equilibria side by side at one input: the mode along them is neutral.
             make_critical(&mut equilibrium, 1);
@@ -143,13 +140,9 @@ where
     }
 
     /// A special point as a point of the branch that passes it in this direction (SI units).
-    pub(crate) fn special_point(
-        &self,
-        special: &SpecialPoint<N, U, P>,
-        direction: &Place<N>,
-    ) -> BranchPoint<N, U, P> {
+    pub(crate) fn special_point(&self, special: &SpecialPoint, direction: &Place) -> BranchPoint {
         let place = Place {
-            q: special.equilibrium.coordinates,
+            q: special.equilibrium.coordinates.clone(),
             p: special.value,
         };
         let length = self
@@ -158,7 +151,7 @@ where
         let tangent = direction.scaled(1.0 / length);
         BranchPoint {
             value: special.value,
-            equilibrium: special.equilibrium,
+            equilibrium: special.equilibrium.clone(),
             tangent: tangent.q,
             input_tangent: tangent.p,
         }
@@ -166,11 +159,7 @@ where
 
     /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
     /// once or cannot be followed.
-    pub(crate) fn depart(
-        &self,
-        junction: &Junction<N, U, P>,
-        direction: &Place<N>,
-    ) -> Option<Station<N, U, P>> {
+    pub(crate) fn depart(&self, junction: &Junction, direction: &Place) -> Option<Station> {
         let frame = &junction.frame;
         DEPARTURES.iter().find_map(|share| {
             let length = share * self.settings.max_step;
@@ -186,11 +175,11 @@ where
 
     fn advance(
         &self,
-        at: &Station<N, U, P>,
+        at: &Station,
         length: f64,
-        home: &Place<N>,
+        home: &Place,
         steps: usize,
-    ) -> Result<Step<N, U, P>, Trouble<N>> {
+    ) -> Result<Step, Trouble> {
         let (frame, tangent) = (&at.frame, &at.tangent);
         let from = tangent.scaled(length);
         let mut corrected = self.correct(frame, &from, tangent, BEND * length)?;
@@ -236,10 +225,10 @@ where
 
     pub(super) fn arrive(
         &self,
-        corrected: &Corrected<N>,
-        towards: &Place<N>,
-        before: Option<&Station<N, U, P>>,
-    ) -> Result<Station<N, U, P>, Trouble<N>> {
+        corrected: &Corrected,
+        towards: &Place,
+        before: Option<&Station>,
+    ) -> Result<Station, Trouble> {
         let place = &corrected.place;
         let system = &corrected.system;
         let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
@@ -248,7 +237,7 @@ where
     }
 
     /// Whether the step from a station passes a place.
-    fn passes(&self, at: &Station<N, U, P>, to: &Corrected<N>, place: &Place<N>) -> bool {
+    fn passes(&self, at: &Station, to: &Corrected, place: &Place) -> bool {
         let end = &to.local;
         let target = at.frame.local(place);
         let along = target.dot(end) / end.dot(end);
@@ -263,6 +252,6 @@ where
     }
 }
 
-fn straight<const N: usize>(direction: &Place<N>, tangent: &Place<N>) -> bool {
+fn straight(direction: &Place, tangent: &Place) -> bool {
     direction.dot(tangent) >= STRAIGHT * direction.norm() * tangent.norm()
 }

@@ -3,9 +3,8 @@
 use super::super::convergence::largest_of;
 use super::super::problem::Problem;
 use super::{FIRST_RADIUS, Gaps, free, gaps};
-use crate::Mechanism;
-use crate::array::{add_scaled, dot};
 use crate::constraints::Rows;
+use crate::dense::{Vector, add_scaled, dot};
 
 /// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
 const FALLS: f64 = 0.1;
@@ -16,14 +15,14 @@ pub(super) const LEAST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e9;
 
 /// What a step aims at: the gaps over the sizes of their rows.
-pub(super) struct Aim<'a, const N: usize> {
-    at: &'a Gaps<N>,
-    rows: &'a Rows<N>,
-    scaled: [f64; N],
+pub(super) struct Aim<'a> {
+    at: &'a Gaps,
+    rows: &'a Rows,
+    scaled: Vector,
 }
 
-impl<'a, const N: usize> Aim<'a, N> {
-    pub(super) fn new(at: &'a Gaps<N>, rows: &'a Rows<N>) -> Self {
+impl<'a> Aim<'a> {
+    pub(super) fn new(at: &'a Gaps, rows: &'a Rows) -> Self {
         Self {
             at,
             rows,
@@ -42,31 +41,28 @@ impl<'a, const N: usize> Aim<'a, N> {
     }
 
     /// Whether gaps elsewhere are better by this share.
-    fn improved(&self, there: &Gaps<N>, share: f64) -> bool {
+    fn improved(&self, there: &Gaps, share: f64) -> bool {
         let merit = scaled(&there.gaps, self.rows);
         dot(&merit, &merit) <= (1.0 - share) * self.merit()
     }
 }
 
-pub(super) fn scaled<const N: usize>(gaps: &[f64; N], rows: &Rows<N>) -> [f64; N] {
-    core::array::from_fn(|k| gaps[k] / rows.size[k])
+pub(super) fn scaled(gaps: &[f64], rows: &Rows) -> Vector {
+    let pairs = gaps.iter().zip(&rows.size);
+    pairs.map(|(gap, size)| gap / size).collect()
 }
 
 /// A Gauss-Newton step without the rows that almost depend on the others, if every gap falls with it. Redundant constraints
 /// depend on each other only where they are met: away from there their differences, which close by themselves as the
 /// squares of what is left, would slow the steps down to halves and leave half of the digits.
-pub(super) fn without_dependent<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    at: &Gaps<N>,
-    held: &[bool; N],
-    metric: [f64; N],
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    let count = Problem::<M, N, U, P, O>::STRUCTURE.position_constraints;
-    let rows = Rows::nearly(count, |k| free(&at.rows[k], held), metric);
+pub(super) fn without_dependent(
+    problem: &Problem<'_>,
+    x: &[f64],
+    at: &Gaps,
+    held: &[bool],
+    metric: &Vector,
+) -> Option<(Vector, Gaps)> {
+    let rows = Rows::nearly(free(&at.rows, held), metric.clone());
     if rows.dependent() == 0 {
         return None;
     }
@@ -78,15 +74,12 @@ where
 }
 
 /// A Gauss-Newton step of least motion, halved a few times.
-pub(super) fn plain<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    aim: &Aim<'_, N>,
+pub(super) fn plain(
+    problem: &Problem<'_>,
+    x: &[f64],
+    aim: &Aim<'_>,
     radius: &mut f64,
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Option<(Vector, Gaps)> {
     let step = aim.rows.shortest(&aim.at.gaps);
     let size = largest_of(&step);
     let limit = (*radius / size).min(1.0);
@@ -107,15 +100,12 @@ where
 }
 
 /// A step with as much damping as it takes.
-pub(super) fn damped<M, const N: usize, const U: usize, const P: usize, const O: usize>(
-    problem: &Problem<'_, M, N, U, P, O>,
-    x: &[f64; N],
-    aim: &Aim<'_, N>,
+pub(super) fn damped(
+    problem: &Problem<'_>,
+    x: &[f64],
+    aim: &Aim<'_>,
     (radius, damping): (&mut f64, &mut f64),
-) -> Option<([f64; N], Gaps<N>)>
-where
-    M: Mechanism<N, U, P, O>,
-{
+) -> Option<(Vector, Gaps)> {
     *damping = (*damping * 1e-2).max(LEAST_DAMPING);
     while *damping <= MOST_DAMPING {
         let mut step = aim.rows.damped(&aim.scaled, *damping)?;

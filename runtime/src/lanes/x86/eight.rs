@@ -4,7 +4,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::vector::{BELOW_ONE, INTEGER, LEAST, MANTISSA, ONE, SHIFT};
-use super::super::{Batch, Vector, WIDTH};
+use super::super::{Batch, Lanes, WIDTH};
 use super::real;
 use crate::{Real, trigonometry};
 
@@ -33,7 +33,7 @@ unsafe fn flip(value: __m512d, by: __m512i) -> __m512d {
     unsafe { _mm512_castsi512_pd(_mm512_xor_si512(_mm512_castpd_si512(value), by)) }
 }
 
-impl Vector for Eight {
+impl Lanes for Eight {
     const WIDTH: usize = 8;
     type Mask = __mmask8;
 

@@ -4,7 +4,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::vector::{BELOW_ONE, INTEGER, LEAST, MANTISSA, ONE, SHIFT};
-use super::super::{Batch, Vector, WIDTH};
+use super::super::{Batch, Lanes, WIDTH};
 use super::real;
 use crate::{Real, trigonometry};
 
@@ -26,7 +26,7 @@ impl Neg for Four {
     }
 }
 
-impl Vector for Four {
+impl Lanes for Four {
     const WIDTH: usize = 4;
     type Mask = __m256d;
 

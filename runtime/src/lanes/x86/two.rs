@@ -4,7 +4,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::vector::{BELOW_ONE, ONE};
-use super::super::{Batch, Vector, WIDTH};
+use super::super::{Batch, Lanes, WIDTH};
 use super::real;
 use crate::{Real, trigonometry};
 
@@ -48,7 +48,7 @@ impl Neg for Two {
     }
 }
 
-impl Vector for Two {
+impl Lanes for Two {
     const WIDTH: usize = 2;
     type Mask = __m128d;
 
@@ -86,7 +86,7 @@ impl Vector for Two {
     }
     #[inline(always)]
     fn split(self) -> (Self, Self) {
-        let [(e0, m0), (e1, m1)] = self.array().map(Vector::split);
+        let [(e0, m0), (e1, m1)] = self.array().map(Lanes::split);
         (Self::of([e0, e1]), Self::of([m0, m1]))
     }
     #[inline(always)]

@@ -3,51 +3,37 @@
 
 use super::system::System;
 use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
-use crate::array::Square;
+use crate::Complex;
 use crate::constraints::Tangent;
-use crate::modes::general::{Eigenproblem, Numbers, Roots, solve_on};
+use crate::dense::Vector;
+use crate::kernels::Linear;
+use crate::modes::general::{Eigenproblem, Root, roots_of};
 use crate::modes::symmetric::Trouble;
 use crate::pencil::pencil_transposed_times;
-use crate::{Complex, Linear};
 
-pub(super) fn roots<const N: usize>(
-    linear: &Linear<f64, N>,
-    tangent: &Tangent<N>,
-) -> Result<Roots<N>, Trouble> {
+pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Trouble> {
     let system = System::new(linear, tangent)?;
-    let size = tangent.freedom + system.independent;
-    let mut matrix = [[[0.0; N]; N]; 4];
-    let matrix = &mut matrix.as_flattened_mut().as_flattened_mut()[..size * size];
-    system.fill(matrix);
-    let mut numbers = [[Numbers::NONE; 2]; N];
-    let mut right = [[[Complex::default(); N]; N]; 4];
-    let mut left = right;
-    let right = &mut right.as_flattened_mut().as_flattened_mut()[..size * size];
-    let left = &mut left.as_flattened_mut().as_flattened_mut()[..size * size];
-    let problem = Eigenproblem::FirstOrder { n: size, matrix };
-    let count = solve_on(problem, numbers.as_flattened_mut(), right, left)?;
-    let numbers = &numbers.as_flattened()[..count];
+    let reduced = roots_of(Eigenproblem::FirstOrder(&system.matrix()))?;
     let mut gathered = Gathered::new(linear, tangent.structure, Normalisation::Largest);
-    for (i, own) in numbers.iter().enumerate() {
-        let vector = i * size..(i + 1) * size;
-        let phi = system.motion(&right[vector.clone()]);
+    for (i, own) in reduced.iter().enumerate() {
+        let phi = system.motion(&own.right);
         gathered.add(
             own,
-            is_shared(numbers, i),
+            is_shared(&reduced, i),
             with_reactions(linear, tangent, own.s, &phi),
-            system.left(own.s, &left[vector]),
+            system.left(own.s, &own.left),
         )?;
     }
     Ok(gathered.roots)
 }
 
-impl<const N: usize> System<'_, N> {
+impl System<'_> {
     /// Coordinates and speeds of a right vector.
-    fn motion(&self, z: &[Complex]) -> [Complex; N] {
+    fn motion(&self, z: &[Complex]) -> Vector<Complex> {
         let f = self.tangent.freedom;
         let (y, w) = z.split_at(f);
-        let mut nu = combined(w, &self.free);
-        for (nu, part) in nu.iter_mut().zip(combined(y, &self.forced)) {
+        let mut nu = self.combined(w, &self.free);
+        for (nu, part) in nu.iter_mut().zip(self.combined(y, &self.forced)) {
             *nu += part;
         }
         let mut x = lift(self.tangent, y);
@@ -60,32 +46,22 @@ impl<const N: usize> System<'_, N> {
     /// The left vector of the bordered pencil. With `psi_nu = Z l_w` the columns of positions and velocities say
     /// `kappa = l_y - E^T M_nu^T psi_nu`, `[A_q P, A_v]^T psi_2 = (kappa; 0) - (s M_nu + C_nu)^T psi_nu`, and the columns of
     /// coordinates give the rest.
-    fn left(&self, s: Complex, l: &[Complex]) -> [Complex; N] {
+    fn left(&self, s: Complex, l: &[Complex]) -> Vector<Complex> {
         let (f, structure) = (self.tangent.freedom, self.tangent.structure);
         let (l_y, l_w) = l.split_at(f);
-        let nu = combined(l_w, &self.free);
-        let transposed = |matrix: &Square<N>| -> [Complex; N] {
-            let mut sum = [Complex::default(); N];
-            for (row, x) in matrix.iter().zip(&nu) {
-                for (sum, value) in sum.iter_mut().zip(row) {
-                    *sum += x * value;
-                }
-            }
-            sum
-        };
-        let (m, c) = (transposed(&self.mass), transposed(&self.damping));
-        let force: [Complex; N] = core::array::from_fn(|a| {
+        let nu = self.combined(l_w, &self.free);
+        let (m, c) = (
+            self.combined(&nu, self.mass.iter()),
+            self.combined(&nu, self.damping.iter()),
+        );
+        let force = Vector::from_fn(self.velocities(), |a| {
             let kappa = if a < f {
                 let forced = self.forced[a].iter().zip(&m);
                 l_y[a] - forced.map(|(e, m)| m * e).sum::<Complex>()
             } else {
                 Complex::default()
             };
-            if a < self.velocities() {
-                kappa - s * m[a] - c[a]
-            } else {
-                Complex::default()
-            }
+            kappa - s * m[a] - c[a]
         });
         let re = self.velocity.multipliers(&force.map(|value| value.re));
         let im = self.velocity.multipliers(&force.map(|value| value.im));
@@ -97,7 +73,7 @@ impl<const N: usize> System<'_, N> {
             psi[place] = Complex::new(re[k], im[k]);
         }
         let rest = pencil_transposed_times(self.linear, s, &psi);
-        let rest: [Complex; N] = core::array::from_fn(|i| {
+        let rest = Vector::from_fn(rest.len(), |i| {
             if i < structure.coordinates {
                 -rest[i]
             } else {
@@ -117,15 +93,19 @@ impl<const N: usize> System<'_, N> {
         }
         psi
     }
-}
 
-/// `sum_i amounts_i vectors[i]`.
-fn combined<const N: usize>(amounts: &[Complex], vectors: &Square<N>) -> [Complex; N] {
-    let mut sum = [Complex::default(); N];
-    for (amount, vector) in amounts.iter().zip(vectors) {
-        for (sum, value) in sum.iter_mut().zip(vector) {
-            *sum += amount * value;
+    /// `sum_i amounts_i vectors[i]`, by velocity.
+    fn combined(
+        &self,
+        amounts: &[Complex],
+        vectors: impl IntoIterator<Item = impl AsRef<[f64]>>,
+    ) -> Vector<Complex> {
+        let mut sum = Vector::zeros(self.velocities());
+        for (amount, vector) in amounts.iter().zip(vectors) {
+            for (sum, value) in sum.iter_mut().zip(vector.as_ref()) {
+                *sum += amount * value;
+            }
         }
+        sum
     }
-    sum
 }

@@ -1,8 +1,9 @@
 //! What a pair of vectors says about an eigenvalue of the bordered pencil.
 
-use crate::array::{Lu, Square, dot_complex, times_complex};
-use crate::pencil::{pencil_times, pencil_transposed_times};
-use crate::{Complex, Linear};
+use crate::Complex;
+use crate::dense::{Lu, Matrix, Vector, dot_complex, largest_element};
+use crate::kernels::Linear;
+use crate::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
 
 /// Accepted residual.
 pub(super) const ACCEPTED: f64 = 1e-9;
@@ -27,12 +28,12 @@ pub(super) struct Measure {
 
 impl Measure {
     /// The first `motions` equations are those of motion.
-    pub(super) fn new<const N: usize>(
-        linear: &Linear<f64, N>,
+    pub(super) fn new(
+        linear: &Linear,
         motions: usize,
         s: Complex,
-        right: &[Complex; N],
-        left: &[Complex; N],
+        right: &[Complex],
+        left: &[Complex],
     ) -> Self {
         let of_right = pencil_times(linear, s, right);
         let of_left = pencil_transposed_times(linear, s, left);
@@ -46,13 +47,12 @@ impl Measure {
         };
         let by_right = Residual::of(motions, right, &of_right, size);
         let by_left = Residual::of(motions, left, &of_left, |i, j| size(j, i));
-        let m = times_complex(&linear.mass, right);
-        let c = times_complex(&linear.damping, right);
-        let slope = dot_complex(left, &core::array::from_fn(|i| 2.0 * s * m[i] + c[i]));
+        let slope = dot_complex(left, &pencil_slope_times(linear, s, right));
         let value = dot_complex(left, &of_right);
-        let row = |i: usize| (0..N).map(|j| size(i, j) * right[j].norm()).sum::<f64>();
-        let terms: f64 = (0..N).map(|i| left[i].norm() * row(i)).sum();
-        let rounding = (N as f64 + 4.0) * f64::EPSILON * terms;
+        let n = right.len();
+        let row = |i: usize| (0..n).map(|j| size(i, j) * right[j].norm()).sum::<f64>();
+        let terms: f64 = (0..n).map(|i| left[i].norm() * row(i)).sum();
+        let rounding = (n as f64 + 4.0) * f64::EPSILON * terms;
         Self {
             residual: by_right.relative.max(by_left.relative),
             rounding_only: by_right.rounding_only && by_left.rounding_only,
@@ -77,19 +77,20 @@ struct Residual {
 }
 
 impl Residual {
-    fn of<const N: usize>(
+    fn of(
         motions: usize,
-        x: &[Complex; N],
-        product: &[Complex; N],
+        x: &[Complex],
+        product: &[Complex],
         size: impl Fn(usize, usize) -> f64,
     ) -> Self {
+        let n = x.len();
         let mut relative = 0.0_f64;
         let mut rounding_only = true;
-        for rows in [0..motions, motions..N] {
+        for rows in [0..motions, motions..n] {
             let (mut most, mut terms, mut possible) = (0.0_f64, 0.0_f64, 0.0_f64);
             let constraints = rows.start == motions;
             for i in rows {
-                let elements = (0..N).map(|j| size(i, j));
+                let elements = (0..n).map(|j| size(i, j));
                 let greatest = elements.fold(0.0, f64::max);
                 // Constraints in units of their own are of order one.
                 let unit = if constraints && greatest > 0.0 {
@@ -98,7 +99,7 @@ impl Residual {
                     1.0
                 };
                 let value = product[i].norm() / unit;
-                let sum: f64 = (0..N).map(|j| size(i, j) * x[j].norm()).sum();
+                let sum: f64 = (0..n).map(|j| size(i, j) * x[j].norm()).sum();
                 most = if value.is_finite() {
                     most.max(value)
                 } else {
@@ -107,13 +108,13 @@ impl Residual {
                 terms = terms.max(sum / unit);
                 // A vector that the matrix takes to zero has nothing but rounding in the terms that act: motions are
                 // measured by the greatest of them, and reactions too.
-                let largest = [0..motions, motions..N].map(|columns| {
+                let largest = [0..motions, motions..n].map(|columns| {
                     let element = columns.clone().map(|j| size(i, j)).fold(0.0, f64::max);
                     element * columns.map(|j| x[j].norm()).fold(0.0, f64::max)
                 });
                 possible = possible.max(largest[0].max(largest[1]) / unit);
             }
-            rounding_only &= most <= ROUNDING * N as f64 * possible;
+            rounding_only &= most <= ROUNDING * n as f64 * possible;
             if most > 0.0 {
                 relative = relative.max(most / terms);
             }
@@ -127,46 +128,35 @@ impl Residual {
 
 /// One step of inverse iteration for both vectors on the bordered pencil.
 #[cold]
-pub(super) fn inverse_iteration<const N: usize>(
-    linear: &Linear<f64, N>,
+pub(super) fn inverse_iteration(
+    linear: &Linear,
     s: Complex,
-    right: &[Complex; N],
-    left: &[Complex; N],
-) -> Option<([Complex; N], [Complex; N])> {
-    let at = |s: Complex, transposed: bool| -> Option<Lu<Complex, N>> {
-        Lu::new(&core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                let (i, j) = if transposed { (j, i) } else { (i, j) };
-                s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j]
-            })
-        }))
-    };
-    let size = |matrix: &Square<N>| crate::array::largest_element(matrix);
-    let rate = (size(&linear.stiffness) / size(&linear.mass).max(f64::MIN_POSITIVE)).sqrt();
+    right: &[Complex],
+    left: &[Complex],
+) -> Option<(Vector<Complex>, Vector<Complex>)> {
+    let rate =
+        largest_element(&linear.stiffness) / largest_element(&linear.mass).max(f64::MIN_POSITIVE);
+    let rate = rate.sqrt();
     let rate = if rate.is_finite() && rate < 1e150 {
         rate
     } else {
         1.0
     };
     let nearby = s + 1e-11 * s.norm() + 1e-14 * rate;
-    let solve = |transposed, start: &[Complex; N]| {
-        let slope = |matrix: &Linear<f64, N>| -> [Complex; N] {
-            let (m, c) = if transposed {
-                (
-                    crate::array::transpose(&matrix.mass),
-                    crate::array::transpose(&matrix.damping),
-                )
-            } else {
-                (matrix.mass, matrix.damping)
-            };
-            let (m, c) = (times_complex(&m, start), times_complex(&c, start));
-            core::array::from_fn(|i| 2.0 * s * m[i] + c[i])
-        };
-        let factors = at(s, transposed).or_else(|| at(nearby, transposed))?;
-        let found = factors.solve(&slope(linear));
+    let solve = |linear: &Linear, start: &[Complex]| {
+        let factors = factors(linear, s).or_else(|| factors(linear, nearby))?;
+        let found = factors.solve(&pencil_slope_times(linear, s, start));
         let most = found.iter().fold(0.0_f64, |most, x| most.max(x.norm()));
         let found = found.map(|x| x / most);
         found.iter().all(|x| x.is_finite()).then_some(found)
     };
-    Some((solve(false, right)?, solve(true, left)?))
+    Some((solve(linear, right)?, solve(&transposed(linear), left)?))
+}
+
+/// Factors of `P(s)`.
+fn factors(linear: &Linear, s: Complex) -> Option<Lu<Complex>> {
+    let n = linear.mass.row_count();
+    Lu::new(&Matrix::from_fn(n, n, |i, j| {
+        s * (s * linear.mass[i][j] + linear.damping[i][j]) + linear.stiffness[i][j]
+    }))
 }

@@ -14,21 +14,17 @@ mod system;
 
 pub(crate) use pairs::free_pairs;
 
-use super::general::{Numbers, Root, Roots};
+use super::general::Root;
 use super::symmetric::Trouble;
-use crate::array::Square;
 use crate::constraints::{Structure, Tangent};
+use crate::dense::{Matrix, Vector, dot, times, times_complex};
+use crate::kernels::Linear;
 use crate::pencil::pencil_times;
-use crate::{Complex, Description, Linear};
+use crate::{Complex, Description};
 use measure::Measure;
 
 /// All roots of the bordered pencil with `Im s >= 0`.
-#[cold]
-#[inline(never)]
-pub(super) fn general_roots<const N: usize>(
-    linear: &Linear<f64, N>,
-    structure: Structure,
-) -> Result<Roots<N>, Trouble> {
+pub(super) fn general_roots(linear: &Linear, structure: Structure) -> Result<Vec<Root>, Trouble> {
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() {
         quadratic::roots(linear, &tangent)
@@ -38,17 +34,17 @@ pub(super) fn general_roots<const N: usize>(
 }
 
 /// The reactions that complete the motion of a vector: `x` with `P(s) x = 0` by coordinate and speed.
-fn with_reactions<const N: usize>(
-    linear: &Linear<f64, N>,
-    tangent: &Tangent<N>,
+fn with_reactions(
+    linear: &Linear,
+    tangent: &Tangent,
     s: Complex,
-    motion: &[Complex; N],
-) -> [Complex; N] {
+    motion: &[Complex],
+) -> Vector<Complex> {
     let force = pencil_times(linear, s, motion).map(|value| -value);
     let re = tangent.multipliers(&force.map(|value| value.re));
     let im = tangent.multipliers(&force.map(|value| value.im));
     let motions = tangent.structure.motions();
-    core::array::from_fn(|i| {
+    Vector::from_fn(motion.len(), |i| {
         if i < motions {
             motion[i]
         } else {
@@ -58,8 +54,8 @@ fn with_reactions<const N: usize>(
 }
 
 /// `P y`, by coordinate.
-fn lift<const N: usize>(tangent: &Tangent<N>, y: &[Complex]) -> [Complex; N] {
-    let mut x = [Complex::default(); N];
+fn lift(tangent: &Tangent, y: &[Complex]) -> Vector<Complex> {
+    let mut x = Vector::zeros(tangent.structure.size());
     for (y, direction) in y.iter().zip(&tangent.basis) {
         for (x, along) in x.iter_mut().zip(direction) {
             *x += y * along;
@@ -68,15 +64,12 @@ fn lift<const N: usize>(tangent: &Tangent<N>, y: &[Complex]) -> [Complex; N] {
     x
 }
 
-/// `P^T matrix P`, row by row.
-fn projected<const N: usize>(matrix: &Square<N>, tangent: &Tangent<N>, into: &mut [f64]) {
-    let f = tangent.freedom;
-    for (j, column) in tangent.basis[..f].iter().enumerate() {
-        let image = crate::array::times(matrix, column);
-        for (i, row) in tangent.basis[..f].iter().enumerate() {
-            into[i * f + j] = crate::array::dot(row, &image);
-        }
-    }
+/// `P^T matrix P`.
+fn projected(matrix: &Matrix, tangent: &Tangent) -> Matrix {
+    let images: Vec<_> = tangent.basis.iter().map(|x| times(matrix, x)).collect();
+    Matrix::from_fn(tangent.freedom, tangent.freedom, |i, j| {
+        dot(&tangent.basis[i], &images[j])
+    })
 }
 
 /// How the vectors of a mode are normalised.
@@ -122,12 +115,7 @@ impl Normalisation {
 }
 
 /// The first `leading` components tell the phase.
-fn normalise<const N: usize>(
-    x: &mut [Complex; N],
-    mass: &Square<N>,
-    size: Normalisation,
-    leading: usize,
-) -> bool {
+fn normalise(x: &mut [Complex], mass: &Matrix, size: Normalisation, leading: usize) -> bool {
     let lead = super::lead(&x[..leading]);
     let Some(most) = x.get(lead).copied().filter(|value| value.norm() > 0.0) else {
         return false;
@@ -135,7 +123,7 @@ fn normalise<const N: usize>(
     let factor = match size {
         Normalisation::Largest => most.inv(),
         Normalisation::Mass => {
-            let weighted = crate::array::times_complex(mass, x);
+            let weighted = times_complex(mass, x);
             let square: f64 = x
                 .iter()
                 .zip(&weighted)
@@ -152,58 +140,58 @@ fn normalise<const N: usize>(
 }
 
 /// Gathers roots: measures each pair on the bordered pencil, improves its eigenvalue and checks it.
-struct Gathered<'a, const N: usize> {
-    linear: &'a Linear<f64, N>,
+struct Gathered<'a> {
+    linear: &'a Linear,
     structure: Structure,
     size: Normalisation,
-    roots: Roots<N>,
+    roots: Vec<Root>,
 }
 
-impl<'a, const N: usize> Gathered<'a, N> {
-    fn new(linear: &'a Linear<f64, N>, structure: Structure, size: Normalisation) -> Self {
+impl<'a> Gathered<'a> {
+    fn new(linear: &'a Linear, structure: Structure, size: Normalisation) -> Self {
         Self {
             linear,
             structure,
             size,
-            roots: Roots::EMPTY,
+            roots: Vec::new(),
         }
     }
 
-    /// Adds the pair with these numbers of the smaller problem. `shared` eigenvalues belong to several vectors and stay
+    /// Adds the pair that a root of the smaller problem became. `shared` eigenvalues belong to several vectors and stay
     /// equal.
     fn add(
         &mut self,
-        numbers: &Numbers,
+        reduced: &Root,
         shared: bool,
-        mut right: [Complex; N],
-        mut left: [Complex; N],
+        mut right: Vector<Complex>,
+        mut left: Vector<Complex>,
     ) -> Result<(), Trouble> {
         let inaccurate = |residual| Trouble::Inaccurate {
-            mode: self.roots.as_slice().len(),
+            mode: self.roots.len(),
             residual,
         };
         let motions = self.structure.motions();
         // A left vector may have nothing but reactions.
         let left_leading = match self.size {
             Normalisation::Mass => motions,
-            Normalisation::Largest => N,
+            Normalisation::Largest => left.len(),
         };
-        let settle = |right: &mut [Complex; N], left: &mut [Complex; N]| {
+        let settle = |right: &mut [Complex], left: &mut [Complex]| {
             normalise(right, &self.linear.mass, self.size, motions)
                 && normalise(left, &self.linear.mass, self.size, left_leading)
         };
         if !settle(&mut right, &mut left) {
             return Err(inaccurate(f64::INFINITY));
         }
-        let mut s = numbers.s;
+        let mut s = reduced.s;
         let mut found = Measure::new(self.linear, motions, s, &right, &left);
-        let simple = !shared && numbers.condition.is_finite();
+        let simple = !shared && reduced.condition.is_finite();
         if simple {
-            let unimproved = (s, right, left, found);
+            let unimproved = (s, right.clone(), left.clone(), found);
             for _ in 0..2 {
                 // Far steps are not rounding of the smaller problem.
                 let next = s - found.newton;
-                let near = found.newton.norm() <= 1e-6 * (s.norm() + numbers.error);
+                let near = found.newton.norm() <= 1e-6 * (s.norm() + reduced.error);
                 if !near || (s.im > 0.0) != (next.im > 0.0) {
                     break;
                 }
@@ -236,10 +224,10 @@ impl<'a, const N: usize> Gathered<'a, N> {
             found.residual = measure::ROUNDING;
         }
         let own = found.doubt + 2.0 * found.newton.norm() + f64::EPSILON * s.norm();
-        let error = if numbers.condition.is_finite() && own.is_finite() {
-            numbers.error.max(own)
+        let error = if reduced.condition.is_finite() && own.is_finite() {
+            reduced.error.max(own)
         } else {
-            numbers.error
+            reduced.error
         };
         self.roots.push(Root {
             s,
@@ -247,14 +235,14 @@ impl<'a, const N: usize> Gathered<'a, N> {
             left,
             residual: found.residual,
             error,
-            condition: numbers.condition,
+            condition: reduced.condition,
         });
         Ok(())
     }
 }
 
 /// Whether an eigenvalue occurs more than once in a list.
-fn is_shared(numbers: &[Numbers], i: usize) -> bool {
-    let others = numbers.iter().enumerate().filter(|(j, _)| *j != i);
-    others.map(|(_, other)| other.s).any(|s| s == numbers[i].s)
+fn is_shared(roots: &[Root], i: usize) -> bool {
+    let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
+    others.map(|(_, other)| other.s).any(|s| s == roots[i].s)
 }

@@ -14,64 +14,63 @@
 )]
 
 use super::quadratic::greatest;
-use crate::Linear;
-use crate::array::{Cholesky, Square, dot};
 use crate::constraints::{Rows, Tangent, inertias};
+use crate::dense::{Cholesky, Matrix, Vector, dot, times};
+use crate::kernels::Linear;
 use crate::modes::symmetric::Trouble;
 
 /// Share of a constraint on velocities below which it follows from those on positions.
 const FOLLOWS: f64 = 1e-10;
 
 /// The reduced matrices. Vectors by velocity have `ydot` in the first `freedom` places, then the speeds.
-pub(super) struct System<'a, const N: usize> {
-    pub(super) linear: &'a Linear<f64, N>,
-    pub(super) tangent: &'a Tangent<N>,
-    /// Number of independent velocities.
-    pub(super) independent: usize,
+pub(super) struct System<'a> {
+    pub(super) linear: &'a Linear,
+    pub(super) tangent: &'a Tangent,
     /// All constraints on velocities, `[A_q P, A_v]`.
-    pub(super) velocity: Rows<N>,
-    /// The first `independent` rows are the columns of `Z`.
-    pub(super) free: Square<N>,
-    /// The first `freedom` rows are the columns of `E`.
-    pub(super) forced: Square<N>,
-    /// `M_nu` and `C_nu`, `freedom` + number of speeds in size.
-    pub(super) mass: Square<N>,
-    pub(super) damping: Square<N>,
+    pub(super) velocity: Rows,
+    /// The columns of `Z`.
+    pub(super) free: Vec<Vector>,
+    /// The columns of `E`.
+    pub(super) forced: Vec<Vector>,
+    /// `M_nu` and `C_nu`.
+    pub(super) mass: Matrix,
+    pub(super) damping: Matrix,
     /// `K_y`: rows by velocity, columns by position.
-    pub(super) stiffness: Square<N>,
+    pub(super) stiffness: Matrix,
 }
 
-impl<'a, const N: usize> System<'a, N> {
-    pub(super) fn new(
-        linear: &'a Linear<f64, N>,
-        tangent: &'a Tangent<N>,
-    ) -> Result<Self, Trouble> {
+impl<'a> System<'a> {
+    pub(super) fn new(linear: &'a Linear, tangent: &'a Tangent) -> Result<Self, Trouble> {
         let structure = tangent.structure;
         let (f, speeds) = (tangent.freedom, structure.speed_range());
         let velocities = f + speeds.len();
-        // Row or column of a matrix over coordinates and speeds, by velocity.
-        let by_velocity = |full: &[f64; N]| -> [f64; N] {
-            core::array::from_fn(|a| {
+        // Row or column of matrices over coordinates and speeds, by velocity.
+        let by_velocity = |coordinates: &[f64], of_speeds: &[f64]| {
+            Vector::from_fn(velocities, |a| {
                 if a < f {
-                    dot(&tangent.basis[a], full)
-                } else if a < velocities {
-                    full[speeds.start + a - f]
+                    dot(&tangent.basis[a], coordinates)
                 } else {
-                    0.0
+                    of_speeds[speeds.start + a - f]
                 }
             })
         };
-        // The unit vector of a velocity, among all unknowns.
-        let direction = |a: usize| -> [f64; N] {
-            if a < f {
-                tangent.basis[a]
-            } else {
-                core::array::from_fn(|i| if i == speeds.start + a - f { 1.0 } else { 0.0 })
-            }
+        // The unit vectors of the velocities, among all unknowns.
+        let unit = |place: usize| {
+            Vector::from_fn(structure.size(), |i| if i == place { 1.0 } else { 0.0 })
         };
-        let product =
-            |matrix: &Square<N>, a: usize| by_velocity(&crate::array::times(matrix, &direction(a)));
-        let (mut mass, mut damping, mut stiffness) = ([[0.0; N]; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let directions: Vec<Vector> = tangent
+            .basis
+            .iter()
+            .cloned()
+            .chain(speeds.clone().map(unit))
+            .collect();
+        let product = |matrix: &Matrix, a: usize| {
+            let image = times(matrix, &directions[a]);
+            by_velocity(&image, &image)
+        };
+        let square = || Matrix::zeros(velocities, velocities);
+        let (mut mass, mut damping, mut stiffness) =
+            (square(), square(), Matrix::zeros(velocities, f));
         for a in 0..velocities {
             let (m, c) = if a < f {
                 let column = product(&linear.stiffness, a);
@@ -88,20 +87,9 @@ impl<'a, const N: usize> System<'a, N> {
         }
         let rows = structure.velocity_rows();
         let inertias = inertias(linear, structure);
-        let row = |k: usize| -> [f64; N] {
-            let (c, b) = (
-                &linear.damping[rows.start + k],
-                &linear.stiffness[rows.start + k],
-            );
-            let row: [f64; N] = core::array::from_fn(|a| {
-                if a < f {
-                    dot(c, &tangent.basis[a])
-                } else if a < velocities {
-                    b[speeds.start + a - f]
-                } else {
-                    0.0
-                }
-            });
+        let row = |place: usize| {
+            let (c, b) = (&linear.damping[place], &linear.stiffness[place]);
+            let row = by_velocity(c, b);
             // Lengths in the metric of masses, in which the basis is orthonormal.
             let part = |value: f64, i: usize| value * value / inertias[i];
             let of_speeds: f64 = speeds.clone().map(|i| part(b[i], i)).sum();
@@ -110,36 +98,35 @@ impl<'a, const N: usize> System<'a, N> {
             if left > FOLLOWS * FOLLOWS * whole {
                 row
             } else {
-                [0.0; N]
+                Vector::zeros(velocities)
             }
         };
-        let velocity = Rows::balanced(rows.len(), row);
-        let metric = metric(&mass, velocities);
-        let independent = Rows::independent(velocity.rank, |i| row(velocity.order[i]), metric);
+        let allowed: Vec<Vector> = rows.clone().map(row).collect();
+        let velocity = Rows::balanced(Matrix::from_fn(rows.len(), velocities, |k, a| {
+            allowed[k][a]
+        }));
+        let order = &velocity.order[..velocity.rank];
+        let independent = Rows::independent(
+            Matrix::from_fn(order.len(), velocities, |i, a| allowed[order[i]][a]),
+            metric(&mass),
+        );
         let mut free = independent.null_basis(velocities);
-        let count = velocities - velocity.rank;
-        orthonormalise(&mut free[..count], &mass).map_err(|column| {
-            let x: [f64; N] = core::array::from_fn(|i| {
-                (0..velocities).fold(0.0, |sum, a| sum + column[a] * direction(a)[i])
+        orthonormalise(&mut free, &mass).map_err(|column| {
+            let x = Vector::from_fn(structure.size(), |i| {
+                (0..velocities).fold(0.0, |sum, a| sum + column[a] * directions[a][i])
             });
             Trouble::SingularMass(greatest(&x))
         })?;
-        let mut forced = [[0.0; N]; N];
-        for a in 0..f {
-            let right: [f64; N] = core::array::from_fn(|i| {
-                if i < velocity.rank {
-                    let row = rows.start + velocity.order[i];
-                    -dot(&linear.stiffness[row], &tangent.basis[a])
-                } else {
-                    0.0
-                }
-            });
-            forced[a] = independent.shortest(&right);
-        }
+        let forced = tangent.basis.iter().map(|along| {
+            let right = order
+                .iter()
+                .map(|k| -dot(&linear.stiffness[rows.start + k], along));
+            independent.shortest(&right.collect::<Vector>())
+        });
+        let forced = forced.collect();
         Ok(Self {
             linear,
             tangent,
-            independent: count,
             velocity,
             free,
             forced,
@@ -153,10 +140,11 @@ impl<'a, const N: usize> System<'a, N> {
         self.tangent.freedom + self.tangent.structure.speeds
     }
 
-    /// `F`, row by row.
-    pub(super) fn fill(&self, matrix: &mut [f64]) {
+    /// `F`.
+    pub(super) fn matrix(&self) -> Matrix {
         let f = self.tangent.freedom;
-        let size = f + self.independent;
+        let size = f + self.free.len();
+        let mut matrix = Matrix::zeros(size, size);
         // (ydot; v) that each variable alone makes, and the force that resists it.
         for j in 0..size {
             let nu = if j < f {
@@ -165,36 +153,28 @@ impl<'a, const N: usize> System<'a, N> {
                 &self.free[j - f]
             };
             for i in 0..f {
-                matrix[i * size + j] = nu[i];
+                matrix[i][j] = nu[i];
             }
-            let turned: [f64; N] = core::array::from_fn(|a| {
+            let turned = Vector::from_fn(self.velocities(), |a| {
                 (0..f).fold(0.0, |sum, b| sum + self.forced[b][a] * nu[b])
             });
-            let (inertia, resistance) = (
-                crate::array::times(&self.mass, &turned),
-                crate::array::times(&self.damping, nu),
-            );
-            let force: [f64; N] = core::array::from_fn(|a| {
+            let (inertia, resistance) = (times(&self.mass, &turned), times(&self.damping, nu));
+            let force = Vector::from_fn(self.velocities(), |a| {
                 let elastic = if j < f { self.stiffness[a][j] } else { 0.0 };
                 inertia[a] + resistance[a] + elastic
             });
-            for i in 0..self.independent {
-                matrix[(f + i) * size + j] = -dot(&self.free[i], &force);
+            for (i, free) in self.free.iter().enumerate() {
+                matrix[f + i][j] = -dot(free, &force);
             }
         }
+        matrix
     }
 }
 
-/// Square roots of the masses of the velocities, none far below the greatest.
-fn metric<const N: usize>(mass: &Square<N>, velocities: usize) -> [f64; N] {
+/// Matrix roots of the masses of the velocities, none far below the greatest.
+fn metric(mass: &Matrix) -> Vector {
     const LIGHT: f64 = 1e-4;
-    let own: [f64; N] = core::array::from_fn(|a| {
-        if a < velocities {
-            mass[a][a].max(0.0).sqrt()
-        } else {
-            0.0
-        }
-    });
+    let own = Vector::from_fn(mass.row_count(), |a| mass[a][a].max(0.0).sqrt());
     let greatest = own.iter().fold(0.0, |a: f64, &b| a.max(b));
     own.map(|value| {
         if greatest > 0.0 {
@@ -206,22 +186,11 @@ fn metric<const N: usize>(mass: &Square<N>, velocities: usize) -> [f64; N] {
 }
 
 /// Makes vectors orthonormal by a mass matrix; `Err` is one that moves no mass.
-fn orthonormalise<const N: usize>(
-    vectors: &mut [[f64; N]],
-    mass: &Square<N>,
-) -> Result<(), [f64; N]> {
+fn orthonormalise(vectors: &mut [Vector], mass: &Matrix) -> Result<(), Vector> {
     let count = vectors.len();
-    let mut gram = [[0.0; N]; N];
-    for (i, row) in gram.iter_mut().enumerate() {
-        row[i] = 1.0;
-    }
-    for j in 0..count {
-        let image = crate::array::times(mass, &vectors[j]);
-        for i in 0..count {
-            gram[i][j] = dot(&vectors[i], &image);
-        }
-    }
-    let factors = Cholesky::new(&gram).map_err(|row| vectors[row.min(count - 1)])?;
+    let images: Vec<Vector> = vectors.iter().map(|x| times(mass, x)).collect();
+    let gram = Matrix::from_fn(count, count, |i, j| dot(&vectors[i], &images[j]));
+    let factors = Cholesky::new(&gram).map_err(|row| vectors[row].clone())?;
     factors.orthonormalise(vectors);
     Ok(())
 }

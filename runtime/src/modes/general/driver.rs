@@ -9,27 +9,9 @@ use super::order::{finish, sort};
 use super::pair::Solver;
 use super::pencil::{Pencil, Products};
 use super::problem::{Eigenproblem, Scaled, scaled};
-use super::scratch::{Work, take, with_work};
-use super::{aberth, accuracy, cluster, hessenberg, schur};
+use super::scratch::{Work, take};
+use super::{Root, aberth, accuracy, cluster, hessenberg, schur};
 use crate::modes::symmetric::Trouble;
-
-/// What is known of a root besides its vectors.
-#[derive(Clone, Copy)]
-pub(in crate::modes) struct Numbers {
-    pub(in crate::modes) s: Complex64,
-    pub(in crate::modes) residual: f64,
-    pub(in crate::modes) error: f64,
-    pub(in crate::modes) condition: f64,
-}
-
-impl Numbers {
-    pub(in crate::modes) const NONE: Self = Self {
-        s: Complex64::ZERO,
-        residual: 0.0,
-        error: 0.0,
-        condition: 1.0,
-    };
-}
 
 /// Accepted residual of a pair relative to the terms in it.
 const ACCEPTED: f64 = 1e-9;
@@ -69,33 +51,15 @@ fn linear_values(
     aberth::symmetrise(values, open);
 }
 
-/// Roots with `Im s >= 0`, their vectors as rows; returns their number. Takes room for as many as there are eigenvalues.
-pub(in crate::modes) fn solve(
-    problem: Eigenproblem,
-    numbers: &mut [Numbers],
-    right: &mut [Complex64],
-    left: &mut [Complex64],
-) -> Result<usize, Trouble> {
-    if problem.size() == 0 {
-        return Ok(0);
-    }
-    with_work(problem.size(), |work| {
-        solve_with(work, problem, numbers, right, left)
-    })
-}
-
-fn solve_with(
-    work: &mut Work,
-    problem: Eigenproblem,
-    numbers: &mut [Numbers],
-    right: &mut [Complex64],
-    left: &mut [Complex64],
-) -> Result<usize, Trouble> {
+/// Roots with `Im s >= 0`, conjugates left out, ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
+pub(in crate::modes) fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
     let n = problem.size();
-    let mut real = std::mem::take(&mut work.real);
-    let mut complex = std::mem::take(&mut work.complex);
-    let mut indices = std::mem::take(&mut work.indices);
-    let mut flags = std::mem::take(&mut work.flags);
+    if n == 0 {
+        return Ok(Vec::new());
+    }
+    let mut work = Work::new(n);
+    let (mut real, mut complex) = (&mut work.real[..], &mut work.complex[..]);
+    let (mut indices, mut flags) = (&mut work.indices[..], &mut work.flags[..]);
     let Scaled {
         pencil,
         right: right_units,
@@ -127,7 +91,7 @@ fn solve_with(
     };
     let mut found = Found {
         count: 0,
-        pairs: &mut std::mem::take(&mut work.pairs)[..count],
+        pairs: &mut work.pairs[..count],
         right: take(&mut complex, count * n),
         left: take(&mut complex, count * n),
     };
@@ -147,6 +111,7 @@ fn solve_with(
         *place = i;
     }
     sort(places, |&i| found.pairs[i].s);
+    let mut roots = Vec::with_capacity(found.count);
     for (mode, &i) in places.iter().enumerate() {
         let pair = &found.pairs[i];
         let vectors = i * n..(i + 1) * n;
@@ -155,16 +120,16 @@ fn solve_with(
             let residual = pair.residual;
             return Err(Trouble::Inaccurate { mode, residual });
         };
-        numbers[mode] = Numbers {
+        roots.push(Root {
             s: pair.s * rate,
+            right: finish(phi, right_units),
+            left: finish(psi, left_units),
             residual,
             error: pair.error * rate,
             condition: pair.condition,
-        };
-        finish(phi, right_units, &mut right[mode * n..(mode + 1) * n]);
-        finish(psi, left_units, &mut left[mode * n..(mode + 1) * n]);
+        });
     }
-    Ok(found.count)
+    Ok(roots)
 }
 
 /// The residual of a pair that passes the check.

@@ -3,26 +3,28 @@
 use num_complex::Complex64;
 
 use super::pencil::modulus;
+use crate::dense::Vector;
 
 /// Sizes of eigenvalues that differ by less count as equal in the order.
 const EQUAL: f64 = 1e-12;
 
 /// A vector in its own units, largest component real and positive; a margin keeps the choice when two are equal but for
 /// rounding.
-pub(super) fn finish(vector: &[Complex64], units: &[f64], into: &mut [Complex64]) {
+pub(super) fn finish(vector: &[Complex64], units: &[f64]) -> Vector<Complex64> {
+    let mut x: Vector<_> = vector.iter().zip(units).map(|(x, unit)| x * unit).collect();
     let mut lead = 0;
-    for i in 0..vector.len() {
-        into[i] = vector[i] * units[i];
-        if into[i].norm_sqr() > into[lead].norm_sqr() * (1.0 + 2e-9) {
+    for i in 0..x.len() {
+        if x[i].norm_sqr() > x[lead].norm_sqr() * (1.0 + 2e-9) {
             lead = i;
         }
     }
-    let size = into[lead].norm();
-    if size > 0.0 && !(into[lead].im == 0.0 && into[lead].re > 0.0) {
-        let turn = into[lead].conj() / size;
-        into.iter_mut().for_each(|x| *x *= turn);
-        into[lead] = Complex64::new(size, 0.0);
+    let size = x[lead].norm();
+    if size > 0.0 && !(x[lead].im == 0.0 && x[lead].re > 0.0) {
+        let turn = x[lead].conj() / size;
+        x.iter_mut().for_each(|x| *x *= turn);
+        x[lead] = Complex64::new(size, 0.0);
     }
+    x
 }
 
 /// Ascending in size, in scaled units; those of equal size by imaginary, then by real part.

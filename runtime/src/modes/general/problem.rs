@@ -4,36 +4,24 @@ use super::driver::not_found;
 use super::pencil::{Degree, Pencil};
 use super::scaling::{largest, scale, scale_first_order};
 use super::scratch::take;
-use crate::Linear;
+use crate::dense::Matrix;
+use crate::kernels::Linear;
 use crate::modes::symmetric::Trouble;
 
-/// An eigenproblem, its matrices row by row.
+/// An eigenproblem.
 #[derive(Clone, Copy)]
 pub(in crate::modes) enum Eigenproblem<'a> {
     /// `(s^2 mass + s damping + stiffness) phi = 0`.
-    Quadratic {
-        n: usize,
-        mass: &'a [f64],
-        damping: &'a [f64],
-        stiffness: &'a [f64],
-    },
+    Quadratic(&'a Linear),
     /// `matrix phi = s phi`.
-    FirstOrder { n: usize, matrix: &'a [f64] },
+    FirstOrder(&'a Matrix),
 }
 
-impl<'a> Eigenproblem<'a> {
-    pub(super) fn of<const N: usize>(linear: &'a Linear<f64, N>) -> Self {
-        Self::Quadratic {
-            n: N,
-            mass: linear.mass.as_flattened(),
-            damping: linear.damping.as_flattened(),
-            stiffness: linear.stiffness.as_flattened(),
-        }
-    }
-
+impl Eigenproblem<'_> {
     pub(super) fn size(&self) -> usize {
-        match *self {
-            Self::Quadratic { n, .. } | Self::FirstOrder { n, .. } => n,
+        match self {
+            Self::Quadratic(linear) => linear.mass.row_count(),
+            Self::FirstOrder(matrix) => matrix.row_count(),
         }
     }
 }
@@ -58,15 +46,10 @@ pub(super) fn scaled<'a>(
     let stiffness = take(store, n * n);
     let (right, left) = (take(store, n), take(store, n));
     let (degree, rate) = match problem {
-        Eigenproblem::Quadratic {
-            mass: m,
-            damping: c,
-            stiffness: k,
-            ..
-        } => {
-            mass.copy_from_slice(m);
-            damping.copy_from_slice(c);
-            stiffness.copy_from_slice(k);
+        Eigenproblem::Quadratic(linear) => {
+            mass.copy_from_slice(linear.mass.as_flattened());
+            damping.copy_from_slice(linear.damping.as_flattened());
+            stiffness.copy_from_slice(linear.stiffness.as_flattened());
             for i in 0..n {
                 let diagonal = mass[i * n + i];
                 if !(diagonal >= f64::MIN_POSITIVE && diagonal.is_finite()) {
@@ -77,8 +60,8 @@ pub(super) fn scaled<'a>(
             left.copy_from_slice(right);
             (Degree::Two, rate)
         }
-        Eigenproblem::FirstOrder { matrix, .. } => {
-            stiffness.copy_from_slice(matrix);
+        Eigenproblem::FirstOrder(matrix) => {
+            stiffness.copy_from_slice(matrix.as_flattened());
             if largest(stiffness).is_infinite() {
                 return Err(not_found());
             }

@@ -9,38 +9,40 @@ mod torture;
 
 use num_complex::Complex64;
 
-use super::{Root, Roots, solve};
-use crate::Linear;
+use super::{Root, solve};
+use crate::dense::{Matrix, Vector};
+use crate::kernels::Linear;
 use crate::modes::symmetric::Trouble;
 
-fn linear<const N: usize>(
-    mass: [[f64; N]; N],
-    damping: [[f64; N]; N],
-    stiffness: [[f64; N]; N],
-) -> Linear<f64, N> {
+fn linear(
+    mass: impl Into<Matrix>,
+    damping: impl Into<Matrix>,
+    stiffness: impl Into<Matrix>,
+) -> Linear {
     Linear {
-        mass,
-        damping,
-        stiffness,
+        mass: mass.into(),
+        damping: damping.into(),
+        stiffness: stiffness.into(),
     }
 }
 
-fn identity<const N: usize>() -> [[f64; N]; N] {
-    diagonal([1.0; N])
+fn zeros(n: usize) -> Matrix {
+    Matrix::zeros(n, n)
 }
 
-fn diagonal<const N: usize>(elements: [f64; N]) -> [[f64; N]; N] {
-    let mut matrix = [[0.0; N]; N];
-    for i in 0..N {
-        matrix[i][i] = elements[i];
-    }
-    matrix
+fn identity(n: usize) -> Matrix {
+    diagonal(&vec![1.0; n])
+}
+
+fn diagonal(elements: &[f64]) -> Matrix {
+    let n = elements.len();
+    Matrix::from_fn(n, n, |i, j| if i == j { elements[i] } else { 0.0 })
 }
 
 /// Every root, conjugates written out.
-fn all<const N: usize>(roots: &Roots<N>) -> Vec<Complex64> {
+fn all(roots: &[Root]) -> Vec<Complex64> {
     let mut values = Vec::new();
-    for root in roots.as_slice() {
+    for root in roots {
         values.push(root.s);
         if root.s.im > 0.0 {
             values.push(root.s.conj());

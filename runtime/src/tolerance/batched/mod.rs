@@ -5,9 +5,12 @@
 //! way from the nominal position too, and that each mode is clearly the nominal one. A sample that fails a check goes to
 //! the solvers for one state, so that what becomes of it is decided there. Accepted samples have the equilibrium and
 //! frequencies of those solvers up to rounding, and do not depend on the processor or on the samples beside them.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "rows and columns of several matrices"
+)]
 
 mod prepared;
-mod range;
 mod solve;
 mod stages;
 mod sums;

@@ -1,8 +1,11 @@
 //! Some batches of samples, through each stage together.
 
+use super::stages;
 use super::{Prepared, Sums};
-use crate::Mechanism;
-use crate::lanes::{Batch, Store, Task, Vector, WIDTH};
+use crate::batched::algebra::for_size;
+use crate::dense::{Matrix, Vector};
+use crate::kernels::{BatchPoint, Linear};
+use crate::lanes::{Batch, Lanes, Task, WIDTH};
 use crate::tolerance::sampling::Bits;
 
 /// Steps of Newton's method; one does where second derivatives predict the equilibrium well.
@@ -12,139 +15,166 @@ const STEPS: usize = 6;
 pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 /// Samples of one batch.
-pub(in crate::tolerance) struct Solved<const N: usize, const P: usize> {
-    pub(in crate::tolerance) design: [Batch; P],
-    pub(in crate::tolerance) coordinates: [Batch; N],
-    pub(in crate::tolerance) frequencies: [Batch; N],
+pub(in crate::tolerance) struct Solved {
+    pub(in crate::tolerance) design: Vector<Batch>,
+    pub(in crate::tolerance) coordinates: Vector<Batch>,
+    pub(in crate::tolerance) frequencies: Vector<Batch>,
     /// Bit `k`: sample `k` passed every check. Of others only the design means anything.
     pub(in crate::tolerance) accepted: u32,
     /// Random bits, by pair of design variables.
-    pub(in crate::tolerance) bits: [[Bits; 2]; P],
+    pub(in crate::tolerance) bits: Vec<[Bits; 2]>,
     /// How many of them are samples.
     pub(in crate::tolerance) members: usize,
+    /// Standard normal numbers, one for each design variable.
+    pub(super) standard: Vector<Batch>,
     /// One for those that passed every check so far.
     pub(super) flags: Batch,
     /// One for those at whose equilibrium Newton's method came to rest.
     pub(super) resting: Batch,
-    pub(super) residual: [Batch; N],
+    pub(super) residual: Vector<Batch>,
     /// In coordinates on the way to the equilibrium, between the nominal modes there.
-    pub(super) stiffness: [[Batch; N]; N],
-    pub(super) mass: [[Batch; N]; N],
+    pub(super) stiffness: Matrix<Batch>,
+    pub(super) mass: Matrix<Batch>,
+    pub(super) linear: Linear<Batch>,
 }
 
-impl<const N: usize, const P: usize> Solved<N, P> {
-    pub(in crate::tolerance) const fn new() -> Self {
+impl Solved {
+    /// Room for samples of a mechanism with `n` unknowns and `p` design variables.
+    pub(in crate::tolerance) fn new(n: usize, p: usize) -> Self {
         Self {
-            design: [Batch([0.0; WIDTH]); P],
-            coordinates: [Batch([0.0; WIDTH]); N],
-            frequencies: [Batch([0.0; WIDTH]); N],
+            design: Vector::zeros(p),
+            coordinates: Vector::zeros(n),
+            frequencies: Vector::zeros(n),
             accepted: 0,
-            bits: [[[0; WIDTH]; 2]; P],
+            bits: vec![[[0; WIDTH]; 2]; p.div_ceil(2)],
             members: 0,
-            flags: Batch([0.0; WIDTH]),
-            resting: Batch([0.0; WIDTH]),
-            residual: [Batch([0.0; WIDTH]); N],
-            stiffness: [[Batch([0.0; WIDTH]); N]; N],
-            mass: [[Batch([0.0; WIDTH]); N]; N],
+            standard: Vector::zeros(2 * p.div_ceil(2)),
+            flags: Batch::default(),
+            resting: Batch::default(),
+            residual: Vector::zeros(n),
+            stiffness: Matrix::zeros(n, n),
+            mass: Matrix::zeros(n, n),
+            linear: Linear::zeros(n),
         }
+    }
+
+    /// Whether all samples have come to rest.
+    fn rests(&self) -> bool {
+        self.resting.0[..self.members]
+            .iter()
+            .all(|rests| *rests >= 1.0)
     }
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Prepared<'_> {
     /// Solves the members of some batches from their random bits, and adds them to `sums`.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<N, P>], sums: &mut Sums<N>) {
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved], sums: &mut Sums) {
         self.instructions.run(Work {
             prepared: self,
             batches,
             sums,
         });
     }
+
+    fn point<'b>(&'b self, coordinates: &'b [Batch], design: &'b [Batch]) -> BatchPoint<'b> {
+        BatchPoint {
+            q: coordinates,
+            u: &self.inputs,
+            b: design,
+        }
+    }
 }
 
-struct Work<'a, M, const N: usize, const U: usize, const P: usize, const O: usize> {
-    prepared: &'a Prepared<'a, M, N, U, P, O>,
-    batches: &'a mut [Solved<N, P>],
-    sums: &'a mut Sums<N>,
+struct Work<'a> {
+    prepared: &'a Prepared<'a>,
+    batches: &'a mut [Solved],
+    sums: &'a mut Sums,
 }
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Task
-    for Work<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
+impl Task for Work<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Vector>(self) {
+    fn run<V: Lanes>(self) {
         let Self {
             prepared,
             batches,
             sums,
         } = self;
-        let one = V::constant(1.0);
-        for batch in &mut *batches {
-            for at in (0..batch.members).step_by(V::WIDTH) {
-                let design: [V; P] = prepared.draw(&batch.bits, at);
-                batch.design.store(&design, at);
-                batch.coordinates.store(&prepared.predicted(&design), at);
-            }
-            batch.resting = Batch([0.0; WIDTH]);
-            let all = prepared.all_possible && batch.members == WIDTH;
-            batch.flags = if all {
-                Batch::all(1.0)
-            } else {
-                prepared.possible(&batch.design, batch.members)
-            };
-        }
-        for _ in 0..STEPS {
-            let mut moving = false;
-            for batch in &mut *batches {
-                for at in (0..batch.members).step_by(V::WIDTH) {
-                    if !rests::<V, N, P>(batch, at) {
-                        moving = true;
-                        prepared.evaluate::<V>(batch, at);
-                    }
-                }
-            }
-            if !moving {
-                break;
-            }
-            for batch in &mut *batches {
-                for at in (0..batch.members).step_by(V::WIDTH) {
-                    if !rests::<V, N, P>(batch, at) {
-                        prepared.improve::<V>(batch, at);
-                    }
-                }
-            }
-        }
-        for batch in &mut *batches {
-            for at in (0..batch.members).step_by(V::WIDTH) {
-                prepared.matrices::<V>(batch, at);
-            }
-        }
-        for batch in &mut *batches {
-            batch.accepted = 0;
-            for at in (0..batch.members).step_by(V::WIDTH) {
-                let (lambda, flag) = prepared.modes::<V>(batch, at);
-                for (r, lambda) in lambda.into_iter().enumerate() {
-                    let frequency = lambda.sqrt();
-                    frequency.store(&mut batch.frequencies[r], at);
-                    let nominal = V::constant(prepared.frequencies[r]);
-                    sums.add(r, at, frequency - nominal, flag);
-                }
-                let accepted = V::bits(one.at_most(flag));
-                sums.count(accepted.count_ones());
-                batch.accepted |= accepted << at;
-            }
-        }
+        for_size(
+            prepared.frequencies.len(),
+            #[inline(always)]
+            |n| through::<V>(n, prepared, batches, sums),
+        );
     }
 }
 
-/// Whether all of these samples have come to rest.
 #[inline(always)]
-fn rests<V: Vector, const N: usize, const P: usize>(batch: &Solved<N, P>, at: usize) -> bool {
-    V::every(V::constant(1.0).at_most(V::load(&batch.resting, at)))
+fn through<V: Lanes>(n: usize, prepared: &Prepared<'_>, batches: &mut [Solved], sums: &mut Sums) {
+    let one = V::constant(1.0);
+    for batch in &mut *batches {
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            stages::draw::<V>(prepared, batch, at);
+            stages::predict::<V>(n, prepared, batch, at);
+        }
+        batch.resting = Batch::all(0.0);
+        let all = prepared.all_possible && batch.members == WIDTH;
+        batch.flags = if all {
+            Batch::all(1.0)
+        } else {
+            stages::possible(prepared, &batch.design, batch.members)
+        };
+    }
+    for _ in 0..STEPS {
+        let mut moving = false;
+        for batch in &mut *batches {
+            if !batch.rests() {
+                moving = true;
+                let point = prepared.point(&batch.coordinates, &batch.design);
+                prepared.kernels.residual_and_stiffness_batch(
+                    prepared.instructions,
+                    point,
+                    &mut batch.residual,
+                    &mut batch.stiffness,
+                );
+            }
+        }
+        if !moving {
+            break;
+        }
+        for batch in &mut *batches {
+            if !batch.rests() {
+                for at in (0..WIDTH).step_by(V::WIDTH) {
+                    stages::improve::<V>(n, prepared, batch, at);
+                }
+            }
+        }
+    }
+    for batch in &mut *batches {
+        let point = prepared.point(&batch.coordinates, &batch.design);
+        let linear = &mut batch.linear;
+        prepared
+            .kernels
+            .linear_batch(prepared.instructions, point, linear);
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            stages::between_modes::<V>(n, prepared, batch, at);
+        }
+    }
+    for batch in &mut *batches {
+        batch.accepted = 0;
+        let members = (1_u32 << batch.members) - 1;
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            let (lambda, flag) = stages::modes::<V>(n, prepared, batch, at);
+            for r in 0..n {
+                let frequency = lambda[r].sqrt();
+                frequency.store(&mut batch.frequencies[r], at);
+                let nominal = V::constant(prepared.frequencies[r]);
+                sums.add(r, at, frequency - nominal, flag);
+            }
+            let accepted = V::bits(one.at_most(flag));
+            batch.accepted |= accepted << at;
+        }
+        batch.accepted &= members;
+        sums.count(batch.accepted.count_ones());
+    }
 }

@@ -1,14 +1,14 @@
 //! The stages of a sample: design, prediction, steps to the equilibrium, matrices, modes.
 
+use super::prepared::FEW;
 use super::{Prepared, Solved};
 use crate::batched::POSITIVE;
-use crate::batched::algebra::{congruent, constants, keep};
+use crate::batched::algebra::{self, LARGEST, Row, Square, congruent, keep, load_matrix};
 use crate::batched::closed::{self, Solver};
 use crate::equilibrium::convergence::SMALL_MOTION;
-use crate::lanes::{Batch, Store, Vector, WIDTH, load, load_matrix};
+use crate::kernels::Kernels;
+use crate::lanes::{Batch, Lanes, WIDTH};
 use crate::tolerance::normal::standard_normal_pair;
-use crate::tolerance::sampling::Bits;
-use crate::{Linear, Mechanism};
 
 /// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change
 /// of the stiffness, so that what remains is a share of it like that of the tolerances.
@@ -21,175 +21,180 @@ const STIFFENED: f64 = 2.0;
 /// Greatest displacement from the nominal position, in displacements of one standard deviation.
 pub(super) const FAR: f64 = 6.0;
 
-impl<M, const N: usize, const U: usize, const P: usize, const O: usize> Prepared<'_, M, N, U, P, O>
-where
-    M: Mechanism<N, U, P, O>,
-{
-    /// `b = b_nominal + L z`, `z` standard normal.
-    #[inline(always)]
-    pub(super) fn draw<V: Vector>(&self, pairs: &[[Bits; 2]; P], at: usize) -> [V; P] {
-        let mut standard = [V::constant(0.0); P];
-        for pair in 0..P.div_ceil(2) {
-            if self.drawn[pair] {
-                let [radius, angle] = &pairs[pair];
-                let (first, second) =
-                    standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
-                standard[2 * pair] = first;
-                if 2 * pair + 1 < P {
-                    standard[2 * pair + 1] = second;
+/// `b = b_nominal + L z`, `z` standard normal.
+#[inline(always)]
+pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+    for (pair, [radius, angle]) in batch.bits.iter().enumerate() {
+        if prepared.drawn[pair] {
+            let (first, second) =
+                standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
+            first.store(&mut batch.standard[2 * pair], at);
+            second.store(&mut batch.standard[2 * pair + 1], at);
+        }
+    }
+    for (design, nominal) in batch.design.iter_mut().zip(&prepared.nominal.design) {
+        V::constant(*nominal).store(design, at);
+    }
+    for &(i, j, factor) in &prepared.shared {
+        let change = V::constant(factor) * V::load(&batch.standard[j], at);
+        (V::load(&batch.design[i], at) + change).store(&mut batch.design[i], at);
+    }
+    let standard = batch.standard.iter().zip(&prepared.own);
+    for (design, (standard, factor)) in batch.design.iter_mut().zip(standard) {
+        let change = V::constant(*factor) * V::load(standard, at);
+        (V::load(design, at) + change).store(design, at);
+    }
+}
+
+/// Ones for the members whose bodies can exist.
+pub(super) fn possible(prepared: &Prepared<'_>, design: &[Batch], members: usize) -> Batch {
+    let mut flags = Batch([0.0; WIDTH]);
+    let mut own = prepared.nominal.design.clone();
+    for sample in 0..members {
+        for (own, design) in own.iter_mut().zip(design) {
+            *own = design.0[sample];
+        }
+        let kernels: &dyn Kernels = prepared.kernels;
+        let violation = kernels.violation(&prepared.nominal.inputs, &own);
+        flags.0[sample] = f64::from(u8::from(violation.is_none()));
+    }
+    flags
+}
+
+/// The equilibrium as the derivatives of the nominal one predict it.
+#[inline(always)]
+pub(super) fn predict<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+    let nominal = prepared.nominal;
+    let mut q = [V::constant(0.0); LARGEST];
+    for i in 0..n {
+        q[i] = V::constant(nominal.coordinates[i]);
+    }
+    let mut changes = [V::constant(0.0); FEW];
+    let varied = prepared.varied.iter().zip(&prepared.first);
+    for (k, (&variable, first)) in varied.enumerate() {
+        let change = V::load(&batch.design[variable], at) - V::constant(nominal.design[variable]);
+        let mut slope = [V::constant(0.0); LARGEST];
+        for i in 0..n {
+            slope[i] = V::constant(first[i]);
+        }
+        if let Some(second) = prepared.second.get(k) {
+            changes[k] = change;
+            for (second, change) in second[..=k].iter().zip(&changes) {
+                for i in 0..n {
+                    slope[i] = slope[i] + V::constant(second[i]) * *change;
                 }
             }
         }
-        let mut design: [V; P] = constants(&self.nominal.design);
-        for &(i, j, factor) in &self.shared {
-            design[i] = design[i] + V::constant(factor) * standard[j];
+        for i in 0..n {
+            q[i] = q[i] + slope[i] * change;
         }
-        for ((design, standard), factor) in design.iter_mut().zip(standard).zip(&self.own) {
-            *design = *design + V::constant(*factor) * standard;
-        }
-        design
     }
+    algebra::store(n, &q, &mut batch.coordinates, at);
+}
 
-    /// Ones for the members whose bodies can exist.
-    #[inline(always)]
-    pub(super) fn possible(&self, design: &[Batch; P], members: usize) -> Batch {
-        let mut flags = Batch([0.0; WIDTH]);
-        for sample in 0..members {
-            let design = core::array::from_fn(|i| design[i].0[sample]);
-            let violation = self.mechanism.violation(&self.nominal.inputs, &design);
-            flags.0[sample] = f64::from(u8::from(violation.is_none()));
-        }
-        flags
+/// A step of Newton's method; a sample fails where the stiffness is not positive definite on the way.
+#[inline(always)]
+pub(super) fn improve<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+    let one = V::constant(1.0);
+    let mut q: Row<V> = algebra::load(n, &batch.coordinates, at);
+    let stiffness = load_matrix(n, &batch.stiffness, at);
+    let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
+    let step = solver.solve(n, &algebra::load(n, &batch.residual, at));
+    let correction = solver.solve(n, &curved(n, &prepared.curvature, &step));
+    // Samples at rest stay where they are, so that none depends on the others.
+    let rested = V::load(&batch.resting, at);
+    let moving = rested.at_most(V::constant(0.0));
+    let flag = V::load(&batch.flags, at);
+    let flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
+    flag.store(&mut batch.flags, at);
+    let mut resting = one;
+    for i in 0..n {
+        let scale = V::constant(LAST_CORRECTION) * (q[i].abs() + V::constant(SMALL_MOTION));
+        resting = keep(resting, correction[i].abs().at_most(scale));
+        q[i] = V::choose(moving, q[i] - (step[i] + correction[i]), q[i]);
     }
+    algebra::store(n, &q, &mut batch.coordinates, at);
+    V::choose(moving, resting, rested).store(&mut batch.resting, at);
+}
 
-    /// The equilibrium as the derivatives of the nominal one predict it.
-    #[inline(always)]
-    pub(super) fn predicted<V: Vector>(&self, design: &[V; P]) -> [V; N] {
-        let mut q: [V; N] = constants(&self.nominal.coordinates);
-        let mut change = [V::constant(0.0); P];
-        // Bounds that the compiler knows: these loops are unrolled.
-        for k in 0..P {
-            let Some(&variable) = self.varied.get(k) else {
-                break;
-            };
-            change[k] = design[variable] - V::constant(self.nominal.design[variable]);
-            let mut slope: [V; N] = constants(&self.first[k]);
-            if let Some(second) = self.second.get(k) {
-                for j in 0..=k {
-                    for (slope, coefficient) in slope.iter_mut().zip(&second[j]) {
-                        *slope = *slope + V::constant(*coefficient) * change[j];
-                    }
-                }
-            }
-            for (q, slope) in q.iter_mut().zip(slope) {
-                *q = *q + slope * change[k];
-            }
-        }
-        q
-    }
-
-    /// Residual and stiffness on the way to the equilibrium.
-    #[inline(always)]
-    pub(super) fn evaluate<V: Vector>(&self, batch: &mut Solved<N, P>, at: usize) {
-        let q: [V; N] = load(&batch.coordinates, at);
-        let inputs = constants(&self.nominal.inputs);
-        let design = load(&batch.design, at);
-        let (residual, stiffness) = self
-            .mechanism
-            .residual_and_stiffness_inlined(&q, &inputs, &design);
-        batch.residual.store(&residual, at);
-        batch.stiffness.store(&stiffness, at);
-    }
-
-    /// A step of Newton's method; a sample fails where the stiffness is not positive definite on the way.
-    #[inline(always)]
-    pub(super) fn improve<V: Vector>(&self, batch: &mut Solved<N, P>, at: usize) {
-        let one = V::constant(1.0);
-        let mut q: [V; N] = load(&batch.coordinates, at);
-        let stiffness: [[V; N]; N] = load_matrix(&batch.stiffness, at);
-        let (solver, positive) = Solver::new(&stiffness, POSITIVE);
-        let step = solver.solve(&load(&batch.residual, at));
-        let correction = solver.solve(&curved(&self.curvature, &step));
-        // Samples at rest stay where they are, so that none depends on the others.
-        let rested = V::load(&batch.resting, at);
-        let moving = rested.at_most(V::constant(0.0));
-        let flag = V::load(&batch.flags, at);
-        let flag = keep(flag, one.at_most(V::choose(moving, positive, one)));
-        flag.store(&mut batch.flags, at);
-        let mut resting = one;
-        for ((q, step), correction) in q.iter_mut().zip(step).zip(correction) {
-            let scale = V::constant(LAST_CORRECTION) * (q.abs() + V::constant(SMALL_MOTION));
-            resting = keep(resting, correction.abs().at_most(scale));
-            *q = V::choose(moving, *q - (step + correction), *q);
-        }
-        batch.coordinates.store(&q, at);
-        V::choose(moving, resting, rested).store(&mut batch.resting, at);
-    }
-
-    /// Mass and stiffness at the equilibrium, between the nominal modes.
-    #[inline(always)]
-    pub(super) fn matrices<V: Vector>(&self, batch: &mut Solved<N, P>, at: usize) {
-        let q: [V; N] = load(&batch.coordinates, at);
-        let inputs = constants(&self.nominal.inputs);
-        let design = load(&batch.design, at);
-        let Linear {
-            mass, stiffness, ..
-        } = self.mechanism.linear_inlined(&q, &inputs, &design);
-        batch.mass.store(&congruent(&mass, &self.shapes), at);
-        let stiffness = congruent(&stiffness, &self.shapes);
-        batch.stiffness.store(&stiffness, at);
-    }
-
-    /// `lambda` of the modes in the nominal order; the flag says that every check was passed: at last, that all modes are recognised,
-    /// the equilibrium is near the nominal one, and the stiffness is positive definite here and, as far as its derivative
-    /// tells, from the nominal position to its mirror image: then so it is all the way.
-    #[inline(always)]
-    pub(super) fn modes<V: Vector>(&self, batch: &Solved<N, P>, at: usize) -> ([V; N], V) {
-        let one = V::constant(1.0);
-        let q: [V; N] = load(&batch.coordinates, at);
-        let mass = load_matrix(&batch.mass, at);
-        let stiffness: [[V; N]; N] = load_matrix(&batch.stiffness, at);
-        let at_rest = one.at_most(V::load(&batch.resting, at));
-        let mut flag = keep(V::load(&batch.flags, at), at_rest);
-        let mut nearby = stiffness;
-        let displacements = q.iter().zip(&self.nominal.coordinates);
-        for ((q, nominal), stiffening) in displacements.zip(&self.stiffening) {
-            let twice = (*q - V::constant(*nominal)) * V::constant(2.0);
-            for (row, slopes) in nearby.iter_mut().zip(stiffening) {
-                for (entry, slope) in row.iter_mut().zip(slopes) {
-                    *entry = *entry - V::constant(*slope) * twice;
-                }
+/// Mass and stiffness at the equilibrium, between the nominal modes.
+#[inline(always)]
+pub(super) fn between_modes<V: Lanes>(
+    n: usize,
+    prepared: &Prepared<'_>,
+    batch: &mut Solved,
+    at: usize,
+) {
+    for (from, to) in [
+        (&batch.linear.mass, &mut batch.mass),
+        (&batch.linear.stiffness, &mut batch.stiffness),
+    ] {
+        let matrix: Square<V> = load_matrix(n, from, at);
+        let matrix = congruent(n, &matrix, &prepared.shapes);
+        let to = &mut to.as_flattened_mut()[..n * n];
+        for i in 0..n {
+            for j in 0..=i {
+                matrix[i][j].store(&mut to[i * n + j], at);
             }
         }
-        let displacements = q.iter().zip(&self.nominal.coordinates);
-        for ((q, nominal), reach) in displacements.zip(&self.reach) {
-            let displacement = (*q - V::constant(*nominal)).abs();
-            flag = keep(flag, displacement.at_most(V::constant(FAR * reach)));
-        }
-        let flag = keep(
-            flag,
-            one.at_most(closed::definite(&nearby, CLEARLY_POSITIVE)),
-        );
-        let (lambda, recognised) = closed::eigenvalues(&stiffness, &mass);
-        let mut flag = keep(flag, one.at_most(recognised));
-        for (lambda, nominal) in lambda.iter().zip(self.lambda) {
-            flag = keep(flag, V::constant(WEAKENED * nominal).at_most(*lambda));
-            flag = keep(flag, lambda.at_most(V::constant(STIFFENED * nominal)));
-        }
-        (lambda, flag)
     }
+}
+
+/// `lambda` of the modes in the nominal order; the flag says that every check was passed: at last, that all modes are recognised,
+/// the equilibrium is near the nominal one, and the stiffness is positive definite here and, as far as its derivative
+/// tells, from the nominal position to its mirror image: then so it is all the way.
+#[inline(always)]
+pub(super) fn modes<V: Lanes>(
+    n: usize,
+    prepared: &Prepared<'_>,
+    batch: &Solved,
+    at: usize,
+) -> (Row<V>, V) {
+    let one = V::constant(1.0);
+    let q: Row<V> = algebra::load(n, &batch.coordinates, at);
+    let mass: Square<V> = load_matrix(n, &batch.mass, at);
+    let stiffness: Square<V> = load_matrix(n, &batch.stiffness, at);
+    let at_rest = one.at_most(V::load(&batch.resting, at));
+    let mut flag = keep(V::load(&batch.flags, at), at_rest);
+    let mut nearby = stiffness;
+    let nominal = &prepared.nominal.coordinates[..n];
+    let stiffening = &prepared.stiffening[..n];
+    for k in 0..n {
+        let displacement = q[k] - V::constant(nominal[k]);
+        let twice = displacement * V::constant(2.0);
+        for i in 0..n {
+            for j in 0..=i {
+                nearby[i][j] = nearby[i][j] - V::constant(stiffening[k][i][j]) * twice;
+            }
+        }
+        let far = V::constant(FAR * prepared.reach[k]);
+        flag = keep(flag, displacement.abs().at_most(far));
+    }
+    let flag = keep(
+        flag,
+        one.at_most(closed::definite(n, &nearby, CLEARLY_POSITIVE)),
+    );
+    let (lambda, recognised) = closed::eigenvalues(n, &stiffness, &mass);
+    let mut flag = keep(flag, one.at_most(recognised));
+    for r in 0..n {
+        let nominal = prepared.lambda[r];
+        flag = keep(flag, V::constant(WEAKENED * nominal).at_most(lambda[r]));
+        flag = keep(flag, lambda[r].at_most(V::constant(STIFFENED * nominal)));
+    }
+    (lambda, flag)
 }
 
 /// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
 /// in `k` and `j` twice.
 #[inline(always)]
-fn curved<V: Vector, const N: usize>(curvature: &[[[f64; N]; N]; N], step: &[V; N]) -> [V; N] {
-    let mut rest = [V::constant(0.0); N];
-    for (k, slopes) in curvature.iter().enumerate() {
-        for (j, slopes) in slopes[..=k].iter().enumerate() {
+fn curved<V: Lanes>(n: usize, curvature: &[Square<f64>], step: &Row<V>) -> Row<V> {
+    let mut rest = [V::constant(0.0); LARGEST];
+    let curvature = &curvature[..n];
+    for k in 0..n {
+        for j in 0..=k {
             let product = step[k] * step[j];
-            for (rest, slope) in rest.iter_mut().zip(slopes) {
-                *rest = *rest + V::constant(*slope) * product;
+            for i in 0..n {
+                rest[i] = rest[i] + V::constant(curvature[k][j][i]) * product;
             }
         }
     }

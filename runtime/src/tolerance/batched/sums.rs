@@ -1,12 +1,12 @@
 //! Statistics gathered by lane.
 
 use super::super::statistics::Moments;
-use crate::lanes::{Batch, Vector};
+use crate::lanes::{Batch, Lanes};
 
 /// Sums over the accepted samples of a chunk, by place in the batch; merged in that order, whatever the vectors were.
-pub(in crate::tolerance) struct Sums<const N: usize> {
+pub(in crate::tolerance) struct Sums {
     count: usize,
-    modes: [Mode; N],
+    modes: Vec<Mode>,
 }
 
 /// Of the deviation from the nominal frequency, which loses no digits as the frequency itself would.
@@ -18,8 +18,8 @@ struct Mode {
     max: Batch,
 }
 
-impl<const N: usize> Sums<N> {
-    pub(in crate::tolerance) fn new() -> Self {
+impl Sums {
+    pub(in crate::tolerance) fn new(n: usize) -> Self {
         let empty = Mode {
             sum: Batch::all(0.0),
             squares: Batch::all(0.0),
@@ -28,7 +28,7 @@ impl<const N: usize> Sums<N> {
         };
         Self {
             count: 0,
-            modes: [empty; N],
+            modes: vec![empty; n],
         }
     }
 
@@ -39,7 +39,7 @@ impl<const N: usize> Sums<N> {
 
     /// Adds the deviations of mode `r` in the states from `at` on where `accepted` is one.
     #[inline(always)]
-    pub(super) fn add<V: Vector>(&mut self, r: usize, at: usize, deviation: V, accepted: V) {
+    pub(super) fn add<V: Lanes>(&mut self, r: usize, at: usize, deviation: V, accepted: V) {
         let mode = &mut self.modes[r];
         let own = V::constant(1.0).at_most(accepted);
         let value = V::choose(own, deviation, V::constant(0.0));

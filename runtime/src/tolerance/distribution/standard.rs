@@ -15,33 +15,34 @@ pub(in crate::tolerance) struct Standard {
 }
 
 impl Standard {
-    pub(in crate::tolerance) fn new<const P: usize>(
-        model: &Quadratic<P>,
-        tolerances: &Tolerances<P>,
+    pub(in crate::tolerance) fn new(
+        model: &Quadratic,
+        tolerances: &Tolerances,
     ) -> Result<Self, Error> {
-        model.checked()?;
-        let deviations = tolerances.standard_deviations();
+        model.check(tolerances)?;
+        let sigmas = tolerances.sigmas();
+        let n = sigmas.len();
         let symmetric =
             |i: usize, j: usize| 0.5 * model.curvature[i][j] + 0.5 * model.curvature[j][i];
         let mut standard = Self {
             scale: 1.0,
-            linear: (0..P).map(|i| model.slopes[i] * deviations[i]).collect(),
-            quadratic: (0..P * P)
-                .map(|e| (e / P, e % P))
-                .map(|(i, j)| product([symmetric(i, j), deviations[i], deviations[j]]))
+            linear: (0..n).map(|i| model.slopes[i] * sigmas[i]).collect(),
+            quadratic: (0..n * n)
+                .map(|e| (e / n, e % n))
+                .map(|(i, j)| product([symmetric(i, j), sigmas[i], sigmas[j]]))
                 .collect(),
         };
         standard.rescale()?;
         if tolerances.correlation().is_some() {
             let factor = tolerances.factor();
             let root = |row: usize, column: usize| {
-                if deviations[row] > 0.0 {
-                    factor[row][column] / deviations[row]
+                if sigmas[row] > 0.0 {
+                    factor[row][column] / sigmas[row]
                 } else {
                     0.0
                 }
             };
-            let root: Vec<f64> = (0..P * P).map(|e| root(e / P, e % P)).collect();
+            let root: Vec<f64> = (0..n * n).map(|e| root(e / n, e % n)).collect();
             standard.correlate(&root);
             standard.rescale()?;
         }

@@ -3,19 +3,17 @@
 use super::*;
 
 /// Checks one answer; `Err` says what is wrong.
-pub(super) fn check<const N: usize>(
-    linear: &Linear<f64, N>,
-    roots: &Roots<N>,
-) -> Result<(), String> {
+pub(super) fn check(linear: &Linear, roots: &[Root]) -> Result<(), String> {
     let mut weight = 0;
-    for (i, root) in roots.as_slice().iter().enumerate() {
+    for (i, root) in roots.iter().enumerate() {
         weight += if root.s.im > 0.0 { 2 } else { 1 };
         check_root(linear, root).map_err(|what| format!("root {i}: {what}: {root:?}"))?;
     }
-    if weight != 2 * N {
-        return Err(format!("{weight} eigenvalues in place of {}", 2 * N));
+    let n = linear.mass.row_count();
+    if weight != 2 * n {
+        return Err(format!("{weight} eigenvalues in place of {}", 2 * n));
     }
-    for pair in roots.as_slice().windows(2) {
+    for pair in roots.windows(2) {
         let (a, b) = (pair[0].s, pair[1].s);
         if a.norm() > b.norm() * (1.0 + 1e-11) {
             return Err(format!("order: {a} before {b}"));
@@ -24,7 +22,7 @@ pub(super) fn check<const N: usize>(
     Ok(())
 }
 
-fn check_root<const N: usize>(linear: &Linear<f64, N>, root: &Root<N>) -> Result<(), String> {
+fn check_root(linear: &Linear, root: &Root) -> Result<(), String> {
     let numbers = [
         root.s.re,
         root.s.im,
@@ -65,14 +63,10 @@ fn check_root<const N: usize>(linear: &Linear<f64, N>, root: &Root<N>) -> Result
 }
 
 /// `x^H M y`.
-pub(super) fn mass_product<const N: usize>(
-    linear: &Linear<f64, N>,
-    x: &[Complex64; N],
-    y: &[Complex64; N],
-) -> Complex64 {
+pub(super) fn mass_product(linear: &Linear, x: &[Complex64], y: &[Complex64]) -> Complex64 {
     let mut sum = Complex64::ZERO;
-    for i in 0..N {
-        for j in 0..N {
+    for i in 0..x.len() {
+        for j in 0..y.len() {
             sum += x[i].conj() * linear.mass[i][j] * y[j];
         }
     }
@@ -81,16 +75,11 @@ pub(super) fn mass_product<const N: usize>(
 
 /// Greatest component of `Q(s) x`, or of `x^T Q(s)`, relative to the terms and to the matrices, in units in
 /// which the masses are one.
-fn residuals<const N: usize>(
-    linear: &Linear<f64, N>,
-    s: Complex64,
-    x: &[Complex64; N],
-    transposed: bool,
-) -> (f64, f64) {
+fn residuals(linear: &Linear, s: Complex64, x: &[Complex64], transposed: bool) -> (f64, f64) {
     let (mut most, mut terms, mut elements, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-    for i in 0..N {
+    for i in 0..x.len() {
         let (mut sum, mut size) = (Complex64::ZERO, 0.0);
-        for j in 0..N {
+        for j in 0..x.len() {
             let (row, column) = if transposed { (j, i) } else { (i, j) };
             let unit = (linear.mass[i][i] * linear.mass[j][j]).sqrt();
             let x = x[j] * linear.mass[j][j].sqrt();
@@ -110,9 +99,9 @@ fn residuals<const N: usize>(
 }
 
 /// `sum of all s = -tr(M^-1 C)`, within the errors of the roots.
-pub(super) fn check_sum<const N: usize>(roots: &Roots<N>, trace: f64) -> Result<(), String> {
+pub(super) fn check_sum(roots: &[Root], trace: f64) -> Result<(), String> {
     let (mut sum, mut error) = (0.0, 1e-15 * trace.abs());
-    for root in roots.as_slice() {
+    for root in roots {
         let weight = if root.s.im > 0.0 { 2.0 } else { 1.0 };
         sum += weight * root.s.re;
         error += weight * (root.error + 1e-15 * root.s.norm());
@@ -125,9 +114,9 @@ pub(super) fn check_sum<const N: usize>(roots: &Roots<N>, trace: f64) -> Result<
 }
 
 /// `product of all s = det K / det M`, within the errors of the roots.
-pub(super) fn check_product<const N: usize>(roots: &Roots<N>, quotient: f64) -> Result<(), String> {
+pub(super) fn check_product(roots: &[Root], quotient: f64) -> Result<(), String> {
     let (mut product, mut most) = (1.0, 1.0);
-    for root in roots.as_slice() {
+    for root in roots {
         let size = root.s.norm();
         let factor = if root.s.im > 0.0 {
             size * size
@@ -153,14 +142,14 @@ pub(super) fn check_product<const N: usize>(roots: &Roots<N>, quotient: f64) -> 
 }
 
 /// Dimension of the span of some vectors of length one by the mass matrix.
-pub(super) fn rank<const N: usize>(linear: &Linear<f64, N>, vectors: &[[Complex64; N]]) -> usize {
-    let mut basis: Vec<[Complex64; N]> = Vec::new();
-    for vector in vectors {
-        let mut rest = *vector;
+pub(super) fn rank(linear: &Linear, vectors: &[&[Complex64]]) -> usize {
+    let mut basis: Vec<Vector<Complex64>> = Vec::new();
+    for &vector in vectors {
+        let mut rest = Vector::from(vector);
         for _ in 0..2 {
             for base in &basis {
                 let part = mass_product(linear, base, &rest);
-                for i in 0..N {
+                for i in 0..rest.len() {
                     rest[i] -= part * base[i];
                 }
             }
@@ -174,14 +163,10 @@ pub(super) fn rank<const N: usize>(linear: &Linear<f64, N>, vectors: &[[Complex6
 }
 
 /// `psi_i^T ((s_i + s_j) M + C) phi_j`.
-pub(super) fn cross<const N: usize>(
-    linear: &Linear<f64, N>,
-    i: &Root<N>,
-    j: &Root<N>,
-) -> Complex64 {
+pub(super) fn cross(linear: &Linear, i: &Root, j: &Root) -> Complex64 {
     let mut sum = Complex64::ZERO;
-    for k in 0..N {
-        for l in 0..N {
+    for k in 0..i.left.len() {
+        for l in 0..j.right.len() {
             let element = (i.s + j.s) * linear.mass[k][l] + linear.damping[k][l];
             sum += i.left[k] * element * j.right[l];
         }

@@ -15,8 +15,8 @@ pub(super) struct Exact {
     pub(super) geometric: usize,
 }
 
-pub(super) struct Known<const N: usize> {
-    pub(super) linear: Linear<f64, N>,
+pub(super) struct Known {
+    pub(super) linear: Linear,
     pub(super) spectrum: Vec<Exact>,
 }
 
@@ -38,40 +38,40 @@ fn block_roots(rng: &mut ChaCha8Rng) -> [Complex64; 2] {
 }
 
 /// Replaces row `i` by itself plus `factor` times row `j`, columns likewise the other way: `E X E^-1`.
-fn conjugate_by<const N: usize>(x: &mut [[f64; N]; N], i: usize, j: usize, factor: f64) {
-    for k in 0..N {
+fn conjugate_by(x: &mut Matrix, i: usize, j: usize, factor: f64) {
+    for k in 0..x.column_count() {
         x[i][k] += factor * x[j][k];
     }
-    for row in x {
+    for row in x.iter_mut() {
         row[j] -= factor * row[i];
     }
 }
 
 /// `E^T X E`.
-fn congruence<const N: usize>(x: &mut [[f64; N]; N], i: usize, j: usize, factor: f64) {
-    for k in 0..N {
+fn congruence(x: &mut Matrix, i: usize, j: usize, factor: f64) {
+    for k in 0..x.column_count() {
         x[i][k] += factor * x[j][k];
     }
-    for row in x {
+    for row in x.iter_mut() {
         row[i] += factor * row[j];
     }
 }
 
 /// A random pencil; `chains` allows defective blocks.
-pub(super) fn known<const N: usize>(rng: &mut ChaCha8Rng, chains: bool) -> Known<N> {
-    let mut damping = [[0.0; N]; N];
-    let mut stiffness = [[0.0; N]; N];
+pub(super) fn known(n: usize, rng: &mut ChaCha8Rng, chains: bool) -> Known {
+    let mut damping = zeros(n);
+    let mut stiffness = zeros(n);
     let mut spectrum: Vec<Exact> = Vec::new();
     let mut roots = block_roots(rng);
     let mut i = 0;
-    while i < N {
+    while i < n {
         if i == 0 || below(rng, 3) > 0 {
             roots = block_roots(rng);
             while !chains && roots[0] == roots[1] {
                 roots = block_roots(rng);
             }
         }
-        let size = if chains && i + 1 < N && below(rng, 3) == 0 {
+        let size = if chains && i + 1 < n && below(rng, 3) == 0 {
             2
         } else {
             1
@@ -100,19 +100,19 @@ pub(super) fn known<const N: usize>(rng: &mut ChaCha8Rng, chains: bool) -> Known
         }
         i += size;
     }
-    let mut mass = identity::<N>();
-    if N > 1 {
+    let mut mass = identity(n);
+    if n > 1 {
         let pick = |rng: &mut ChaCha8Rng| {
-            let i = below(rng, N as u32) as usize;
-            let j = (i + 1 + below(rng, N as u32 - 1) as usize) % N;
+            let i = below(rng, n as u32) as usize;
+            let j = (i + 1 + below(rng, n as u32 - 1) as usize) % n;
             (i, j, if below(rng, 2) == 0 { 1.0 } else { -1.0 })
         };
-        for _ in 0..below(rng, 2 * N as u32) {
+        for _ in 0..below(rng, 2 * n as u32) {
             let (i, j, factor) = pick(rng);
             conjugate_by(&mut damping, i, j, factor);
             conjugate_by(&mut stiffness, i, j, factor);
         }
-        for _ in 0..below(rng, N as u32 + 1) {
+        for _ in 0..below(rng, n as u32 + 1) {
             let (i, j, factor) = pick(rng);
             for matrix in [&mut mass, &mut damping, &mut stiffness] {
                 congruence(matrix, i, j, factor);
@@ -127,7 +127,7 @@ pub(super) fn known<const N: usize>(rng: &mut ChaCha8Rng, chains: bool) -> Known
 
 /// Checks an answer against the exact spectrum: every root within its error, the right number of each, independent
 /// vectors where the root is semisimple.
-pub(super) fn check_known<const N: usize>(known: &Known<N>) -> Result<(), String> {
+pub(super) fn check_known(known: &Known) -> Result<(), String> {
     let roots = solve(&known.linear).map_err(|trouble| format!("{trouble:?}"))?;
     check(&known.linear, &roots)?;
     let (mut trace, mut determinant) = (0.0, Complex64::ONE);
@@ -152,11 +152,7 @@ pub(super) fn check_known<const N: usize>(known: &Known<N>) -> Result<(), String
         if counts[i] != exact.algebraic {
             return Err(format!("{exact:?} found {} times", counts[i]));
         }
-        let of: Vec<&Root<N>> = roots
-            .as_slice()
-            .iter()
-            .filter(|root| nearest(root.s) == i)
-            .collect();
+        let of: Vec<&Root> = roots.iter().filter(|root| nearest(root.s) == i).collect();
         for root in &of {
             let error = (root.s - exact.s).norm();
             if error > root.error {
@@ -168,8 +164,8 @@ pub(super) fn check_known<const N: usize>(known: &Known<N>) -> Result<(), String
             }
         }
         if exact.algebraic == exact.geometric && exact.s.im >= 0.0 {
-            let right: Vec<_> = of.iter().map(|root| root.right).collect();
-            let left: Vec<_> = of.iter().map(|root| root.left).collect();
+            let right: Vec<_> = of.iter().map(|root| &root.right[..]).collect();
+            let left: Vec<_> = of.iter().map(|root| &root.left[..]).collect();
             if rank(&known.linear, &right) < of.len() || rank(&known.linear, &left) < of.len() {
                 return Err(format!("{exact:?}: dependent vectors"));
             }

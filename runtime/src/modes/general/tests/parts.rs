@@ -101,7 +101,7 @@ fn both_methods_agree() {
     );
     aberth::symmetrise(&mut values, &mut [true; 4]);
     let linear = linear(
-        identity(),
+        identity(2),
         [[0.3, -2.0], [1.7, 0.1]],
         [[0.9, 0.2], [-0.4, 0.5]],
     );

@@ -8,19 +8,19 @@ use crate::Real;
 /// All numbers that an expression takes while its variables run through their ranges; rounding included, since it keeps
 /// the order of numbers. Where nothing better is known, all numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Range {
+pub struct Interval {
     low: f64,
     high: f64,
 }
 
-const ALL: Range = Range {
+const ALL: Interval = Interval {
     low: f64::NEG_INFINITY,
     high: f64::INFINITY,
 };
 
-impl Range {
+impl Interval {
     /// `value` and what is within `distance` of it.
-    pub(super) fn about(value: f64, distance: f64) -> Self {
+    pub fn about(value: f64, distance: f64) -> Self {
         Self::between([value - distance, value + distance])
     }
 
@@ -37,7 +37,7 @@ impl Range {
 }
 
 /// Ordered where no number of one equals or crosses a number of the other.
-impl PartialOrd for Range {
+impl PartialOrd for Interval {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         if self.low > other.high {
             Some(Ordering::Greater)
@@ -49,21 +49,21 @@ impl PartialOrd for Range {
     }
 }
 
-impl Add for Range {
+impl Add for Interval {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self::between([self.low + other.low, self.high + other.high])
     }
 }
 
-impl Sub for Range {
+impl Sub for Interval {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self::between([self.low - other.high, self.high - other.low])
     }
 }
 
-impl Mul for Range {
+impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
@@ -76,7 +76,7 @@ impl Mul for Range {
     }
 }
 
-impl Div for Range {
+impl Div for Interval {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let (a, b) = (self, other);
@@ -92,7 +92,7 @@ impl Div for Range {
     }
 }
 
-impl Neg for Range {
+impl Neg for Interval {
     type Output = Self;
     fn neg(self) -> Self {
         Self {
@@ -102,7 +102,7 @@ impl Neg for Range {
     }
 }
 
-impl Real for Range {
+impl Real for Interval {
     fn constant(value: f64) -> Self {
         Self::between([value])
     }
@@ -144,9 +144,9 @@ mod tests {
 
     #[test]
     fn ranges_hold_what_their_members_give() {
-        let zero = Range::constant(0.0);
-        let (a, b) = (Range::about(2.0, 1.0), Range::about(-1.0, 0.5));
-        let members = |range: Range| [range.low, 0.3 * range.low + 0.7 * range.high, range.high];
+        let zero = Interval::constant(0.0);
+        let (a, b) = (Interval::about(2.0, 1.0), Interval::about(-1.0, 0.5));
+        let members = |range: Interval| [range.low, 0.3 * range.low + 0.7 * range.high, range.high];
         for x in members(a) {
             for y in members(b) {
                 for (range, value) in [
@@ -173,7 +173,7 @@ mod tests {
             a / (a + b),
             b.sqrt(),
             a.ln(),
-            Range::constant(f64::NAN),
+            Interval::constant(f64::NAN),
             ALL * zero,
         ] {
             assert!(unknown.partial_cmp(&zero).is_none(), "{unknown:?}");

@@ -1,0 +1,95 @@
+//! What the compiler knows of a mechanism, in the runtime's words.
+
+use eigentol::{
+    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, OutputInfo, Role,
+    Text, Unit,
+};
+use eigentol_compiler::Compilation;
+use eigentol_compiler::mechanics;
+use eigentol_compiler::model::mechanism;
+
+fn text(text: impl Into<String>) -> Text {
+    Text::from(text.into())
+}
+
+fn unit(unit: &mechanism::Unit) -> Unit {
+    Unit {
+        symbol: text(unit.symbol.as_str()),
+        scale: unit.scale,
+    }
+}
+
+pub(crate) fn description(compilation: &Compilation) -> Description {
+    let Compilation {
+        mechanism,
+        functions,
+        program,
+        ..
+    } = compilation;
+    let coordinates: Vec<_> = functions
+        .unknowns
+        .iter()
+        .map(|unknown| CoordinateInfo {
+            name: text(unknown.name.as_str()),
+            unit: Unit {
+                symbol: text(unknown.unit.as_str()),
+                scale: 1.0,
+            },
+            role: match unknown.role {
+                mechanics::Role::Position(_) => Role::Position,
+                mechanics::Role::Speed(_) => Role::Speed,
+                mechanics::Role::PositionReaction => Role::PositionReaction,
+                mechanics::Role::VelocityReaction => Role::VelocityReaction,
+            },
+        })
+        .collect();
+    let inputs: Vec<_> = mechanism
+        .inputs
+        .iter()
+        .map(|input| InputInfo {
+            name: text(input.name.to_string()),
+            unit: unit(&input.unit),
+        })
+        .collect();
+    let design: Vec<_> = mechanism
+        .design
+        .iter()
+        .map(|variable| DesignInfo {
+            name: text(variable.name.to_string()),
+            unit: unit(&variable.unit),
+            nominal: variable.nominal,
+            tolerance: variable.tolerance,
+        })
+        .collect();
+    let outputs: Vec<_> = mechanism
+        .outputs
+        .iter()
+        .map(|output| OutputInfo {
+            name: text(output.name.to_string()),
+            unit: unit(&output.unit),
+        })
+        .collect();
+    let kernels: Vec<_> = program
+        .kernels
+        .iter()
+        .map(|kernel| KernelInfo {
+            name: text(kernel.name),
+            operations: kernel.cost.operations,
+            functions: kernel.cost.functions,
+        })
+        .collect();
+    Description {
+        name: text(mechanism.name.to_string()),
+        coordinates: coordinates.into(),
+        inputs: inputs.into(),
+        design: design.into(),
+        outputs: outputs.into(),
+        symmetric_stiffness: functions.properties.symmetric_stiffness,
+        damping: match functions.properties.damping {
+            mechanics::Damping::Zero => DampingKind::Zero,
+            mechanics::Damping::Gyroscopic => DampingKind::Gyroscopic,
+            mechanics::Damping::General => DampingKind::General,
+        },
+        kernels: kernels.into(),
+    }
+}

@@ -1,0 +1,551 @@
+//! The tables of kernels, by interpretation.
+
+use eigentol::kernels::{
+    BatchKernels, BatchPoint, DirectionalKernels, Gradient, Interval, Kernels, Linear,
+    LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
+};
+use eigentol::lanes::{Batch, Instructions};
+use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
+
+use crate::mechanism::Interpreted;
+use crate::registers::{batch, once, scalar};
+use crate::tape::Tape;
+
+/// Copies a result out of the registers.
+#[inline]
+fn copy<T: Copy>(registers: &[T], places: &[u32], to: &mut [T]) {
+    for (to, place) in to.iter_mut().zip(places) {
+        *to = registers[*place as usize];
+    }
+}
+
+/// The same of the derivatives.
+fn copy_slopes(registers: &[Dual<f64>], places: &[u32], to: &mut [f64]) {
+    for (to, place) in to.iter_mut().zip(places) {
+        *to = registers[*place as usize].slope;
+    }
+}
+
+fn linear_buffers<T>(linear: &mut Linear<T>) -> [&mut [T]; 3] {
+    [
+        linear.mass.as_flattened_mut(),
+        linear.damping.as_flattened_mut(),
+        linear.stiffness.as_flattened_mut(),
+    ]
+}
+
+fn gradient_buffers<T>(gradient: &mut Gradient<T>) -> [&mut [T]; 3] {
+    [
+        &mut gradient.coordinates,
+        &mut gradient.inputs,
+        &mut gradient.design,
+    ]
+}
+
+fn parts_buffers<T>(parts: &mut RestParts<T>) -> [&mut [T]; 2] {
+    [&mut parts.inertia, &mut parts.applied]
+}
+
+fn partials_buffers<T>(partials: &mut ResidualPartials<T>) -> [&mut [T]; 2] {
+    [partials.0.as_flattened_mut(), partials.1.as_flattened_mut()]
+}
+
+/// Copies lists of three matrices, one after the other in the results.
+fn copy_partials<T: Copy>(registers: &[T], tape: &Tape, partials: &mut LinearPartials<T>) {
+    let lists = [
+        &mut partials.by_coordinate,
+        &mut partials.by_input,
+        &mut partials.by_design,
+    ];
+    for (list, results) in lists.into_iter().zip(tape.results.chunks(3)) {
+        for (k, linear) in list.iter_mut().enumerate() {
+            for (to, places) in linear_buffers(linear).into_iter().zip(results) {
+                let size = to.len();
+                copy(registers, &places[k * size..(k + 1) * size], to);
+            }
+        }
+    }
+}
+
+/// Runs a tape at one state, and copies its results. Without a tape the results are zero.
+fn run(tape: &Option<Tape>, arguments: &[&[f64]], to: &mut [&mut [f64]]) {
+    let Some(tape) = tape else {
+        to.iter_mut().for_each(|to| to.fill(0.0));
+        return;
+    };
+    scalar(tape, arguments, |registers| {
+        for (to, places) in to.iter_mut().zip(&tape.results) {
+            copy(registers, places, to);
+        }
+    });
+}
+
+/// The same of the derivatives along a direction.
+fn run_along(
+    tape: &Option<Tape>,
+    arguments: &[&[f64]],
+    direction: &[&[f64]],
+    to: &mut [&mut [f64]],
+) {
+    let Some(tape) = tape else {
+        to.iter_mut().for_each(|to| to.fill(0.0));
+        return;
+    };
+    let moved: Vec<Vec<Dual<f64>>> = arguments
+        .iter()
+        .zip(direction)
+        .map(|(values, slopes)| {
+            let pairs = values.iter().zip(*slopes);
+            pairs
+                .map(|(&value, &slope)| Dual { value, slope })
+                .collect()
+        })
+        .collect();
+    let moved: Vec<&[Dual<f64>]> = moved.iter().map(Vec::as_slice).collect();
+    scalar(tape, &moved, |registers| {
+        for (to, places) in to.iter_mut().zip(&tape.results) {
+            copy_slopes(registers, places, to);
+        }
+    });
+}
+
+fn run_batch(
+    tape: &Option<Tape>,
+    instructions: Instructions,
+    arguments: &[&[Batch]],
+    to: &mut [&mut [Batch]],
+) {
+    if let Some(tape) = tape {
+        batch(tape, instructions, arguments, |registers| {
+            for (to, places) in to.iter_mut().zip(&tape.results) {
+                copy(registers, places, to);
+            }
+        });
+    }
+}
+
+impl Kernels for Interpreted {
+    fn description(&self) -> Shared<Description> {
+        self.shared.description.clone()
+    }
+
+    fn sizes(&self) -> Sizes {
+        let description = &self.shared.description;
+        Sizes {
+            coordinates: description.coordinates.len(),
+            inputs: description.inputs.len(),
+            design: description.design.len(),
+            outputs: description.outputs.len(),
+        }
+    }
+
+    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
+        run(&self.shared.tapes.residual, &[q, u, b], &mut [residual]);
+    }
+
+    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
+        let tape = &self.shared.tapes.residual_parts;
+        run(tape, &[q, u, b], &mut parts_buffers(parts));
+    }
+
+    fn residual_and_stiffness_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+        stiffness: &mut Matrix,
+    ) {
+        let tape = &self.shared.tapes.residual_and_stiffness;
+        run(
+            tape,
+            &[q, u, b],
+            &mut [residual, stiffness.as_flattened_mut()],
+        );
+    }
+
+    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
+        let tape = &self.shared.tapes.linear;
+        run(tape, &[q, u, b], &mut linear_buffers(linear));
+    }
+
+    fn residual_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut ResidualPartials,
+    ) {
+        let tape = &self.shared.tapes.residual_partials;
+        run(tape, &[q, u, b], &mut partials_buffers(partials));
+    }
+
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+        if let Some(tape) = &self.shared.tapes.linear_partials {
+            scalar(tape, &[q, u, b], |registers| {
+                copy_partials(registers, tape, partials);
+            });
+            return;
+        }
+        // One direction at a time, as compiled code does for large mechanisms.
+        let mut direction = [q, u, b].map(|list| vec![0.0; list.len()]);
+        for (list, partials) in [
+            &mut partials.by_coordinate,
+            &mut partials.by_input,
+            &mut partials.by_design,
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            for (k, linear) in partials.iter_mut().enumerate() {
+                direction[list][k] = 1.0;
+                let [dq, du, db] = &direction;
+                self.linear_along_into(q, u, b, [dq, du, db], linear);
+                direction[list][k] = 0.0;
+            }
+        }
+    }
+
+    fn mode_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        let tape = &self.shared.tapes.mode_gradient;
+        run(
+            tape,
+            &[q, u, b, phi, &[lambda]],
+            &mut gradient_buffers(gradient),
+        );
+    }
+
+    fn pencil_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let [left, acceleration, velocity, position] = vectors;
+        let arguments = [q, u, b, left, acceleration, velocity, position];
+        let tape = &self.shared.tapes.pencil_gradient;
+        run(tape, &arguments, &mut gradient_buffers(gradient));
+    }
+
+    fn residual_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        gradient: &mut Gradient,
+    ) {
+        let tape = &self.shared.tapes.residual_gradient;
+        run(tape, &[q, u, b, w], &mut gradient_buffers(gradient));
+    }
+
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
+        let mut whirl = [0.0; 2];
+        let tape = &self.shared.tapes.whirl;
+        run(tape, &[q, u, b, real, imaginary], &mut [&mut whirl]);
+        whirl
+    }
+
+    fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
+        let tape = self.shared.tapes.violation.as_ref()?;
+        let values = |registers: &[f64]| {
+            let places = tape.results.first()?;
+            let of = places.iter().map(|place| registers[*place as usize]);
+            let mut failing = of.zip(&self.shared.requirements);
+            // NaN breaks every requirement.
+            failing.find(|(value, _)| value.is_nan() || *value <= 0.0)
+        };
+        let (value, (quantity, requirement)) = scalar(tape, &[u, b], values)?;
+        Some(Violation {
+            quantity: quantity.clone(),
+            requirement: requirement.clone(),
+            value,
+        })
+    }
+
+    fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
+        let Some(tape) = &self.shared.tapes.violation else {
+            return true;
+        };
+        let fixed: Vec<_> = u.iter().map(|&value| Interval::about(value, 0.0)).collect();
+        let around = b.iter().zip(reach);
+        let around: Vec<_> = around
+            .map(|(&value, &reach)| Interval::about(value, reach))
+            .collect();
+        let registers = once(tape, &[&fixed, &around]);
+        let zero = Interval::about(0.0, 0.0);
+        let mut places = tape.results.iter().flatten();
+        places.all(|place| registers[*place as usize] > zero)
+    }
+
+    fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
+        let tape = self.shared.tapes.pose_margin.as_ref()?;
+        let least = |registers: &[f64]| {
+            let places = tape.results.first()?;
+            let volumes = places.iter().map(|place| registers[*place as usize].abs());
+            let joints = volumes.zip(&self.shared.poses);
+            joints.reduce(|least, other| if other.0 < least.0 { other } else { least })
+        };
+        let (margin, joint) = scalar(tape, &[q, u, b], least)?;
+        Some(PoseMargin {
+            joint: joint.clone(),
+            margin,
+        })
+    }
+
+    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
+        run(&self.shared.tapes.outputs, &[q, u, b], &mut [outputs]);
+    }
+
+    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
+        let tape = &self.shared.tapes.output_partials;
+        run(
+            tape,
+            &[q, u, b],
+            &mut partials.map(Matrix::as_flattened_mut),
+        );
+    }
+}
+
+impl DirectionalKernels for Interpreted {
+    fn linear_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        linear: &mut Linear,
+    ) {
+        let tape = &self.shared.tapes.linear;
+        run_along(tape, &[q, u, b], &direction, &mut linear_buffers(linear));
+    }
+
+    fn mode_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        direction: [&[f64]; 4],
+        dlambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        let [dq, du, db, dphi] = direction;
+        run_along(
+            &self.shared.tapes.mode_gradient,
+            &[q, u, b, phi, &[lambda]],
+            &[dq, du, db, dphi, &[dlambda]],
+            &mut gradient_buffers(gradient),
+        );
+    }
+
+    fn pencil_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        direction: [&[f64]; 3],
+        changes: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let [left, acceleration, velocity, position] = vectors;
+        let [dq, du, db] = direction;
+        let [dleft, dacceleration, dvelocity, dposition] = changes;
+        run_along(
+            &self.shared.tapes.pencil_gradient,
+            &[q, u, b, left, acceleration, velocity, position],
+            &[dq, du, db, dleft, dacceleration, dvelocity, dposition],
+            &mut gradient_buffers(gradient),
+        );
+    }
+
+    fn residual_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        direction: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        run_along(
+            &self.shared.tapes.residual_gradient,
+            &[q, u, b, w],
+            &direction,
+            &mut gradient_buffers(gradient),
+        );
+    }
+}
+
+impl MotionKernels for Interpreted {
+    fn motion_residual_into(
+        &self,
+        acceleration: &[f64],
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+    ) {
+        let tape = &self.shared.tapes.motion_residual;
+        run(tape, &[acceleration, velocity, q, u, b], &mut [residual]);
+    }
+
+    fn motion_into(
+        &self,
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        mass: &mut Matrix,
+        right: &mut [f64],
+    ) {
+        let tape = &self.shared.tapes.motion;
+        run(
+            tape,
+            &[velocity, q, u, b],
+            &mut [mass.as_flattened_mut(), right],
+        );
+    }
+
+    fn motion_linear_into(
+        &self,
+        acceleration: &[f64],
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        linear: &mut Linear,
+    ) {
+        let tapes = &self.shared.tapes;
+        let arguments = [acceleration, velocity, q, u, b];
+        if tapes.motion_linear.is_some() {
+            let mut buffers = linear_buffers(linear);
+            run(&tapes.motion_linear, &arguments, &mut buffers);
+            return;
+        }
+        // Column by column, as compiled code does for large mechanisms.
+        let n = q.len();
+        let mut right = vec![0.0; n];
+        self.motion_into(velocity, q, u, b, &mut linear.mass, &mut right);
+        let mut direction = arguments.map(|list| vec![0.0; list.len()]);
+        for (list, matrix) in [(1, &mut linear.damping), (2, &mut linear.stiffness)] {
+            for k in 0..n {
+                direction[list][k] = 1.0;
+                let along: Vec<&[f64]> = direction.iter().map(Vec::as_slice).collect();
+                run_along(
+                    &tapes.motion_residual,
+                    &arguments,
+                    &along,
+                    &mut [&mut right],
+                );
+                for (i, slope) in right.iter().enumerate() {
+                    matrix[i][k] = *slope;
+                }
+                direction[list][k] = 0.0;
+            }
+        }
+    }
+}
+
+impl BatchKernels for Interpreted {
+    fn residual_and_stiffness_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        residual: &mut [Batch],
+        stiffness: &mut Matrix<Batch>,
+    ) {
+        let mut to = [residual, stiffness.as_flattened_mut()];
+        let tape = &self.shared.tapes.residual_and_stiffness;
+        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
+    }
+
+    fn linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        linear: &mut Linear<Batch>,
+    ) {
+        let mut to = linear_buffers(linear);
+        let tape = &self.shared.tapes.linear;
+        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
+    }
+
+    fn parts_and_linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        parts: &mut RestParts<Batch>,
+        linear: &mut Linear<Batch>,
+    ) {
+        let mut to = parts_buffers(parts);
+        let tape = &self.shared.tapes.residual_parts;
+        run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
+        self.linear_batch(instructions, at, linear);
+    }
+
+    fn partials_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        matrices: &mut LinearPartials<Batch>,
+        residual: &mut ResidualPartials<Batch>,
+    ) {
+        let arguments = [at.q, at.u, at.b];
+        if let Some(tape) = &self.shared.tapes.linear_partials {
+            batch(tape, instructions, &arguments, |registers| {
+                copy_partials(registers, tape, matrices);
+            });
+        }
+        let mut to = partials_buffers(residual);
+        let tape = &self.shared.tapes.residual_partials;
+        run_batch(tape, instructions, &arguments, &mut to);
+    }
+
+    fn mode_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        phi: &[Batch],
+        lambda: &Batch,
+        gradient: &mut Gradient<Batch>,
+    ) {
+        let arguments = [at.q, at.u, at.b, phi, std::slice::from_ref(lambda)];
+        let tape = &self.shared.tapes.mode_gradient;
+        run_batch(
+            tape,
+            instructions,
+            &arguments,
+            &mut gradient_buffers(gradient),
+        );
+    }
+
+    fn residual_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        w: &[Batch],
+        gradient: &mut Gradient<Batch>,
+    ) {
+        let tape = &self.shared.tapes.residual_gradient;
+        run_batch(
+            tape,
+            instructions,
+            &[at.q, at.u, at.b, w],
+            &mut gradient_buffers(gradient),
+        );
+    }
+}

@@ -1,0 +1,12 @@
+#![doc = include_str!("../README.md")]
+
+mod description;
+mod kernels;
+mod mechanism;
+mod mistakes;
+mod registers;
+mod schedule;
+mod tape;
+
+pub use mechanism::Interpreted;
+pub use mistakes::{Mistake, Mistakes, ReadError};

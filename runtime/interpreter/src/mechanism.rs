@@ -1,0 +1,175 @@
+//! A mechanism that was read at run time.
+
+use std::fmt;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use eigentol::{Coordinate, Description, DesignVariable, Input, Output, Shared, Text};
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::Program;
+use eigentol_compiler::{Compilation, compile};
+use proc_macro2::TokenStream;
+
+use crate::description::description;
+use crate::mistakes::{Mistakes, ReadError};
+use crate::tape::Tape;
+
+/// A mechanism whose kernels are interpreted. A copy shares everything with the original.
+///
+/// It has the tables of kernels that [`Study`](eigentol::Study) and the functions behind it ask for. Handles come from names:
+/// [`input`](Self::input) and the like; they fit every interpreted mechanism, and a study refuses one whose place it does not
+/// have.
+#[derive(Clone)]
+pub struct Interpreted {
+    pub(crate) shared: Arc<Tables>,
+}
+
+pub(crate) struct Tables {
+    pub(crate) description: Shared<Description>,
+    pub(crate) tapes: Tapes,
+    /// Quantity and requirement of each value of the kernel of violations.
+    pub(crate) requirements: Vec<(Text, Text)>,
+    /// Joints of three turns, one for each value of the kernel of poses.
+    pub(crate) poses: Vec<Text>,
+}
+
+/// The kernels; `None` where the compiler wrote none.
+pub(crate) struct Tapes {
+    pub(crate) residual: Option<Tape>,
+    pub(crate) residual_parts: Option<Tape>,
+    pub(crate) motion_residual: Option<Tape>,
+    pub(crate) motion: Option<Tape>,
+    pub(crate) motion_linear: Option<Tape>,
+    pub(crate) residual_and_stiffness: Option<Tape>,
+    pub(crate) linear: Option<Tape>,
+    pub(crate) residual_partials: Option<Tape>,
+    pub(crate) linear_partials: Option<Tape>,
+    pub(crate) mode_gradient: Option<Tape>,
+    pub(crate) pencil_gradient: Option<Tape>,
+    pub(crate) residual_gradient: Option<Tape>,
+    pub(crate) whirl: Option<Tape>,
+    pub(crate) violation: Option<Tape>,
+    pub(crate) pose_margin: Option<Tape>,
+    pub(crate) outputs: Option<Tape>,
+    pub(crate) output_partials: Option<Tape>,
+}
+
+impl Tapes {
+    fn new(program: &Program) -> Self {
+        let tape = |name: &str| program.kernel(name).map(Tape::new);
+        Self {
+            residual: tape("residual"),
+            residual_parts: tape("residual_parts"),
+            motion_residual: tape("motion_residual"),
+            motion: tape("motion"),
+            motion_linear: tape("motion_linear"),
+            residual_and_stiffness: tape("residual_and_stiffness"),
+            linear: tape("linear"),
+            residual_partials: tape("residual_partials"),
+            linear_partials: tape("linear_partials"),
+            mode_gradient: tape("mode_gradient"),
+            pencil_gradient: tape("pencil_gradient"),
+            residual_gradient: tape("residual_gradient"),
+            whirl: tape("whirl"),
+            violation: tape("violation"),
+            pose_margin: tape("pose_margin"),
+            outputs: tape("outputs"),
+            output_partials: tape("output_partials"),
+        }
+    }
+}
+
+impl Interpreted {
+    /// The mechanism that a text declares: what stands between the braces of `mechanism! { .. }`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the declaration, with line and column.
+    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
+        let tokens: TokenStream = text.parse()?;
+        Ok(Self::new(&compile(tokens, Limits::default())?))
+    }
+
+    /// The mechanism that a file declares.
+    ///
+    /// # Errors
+    /// [`ReadError`]: the file cannot be read, or what it declares is no mechanism.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        let text = fs::read_to_string(path).map_err(|source| ReadError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::from_text(&text).map_err(|mistakes| ReadError::Mistakes {
+            path: path.to_owned(),
+            mistakes,
+        })
+    }
+
+    /// The mechanism behind a compiled declaration.
+    pub fn new(compilation: &Compilation) -> Self {
+        let functions = &compilation.functions;
+        let requirements = functions.requirements.iter().map(|requirement| {
+            let quantity = Text::from(requirement.quantity.clone());
+            (quantity, Text::Static(requirement.requirement))
+        });
+        let poses = functions.poses.iter();
+        let tables = Tables {
+            description: Shared::Counted(Arc::new(description(compilation))),
+            tapes: Tapes::new(&compilation.program),
+            requirements: requirements.collect(),
+            poses: poses.map(|pose| Text::from(pose.joint.clone())).collect(),
+        };
+        Self {
+            shared: Arc::new(tables),
+        }
+    }
+
+    /// Names, units, nominal values and what the compiler proved.
+    pub fn description(&self) -> &Description {
+        &self.shared.description
+    }
+
+    /// The input of a name.
+    pub fn input(&self, name: &str) -> Option<Input<Self>> {
+        let mut inputs = self.description().inputs.iter();
+        inputs.position(|info| info.name == *name).map(Input::new)
+    }
+
+    /// The design variable of a name.
+    pub fn design(&self, name: &str) -> Option<DesignVariable<Self>> {
+        let mut design = self.description().design.iter();
+        design
+            .position(|info| info.name == *name)
+            .map(DesignVariable::new)
+    }
+
+    /// The coordinate, speed or reaction of a name.
+    pub fn coordinate(&self, name: &str) -> Option<Coordinate<Self>> {
+        let mut coordinates = self.description().coordinates.iter();
+        coordinates
+            .position(|info| info.name == *name)
+            .map(Coordinate::new)
+    }
+
+    /// The output of a name.
+    pub fn output(&self, name: &str) -> Option<Output<Self>> {
+        let mut outputs = self.description().outputs.iter();
+        outputs.position(|info| info.name == *name).map(Output::new)
+    }
+}
+
+impl fmt::Debug for Interpreted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Interpreted")
+            .field("description", &self.shared.description)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PartialEq for Interpreted {
+    /// Whether they share everything.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+}

@@ -1,0 +1,108 @@
+//! The order of the operations: equal ones in runs, so that their kind is looked at once for many of them.
+
+use eigentol_compiler::algebra::{Operator, Unary};
+use eigentol_compiler::program::{Instruction, Kernel, Operand, Operation};
+
+/// What the operations of a run do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Code {
+    Unary(Unary),
+    Binary(Operator),
+    /// Sine and cosine of one angle.
+    SinCos,
+}
+
+/// Operations of one kind that do not need each other, by the numbers of their instructions; a second one for the cosine.
+pub(crate) struct Run {
+    pub(crate) code: Code,
+    pub(crate) members: Vec<(usize, Option<usize>)>,
+}
+
+/// Puts the instructions of a kernel into runs: always all operations of the kind of which most are ready.
+pub(crate) fn runs(kernel: &Kernel) -> Vec<Run> {
+    let instructions = &kernel.instructions;
+    let partners = partners(instructions);
+    let mut users: Vec<Vec<usize>> = vec![Vec::new(); instructions.len()];
+    let mut missing = vec![0_usize; instructions.len()];
+    for (index, instruction) in instructions.iter().enumerate() {
+        for operand in instruction.operation.operands() {
+            if let Operand::Instruction(needed) = operand {
+                users[needed].push(index);
+                missing[index] += 1;
+            }
+        }
+    }
+    let mut ready: Vec<(Code, Vec<usize>)> = Vec::new();
+    let make_ready = |ready: &mut Vec<(Code, Vec<usize>)>, index: usize| {
+        let Some(code) = code(instructions, &partners, index) else {
+            return;
+        };
+        match ready.iter_mut().find(|(other, _)| *other == code) {
+            Some((_, members)) => members.push(index),
+            None => ready.push((code, vec![index])),
+        }
+    };
+    for (index, missing) in missing.iter().enumerate() {
+        if *missing == 0 {
+            make_ready(&mut ready, index);
+        }
+    }
+    let mut runs = Vec::new();
+    while let Some(most) = (0..ready.len())
+        .max_by_key(|&k| (ready[k].1.len(), ready.len() - k))
+        .filter(|&k| !ready[k].1.is_empty())
+    {
+        let (code, members) = (ready[most].0, std::mem::take(&mut ready[most].1));
+        let members: Vec<_> = members
+            .into_iter()
+            .map(|index| (index, partners[index].filter(|_| code == Code::SinCos)))
+            .collect();
+        for &(first, second) in &members {
+            for done in std::iter::once(first).chain(second) {
+                for &user in &users[done] {
+                    missing[user] -= 1;
+                    if missing[user] == 0 {
+                        make_ready(&mut ready, user);
+                    }
+                }
+            }
+        }
+        runs.push(Run { code, members });
+    }
+    runs
+}
+
+/// The cosine that belongs to a sine, and the other way round.
+fn partners(instructions: &[Instruction]) -> Vec<Option<usize>> {
+    let mut partners = vec![None; instructions.len()];
+    let mut open: Vec<(Operand, bool, usize)> = Vec::new();
+    for (index, instruction) in instructions.iter().enumerate() {
+        let (angle, is_sine) = match instruction.operation {
+            Operation::Unary(Unary::Sin, angle) => (angle, true),
+            Operation::Unary(Unary::Cos, angle) => (angle, false),
+            _ => continue,
+        };
+        let other = open
+            .iter()
+            .position(|&(other, sine, _)| other == angle && sine != is_sine);
+        match other {
+            Some(place) => {
+                let (_, _, other) = open.swap_remove(place);
+                partners[index] = Some(other);
+                partners[other] = Some(index);
+            }
+            None => open.push((angle, is_sine, index)),
+        }
+    }
+    partners
+}
+
+/// The kind of an instruction; `None` for a cosine that its sine computes.
+fn code(instructions: &[Instruction], partners: &[Option<usize>], index: usize) -> Option<Code> {
+    match instructions[index].operation {
+        Operation::Unary(Unary::Sin, _) if partners[index].is_some() => Some(Code::SinCos),
+        Operation::Unary(Unary::Cos, _) if partners[index].is_some() => None,
+        Operation::Unary(operator, _) => Some(Code::Unary(operator)),
+        Operation::Binary(operator, ..) => Some(Code::Binary(operator)),
+    }
+}

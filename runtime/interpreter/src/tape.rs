@@ -1,0 +1,241 @@
+//! A kernel ready to be run: operations on numbered registers.
+
+use eigentol::Real;
+use eigentol_compiler::algebra::{Operator, Unary};
+use eigentol_compiler::program::{Kernel, Operand, Operation};
+
+use crate::registers::Registers;
+use crate::schedule::{Code, runs};
+
+/// Registers of an operation: where its result goes, and its operands. A sine has its cosine's register in place of a second
+/// operand.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    to: u32,
+    a: u32,
+    b: u32,
+}
+
+/// Steps of one kind.
+#[derive(Clone, Debug)]
+struct Run {
+    code: Code,
+    steps: Vec<Step>,
+}
+
+/// A kernel in the form in which it is run. Its registers hold the constants, the arguments and the values on the way, those
+/// that are not needed any more over again.
+#[derive(Clone, Debug)]
+pub(crate) struct Tape {
+    pub(crate) constants: Vec<f64>,
+    /// Entries of each argument.
+    pub(crate) arguments: Vec<usize>,
+    pub(crate) registers: usize,
+    runs: Vec<Run>,
+    /// Registers of the entries of each result.
+    pub(crate) results: Vec<Vec<u32>>,
+}
+
+impl Tape {
+    pub(crate) fn new(kernel: &Kernel) -> Self {
+        let mut allocation = Allocation::new(kernel);
+        let runs = runs(kernel);
+        let runs = runs
+            .iter()
+            .map(|run| Run {
+                code: run.code,
+                steps: run
+                    .members
+                    .iter()
+                    .map(|&(index, second)| allocation.step(kernel, index, second))
+                    .collect(),
+            })
+            .collect();
+        let results = kernel
+            .results
+            .iter()
+            .map(|array| {
+                let entries = array.values.iter();
+                entries.map(|&entry| allocation.register(entry)).collect()
+            })
+            .collect();
+        Self {
+            constants: allocation.constants,
+            arguments: kernel
+                .parameters
+                .iter()
+                .map(|parameter| parameter.entries.len())
+                .collect(),
+            registers: allocation.next as usize,
+            runs,
+            results,
+        }
+    }
+
+    /// Runs the operations; constants and arguments are in their places.
+    #[inline(always)]
+    pub(crate) fn run<R: Registers>(&self, registers: &mut R) {
+        for run in &self.runs {
+            let steps = run.steps.as_slice();
+            match run.code {
+                Code::Binary(Operator::Add) => binary(registers, steps, |a, b| a + b),
+                Code::Binary(Operator::Subtract) => binary(registers, steps, |a, b| a - b),
+                Code::Binary(Operator::Multiply) => binary(registers, steps, |a, b| a * b),
+                Code::Binary(Operator::Divide) => binary(registers, steps, |a, b| a / b),
+                Code::Binary(Operator::Power) => binary(registers, steps, Real::powf),
+                Code::Binary(Operator::Atan2) => binary(registers, steps, Real::atan2),
+                Code::SinCos => {
+                    for step in steps {
+                        let (sine, cosine) = registers.get(step.a).sin_cos();
+                        registers.set(step.to, sine);
+                        registers.set(step.b, cosine);
+                    }
+                }
+                Code::Unary(Unary::Negate) => unary(registers, steps, |a| -a),
+                Code::Unary(Unary::Sqrt) => unary(registers, steps, Real::sqrt),
+                Code::Unary(Unary::Sin) => unary(registers, steps, Real::sin),
+                Code::Unary(Unary::Cos) => unary(registers, steps, Real::cos),
+                Code::Unary(Unary::Tan) => unary(registers, steps, Real::tan),
+                Code::Unary(Unary::Asin) => unary(registers, steps, Real::asin),
+                Code::Unary(Unary::Acos) => unary(registers, steps, Real::acos),
+                Code::Unary(Unary::Exp) => unary(registers, steps, Real::exp),
+                Code::Unary(Unary::Ln) => unary(registers, steps, Real::ln),
+                Code::Unary(Unary::PowerInteger(exponent)) => unary(
+                    registers,
+                    steps,
+                    #[inline(always)]
+                    |a| a.powi(exponent),
+                ),
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn unary<R: Registers>(registers: &mut R, steps: &[Step], f: impl Fn(R::Number) -> R::Number) {
+    for step in steps {
+        let value = f(registers.get(step.a));
+        registers.set(step.to, value);
+    }
+}
+
+#[inline(always)]
+fn binary<R: Registers>(
+    registers: &mut R,
+    steps: &[Step],
+    f: impl Fn(R::Number, R::Number) -> R::Number,
+) {
+    for step in steps {
+        let value = f(registers.get(step.a), registers.get(step.b));
+        registers.set(step.to, value);
+    }
+}
+
+/// Which value is in which register.
+struct Allocation {
+    constants: Vec<f64>,
+    /// First register of each argument.
+    arguments: Vec<u32>,
+    /// Of each instruction that has been placed.
+    values: Vec<u32>,
+    /// How many operations and results still need an instruction's value.
+    uses: Vec<usize>,
+    free: Vec<u32>,
+    next: u32,
+}
+
+impl Allocation {
+    fn new(kernel: &Kernel) -> Self {
+        let mut uses = vec![0; kernel.instructions.len()];
+        let mut constants: Vec<f64> = Vec::new();
+        let operations = kernel.instructions.iter();
+        let operands = operations.flat_map(|instruction| instruction.operation.operands());
+        let results = kernel.results.iter().flat_map(|array| &array.values);
+        for operand in operands.chain(results.copied()) {
+            match operand {
+                Operand::Instruction(index) => uses[index] += 1,
+                Operand::Constant(value) if position(&constants, value).is_none() => {
+                    constants.push(value);
+                }
+                _ => {}
+            }
+        }
+        let mut next = constants.len() as u32;
+        let arguments = kernel
+            .parameters
+            .iter()
+            .map(|parameter| {
+                let first = next;
+                next += parameter.entries.len() as u32;
+                first
+            })
+            .collect();
+        Self {
+            constants,
+            arguments,
+            values: vec![0; kernel.instructions.len()],
+            uses,
+            free: Vec::new(),
+            next,
+        }
+    }
+
+    fn register(&self, operand: Operand) -> u32 {
+        match operand {
+            Operand::Constant(value) => position(&self.constants, value).unwrap_or_default() as u32,
+            Operand::Parameter(argument, entry) => self.arguments[argument] + entry as u32,
+            Operand::Instruction(index) => self.values[index],
+        }
+    }
+
+    /// Places an instruction, and the cosine that comes with it.
+    fn step(&mut self, kernel: &Kernel, index: usize, second: Option<usize>) -> Step {
+        let operation = &kernel.instructions[index].operation;
+        let (a, b) = match *operation {
+            Operation::Unary(_, a) => (a, None),
+            Operation::Binary(_, a, b) => (a, Some(b)),
+        };
+        let (from_a, from_b) = (self.register(a), b.map(|b| self.register(b)));
+        // The angle is read once for both.
+        let readers = std::iter::once(operation)
+            .chain(second.map(|cosine| &kernel.instructions[cosine].operation));
+        for operand in readers.flat_map(Operation::operands) {
+            self.release(operand);
+        }
+        let to = self.place(index);
+        let b = match second {
+            Some(cosine) => self.place(cosine),
+            None => from_b.unwrap_or(from_a),
+        };
+        Step { to, a: from_a, b }
+    }
+
+    fn release(&mut self, operand: Operand) {
+        if let Operand::Instruction(index) = operand {
+            self.uses[index] -= 1;
+            if self.uses[index] == 0 {
+                self.free.push(self.values[index]);
+            }
+        }
+    }
+
+    fn place(&mut self, index: usize) -> u32 {
+        let register = self.free.pop().unwrap_or_else(|| {
+            self.next += 1;
+            self.next - 1
+        });
+        self.values[index] = register;
+        if self.uses[index] == 0 {
+            // Nobody reads it.
+            self.free.push(register);
+        }
+        register
+    }
+}
+
+/// Place of a constant, told apart by its bits.
+fn position(constants: &[f64], value: f64) -> Option<usize> {
+    constants
+        .iter()
+        .position(|constant| constant.to_bits() == value.to_bits())
+}

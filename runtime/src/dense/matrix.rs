@@ -1,0 +1,210 @@
+//! Matrices whose size is known at run time.
+
+use core::fmt;
+use core::ops::{Index, IndexMut};
+use core::slice;
+
+use super::vector::{Vector, dot, greater, largest, unless_finite};
+use smallvec::{SmallVec, smallvec};
+
+use crate::Complex;
+
+/// Entries that stand in the matrix itself.
+const FEW: usize = 16;
+
+/// A matrix, `matrix[row][column]`, stored row by row.
+#[derive(Clone, Default, PartialEq)]
+pub struct Matrix<T = f64> {
+    rows: usize,
+    columns: usize,
+    entries: SmallVec<[T; FEW]>,
+}
+
+impl<T: Copy + Default> Matrix<T> {
+    /// All zeros.
+    #[inline]
+    pub fn zeros(rows: usize, columns: usize) -> Self {
+        Self {
+            rows,
+            columns,
+            entries: smallvec![T::default(); rows * columns],
+        }
+    }
+}
+
+impl<T: Copy> Matrix<T> {
+    /// `value(i, j)` in row `i` and column `j`.
+    #[inline]
+    pub fn from_fn(rows: usize, columns: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
+        let mut entries = SmallVec::with_capacity(rows * columns);
+        for i in 0..rows {
+            entries.extend((0..columns).map(|j| value(i, j)));
+        }
+        Self {
+            rows,
+            columns,
+            entries,
+        }
+    }
+
+    /// The matrix whose entries are `entries`, row by row; as many as fit.
+    pub fn from_rows(columns: usize, entries: Vec<T>) -> Self {
+        Self {
+            rows: entries.len().checked_div(columns).unwrap_or(0),
+            columns,
+            entries: SmallVec::from_vec(entries),
+        }
+    }
+
+    /// `f` of every entry.
+    pub fn map<R: Copy>(&self, f: impl FnMut(T) -> R) -> Matrix<R> {
+        Matrix {
+            rows: self.rows,
+            columns: self.columns,
+            entries: self.entries.iter().copied().map(f).collect(),
+        }
+    }
+
+    /// Rows as columns.
+    pub fn transpose(&self) -> Self {
+        Self::from_fn(self.columns, self.rows, |i, j| self[j][i])
+    }
+
+    /// Column `j`.
+    pub fn column(&self, j: usize) -> Vector<T> {
+        (0..self.rows).map(|i| self[i][j]).collect()
+    }
+}
+
+impl<T> Matrix<T> {
+    /// Number of rows.
+    #[inline]
+    pub fn row_count(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    #[inline]
+    pub fn column_count(&self) -> usize {
+        self.columns
+    }
+
+    /// The rows.
+    #[inline]
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[T]> + DoubleEndedIterator {
+        (0..self.rows).map(|i| &self[i])
+    }
+
+    /// The entries, row by row.
+    #[inline]
+    pub fn as_flattened(&self) -> &[T] {
+        &self.entries
+    }
+
+    /// The entries, row by row.
+    #[inline]
+    pub fn as_flattened_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+
+    /// The rows, to be written to; of a matrix with columns.
+    #[inline]
+    pub fn iter_mut(&mut self) -> slice::ChunksExactMut<'_, T> {
+        self.entries.chunks_exact_mut(self.columns.max(1))
+    }
+
+    /// Exchanges two rows.
+    #[inline]
+    pub(crate) fn swap(&mut self, i: usize, k: usize) {
+        for j in 0..self.columns {
+            self.entries
+                .swap(i * self.columns + j, k * self.columns + j);
+        }
+    }
+}
+
+impl<T> Index<usize> for Matrix<T> {
+    type Output = [T];
+
+    #[inline]
+    fn index(&self, i: usize) -> &[T] {
+        &self.entries[i * self.columns..(i + 1) * self.columns]
+    }
+}
+
+impl<T> IndexMut<usize> for Matrix<T> {
+    #[inline]
+    fn index_mut(&mut self, i: usize) -> &mut [T] {
+        &mut self.entries[i * self.columns..(i + 1) * self.columns]
+    }
+}
+
+impl<T: Copy, const R: usize, const C: usize> From<[[T; C]; R]> for Matrix<T> {
+    fn from(rows: [[T; C]; R]) -> Self {
+        Self {
+            rows: R,
+            columns: C,
+            entries: SmallVec::from_slice(rows.as_flattened()),
+        }
+    }
+}
+
+impl<T: PartialEq, const R: usize, const C: usize> PartialEq<[[T; C]; R]> for Matrix<T> {
+    fn eq(&self, other: &[[T; C]; R]) -> bool {
+        (self.rows, self.columns) == (R, C) && *self.entries == *other.as_flattened()
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for Matrix<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+/// `matrix x`.
+#[inline]
+pub(crate) fn times(matrix: &Matrix, x: &[f64]) -> Vector {
+    matrix.iter().map(|row| dot(row, x)).collect()
+}
+
+/// `matrix x` for a complex vector.
+pub(crate) fn times_complex(matrix: &Matrix, x: &[Complex]) -> Vector<Complex> {
+    let row = |row: &[f64]| {
+        row.iter()
+            .zip(x)
+            .fold(Complex::default(), |sum, (a, b)| sum + b * a)
+    };
+    matrix.iter().map(row).collect()
+}
+
+/// Bilinear form `x^T matrix y`.
+#[inline]
+pub(crate) fn form(x: &[f64], matrix: &Matrix, y: &[f64]) -> f64 {
+    x.iter()
+        .zip(matrix.iter())
+        .fold(-0.0, |sum, (x, row)| sum + x * dot(row, y))
+}
+
+/// Greatest absolute element.
+pub(crate) fn largest_element(matrix: &Matrix) -> f64 {
+    largest(matrix.as_flattened())
+}
+
+/// Whether no element is NaN or infinite.
+#[inline]
+pub(crate) fn all_finite_matrix(matrix: &Matrix) -> bool {
+    let values = matrix.as_flattened().iter();
+    values.fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
+}
+
+/// Greatest difference of mirrored elements, relative to the greatest element.
+pub(crate) fn asymmetry(matrix: &Matrix) -> f64 {
+    let size = largest_element(matrix);
+    let mut most = 0.0;
+    for i in 0..matrix.row_count() {
+        for j in 0..i {
+            most = greater(most, (matrix[i][j] - matrix[j][i]).abs());
+        }
+    }
+    if size > 0.0 { most / size } else { 0.0 }
+}

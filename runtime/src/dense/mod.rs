@@ -1,0 +1,24 @@
+//! Linear algebra on matrices whose size is known at run time: products, one factorisation of each kind.
+//!
+//! Sums are formed in the order of the indices, so that results are the same bits on every machine.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+mod cholesky;
+mod lu;
+mod matrix;
+mod vector;
+
+pub use matrix::Matrix;
+pub use vector::Vector;
+
+pub(crate) use cholesky::Cholesky;
+pub(crate) use lu::Lu;
+pub(crate) use matrix::{
+    all_finite_matrix, asymmetry, form, largest_element, times, times_complex,
+};
+pub(crate) use vector::{
+    Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
+};

@@ -1,0 +1,247 @@
+//! Lists of numbers whose length is known at run time; short ones do not need the heap.
+
+use core::ops::{Deref, DerefMut, Index, IndexMut};
+use core::slice::SliceIndex;
+use core::{fmt, slice};
+
+use smallvec::{SmallVec, smallvec};
+
+use crate::Complex;
+
+/// Entries that stand in the vector itself.
+const FEW: usize = 8;
+
+/// A list of numbers; reads as a slice.
+#[derive(Clone, Default)]
+pub struct Vector<T = f64> {
+    entries: SmallVec<[T; FEW]>,
+}
+
+impl<T: Copy + Default> Vector<T> {
+    /// `n` zeros.
+    #[inline]
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            entries: smallvec![T::default(); n],
+        }
+    }
+}
+
+impl<T> Vector<T> {
+    /// `value(k)` in place `k`.
+    #[inline]
+    pub fn from_fn(n: usize, value: impl FnMut(usize) -> T) -> Self {
+        (0..n).map(value).collect()
+    }
+}
+
+impl<T: Copy> Vector<T> {
+    /// `f` of every entry.
+    #[inline]
+    pub fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
+        self.entries.iter().copied().map(f).collect()
+    }
+
+    /// `n` times `value`.
+    #[inline]
+    pub fn filled(n: usize, value: T) -> Self {
+        Self {
+            entries: smallvec![value; n],
+        }
+    }
+}
+
+impl<T> Vector<T> {
+    /// Writes other values over these, in the same room.
+    #[inline]
+    pub(crate) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
+        self.entries.clear();
+        self.entries.extend(values);
+    }
+}
+
+impl<T> Deref for Vector<T> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        &self.entries
+    }
+}
+
+impl<T> DerefMut for Vector<T> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.entries
+    }
+}
+
+impl<T, I: SliceIndex<[T]>> Index<I> for Vector<T> {
+    type Output = I::Output;
+
+    #[inline]
+    fn index(&self, index: I) -> &I::Output {
+        &self.entries[index]
+    }
+}
+
+impl<T, I: SliceIndex<[T]>> IndexMut<I> for Vector<T> {
+    #[inline]
+    fn index_mut(&mut self, index: I) -> &mut I::Output {
+        &mut self.entries[index]
+    }
+}
+
+impl<T> FromIterator<T> for Vector<T> {
+    #[inline]
+    fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
+        Self {
+            entries: values.into_iter().collect(),
+        }
+    }
+}
+
+impl<T: Copy> From<&[T]> for Vector<T> {
+    #[inline]
+    fn from(values: &[T]) -> Self {
+        Self {
+            entries: SmallVec::from_slice(values),
+        }
+    }
+}
+
+impl<T: Copy, const N: usize> From<[T; N]> for Vector<T> {
+    #[inline]
+    fn from(values: [T; N]) -> Self {
+        Self::from(&values[..])
+    }
+}
+
+impl<T> From<Vec<T>> for Vector<T> {
+    #[inline]
+    fn from(entries: Vec<T>) -> Self {
+        Self {
+            entries: SmallVec::from_vec(entries),
+        }
+    }
+}
+
+impl<T> From<Vector<T>> for Vec<T> {
+    #[inline]
+    fn from(vector: Vector<T>) -> Self {
+        vector.entries.into_vec()
+    }
+}
+
+impl<T> IntoIterator for Vector<T> {
+    type Item = T;
+    type IntoIter = smallvec::IntoIter<[T; FEW]>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.entries.into_iter()
+    }
+}
+
+impl<'a, T> IntoIterator for &'a Vector<T> {
+    type Item = &'a T;
+    type IntoIter = slice::Iter<'a, T>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.entries.iter()
+    }
+}
+
+impl<'a, T> IntoIterator for &'a mut Vector<T> {
+    type Item = &'a mut T;
+    type IntoIter = slice::IterMut<'a, T>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.entries.iter_mut()
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for Vector<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.entries.fmt(f)
+    }
+}
+
+impl<T: PartialEq, R: AsRef<[T]> + ?Sized> PartialEq<R> for Vector<T> {
+    fn eq(&self, other: &R) -> bool {
+        *self.entries == *other.as_ref()
+    }
+}
+
+impl<T> AsRef<[T]> for Vector<T> {
+    fn as_ref(&self) -> &[T] {
+        &self.entries
+    }
+}
+
+/// What slices of numbers can do here.
+pub(crate) trait Values<T> {
+    /// `f` of every entry.
+    fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R>;
+}
+
+impl<T: Copy> Values<T> for [T] {
+    #[inline]
+    fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
+        self.iter().copied().map(f).collect()
+    }
+}
+
+/// `x^T y`.
+#[inline]
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    // The neutral element of addition: the first sum costs nothing.
+    x.iter().zip(y).fold(-0.0, |sum, (x, y)| sum + x * y)
+}
+
+/// `x^T y`, without conjugation.
+pub(crate) fn dot_complex(x: &[Complex], y: &[Complex]) -> Complex {
+    x.iter()
+        .zip(y)
+        .fold(Complex::default(), |sum, (x, y)| sum + x * y)
+}
+
+/// `a + factor * b`.
+#[inline]
+pub(crate) fn add_scaled(a: &[f64], factor: f64, b: &[f64]) -> Vector {
+    a.iter().zip(b).map(|(a, b)| a + factor * b).collect()
+}
+
+/// Adds `factor * b` to `a`.
+#[inline]
+pub(crate) fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += factor * b;
+    }
+}
+
+/// Greatest absolute value.
+#[inline]
+pub(crate) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most, value| greater(most, value.abs()))
+}
+
+/// The greater of two numbers, the first one where the second is NaN; one instruction, unlike [`f64::max`].
+#[inline]
+pub(crate) fn greater(most: f64, value: f64) -> f64 {
+    if value > most { value } else { most }
+}
+
+/// Whether no value is NaN or infinite, without a branch for each.
+#[inline]
+pub(crate) fn all_finite(x: &[f64]) -> bool {
+    x.iter().fold(0.0, |sum, value| sum + unless_finite(*value)) == 0.0
+}
+
+/// NaN unless a value is finite: then zero.
+#[inline]
+pub(crate) fn unless_finite(value: f64) -> f64 {
+    0.0 * value
+}

@@ -1,0 +1,415 @@
+//! The kernels at several states at once, in the vector instructions of the processor.
+//!
+//! A [`Batch`] holds one number of each of [`WIDTH`] states, so that a list of `N` batches is `WIDTH` sets of unknowns. Every
+//! number that comes out is, bit for bit, what the kernel gives for that state alone, whatever the processor: the operations
+//! are the same, one rounding each, and none are fused.
+
+use super::{DirectionalKernels, Gradient, Linear, LinearPartials, ResidualPartials, RestParts};
+use crate::dense::Matrix;
+use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
+use crate::mechanism::{self, Array, Mechanism, Square};
+use crate::{DampingKind, Description, Shared};
+
+/// Unknowns, inputs and design variables of a batch of states.
+#[derive(Clone, Copy, Debug)]
+pub struct BatchPoint<'a> {
+    /// Unknowns.
+    pub q: &'a [Batch],
+    /// Inputs.
+    pub u: &'a [Batch],
+    /// Design variables.
+    pub b: &'a [Batch],
+}
+
+/// The kernels that sweeps and Monte Carlo need, at every state of a batch.
+pub trait BatchKernels: DirectionalKernels {
+    /// [`Kernels::residual_and_stiffness_into`](super::Kernels::residual_and_stiffness_into).
+    fn residual_and_stiffness_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        residual: &mut [Batch],
+        stiffness: &mut Matrix<Batch>,
+    );
+
+    /// [`Kernels::linear_into`](super::Kernels::linear_into).
+    fn linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        linear: &mut Linear<Batch>,
+    );
+
+    /// [`Kernels::parts_and_linear_into`](super::Kernels::parts_and_linear_into).
+    fn parts_and_linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        parts: &mut RestParts<Batch>,
+        linear: &mut Linear<Batch>,
+    );
+
+    /// [`Kernels::partials_into`](super::Kernels::partials_into).
+    fn partials_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        matrices: &mut LinearPartials<Batch>,
+        residual: &mut ResidualPartials<Batch>,
+    );
+
+    /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), each state with a mode of its own.
+    fn mode_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        phi: &[Batch],
+        lambda: &Batch,
+        gradient: &mut Gradient<Batch>,
+    );
+
+    /// [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
+    fn residual_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        w: &[Batch],
+        gradient: &mut Gradient<Batch>,
+    );
+}
+
+#[inline(always)]
+fn load<V: Lanes, A: Array<V>>(from: &[Batch], at: usize) -> A {
+    // Loops, here and below: an adaptor of an iterator that is not inlined leaves the instructions behind.
+    let mut vectors = A::filled(V::constant(0.0));
+    for (vector, from) in vectors.as_mut().iter_mut().zip(from) {
+        *vector = V::load(from, at);
+    }
+    vectors
+}
+
+#[inline(always)]
+fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
+    for (from, to) in from.iter().zip(to) {
+        from.store(to, at);
+    }
+}
+
+#[inline(always)]
+fn store_matrix<V: Lanes, R: Array<V>>(from: &[R], to: &mut Matrix<Batch>, at: usize) {
+    for (from, to) in from.iter().zip(to.iter_mut()) {
+        store(from.as_ref(), to, at);
+    }
+}
+
+/// A damping matrix that is always zero is not read, so that the kernel need not write it.
+#[inline(always)]
+fn store_linear<V: Lanes, M: Mechanism>(
+    from: &mechanism::Linear<Square<M, V>>,
+    to: &mut Linear<Batch>,
+    at: usize,
+) {
+    store_matrix(from.mass.as_ref(), &mut to.mass, at);
+    store_matrix(from.stiffness.as_ref(), &mut to.stiffness, at);
+    if const { damped(const { &M::DESCRIPTION }) } {
+        store_matrix(from.damping.as_ref(), &mut to.damping, at);
+    }
+}
+
+#[inline(always)]
+fn store_linears<V: Lanes, M: Mechanism>(
+    from: &[mechanism::Linear<Square<M, V>>],
+    to: &mut [Linear<Batch>],
+    at: usize,
+) {
+    for (from, to) in from.iter().zip(to) {
+        store_linear::<V, M>(from, to, at);
+    }
+}
+
+/// A kernel of a compiled mechanism as a task for some instructions.
+struct Call<'a, M, F> {
+    mechanism: &'a M,
+    at: BatchPoint<'a>,
+    kernel: F,
+}
+
+/// Unknowns, inputs and design variables in vectors.
+type Point<'a, M, V> = (
+    &'a <M as Mechanism>::Coordinates<V>,
+    &'a <M as Mechanism>::Inputs<V>,
+    &'a <M as Mechanism>::Design<V>,
+);
+
+/// What a [`Call`] does with the states from `at` on.
+trait Kernel<M: Mechanism> {
+    fn run<V: Lanes>(&mut self, mechanism: &M, point: Point<'_, M, V>, at: usize);
+}
+
+impl<M: Mechanism, F: Kernel<M>> Task for Call<'_, M, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(mut self) {
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            let q: M::Coordinates<V> = load(self.at.q, at);
+            let u: M::Inputs<V> = load(self.at.u, at);
+            let b: M::Design<V> = load(self.at.b, at);
+            self.kernel.run::<V>(self.mechanism, (&q, &u, &b), at);
+        }
+    }
+}
+
+/// A kernel and its buffers.
+macro_rules! kernel {
+    ($task:ident { $($field:ident: $kind:ty),* }, $m:ident, ($q:ident, $u:ident, $b:ident), $at:ident, $v:ident => $body:block) => {
+        struct $task<'a> {
+            $($field: $kind,)*
+        }
+
+        impl<M: Mechanism> Kernel<M> for $task<'_> {
+            #[inline(always)]
+            fn run<$v: Lanes>(
+                &mut self,
+                $m: &M,
+                ($q, $u, $b): Point<'_, M, $v>,
+                $at: usize,
+            ) {
+                let Self { $($field),* } = self;
+                $body
+            }
+        }
+    };
+}
+
+/// A kernel in the form that is inlined, which vectors need, or as it is compiled for other callers.
+macro_rules! call {
+    ($m:ident.$kernel:ident or $inlined:ident $arguments:tt) => {
+        if const { pays::<M>() } {
+            $m.$inlined $arguments
+        } else {
+            $m.$kernel $arguments
+        }
+    };
+}
+
+kernel! {
+    ResidualAndStiffness { residual: &'a mut [Batch], stiffness: &'a mut Matrix<Batch> },
+    m, (q, u, b), at, V => {
+        let found = call!(m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
+        store(found.0.as_ref(), residual, at);
+        store_matrix(found.1.as_ref(), stiffness, at);
+    }
+}
+kernel! {
+    LinearTask { linear: &'a mut Linear<Batch> },
+    m, (q, u, b), at, V => {
+        store_linear::<V, M>(&call!(m.linear or linear_inlined(q, u, b)), linear, at);
+    }
+}
+kernel! {
+    PartsAndLinear { parts: &'a mut RestParts<Batch>, linear: &'a mut Linear<Batch> },
+    m, (q, u, b), at, V => {
+        let found = call!(m.residual_parts or residual_parts_inlined(q, u, b));
+        store(found.inertia.as_ref(), &mut parts.inertia, at);
+        store(found.applied.as_ref(), &mut parts.applied, at);
+        store_linear::<V, M>(&call!(m.linear or linear_inlined(q, u, b)), linear, at);
+    }
+}
+kernel! {
+    Partials { matrices: &'a mut LinearPartials<Batch>, residual: &'a mut ResidualPartials<Batch> },
+    m, (q, u, b), at, V => {
+        let found = call!(m.linear_partials or linear_partials_inlined(q, u, b));
+        store_linears::<V, M>(found.by_coordinate.as_ref(), &mut matrices.by_coordinate, at);
+        store_linears::<V, M>(found.by_input.as_ref(), &mut matrices.by_input, at);
+        store_linears::<V, M>(found.by_design.as_ref(), &mut matrices.by_design, at);
+        let found = call!(m.residual_partials or residual_partials_inlined(q, u, b));
+        store_matrix(found.0.as_ref(), &mut residual.0, at);
+        store_matrix(found.1.as_ref(), &mut residual.1, at);
+    }
+}
+kernel! {
+    ModeGradient { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut Gradient<Batch> },
+    m, (q, u, b), at, V => {
+        let found = call!(m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
+        store(found.coordinates.as_ref(), &mut gradient.coordinates, at);
+        store(found.inputs.as_ref(), &mut gradient.inputs, at);
+        store(found.design.as_ref(), &mut gradient.design, at);
+    }
+}
+kernel! {
+    ResidualGradient { w: &'a [Batch], gradient: &'a mut Gradient<Batch> },
+    m, (q, u, b), at, V => {
+        let found = call!(m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
+        store(found.coordinates.as_ref(), &mut gradient.coordinates, at);
+        store(found.inputs.as_ref(), &mut gradient.inputs, at);
+        store(found.design.as_ref(), &mut gradient.design, at);
+    }
+}
+
+/// Whether vectors pay: of larger mechanisms rustc takes minutes for each kind of vectors, and of others than these solvers take one
+/// state at a time.
+const fn pays<M: Mechanism>() -> bool {
+    let description = const { &M::DESCRIPTION };
+    let conservative = !damped(description) && description.symmetric_stiffness;
+    M::Coordinates::<f64>::LEN <= 16 && conservative
+}
+
+/// Runs a kernel; one for which vectors do not pay, or that the compiler did not generate, and so not in the form that is inlined, is
+/// called state by state.
+#[inline]
+fn run<M: Mechanism>(
+    mechanism: &M,
+    instructions: Instructions,
+    at: BatchPoint<'_>,
+    generated: bool,
+    kernel: impl Kernel<M>,
+) {
+    let call = Call {
+        mechanism,
+        at,
+        kernel,
+    };
+    if const { pays::<M>() } && generated {
+        instructions.run(call);
+    } else {
+        call.run::<f64>();
+    }
+}
+
+impl<M: Mechanism> BatchKernels for M {
+    fn residual_and_stiffness_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        residual: &mut [Batch],
+        stiffness: &mut Matrix<Batch>,
+    ) {
+        let kernel = ResidualAndStiffness {
+            residual,
+            stiffness,
+        };
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "residual_and_stiffness") },
+            kernel,
+        );
+    }
+
+    fn linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        linear: &mut Linear<Batch>,
+    ) {
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "linear") },
+            LinearTask { linear },
+        );
+    }
+
+    fn parts_and_linear_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        parts: &mut RestParts<Batch>,
+        linear: &mut Linear<Batch>,
+    ) {
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "linear") },
+            PartsAndLinear { parts, linear },
+        );
+    }
+
+    fn partials_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        matrices: &mut LinearPartials<Batch>,
+        residual: &mut ResidualPartials<Batch>,
+    ) {
+        let kernel = Partials { matrices, residual };
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "linear_partials") },
+            kernel,
+        );
+    }
+
+    fn mode_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        phi: &[Batch],
+        lambda: &Batch,
+        gradient: &mut Gradient<Batch>,
+    ) {
+        let kernel = ModeGradient {
+            phi,
+            lambda,
+            gradient,
+        };
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "mode_gradient") },
+            kernel,
+        );
+    }
+
+    fn residual_gradient_batch(
+        &self,
+        instructions: Instructions,
+        at: BatchPoint<'_>,
+        w: &[Batch],
+        gradient: &mut Gradient<Batch>,
+    ) {
+        run(
+            self,
+            instructions,
+            at,
+            const { generated(const { &M::DESCRIPTION }, "residual_gradient") },
+            ResidualGradient { w, gradient },
+        );
+    }
+}
+
+const fn damped(description: &Description) -> bool {
+    !matches!(description.damping, DampingKind::Zero)
+}
+
+/// Whether the compiler generated this kernel.
+const fn generated(description: &Description, kernel: &str) -> bool {
+    let Shared::Static(kernels) = &description.kernels else {
+        return false;
+    };
+    let mut k = 0;
+    while k < kernels.len() {
+        if let Shared::Static(name) = &kernels[k].name
+            && same(name.as_bytes(), kernel.as_bytes())
+        {
+            return true;
+        }
+        k += 1;
+    }
+    false
+}
+
+const fn same(a: &[u8], b: &[u8]) -> bool {
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}

@@ -1,0 +1,412 @@
+//! The table of a compiled mechanism.
+
+use super::interval::Interval;
+use super::{
+    DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, ResidualPartials,
+    RestParts, Sizes,
+};
+use crate::dense::{Matrix, Vector};
+use crate::mechanism::{
+    Array, Description, GradientOf, Mechanism, PartialsOf, PoseMargin, Shared, Square, Violation,
+};
+use crate::{Real, mechanism};
+
+/// Unknowns up to which two kernels in one function pay: code for more is long.
+const FEW_COORDINATES: usize = 4;
+
+/// Partial derivatives of the matrices of at most this size, bytes, are passed by value; larger ones would fill the stack.
+const ON_STACK: usize = 1 << 16;
+
+fn copy_matrix<A: Array<R>, R: Array<f64>>(from: &A, to: &mut Matrix) {
+    let rows = to.as_flattened_mut().chunks_exact_mut(R::LEN.max(1));
+    for (to, from) in rows.zip(from.as_ref()) {
+        to.copy_from_slice(from.as_ref());
+    }
+}
+
+#[inline]
+fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut Linear) {
+    copy_matrix(&from.mass, &mut to.mass);
+    copy_matrix(&from.damping, &mut to.damping);
+    copy_matrix(&from.stiffness, &mut to.stiffness);
+}
+
+fn copy_linears<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [Linear]) {
+    for (from, to) in from.iter().zip(to) {
+        copy_linear::<M>(from, to);
+    }
+}
+
+fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut LinearPartials) {
+    copy_linears::<M>(from.by_coordinate.as_ref(), &mut to.by_coordinate);
+    copy_linears::<M>(from.by_input.as_ref(), &mut to.by_input);
+    copy_linears::<M>(from.by_design.as_ref(), &mut to.by_design);
+}
+
+fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
+    to.coordinates.copy_from_slice(from.coordinates.as_ref());
+    to.inputs.copy_from_slice(from.inputs.as_ref());
+    to.design.copy_from_slice(from.design.as_ref());
+}
+
+fn copy_vector(from: &impl AsRef<[f64]>, to: &mut Vector) {
+    to.copy_from_slice(from.as_ref());
+}
+
+/// Unknowns, inputs and design variables as the mechanism takes them.
+#[allow(clippy::type_complexity)]
+#[inline(always)]
+fn point<'a, M: Mechanism>(
+    q: &'a [f64],
+    u: &'a [f64],
+    b: &'a [f64],
+) -> (
+    &'a M::Coordinates<f64>,
+    &'a M::Inputs<f64>,
+    &'a M::Design<f64>,
+) {
+    (Array::view(q), Array::view(u), Array::view(b))
+}
+
+fn partials_by_direction(
+    mechanism: &impl DirectionalKernels,
+    q: &[f64],
+    u: &[f64],
+    b: &[f64],
+    partials: &mut LinearPartials,
+) {
+    let LinearPartials {
+        by_coordinate,
+        by_input,
+        by_design,
+    } = partials;
+    let lists = [by_coordinate, by_input, by_design];
+    for (kind, list) in lists.into_iter().enumerate() {
+        for (k, change) in list.iter_mut().enumerate() {
+            let mut direction = [q, u, b].map(|values| Vector::zeros(values.len()));
+            direction[kind][k] = 1.0;
+            let direction = direction.each_ref().map(|values| &**values);
+            mechanism.linear_along_into(q, u, b, direction, change);
+        }
+    }
+}
+
+impl<M: Mechanism> Kernels for M {
+    fn description(&self) -> Shared<Description> {
+        Shared::Static(const { &M::DESCRIPTION })
+    }
+
+    fn sizes(&self) -> Sizes {
+        Sizes {
+            coordinates: M::Coordinates::<f64>::LEN,
+            inputs: M::Inputs::<f64>::LEN,
+            design: M::Design::<f64>::LEN,
+            outputs: M::Outputs::<f64>::LEN,
+        }
+    }
+
+    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
+        let (q, u, b) = point::<M>(q, u, b);
+        residual.copy_from_slice(Mechanism::residual(self, q, u, b).as_ref());
+    }
+
+    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::residual_parts(self, q, u, b);
+        copy_vector(&found.inertia, &mut parts.inertia);
+        copy_vector(&found.applied, &mut parts.applied);
+    }
+
+    fn residual_and_stiffness_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+        stiffness: &mut Matrix,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::residual_and_stiffness(self, q, u, b);
+        residual.copy_from_slice(found.0.as_ref());
+        copy_matrix(&found.1, stiffness);
+    }
+
+    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
+        let (q, u, b) = point::<M>(q, u, b);
+        copy_linear::<M>(&Mechanism::linear(self, q, u, b), linear);
+    }
+
+    fn parts_and_linear_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        parts: &mut RestParts,
+        linear: &mut Linear,
+    ) {
+        if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
+            self.residual_parts_into(q, u, b, parts);
+            self.linear_into(q, u, b, linear);
+            return;
+        }
+        let (q, u, b) = point::<M>(q, u, b);
+        let (rest, matrices) = <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                let parts = self.residual_parts_inlined(q, u, b);
+                (parts, self.linear_inlined(q, u, b))
+            },
+        );
+        copy_vector(&rest.inertia, &mut parts.inertia);
+        copy_vector(&rest.applied, &mut parts.applied);
+        copy_linear::<M>(&matrices, linear);
+    }
+
+    fn residual_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut ResidualPartials,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::residual_partials(self, q, u, b);
+        copy_matrix(&found.0, &mut partials.0);
+        copy_matrix(&found.1, &mut partials.1);
+    }
+
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+        if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
+            partials_by_direction(self, q, u, b, partials);
+            return;
+        }
+        let (q, u, b) = point::<M>(q, u, b);
+        copy_partials::<M>(&Mechanism::linear_partials(self, q, u, b), partials);
+    }
+
+    fn partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        matrices: &mut LinearPartials,
+        residual: &mut ResidualPartials,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::partials(self, q, u, b);
+        copy_partials::<M>(&found.0, matrices);
+        copy_matrix(&found.1.0, &mut residual.0);
+        copy_matrix(&found.1.1, &mut residual.1);
+    }
+
+    fn mode_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::mode_gradient(self, q, u, b, Array::view(phi), lambda);
+        copy_gradient::<M>(&found, gradient);
+    }
+
+    fn pencil_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [left, acceleration, velocity, position] = vectors.map(Array::view);
+        let found =
+            Mechanism::pencil_gradient(self, q, u, b, left, acceleration, velocity, position);
+        copy_gradient::<M>(&found, gradient);
+    }
+
+    fn residual_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::residual_gradient(self, q, u, b, Array::view(w));
+        copy_gradient::<M>(&found, gradient);
+    }
+
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2] {
+        let (q, u, b) = point::<M>(q, u, b);
+        Mechanism::whirl(self, q, u, b, Array::view(real), Array::view(imaginary))
+    }
+
+    fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>> {
+        Mechanism::violation(self, Array::view(u), Array::view(b))
+    }
+
+    fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool {
+        let inputs = Array::from_fn(|i| Interval::constant(u[i]));
+        let design = Array::from_fn(|i| Interval::about(b[i], reach[i]));
+        Mechanism::violation(self, &inputs, &design).is_none()
+    }
+
+    fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>> {
+        let (q, u, b) = point::<M>(q, u, b);
+        Mechanism::pose_margin(self, q, u, b)
+    }
+
+    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]) {
+        let (q, u, b) = point::<M>(q, u, b);
+        outputs.copy_from_slice(Mechanism::outputs(self, q, u, b).as_ref());
+    }
+
+    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [by_coordinate, by_input, by_design] = partials;
+        let found = Mechanism::output_partials(self, q, u, b);
+        copy_matrix(&found.0, by_coordinate);
+        copy_matrix(&found.1, by_input);
+        copy_matrix(&found.2, by_design);
+    }
+}
+
+impl<M: Mechanism> DirectionalKernels for M {
+    fn linear_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        direction: [&[f64]; 3],
+        linear: &mut Linear,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        copy_linear::<M>(&Mechanism::linear_along(self, q, u, b, dq, du, db), linear);
+    }
+
+    fn mode_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        direction: [&[f64]; 4],
+        dlambda: f64,
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db, dphi] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        let (phi, dphi) = (Array::view(phi), Array::view(dphi));
+        let found =
+            Mechanism::mode_gradient_along(self, q, u, b, phi, lambda, dq, du, db, dphi, dlambda);
+        copy_gradient::<M>(&found, gradient);
+    }
+
+    fn pencil_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        direction: [&[f64]; 3],
+        changes: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        let [left, acceleration, velocity, position] = vectors.map(Array::view);
+        let [dleft, dacceleration, dvelocity, dposition] = changes.map(Array::view);
+        let found = Mechanism::pencil_gradient_along(
+            self,
+            q,
+            u,
+            b,
+            left,
+            acceleration,
+            velocity,
+            position,
+            dq,
+            du,
+            db,
+            dleft,
+            dacceleration,
+            dvelocity,
+            dposition,
+        );
+        copy_gradient::<M>(&found, gradient);
+    }
+
+    fn residual_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        direction: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db, dw] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        let (w, dw) = (Array::view(w), Array::view(dw));
+        let found = Mechanism::residual_gradient_along(self, q, u, b, w, dq, du, db, dw);
+        copy_gradient::<M>(&found, gradient);
+    }
+}
+
+impl<M: Mechanism> MotionKernels for M {
+    fn motion_residual_into(
+        &self,
+        acceleration: &[f64],
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let (acceleration, velocity) = (Array::view(acceleration), Array::view(velocity));
+        let found = Mechanism::motion_residual(self, acceleration, velocity, q, u, b);
+        residual.copy_from_slice(found.as_ref());
+    }
+
+    fn motion_into(
+        &self,
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        mass: &mut Matrix,
+        right: &mut [f64],
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let found = Mechanism::motion(self, Array::view(velocity), q, u, b);
+        copy_matrix(&found.0, mass);
+        right.copy_from_slice(found.1.as_ref());
+    }
+
+    fn motion_linear_into(
+        &self,
+        acceleration: &[f64],
+        velocity: &[f64],
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        linear: &mut Linear,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let (acceleration, velocity) = (Array::view(acceleration), Array::view(velocity));
+        let found = Mechanism::motion_linear(self, acceleration, velocity, q, u, b);
+        copy_linear::<M>(&found, linear);
+    }
+}

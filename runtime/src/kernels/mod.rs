@@ -1,0 +1,330 @@
+//! The kernels of a mechanism as a table over slices: what the solvers see of it. A compiled mechanism has it by its
+//! contract, one that was read at run time by interpretation.
+//!
+//! Arguments are those of [`Mechanism`](crate::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables, SI.
+//! A method named `.._into` writes over every entry of buffers that have the sizes of the mechanism; the one without the suffix
+//! makes them.
+//!
+//! # Panics
+//! A slice whose length is not the mechanism's is a bug of the caller: kernels may panic. What users pass is checked before.
+
+mod batch;
+mod compiled;
+mod directional;
+mod interval;
+mod motion;
+
+pub use batch::{BatchKernels, BatchPoint};
+pub use directional::DirectionalKernels;
+pub use interval::Interval;
+pub use motion::MotionKernels;
+
+use crate::dense::{Matrix, Vector};
+use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
+
+/// Mass, damping and stiffness.
+pub type Linear<T = f64> = mechanism::Linear<Matrix<T>>;
+/// The residual in two parts.
+pub type RestParts<T = f64> = mechanism::RestParts<Vector<T>>;
+/// Derivatives of one number.
+pub type Gradient<T = f64> = mechanism::Gradient<Vector<T>>;
+/// Derivatives of the three matrices.
+pub type LinearPartials<T = f64> = mechanism::LinearPartials<Vec<Linear<T>>>;
+/// Derivatives of the residual by every input and every design variable, a row for each unknown.
+pub type ResidualPartials<T = f64> = (Matrix<T>, Matrix<T>);
+
+/// How many of everything there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Unknowns.
+    pub coordinates: usize,
+    /// Inputs.
+    pub inputs: usize,
+    /// Design variables.
+    pub design: usize,
+    /// Outputs.
+    pub outputs: usize,
+}
+
+impl<T: Copy + Default> Linear<T> {
+    /// Zeros for `n` unknowns.
+    pub fn zeros(n: usize) -> Self {
+        let zeros = || Matrix::zeros(n, n);
+        Self {
+            mass: zeros(),
+            damping: zeros(),
+            stiffness: zeros(),
+        }
+    }
+}
+
+impl<T: Copy + Default> RestParts<T> {
+    /// Zeros for `n` unknowns.
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            inertia: Vector::zeros(n),
+            applied: Vector::zeros(n),
+        }
+    }
+}
+
+impl<T: Copy + Default> Gradient<T> {
+    /// Zeros.
+    pub fn zeros(sizes: Sizes) -> Self {
+        Self {
+            coordinates: Vector::zeros(sizes.coordinates),
+            inputs: Vector::zeros(sizes.inputs),
+            design: Vector::zeros(sizes.design),
+        }
+    }
+}
+
+impl<T: Copy + Default> LinearPartials<T> {
+    /// Zeros.
+    pub fn zeros(sizes: Sizes) -> Self {
+        let list = |count: usize| vec![Linear::zeros(sizes.coordinates); count];
+        Self {
+            by_coordinate: list(sizes.coordinates),
+            by_input: list(sizes.inputs),
+            by_design: list(sizes.design),
+        }
+    }
+}
+
+/// Zeros.
+pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> ResidualPartials<T> {
+    let rows = sizes.coordinates;
+    (
+        Matrix::zeros(rows, sizes.inputs),
+        Matrix::zeros(rows, sizes.design),
+    )
+}
+
+/// The kernels that every question about one state needs.
+pub trait Kernels: Sync {
+    /// Names, units, nominal values and what the compiler proved.
+    fn description(&self) -> Shared<Description>;
+
+    /// How many of everything there are.
+    fn sizes(&self) -> Sizes;
+
+    /// [`Mechanism::residual`](crate::Mechanism::residual).
+    fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]);
+
+    /// [`Mechanism::residual_parts`](crate::Mechanism::residual_parts).
+    fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts);
+
+    /// [`Mechanism::residual_and_stiffness`](crate::Mechanism::residual_and_stiffness).
+    fn residual_and_stiffness_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut [f64],
+        stiffness: &mut Matrix,
+    );
+
+    /// [`Mechanism::linear`](crate::Mechanism::linear).
+    fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear);
+
+    /// [`Kernels::residual_parts_into`] and [`Kernels::linear_into`]: what both need is computed once where that pays.
+    fn parts_and_linear_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        parts: &mut RestParts,
+        linear: &mut Linear,
+    ) {
+        self.residual_parts_into(q, u, b, parts);
+        self.linear_into(q, u, b, linear);
+    }
+
+    /// [`Mechanism::residual_partials`](crate::Mechanism::residual_partials).
+    fn residual_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut ResidualPartials,
+    );
+
+    /// [`Mechanism::linear_partials`](crate::Mechanism::linear_partials).
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials);
+
+    /// Both partial derivatives: what they need is computed once where that pays.
+    fn partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        matrices: &mut LinearPartials,
+        residual: &mut ResidualPartials,
+    ) {
+        self.linear_partials_into(q, u, b, matrices);
+        self.residual_partials_into(q, u, b, residual);
+    }
+
+    /// [`Mechanism::mode_gradient`](crate::Mechanism::mode_gradient).
+    fn mode_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        gradient: &mut Gradient,
+    );
+
+    /// [`Mechanism::pencil_gradient`](crate::Mechanism::pencil_gradient); `vectors` are `left`, `acceleration`, `velocity` and
+    /// `position`.
+    fn pencil_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        gradient: &mut Gradient,
+    );
+
+    /// [`Mechanism::residual_gradient`](crate::Mechanism::residual_gradient).
+    fn residual_gradient_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        gradient: &mut Gradient,
+    );
+
+    /// [`Mechanism::whirl`](crate::Mechanism::whirl).
+    fn whirl(&self, q: &[f64], u: &[f64], b: &[f64], real: &[f64], imaginary: &[f64]) -> [f64; 2];
+
+    /// [`Mechanism::violation`](crate::Mechanism::violation).
+    fn violation(&self, u: &[f64], b: &[f64]) -> Option<Violation<f64>>;
+
+    /// Whether no design within `reach` of `b`, each variable by itself, has a violation. False says nothing.
+    fn possible_within(&self, u: &[f64], b: &[f64], reach: &[f64]) -> bool;
+
+    /// [`Mechanism::pose_margin`](crate::Mechanism::pose_margin).
+    fn pose_margin(&self, q: &[f64], u: &[f64], b: &[f64]) -> Option<PoseMargin<f64>>;
+
+    /// [`Mechanism::outputs`](crate::Mechanism::outputs).
+    fn outputs_into(&self, q: &[f64], u: &[f64], b: &[f64], outputs: &mut [f64]);
+
+    /// [`Mechanism::output_partials`](crate::Mechanism::output_partials): by unknowns, inputs and design variables, a row for
+    /// each output.
+    fn output_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: [&mut Matrix; 3]);
+}
+
+impl dyn Kernels + '_ {
+    /// Residual at rest.
+    pub fn residual(&self, q: &[f64], u: &[f64], b: &[f64]) -> Vector {
+        let mut residual = Vector::zeros(q.len());
+        self.residual_into(q, u, b, &mut residual);
+        residual
+    }
+
+    /// Inertia and applied forces at rest.
+    pub fn residual_parts(&self, q: &[f64], u: &[f64], b: &[f64]) -> RestParts {
+        let mut parts = RestParts::zeros(q.len());
+        self.residual_parts_into(q, u, b, &mut parts);
+        parts
+    }
+
+    /// Residual at rest and `Khat`.
+    pub fn residual_and_stiffness(&self, q: &[f64], u: &[f64], b: &[f64]) -> (Vector, Matrix) {
+        let n = q.len();
+        let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
+        self.residual_and_stiffness_into(q, u, b, &mut residual, &mut stiffness);
+        (residual, stiffness)
+    }
+
+    /// `Mhat`, `Chat` and `Khat`.
+    pub fn linear(&self, q: &[f64], u: &[f64], b: &[f64]) -> Linear {
+        let mut linear = Linear::zeros(q.len());
+        self.linear_into(q, u, b, &mut linear);
+        linear
+    }
+
+    /// Inertia, applied forces and the three matrices.
+    pub fn parts_and_linear(&self, q: &[f64], u: &[f64], b: &[f64]) -> (RestParts, Linear) {
+        let (mut parts, mut linear) = (RestParts::zeros(q.len()), Linear::zeros(q.len()));
+        self.parts_and_linear_into(q, u, b, &mut parts, &mut linear);
+        (parts, linear)
+    }
+
+    /// Derivatives of the residual by inputs and design variables.
+    pub fn residual_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> ResidualPartials {
+        let mut partials = residual_partials_zeros(self.sizes());
+        self.residual_partials_into(q, u, b, &mut partials);
+        partials
+    }
+
+    /// Derivatives of the three matrices.
+    pub fn linear_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> LinearPartials {
+        let mut partials = LinearPartials::zeros(self.sizes());
+        self.linear_partials_into(q, u, b, &mut partials);
+        partials
+    }
+
+    /// Derivatives of the three matrices and of the residual.
+    pub fn partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> (LinearPartials, ResidualPartials) {
+        let mut matrices = LinearPartials::zeros(self.sizes());
+        let mut residual = residual_partials_zeros(self.sizes());
+        self.partials_into(q, u, b, &mut matrices, &mut residual);
+        (matrices, residual)
+    }
+
+    /// Gradient of `phi^T (Khat - lambda Mhat) phi`.
+    pub fn mode_gradient(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+    ) -> Gradient {
+        let mut gradient = Gradient::zeros(self.sizes());
+        self.mode_gradient_into(q, u, b, phi, lambda, &mut gradient);
+        gradient
+    }
+
+    /// Gradient of `left^T (Mhat acceleration + Chat velocity + Khat position)`.
+    pub fn pencil_gradient(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+    ) -> Gradient {
+        let mut gradient = Gradient::zeros(self.sizes());
+        self.pencil_gradient_into(q, u, b, vectors, &mut gradient);
+        gradient
+    }
+
+    /// Gradient of `w^T g`.
+    pub fn residual_gradient(&self, q: &[f64], u: &[f64], b: &[f64], w: &[f64]) -> Gradient {
+        let mut gradient = Gradient::zeros(self.sizes());
+        self.residual_gradient_into(q, u, b, w, &mut gradient);
+        gradient
+    }
+
+    /// The declared outputs.
+    pub fn outputs(&self, q: &[f64], u: &[f64], b: &[f64]) -> Vector {
+        let mut outputs = Vector::zeros(self.sizes().outputs);
+        self.outputs_into(q, u, b, &mut outputs);
+        outputs
+    }
+
+    /// Explicit derivatives of the outputs by unknowns, inputs and design variables, a row for each output.
+    pub fn output_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> [Matrix; 3] {
+        let sizes = self.sizes();
+        let [mut by_coordinate, mut by_input, mut by_design] =
+            [sizes.coordinates, sizes.inputs, sizes.design]
+                .map(|columns| Matrix::zeros(sizes.outputs, columns));
+        let partials = [&mut by_coordinate, &mut by_input, &mut by_design];
+        self.output_partials_into(q, u, b, partials);
+        [by_coordinate, by_input, by_design]
+    }
+}

@@ -1,0 +1,298 @@
+//! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
+
+use super::Study;
+use crate::campbell::{self, Axes, Campbell};
+use crate::equilibrium::{
+    self, Branches, Continuation, CriticalState, Crossing, Line, Search, Sweep, SweepPoint,
+};
+use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::sensitivity::{self, Sensitivities};
+use crate::tolerance::{self, EventTolerance, FirstOrder, Tolerances};
+use crate::{Error, Input};
+
+impl<M: BatchKernels> Study<M> {
+    /// Equilibria and modes at each value of one input, and the critical values on the way ([`equilibrium::sweep`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let sweep = study.sweep(Pendulum::omega, &[2.0, 3.0, 4.0, 5.0])?;
+    /// assert!((sweep.critical[0].value - 14.715_f64.sqrt()).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn sweep(&self, input: Input<M>, values: &[f64]) -> Result<Sweep, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        let following = settings.following();
+        equilibrium::sweep(mechanism, u, b, &start, following, input.any(), values)
+    }
+
+    /// Shows equilibrium, modes and their total derivatives at each value of one input to `each`, in order
+    /// ([`sensitivity::sensitivity_sweep`]).
+    ///
+    /// # Errors
+    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn sensitivity_sweep(
+        &self,
+        input: Input<M>,
+        values: &[f64],
+        each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+    ) -> Result<(), Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let point = (&settings.inputs[..], &settings.design[..]);
+        let start = settings.assembled_start(mechanism)?;
+        let (following, along) = (settings.following(), (input.any(), values));
+        sensitivity::sensitivity_sweep(mechanism, point, &start, following, along, each)
+    }
+
+    /// First-order spread of the frequencies at each value of one input, in order; modes keep their place and their label
+    /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
+    ///
+    /// # Errors
+    /// Those of the tolerances, [`Error::UnknownHandle`]; a value that fails has its own error.
+    pub fn first_order_sweep(
+        &self,
+        input: Input<M>,
+        values: &[f64],
+    ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
+        let tolerances = self.tolerances()?;
+        let mut found = Vec::with_capacity(values.len());
+        self.sensitivity_sweep(input, values, |point, slopes| {
+            found.push(spread(point, slopes, &tolerances));
+        })?;
+        Ok(found)
+    }
+}
+
+impl<M: DirectionalKernels> Study<M> {
+    /// Campbell diagram along one input, with the crossings of lines: engine orders as numbers, or
+    /// [`Line`]s ([`campbell::campbell`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.campbell(Pendulum::omega, &[4.0, 5.0, 6.0], &[1.0, 2.0])?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the tolerances, [`Error::UnknownHandle`]; a point that fails carries its own error.
+    pub fn campbell(
+        &self,
+        input: Input<M>,
+        values: &[f64],
+        orders: &[impl Into<Line> + Copy],
+    ) -> Result<Campbell, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        let tolerances = settings.tolerances()?;
+        let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
+        let axes = Axes {
+            input: input.any(),
+            values,
+            orders: &orders,
+        };
+        let following = settings.following();
+        campbell::campbell(mechanism, u, b, &start, following, &axes, &tolerances)
+    }
+
+    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let branches = study.branches(Pendulum::omega, 0.0, 6.0)?;
+    /// for point in branches.special() {
+    ///     println!("{point}");
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches(&self, input: Input<M>, low: f64, high: f64) -> Result<Branches, Error> {
+        self.branches_with(&Continuation::new(input.any(), low, high), None)
+    }
+
+    /// As [`Study::branches`], with other settings and with starts from many places.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn branches_with(
+        &self,
+        continuation: &Continuation,
+        search: Option<&Search>,
+    ) -> Result<Branches, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        equilibrium::branches(mechanism, u, b, &start, continuation, search)
+    }
+
+    /// First critical value of an input between `low` and `high`, SI ([`equilibrium::critical_state`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let critical = study.critical_state(Pendulum::omega, 0.0, 6.0)?;
+    /// assert!((critical.value - 14.715_f64.sqrt()).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn critical_state(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+    ) -> Result<CriticalState, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        let range = settings.range(input.any(), low, high);
+        equilibrium::critical_state(mechanism, u, b, &start, range)
+    }
+
+    /// As [`Study::critical_state`], with its sensitivity and spread ([`tolerance::critical_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn critical_tolerance(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+    ) -> Result<EventTolerance, Error> {
+        let tolerances = self.tolerances()?;
+        let state = self.critical_state(input, low, high)?;
+        Ok(tolerance::critical_tolerance(
+            &self.mechanism,
+            &state,
+            &tolerances,
+        ))
+    }
+}
+
+impl<M: Kernels> Study<M> {
+    /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
+    /// `k u`, or a [`Line`]
+    /// ([`equilibrium::crossings`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let resonances = study.crossings(Pendulum::omega, 0.5, 3.5, 1.0)?;
+    /// assert!((resonances[0].value - (14.715_f64 / 2.0).sqrt()).abs() < 1e-9);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn crossings(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+        line: impl Into<Line>,
+    ) -> Result<Vec<Crossing>, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        let range = settings.range(input.any(), low, high);
+        let (following, line) = (settings.following(), line.into());
+        equilibrium::crossings(mechanism, u, b, &start, following, range, line)
+    }
+
+    /// As [`Study::crossings`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn crossing_tolerances(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+        line: impl Into<Line>,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.crossings(input, low, high, line)?;
+        Ok(spreads(&self.mechanism, &found, &tolerances))
+    }
+
+    /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
+    /// ([`equilibrium::flutter_onsets`]).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn flutter_onsets(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<Crossing>, Error> {
+        let Self {
+            mechanism,
+            settings,
+        } = self;
+        let (u, b) = (&settings.inputs, &settings.design);
+        let start = settings.assembled_start(mechanism)?;
+        let range = settings.range(input.any(), low, high);
+        equilibrium::flutter_onsets(mechanism, u, b, &start, settings.following(), range)
+    }
+
+    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    ///
+    /// # Errors
+    /// Those of [`Study::flutter_onsets`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    pub fn flutter_onset_tolerances(
+        &self,
+        input: Input<M>,
+        low: f64,
+        high: f64,
+    ) -> Result<Vec<EventTolerance>, Error> {
+        let tolerances = self.tolerances()?;
+        let found = self.flutter_onsets(input, low, high)?;
+        Ok(spreads(&self.mechanism, &found, &tolerances))
+    }
+}
+
+/// Spread of the frequencies at one value, or why there is none.
+fn spread(
+    point: &SweepPoint,
+    slopes: &Result<Sensitivities, Error>,
+    tolerances: &Tolerances,
+) -> Result<FirstOrder, Error> {
+    match (&point.modes, slopes) {
+        (Ok(modes), Ok(slopes)) => tolerance::first_order(modes, slopes, tolerances),
+        (Err(error), _) | (_, Err(error)) => Err(error.clone()),
+    }
+}
+
+/// Spread of each value at which something happens.
+fn spreads(
+    mechanism: &dyn Kernels,
+    crossings: &[Crossing],
+    tolerances: &Tolerances,
+) -> Vec<EventTolerance> {
+    let spread = |crossing| tolerance::crossing_tolerance(mechanism, crossing, tolerances);
+    crossings.iter().map(spread).collect()
+}

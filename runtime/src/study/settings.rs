@@ -1,0 +1,204 @@
+//! What is set of a study, and the questions that need no type of mechanism.
+
+use std::borrow::Cow;
+
+use crate::constraints::Structure;
+use crate::dense::{Matrix, Vector};
+use crate::equilibrium::{self, Assembly, Following, Policy, Range};
+use crate::kernels::Kernels;
+use crate::lanes::Instructions;
+use crate::modes::{self, Family};
+use crate::tolerance::{Sampling, Tolerances};
+use crate::{Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Modes, Shared};
+
+/// Half-width of a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Width {
+    /// SI.
+    Absolute(f64),
+    /// Of the variable's value.
+    Relative(f64),
+}
+
+/// The operating point, the tolerances and how to solve.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Settings {
+    pub(super) description: Shared<Description>,
+    pub(super) inputs: Vector,
+    pub(super) design: Vector,
+    pub(super) start: Vector,
+    /// Which coordinates keep their start value when a mechanism with constraints is assembled.
+    held: Vec<bool>,
+    pub(super) policy: Policy,
+    pub(super) family: Option<Family>,
+    half_widths: Vec<Width>,
+    pub(super) sigma_level: f64,
+    pub(super) correlation: Option<Matrix>,
+    pub(super) samples: usize,
+    pub(super) seed: u64,
+    pub(super) stream: u64,
+    pub(super) threads: usize,
+    pub(super) vectors: Option<Instructions>,
+    pub(super) keep_samples: bool,
+    pub(super) steps: usize,
+    fault: Option<Error>,
+}
+
+impl Settings {
+    /// The nominal design with the declared tolerances.
+    pub(super) fn new(description: Shared<Description>) -> Self {
+        let (design, unknowns) = (&description.design, description.coordinates.len());
+        let half_width = |tolerance| Width::Absolute(tolerance);
+        Self {
+            inputs: Vector::zeros(description.inputs.len()),
+            design: design.iter().map(|info| info.nominal).collect(),
+            start: Vector::zeros(unknowns),
+            held: vec![false; unknowns],
+            policy: Policy::Stable,
+            family: None,
+            half_widths: design
+                .iter()
+                .map(|info| half_width(info.tolerance))
+                .collect(),
+            sigma_level: 3.0,
+            correlation: None,
+            samples: 3000,
+            seed: 0,
+            stream: 0,
+            threads: 0,
+            vectors: Some(Instructions::best()),
+            keep_samples: false,
+            steps: 200,
+            fault: None,
+            description,
+        }
+    }
+
+    pub(super) fn set_input(&mut self, input: Input, value: f64) {
+        match self.inputs.get_mut(input.index()) {
+            Some(place) => *place = value,
+            None => self.refuse("input", input.index(), self.inputs.len()),
+        }
+    }
+
+    pub(super) fn set_design(&mut self, variable: DesignVariable, value: f64) {
+        match self.design.get_mut(variable.index()) {
+            Some(place) => *place = value,
+            None => self.refuse("design variable", variable.index(), self.design.len()),
+        }
+    }
+
+    pub(super) fn set_start(&mut self, coordinate: Coordinate, value: f64, held: bool) {
+        let index = coordinate.index();
+        match self.start.get_mut(index) {
+            Some(place) => {
+                *place = value;
+                self.held[index] = held;
+            }
+            None => self.refuse("coordinate", index, self.start.len()),
+        }
+    }
+
+    pub(super) fn set_width(&mut self, variable: DesignVariable, width: Width) {
+        match self.half_widths.get_mut(variable.index()) {
+            Some(place) => *place = width,
+            None => self.refuse("design variable", variable.index(), self.half_widths.len()),
+        }
+    }
+
+    fn refuse(&mut self, kind: &'static str, index: usize, count: usize) {
+        let mechanism = self.description.name.clone();
+        self.fault.get_or_insert(Error::UnknownHandle {
+            kind,
+            index,
+            mechanism,
+            count,
+        });
+    }
+
+    fn ready(&self) -> Result<(), Error> {
+        match &self.fault {
+            None => Ok(()),
+            Some(fault) => Err(fault.clone()),
+        }
+    }
+
+    pub(super) fn tolerances(&self) -> Result<Tolerances, Error> {
+        self.ready()?;
+        let half_width = |(width, value): (&Width, &f64)| match width {
+            Width::Absolute(half_width) => *half_width,
+            Width::Relative(fraction) => fraction * value.abs(),
+        };
+        let half_widths = self.half_widths.iter().zip(&self.design).map(half_width);
+        let half_widths: Vector = half_widths.collect();
+        Tolerances::new(half_widths, self.sigma_level, self.correlation.clone())
+    }
+
+    pub(super) fn following(&self) -> Following {
+        Following {
+            policy: self.policy,
+            family: self.family,
+            vectors: self.vectors,
+        }
+    }
+
+    pub(super) fn range(&self, input: Input, low: f64, high: f64) -> Range {
+        Range {
+            input,
+            low,
+            high,
+            steps: self.steps,
+        }
+    }
+
+    pub(super) fn sampling<'a>(
+        &self,
+        progress: Option<&'a (dyn Fn(usize) + Sync)>,
+    ) -> Sampling<'a> {
+        Sampling {
+            samples: self.samples,
+            seed: self.seed,
+            stream: self.stream,
+            threads: self.threads,
+            keep_samples: self.keep_samples,
+            vectors: self.vectors,
+            progress,
+        }
+    }
+
+    pub(super) fn assembly(&self, mechanism: &dyn Kernels) -> Result<Assembly, Error> {
+        self.ready()?;
+        let held = (0..self.held.len()).filter(|&j| self.held[j]);
+        let held: Vec<Coordinate> = held.map(Coordinate::new).collect();
+        equilibrium::assemble(mechanism, &self.inputs, &self.design, &self.start, &held)
+    }
+
+    /// Where solvers start: the start values, assembled where coordinates are held.
+    pub(super) fn assembled_start(&self, mechanism: &dyn Kernels) -> Result<Cow<'_, [f64]>, Error> {
+        self.ready()?;
+        if Structure::of(&self.description).open() || !self.held.contains(&true) {
+            return Ok(Cow::Borrowed(&self.start));
+        }
+        let assembly = self.assembly(mechanism)?;
+        Ok(Cow::Owned(assembly.coordinates.into()))
+    }
+
+    pub(super) fn equilibrium(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
+        let start = self.assembled_start(mechanism)?;
+        equilibrium::equilibrium(mechanism, &self.inputs, &self.design, &start, self.policy)
+    }
+
+    /// An equilibrium that has derivatives.
+    pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
+        let state = self.equilibrium(mechanism)?;
+        state.regular()?;
+        Ok(state)
+    }
+
+    pub(super) fn solve(&self, mechanism: &dyn Kernels) -> Result<(Equilibrium, Modes), Error> {
+        let state = self.regular(mechanism)?;
+        let family = self.family.unwrap_or(Family::of(&self.description));
+        let found = modes::modes_at(&state, family)?;
+        Ok((state, found))
+    }
+}

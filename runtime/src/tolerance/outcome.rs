@@ -1,0 +1,106 @@
+//! What becomes of samples.
+
+use crate::Stability;
+use crate::equilibrium::Failure;
+
+/// What became of one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It has a stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
+    Stable,
+    /// Its equilibrium is unstable without oscillation.
+    Divergent,
+    /// Its equilibrium is unstable in a growing oscillation.
+    Flutter,
+    /// The stability of its equilibrium could not be decided.
+    Undecided,
+    /// No equilibrium was found.
+    NoEquilibrium,
+    /// Its constraints cannot be met together: its lengths do not close the loops.
+    NotAssembled,
+    /// Its design describes bodies that cannot exist, or lies outside the domain of an expression.
+    Unphysical,
+    /// Its eigenproblem could not be solved.
+    NoModes,
+}
+
+impl From<&Failure> for Outcome {
+    fn from(failure: &Failure) -> Self {
+        match failure {
+            Failure::NotFound { .. } | Failure::Unbalanced { .. } => Self::NoEquilibrium,
+            Failure::NotAssembled { .. } => Self::NotAssembled,
+            Failure::OutsideDomain { .. } | Failure::SingularMass(_) => Self::Unphysical,
+            Failure::Mode { .. } => Self::NoModes,
+        }
+    }
+}
+
+impl From<Stability> for Outcome {
+    fn from(stability: Stability) -> Self {
+        match stability {
+            Stability::Divergent { .. } => Self::Divergent,
+            Stability::Flutter { .. } => Self::Flutter,
+            Stability::Undecided => Self::Undecided,
+            _ => Self::Stable,
+        }
+    }
+}
+
+/// How many samples had each outcome; the numbers sum to the number of samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// [`Outcome::Stable`].
+    pub stable: usize,
+    /// [`Outcome::Divergent`].
+    pub divergent: usize,
+    /// [`Outcome::Flutter`].
+    pub flutter: usize,
+    /// [`Outcome::Undecided`].
+    pub undecided: usize,
+    /// [`Outcome::NoEquilibrium`].
+    pub no_equilibrium: usize,
+    /// [`Outcome::NotAssembled`].
+    pub not_assembled: usize,
+    /// [`Outcome::Unphysical`].
+    pub unphysical: usize,
+    /// [`Outcome::NoModes`].
+    pub no_modes: usize,
+}
+
+impl Counts {
+    /// Sum over all outcomes.
+    pub fn total(&self) -> usize {
+        self.stable
+            + self.divergent
+            + self.flutter
+            + self.undecided
+            + self.no_equilibrium
+            + self.not_assembled
+            + self.unphysical
+            + self.no_modes
+    }
+
+    pub(super) fn add(&mut self, outcome: Outcome, number: usize) {
+        *match outcome {
+            Outcome::Stable => &mut self.stable,
+            Outcome::Divergent => &mut self.divergent,
+            Outcome::Flutter => &mut self.flutter,
+            Outcome::Undecided => &mut self.undecided,
+            Outcome::NoEquilibrium => &mut self.no_equilibrium,
+            Outcome::NotAssembled => &mut self.not_assembled,
+            Outcome::Unphysical => &mut self.unphysical,
+            Outcome::NoModes => &mut self.no_modes,
+        } += number;
+    }
+
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.stable += other.stable;
+        self.divergent += other.divergent;
+        self.flutter += other.flutter;
+        self.undecided += other.undecided;
+        self.no_equilibrium += other.no_equilibrium;
+        self.not_assembled += other.not_assembled;
+        self.unphysical += other.unphysical;
+        self.no_modes += other.no_modes;
+    }
+}

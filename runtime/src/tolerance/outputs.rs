@@ -1,0 +1,42 @@
+//! First-order spread of the outputs.
+
+use super::{Spread, Tolerances};
+use crate::dense::Vector;
+use crate::sensitivity::OutputSensitivities;
+use crate::{Description, Error, Shared};
+
+/// First-order spread of every output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputTolerances {
+    /// Nominal values in the order of the declaration, SI.
+    pub values: Vector,
+    /// Their spreads; `None` where the output has no derivative.
+    pub spreads: Vec<Option<Spread>>,
+    /// Standard deviations that a tolerance holds.
+    pub sigma_level: f64,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+/// First-order spread of every output.
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism.
+pub fn output_tolerances(
+    outputs: &OutputSensitivities,
+    tolerances: &Tolerances,
+) -> Result<OutputTolerances, Error> {
+    tolerances.check_count(outputs.description.design.len())?;
+    let spread = |(mean, slopes): (&f64, &Option<Vector>)| {
+        slopes
+            .as_ref()
+            .map(|slopes| Spread::new(*mean, slopes.clone(), tolerances))
+    };
+    let each = outputs.values.iter().zip(&outputs.by_design);
+    Ok(OutputTolerances {
+        values: outputs.values.clone(),
+        spreads: each.map(spread).collect(),
+        sigma_level: tolerances.sigma_level(),
+        description: outputs.description.clone(),
+    })
+}

@@ -1,0 +1,134 @@
+//! Every machine of the corpus, read from text at run time, gives every answer of its compiled twin, bit for bit: the same
+//! operations in another order, each on the same numbers.
+
+use eigentol::kernels::{BatchKernels, MotionKernels};
+use eigentol::{Coordinate, Input, Mechanism, Policy, Study};
+use eigentol_interpreter::{Interpreted, ReadError};
+use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::resolved::{Operation, operating_points};
+
+/// What a study answers, in words that tell every bit.
+fn answers<M: BatchKernels + Clone>(
+    machine: M,
+    operation: &Operation,
+) -> Vec<(&'static str, String)> {
+    let mut study = Study::new(machine)
+        .policy(operation.policy)
+        .samples(100)
+        .threads(1)
+        .keep_samples(true);
+    for (k, &value) in operation.inputs.iter().enumerate() {
+        study = study.input(Input::new(k), value);
+    }
+    for (k, &value) in operation.start.iter().enumerate() {
+        study = study.guess(Coordinate::new(k), value);
+    }
+    let solved = study.solve().expect("an equilibrium with modes");
+    let mut answers = vec![
+        ("equilibrium", format!("{:?}", solved.equilibrium)),
+        ("modes", format!("{:?}", solved.modes)),
+        ("whirls", format!("{:?}", solved.whirls())),
+        ("shift", format!("{:?}", solved.equilibrium_shift())),
+        ("sensitivities", format!("{:?}", solved.sensitivities())),
+        ("first order", format!("{:?}", solved.first_order())),
+        ("outputs", format!("{:?}", solved.outputs())),
+        (
+            "spreads of outputs",
+            format!("{:?}", solved.output_tolerances()),
+        ),
+        ("curvature", format!("{:?}", solved.mode_curvature(0))),
+        ("shape", format!("{:?}", solved.shape_sensitivity(0))),
+        ("samples", format!("{:?}", study.monte_carlo())),
+    ];
+    if let Some(&value) = operation.inputs.first() {
+        let values: Vec<f64> = (0..20)
+            .map(|k| value * (1.0 + 0.002 * f64::from(k)))
+            .collect();
+        let sweep = study.sweep(Input::new(0), &values);
+        answers.push(("sweep", format!("{sweep:?}")));
+    }
+    answers
+}
+
+/// The kernels of the motion, too.
+fn motion(machine: &dyn MotionKernels, operation: &Operation) -> String {
+    let description = machine.description();
+    let (q, u) = (&operation.start, &operation.inputs);
+    let q: Vec<f64> = (0..description.coordinates.len())
+        .map(|k| q.get(k).copied().unwrap_or(0.1))
+        .collect();
+    let b: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
+    let rates: Vec<f64> = (0..q.len()).map(|k| 0.3 - 0.1 * k as f64).collect();
+    format!(
+        "{:?} {:?} {:?}",
+        machine.motion(&rates, &q, u, &b),
+        machine.motion_residual(&rates, &rates, &q, u, &b),
+        machine.motion_linear(&rates, &rates, &q, u, &b),
+    )
+}
+
+struct Twins(usize);
+
+impl Visitor for Twins {
+    fn visit<M: Mechanism + Copy>(
+        &mut self,
+        name: &'static str,
+        declaration: &'static str,
+        machine: M,
+    ) {
+        let twin = Interpreted::from_text(declaration).expect("a declaration");
+        for operation in operating_points(name) {
+            let found = answers(twin.clone(), &operation);
+            for ((what, expected), (_, found)) in answers(machine, &operation).iter().zip(&found) {
+                assert!(expected == found, "{name}, {what}:\n{expected}\n{found}");
+                self.0 += 1;
+            }
+            assert_eq!(
+                motion(&twin, &operation),
+                motion(&machine, &operation),
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn twins_answer_alike() {
+    let mut twins = Twins(0);
+    corpus::visit(&mut twins);
+    assert!(twins.0 > 200, "{}", twins.0);
+}
+
+#[test]
+fn names_are_handles() {
+    let governor = corpus::corpus()
+        .into_iter()
+        .find(|(name, _)| *name == "governor")
+        .expect("it is there");
+    let governor = Interpreted::from_text(governor.1).expect("a declaration");
+    let speed = governor.input("speed").expect("declared");
+    assert_eq!(speed.index(), 0);
+    assert!(governor.input("no such input").is_none());
+    let first = &governor.description().design[0].name.clone();
+    assert_eq!(governor.design(first).expect("declared").index(), 0);
+    let study = Study::new(governor)
+        .input(speed, 11.0)
+        .policy(Policy::Nearest);
+    assert_eq!(study.input_values()[0], 11.0);
+}
+
+#[test]
+fn mistakes_have_lines_and_columns() {
+    let text = "mechanism Broken {\n    body bar: rod(mass: 3 kg, length: 1 m, along: -z);\n    joint theta: revolute(y) from gruond to bar;\n}\n";
+    let mistakes = Interpreted::from_text(text).expect_err("`gruond` is no body");
+    let first = mistakes.iter().next().expect("one at least");
+    assert_eq!((first.line, first.column), (3, 35), "{mistakes}");
+    assert_eq!((first.end_line, first.end_column), (3, 41));
+    assert!(first.message.contains("gruond"), "{mistakes}");
+    let unclosed = Interpreted::from_text("mechanism Open {").expect_err("no end");
+    assert_eq!(unclosed.iter().count(), 1, "{unclosed}");
+    assert!(matches!(
+        Interpreted::from_file("no such file"),
+        Err(ReadError::File { .. })
+    ));
+}
