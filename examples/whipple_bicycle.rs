@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
-use eigentol::tolerance::EventTolerance;
+use eigentol::sweep::EventTolerance;
 use eigentol::{Campbell, Mechanism, Study, mechanism};
 use eigentol_examples::figures::eigenvalues;
 use eigentol_examples::table::{Table, number};

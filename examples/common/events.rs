@@ -1,6 +1,6 @@
 //! Speeds at which something happens, with the tolerance that the design variables give them.
 
-use eigentol::tolerance::EventTolerance;
+use eigentol::sweep::EventTolerance;
 use eigentol::{Error, Mechanism, Study};
 
 use crate::Question;

@@ -1,8 +1,8 @@
 //! The sweep over the speed: equilibrium, frequencies, first-order and sampled spread at every speed, as plain numbers
 //! for tables, files and figures.
 
-use eigentol::equilibrium::SweepPoint;
 use eigentol::sensitivity::{sensitivities, sensitivities_by_finite_difference};
+use eigentol::sweep::SweepPoint;
 use eigentol::tolerance::{Sampling, first_order, monte_carlo};
 use eigentol::{
     Equilibrium, Error, FirstOrder, Kernels, Mechanism, Modes, MonteCarlo, Study, Text, Tolerances,

@@ -1,14 +1,14 @@
 //! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
 
-use crate::equilibrium::{
-    Condition, Crossing, Following, Line, Tracker, between, check_input, critical_states_on,
-};
+use crate::arguments::check_input;
 use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
-use crate::tolerance::{
-    Event, EventTolerance, Spread, Tolerances, critical_tolerance, crossing_tolerance,
+use crate::sweep::{
+    Condition, Crossing, Event, EventTolerance, Following, Line, Tracker, between,
+    critical_states_on, critical_tolerance, crossing_tolerance,
 };
+use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 
 /// One mode at one value of the input.
@@ -53,7 +53,7 @@ pub struct Campbell {
     /// Where a frequency meets a line: value of the input, sensitivity and spread; line by line. The number of
     /// the mode is its label.
     pub crossings: Vec<EventTolerance>,
-    /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::equilibrium::Sweep)).
+    /// Where the stable equilibrium loses its stiffness ([`Sweep::critical`](crate::sweep::Sweep)).
     pub critical: Vec<EventTolerance>,
     /// Where an oscillation begins or ceases to grow; undamped modes never do.
     pub flutter_onsets: Vec<EventTolerance>,
@@ -102,7 +102,7 @@ pub struct Axes<'a> {
 /// Draws a Campbell diagram: solves equilibrium and modes at each of the values of one input, follows every mode, and locates
 /// the crossings with `orders` and the onsets of flutter between neighbouring values.
 ///
-/// Arguments as for [`sweep`](crate::equilibrium::sweep).
+/// Arguments as for [`sweep`](crate::sweep::sweep).
 ///
 /// # Errors
 /// [`Error::UnknownHandle`]; a point that fails carries its own error.

@@ -45,39 +45,42 @@
 //! | --- | --- | --- |
 //! | how does it go together, if loops close? | `assembly` | `equilibrium::assemble` |
 //! | where does it stay, and what moves that? | `equilibrium`, `equilibria`, `equilibrium_shift` | `equilibrium::equilibrium`, ... |
-//! | which branches are there, where do they fold and fork? | `branches` | `equilibrium::branches` |
+//! | which branches are there, where do they fold and fork? | `branches` | `branches::branches` |
 //! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |
 //! | what moves frequencies, damping, shapes, outputs? | `sensitivities`, `shape_sensitivity`, `outputs` | `sensitivity::sensitivities`, ... |
-//! | ... to second order? | `mode_curvature` | `sensitivity::mode_curvature` |
-//! | how do equal frequencies split? | `directional_derivatives` | `sensitivity::directional_derivatives` |
+//! | ... to second order? | `mode_curvature` | `second_order::mode_curvature` |
+//! | how do equal frequencies split? | `directional_derivatives` | `clusters::directional_derivatives` |
 //! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
-//! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `tolerance::summary`, `tolerance::clusters` |
+//! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `summary::summary`, `clusters::clusters` |
 //! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
-//! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `tolerance::mode_margin` |
-//! | what happens along an input? | `sweep`, `sensitivity_sweep`, `first_order_sweep`, `campbell` | `equilibrium::sweep`, `sensitivity::sensitivity_sweep`, `campbell::campbell` |
-//! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `equilibrium::critical_state`, ... |
+//! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `second_order::mode_margin` |
+//! | what happens along an input? | `sweep`, `sensitivity_sweep`, `first_order_sweep`, `campbell` | `sweep::sweep`, `sweep::sensitivity_sweep`, `campbell::campbell` |
+//! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `sweep::critical_state`, ... |
 #![cfg_attr(not(feature = "std"), no_std)]
 
-mod dual;
 // Generated code in unit tests names the crate from outside.
 #[cfg(test)]
 extern crate self as eigentol;
 
-#[cfg(any(feature = "std", feature = "libm"))]
-pub mod lanes;
 mod mechanism;
-mod real;
-#[cfg(any(feature = "std", feature = "libm"))]
-mod trigonometry;
+pub mod scalar;
 
+#[cfg(feature = "std")]
+mod algebra;
+#[cfg(feature = "std")]
+mod arguments;
 #[cfg(feature = "std")]
 mod batched;
 #[cfg(feature = "std")]
+pub mod branches;
+#[cfg(feature = "std")]
 pub mod campbell;
+#[cfg(feature = "std")]
+pub mod clusters;
 #[cfg(feature = "std")]
 mod constraints;
 #[cfg(feature = "std")]
-mod dense;
+mod eigenproblem;
 #[cfg(feature = "std")]
 pub mod equilibrium;
 #[cfg(feature = "std")]
@@ -89,27 +92,27 @@ pub mod modes;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
-mod pencil;
-#[cfg(feature = "std")]
 pub mod report;
-#[cfg(feature = "std")]
-#[expect(dead_code, reason = "for the calls of large kernels")]
-mod room;
 #[cfg(feature = "std")]
 mod rounding;
 #[cfg(feature = "std")]
+pub mod second_order;
+#[cfg(feature = "std")]
 pub mod sensitivity;
+#[cfg(feature = "std")]
+pub mod shapes;
+#[cfg(feature = "std")]
+mod state;
 #[cfg(feature = "std")]
 mod study;
 #[cfg(feature = "std")]
+pub mod summary;
+#[cfg(feature = "std")]
+pub mod sweep;
+#[cfg(feature = "std")]
 pub mod tolerance;
 
-#[cfg(feature = "std")]
-pub use dense::{Matrix, Vector};
-pub use dual::Dual;
 pub use eigentol_macros::mechanism;
-#[cfg(feature = "std")]
-pub use kernels::Kernels;
 pub use mechanism::{Any, Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
@@ -117,14 +120,18 @@ pub use mechanism::{
     Unit, Violation,
 };
 pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
-pub use real::Real;
+pub use scalar::{Dual, Real};
 
+#[cfg(feature = "std")]
+pub use algebra::{Matrix, Vector};
 #[cfg(feature = "std")]
 pub use campbell::Campbell;
 #[cfg(feature = "std")]
-pub use equilibrium::{Equilibrium, Policy, Stability};
+pub use equilibrium::Policy;
 #[cfg(feature = "std")]
 pub use error::Error;
+#[cfg(feature = "std")]
+pub use kernels::Kernels;
 #[cfg(feature = "std")]
 pub use modes::{Behaviour, Family, Mode, Modes};
 /// A complex number.
@@ -132,6 +139,8 @@ pub use modes::{Behaviour, Family, Mode, Modes};
 pub use num_complex::Complex64 as Complex;
 #[cfg(feature = "std")]
 pub use sensitivity::{Quantity, Sensitivities};
+#[cfg(feature = "std")]
+pub use state::{Equilibrium, Stability};
 #[cfg(feature = "std")]
 pub use study::{Solved, Study};
 #[cfg(feature = "std")]

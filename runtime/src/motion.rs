@@ -1,8 +1,8 @@
 //! Accelerations of the full nonlinear motion, for those who integrate it in time.
 
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, dot};
+use crate::arguments::check_count;
 use crate::constraints::{Structure, Tangent, fix_gauge};
-use crate::dense::{Cholesky, Lu, Matrix, Vector, all_finite, all_finite_matrix, dot};
-use crate::equilibrium::{check_count, name};
 use crate::kernels::{DirectionalKernels, Kernels, Linear, MotionKernels};
 use crate::{Description, Error};
 
@@ -119,6 +119,6 @@ fn outside(description: &Description, q: &[f64]) -> Error {
 
 fn singular(description: &Description, row: usize) -> Error {
     Error::SingularMass {
-        coordinate: name(description, row),
+        coordinate: description.unknown_name(row),
     }
 }

@@ -1,7 +1,7 @@
 //! What is zero but for rounding. Stability, modes, tolerances and reports all decide here whether a number is negative, zero
 //! or positive: against the error that it may have.
 
-use crate::dense::{Lu, Matrix, dot};
+use crate::algebra::{Lu, Matrix, dot};
 use crate::kernels::{Kernels, Linear};
 
 /// A value that may be off by an error.

@@ -9,7 +9,8 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Overdamped, Plate, Spring};
 use common::pendulum::{Pendulum, W};
-use eigentol::equilibrium::{Line, Range, SpecialKind, critical_state, crossings, sweep};
+use eigentol::branches::SpecialKind;
+use eigentol::sweep::{Line, Range, critical_state, crossings, sweep};
 use eigentol::{Error, Input, Policy};
 
 const BAR: [f64; 2] = [3.0, 1.0];

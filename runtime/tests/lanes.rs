@@ -6,7 +6,7 @@ use common::pendulum::Pendulum as ByHand;
 use eigentol::kernels::{
     BatchKernels, BatchPoint, Gradient, Kernels, Linear, LinearPartials, RestParts,
 };
-use eigentol::lanes::{Batch, Instructions, WIDTH};
+use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, mechanism};
 
 mechanism! {

@@ -6,8 +6,8 @@ mod common;
 use common::derived::Derived;
 use common::models::{Pair, Plate, Spring};
 use common::pendulum::Pendulum;
-use eigentol::equilibrium::Line;
-use eigentol::tolerance::Band;
+use eigentol::second_order::Band;
+use eigentol::sweep::Line;
 use eigentol::{DesignVariable, Error, Family, Input, Mechanism, Study};
 
 /// What is NaN in an answer, or an eigenvalue that is infinite, with what stands before it.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use eigentol::kernels::Linear;
 use eigentol::modes::{modes, modes_of};
-use eigentol::tolerance::Doubt;
+use eigentol::summary::Doubt;
 use eigentol::{
     Behaviour, DampingKind, Description, DesignVariable, Family, Input, Matrix, Policy, Real,
     Shared, Stability, Study, Vector, mechanism,

@@ -10,15 +10,19 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Pair, Plate, Spring};
 use common::pendulum::{Pendulum, W};
-use eigentol::equilibrium::{Range, critical_state, crossings, equilibrium};
+use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{DirectionalKernels, MotionKernels};
 use eigentol::modes::{modes, undamped_modes};
 use eigentol::motion::accelerations;
+use eigentol::second_order::mode_curvature;
 use eigentol::sensitivity::{
-    ModeSensitivity, critical_sensitivity, crossing_sensitivity, equilibrium_shift, mode_curvature,
-    output_sensitivities, sensitivities, sensitivities_by_finite_difference,
-    sensitivities_explicit, sensitivities_with_frozen_equilibrium, shape_sensitivity,
+    ModeSensitivity, equilibrium_shift, output_sensitivities, sensitivities,
+    sensitivities_by_finite_difference, sensitivities_explicit,
+    sensitivities_with_frozen_equilibrium,
 };
+use eigentol::shapes::shape_sensitivity;
+use eigentol::sweep::{Range, critical_state, crossings};
+use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{Error, Family, Input, Policy, Vector};
 
 const BAR: [f64; 2] = [3.0, 1.0];

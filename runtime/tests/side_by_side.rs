@@ -3,8 +3,8 @@
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{BatchKernels, Kernels};
-use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
+use eigentol::scalar::Instructions;
 use eigentol::tolerance::{Counts, Sampling, monte_carlo};
 use eigentol::{MonteCarlo, Policy, Tolerances, Vector, mechanism};
 

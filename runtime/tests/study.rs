@@ -6,8 +6,9 @@ mod common;
 
 use common::close;
 use common::pendulum::Pendulum;
-use eigentol::equilibrium::Condition;
-use eigentol::tolerance::{Event, Tolerances};
+use eigentol::sweep::Condition;
+use eigentol::sweep::Event;
+use eigentol::tolerance::Tolerances;
 use eigentol::{Coordinate, DesignVariable, Error, Input, Study};
 
 const OMEGA: Input<Pendulum> = Input::new(0);

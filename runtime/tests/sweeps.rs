@@ -1,10 +1,11 @@
 //! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
 //! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
 
-use eigentol::equilibrium::{Following, Sweep, SweepPoint, sweep};
 use eigentol::kernels::{BatchKernels, Kernels};
-use eigentol::lanes::Instructions;
-use eigentol::sensitivity::{sensitivities, sensitivity_sweep};
+use eigentol::scalar::Instructions;
+use eigentol::sensitivity::sensitivities;
+use eigentol::sweep::sensitivity_sweep;
+use eigentol::sweep::{Following, Sweep, SweepPoint, sweep};
 use eigentol::tolerance::ModeTolerance;
 use eigentol::{Error, Family, Input, Policy, Sensitivities, Study, Vector, mechanism};
 

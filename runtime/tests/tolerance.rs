@@ -11,7 +11,8 @@ use common::close;
 use common::derived::Derived;
 use common::models::{Pair, Plate, Spring, Supercritical};
 use common::pendulum::Pendulum;
-use eigentol::tolerance::{Band, Tolerances, output_tolerances};
+use eigentol::second_order::Band;
+use eigentol::tolerance::{Tolerances, output_tolerances};
 use eigentol::{Coordinate, DesignVariable, Error, Family, Input, MonteCarlo, Study};
 
 type Double = Study<Derived<Bars<2>>>;
@@ -484,7 +485,8 @@ fn a_band_about_a_negative_speed_moves_the_other_way() {
     let band = Band::around(OMEGA.any(), 0.2);
     let margin = |speed: f64| length(speed).margin(0, band).unwrap();
     let (forward, backward) = (margin(5.0), margin(-5.0));
-    let by_speed = |margin: &eigentol::tolerance::ModeMargin| margin.by_input.as_ref().unwrap()[0];
+    let by_speed =
+        |margin: &eigentol::second_order::ModeMargin| margin.by_input.as_ref().unwrap()[0];
     close(
         backward.margin.first_order,
         forward.margin.first_order,

@@ -13,8 +13,8 @@ use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{
     Gradient, Kernels, Linear, LinearPartials, MotionKernels, RestParts, Sizes,
 };
-use eigentol::lanes::Instructions;
 use eigentol::modes::{match_modes, modes};
+use eigentol::scalar::Instructions;
 use eigentol::sensitivity::{
     equilibrium_shift, output_sensitivities, sensitivities, sensitivities_explicit,
     sensitivities_with_frozen_equilibrium,

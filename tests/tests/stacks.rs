@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use eigentol::equilibrium::Search;
-use eigentol::tolerance::Band;
+use eigentol::second_order::Band;
 use eigentol::{Error, Input, Study, mechanism};
 use eigentol_tests::wheels::WhippleBicycle;
 

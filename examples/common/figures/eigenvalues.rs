@@ -2,7 +2,7 @@
 
 use eigentol::Campbell;
 use eigentol::campbell::CampbellMode;
-use eigentol::tolerance::EventTolerance;
+use eigentol::sweep::EventTolerance;
 
 use super::{Band, Curve, Figure, Markers, Point, Shape};
 

@@ -1,8 +1,9 @@
 //! Speeds at which something happens to a rotor: a frequency meets an order, or an oscillation begins or ceases to grow.
 
-use eigentol::equilibrium::{Condition, Crossing};
 use eigentol::modes::{Whirl, whirls};
-use eigentol::tolerance::{Spread, crossing_tolerance};
+use eigentol::sweep::crossing_tolerance;
+use eigentol::sweep::{Condition, Crossing};
+use eigentol::tolerance::Spread;
 use eigentol::{Complex, Error, Mechanism, Study};
 
 use super::RotorQuestion;

@@ -2,7 +2,8 @@
 //! lies near the running speed or that the rotor is unstable, and the same from Monte Carlo.
 
 use eigentol::modes::Whirl;
-use eigentol::tolerance::{Band, Outcome, Quadratic, Sample, SecondOrderSpread, Tolerances};
+use eigentol::second_order::{Band, Quadratic, SecondOrderSpread};
+use eigentol::tolerance::{Outcome, Sample, Tolerances};
 use eigentol::{Complex, Error, Mechanism, Study};
 
 use super::RotorQuestion;
@@ -115,7 +116,7 @@ impl Risk {
             let mode = &modes.modes[r];
             let band = Band::around(question.speed, question.margin);
             let margin = study.margin(r, band).ok().map(|found| found.margin);
-            let spread: Option<&eigentol::tolerance::ModeSecondOrder> = spread;
+            let spread: Option<&eigentol::second_order::ModeSecondOrder> = spread;
             ModeRisk {
                 s: mode.s,
                 whirl: whirls[r],

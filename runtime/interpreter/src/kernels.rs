@@ -4,7 +4,7 @@ use eigentol::kernels::{
     BatchKernels, BatchPoint, DirectionalKernels, Gradient, Interval, Kernels, Linear,
     LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
 };
-use eigentol::lanes::{Batch, Instructions};
+use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
 
 use crate::mechanism::Interpreted;

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::marker::PhantomData;
 
-use eigentol::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
+use eigentol::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use eigentol::{Dual, Real};
 
 use crate::tape::Tape;

@@ -3,8 +3,8 @@
 //! Sizes are arguments of functions that are written where they are called: a caller for whom `n` is a constant has loops
 //! without a count, see [`for_size`].
 
-use crate::dense::Matrix;
-use crate::lanes::{Batch, Lanes};
+use crate::algebra::Matrix;
+use crate::scalar::{Batch, Lanes};
 
 /// Largest mechanism whose states are solved side by side.
 pub(crate) const LARGEST: usize = 8;

@@ -5,10 +5,10 @@ use super::continuity::Continuity;
 use super::newton::newton;
 use super::slopes::{Slopes, slopes};
 use super::state::{Scratch, state};
+use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
-use crate::dense::{Matrix, Vector};
 use crate::kernels::{BatchKernels, BatchPoint, Linear, Sizes};
-use crate::lanes::{Batch, Instructions, WIDTH};
+use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::{DampingKind, Description, Input};
 
 /// Least pivot of a matrix that is clearly positive definite, relative to its diagonal element.

@@ -1,7 +1,7 @@
 //! The same as [`algebra`](super::algebra) for matrices of size one and two, by formulas with few divisions and roots.
 
 use super::algebra::{self, LARGEST, Row, Square, keep};
-use crate::lanes::Lanes;
+use crate::scalar::Lanes;
 
 /// Greatest squared tangent of the rotation and greatest squared coupling of the masses, relative to these: the squared cosine
 /// between a mode and the nominal one is then at least `(0.995 - 0.1 / 2)^2 / 1.25 = 0.71`, enough to recognise it.

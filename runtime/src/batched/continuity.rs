@@ -2,11 +2,11 @@
 
 use super::algebra::{LARGEST, keep};
 use super::block::{Block, Past};
-use crate::equilibrium::prediction::{MISSED, STILL};
-use crate::lanes::{Batch, Lanes, Task, WIDTH};
+use crate::equilibrium::{MISSED, STILL};
+use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
 /// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
-/// them: what [`confirmed`](crate::equilibrium::prediction::confirmed) asks of one state.
+/// them: what [`confirmed`](crate::equilibrium::confirmed) asks of one state.
 pub(super) struct Continuity<'a> {
     pub(super) past: &'a Past,
     pub(super) block: &'a mut Block,

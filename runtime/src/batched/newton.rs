@@ -4,9 +4,9 @@ use super::algebra::{self, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use super::state::Scratch;
-use crate::equilibrium::convergence::{LAST_STEP, SMALL_MOTION};
+use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::kernels::BatchKernels;
-use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
+use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// Steps at most: predicted states are near to what they predict.
 const STEPS: usize = 6;

@@ -1,9 +1,9 @@
 //! One lane of a block in the words of a state that was solved alone.
 
 use super::block::Block;
-use crate::dense::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector};
 use crate::kernels::Kernels;
-use crate::lanes::Batch;
+use crate::scalar::Batch;
 use crate::{Equilibrium, Modes, Sensitivities, Stability};
 
 impl Block {

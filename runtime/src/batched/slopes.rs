@@ -5,13 +5,13 @@ use super::algebra::{self, LARGEST, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use crate::Description;
-use crate::dense::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
     BatchKernels, Gradient, Linear, LinearPartials, ResidualPartials, Sizes,
     residual_partials_zeros,
 };
-use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::modes::Family;
+use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::sensitivity::Source;
 
 /// What kernels write on the way.

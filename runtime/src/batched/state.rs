@@ -3,13 +3,13 @@
 use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix, small};
 use super::block::{Block, POSITIVE};
 use super::closed::{self, Solver};
-use crate::dense::{Matrix, Vector};
-use crate::equilibrium::convergence::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
+use crate::algebra::{Matrix, Vector};
+use crate::eigenproblem::INACCURATE;
+use crate::equilibrium::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
 use crate::kernels::{BatchKernels, BatchPoint, RestParts};
-use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
-use crate::modes::symmetric::INACCURATE;
+use crate::modes::CLUSTER_GAP;
 use crate::rounding::{SLOW, of_elements};
-use crate::sensitivity::CLUSTER_GAP;
+use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// What kernels write on the way.
 pub(super) struct Scratch {

@@ -5,7 +5,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use crate::dense::{Cholesky, Matrix, Vector, add_to, dot, largest};
+use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest};
 
 /// What may remain of a row that others explain, relative to the row itself. Rows of compiled constraints carry rounding
 /// of some 1e-15, which nearly dependent neighbours amplify; rows that differ by less than this have no use as two.

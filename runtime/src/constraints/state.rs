@@ -1,7 +1,7 @@
 //! What constraints are at one state: how much freedom they leave, which say the same, whether the state is singular.
 
 use super::{Structure, Tangent};
-use crate::dense::{Matrix, Vector, add_to, form, largest_element};
+use crate::algebra::{Matrix, Vector, add_to, form, largest_element};
 use crate::kernels::{Gradient, Kernels};
 
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.

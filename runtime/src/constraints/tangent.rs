@@ -11,7 +11,7 @@
 )]
 
 use super::{Rows, Structure};
-use crate::dense::{Cholesky, Matrix, Vector, add_to, dot, largest, times};
+use crate::algebra::{Cholesky, Matrix, Vector, add_to, dot, largest, times};
 use crate::kernels::Linear;
 
 /// What constraints leave free at one state.

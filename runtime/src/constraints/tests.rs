@@ -2,7 +2,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::{Rows, Structure, Tangent, fix_gauge};
-use crate::dense::{Lu, Matrix, Vector, add_scaled, dot, largest, times};
+use crate::algebra::{Lu, Matrix, Vector, add_scaled, dot, largest, times};
 use crate::kernels::Linear;
 
 fn uniform(random: &mut ChaCha8Rng) -> f64 {

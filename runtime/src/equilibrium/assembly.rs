@@ -2,9 +2,10 @@
 
 use super::closing::{close, close_speeds, free, gaps};
 use super::problem::{Failure, Problem};
+use crate::algebra::{Lu, Matrix, Vector, add_scaled};
 use crate::constraints::{ConstraintState, Rows, Structure, Tangent, all_rows};
-use crate::dense::{Lu, Matrix, Vector, add_scaled};
 use crate::kernels::Kernels;
+use crate::state::dependent_names;
 use crate::{Coordinate, Description, Error, Shared, Text};
 
 /// On which side of the dead centres a mechanism is assembled: the sign of the determinant of `Phi_q` by the coordinates
@@ -49,7 +50,7 @@ pub struct Assembly {
 impl Assembly {
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
-        super::dependent_names(&self.description, &self.constraints.dependent)
+        dependent_names(&self.description, &self.constraints.dependent)
     }
 
     /// Of coordinates and speeds the motions, of constraints the gaps.

@@ -4,15 +4,15 @@
 //! constraint is measured by motions too, and a reaction by the largest.
 
 use super::problem::Problem;
-use crate::dense::{Matrix, Values, Vector, greater, largest};
+use crate::algebra::{Matrix, Values, Vector, greater, largest};
 use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
 pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Relative residual that a result may have; beyond it, it is no equilibrium.
-pub(super) const ACCEPTED: f64 = 2.0 * TOLERANCE;
+pub(crate) const ACCEPTED: f64 = 2.0 * TOLERANCE;
 /// A step this small changes nothing.
-pub(super) const FLOOR: f64 = 2.0 * f64::EPSILON;
+pub(crate) const FLOOR: f64 = 2.0 * f64::EPSILON;
 /// A displacement this small may be the rounding of the residual.
 pub(crate) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A Newton step this small leaves a remainder at rounding.
@@ -30,7 +30,7 @@ const DRIFT: f64 = 1e3;
 
 /// How far a solve has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Progress {
+pub(crate) enum Progress {
     /// Go on.
     Underway,
     /// One more Newton step reaches rounding.
@@ -40,14 +40,14 @@ pub(super) enum Progress {
 }
 
 /// Watches a residual fall and tells when it has reached rounding.
-pub(super) struct Watch {
+pub(crate) struct Watch {
     previous: f64,
     /// Where the residual last fell.
     fell_at: Vector,
 }
 
 impl Watch {
-    pub(super) fn new(start: &[f64]) -> Self {
+    pub(crate) fn new(start: &[f64]) -> Self {
         Self {
             previous: f64::INFINITY,
             fell_at: start.into(),
@@ -57,7 +57,7 @@ impl Watch {
     /// Judges a state by its residual and by the full step that would come next; without a step only the residual
     /// counts.
     #[inline]
-    pub(super) fn judge(
+    pub(crate) fn judge(
         &mut self,
         problem: &Problem<'_>,
         q: &[f64],
@@ -95,7 +95,7 @@ impl Watch {
 
 /// What a full Newton step says about the way that is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Last {
+pub(crate) enum Last {
     /// More than one step.
     More,
     /// This step reaches rounding.
@@ -106,7 +106,7 @@ pub(super) enum Last {
 
 /// How many steps are left, by the next one from `q`.
 #[inline]
-pub(super) fn last(step: &[f64], q: &[f64], motions: usize) -> Last {
+pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> Last {
     if !within(LAST_STEP, step, q, motions) {
         Last::More
     } else if within(FLOOR, step, q, motions) {
@@ -118,7 +118,7 @@ pub(super) fn last(step: &[f64], q: &[f64], motions: usize) -> Last {
 
 /// Whether a displacement of the unknowns is of the size of rounding.
 #[inline]
-pub(super) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bool {
+pub(crate) fn is_rounding(displacement: &[f64], q: &[f64], motions: usize) -> bool {
     within(ROUNDING, displacement, q, motions)
 }
 
@@ -134,7 +134,7 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 }
 
 /// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
-pub(super) fn settled(
+pub(crate) fn settled(
     problem: &Problem<'_>,
     q: &[f64],
     residual: &[f64],
@@ -149,7 +149,7 @@ pub(super) fn settled(
 /// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, one that is nothing
 /// but rounding as a small share of the greatest; the gap of a constraint is relative to what those motions open.
-pub(super) fn relative_residual(
+pub(crate) fn relative_residual(
     problem: &Problem<'_>,
     q: &[f64],
     residual: &[f64],
@@ -160,7 +160,7 @@ pub(super) fn relative_residual(
 
 /// As [`relative_residual`] with the parts of the residual at `q`.
 #[inline]
-pub(super) fn relative_to(
+pub(crate) fn relative_to(
     problem: &Problem<'_>,
     parts: &RestParts,
     q: &[f64],
@@ -199,7 +199,7 @@ fn small_motion(q: f64) -> f64 {
 }
 
 /// The gap of one constraint relative to what small motions, by the row of its derivatives, open.
-pub(super) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
+pub(crate) fn relative_gap(gap: f64, motions: &[f64], row: &[f64]) -> f64 {
     relative(gap, 0.0, motions, row)
 }
 
@@ -233,13 +233,13 @@ fn ratio(residual: f64, scale: f64) -> f64 {
 }
 
 /// Coordinates and speeds beyond this are taken as an escape to infinity.
-pub(super) fn horizon(start: &[f64]) -> f64 {
+pub(crate) fn horizon(start: &[f64]) -> f64 {
     1e12 * (1.0 + largest_of(start))
 }
 
 /// Greatest absolute value.
 #[inline]
-pub(super) fn largest_of(values: &[f64]) -> f64 {
+pub(crate) fn largest_of(values: &[f64]) -> f64 {
     values
         .iter()
         .fold(0.0, |most, value| greater(most, value.abs()))

@@ -7,10 +7,10 @@ use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relati
 use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
-use crate::dense::{
+use crate::algebra::{
     Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, form, largest, times,
 };
-use crate::modes::symmetric;
+use crate::eigenproblem::symmetric;
 use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;

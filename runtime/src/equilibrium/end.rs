@@ -2,22 +2,22 @@
 
 use super::convergence::{TOLERANCE, is_rounding, relative_to, settled};
 use super::problem::Problem;
-use crate::dense::{Matrix, Vector, add_scaled, all_finite, largest};
+use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
 use crate::kernels::Linear;
 
 /// What a solver found, before its stability is judged.
-pub(super) struct Found {
-    pub(super) coordinates: Vector,
-    pub(super) residual: Vector,
+pub(crate) struct Found {
+    pub(crate) coordinates: Vector,
+    pub(crate) residual: Vector,
     /// Where it is known.
-    pub(super) measured: Option<Measured>,
-    pub(super) iterations: usize,
-    pub(super) left_unstable_region: bool,
+    pub(crate) measured: Option<Measured>,
+    pub(crate) iterations: usize,
+    pub(crate) left_unstable_region: bool,
 }
 
 impl Found {
     /// A state to which no unstable region was on the way.
-    pub(super) fn new(end: End, iterations: usize) -> Self {
+    pub(crate) fn new(end: End, iterations: usize) -> Self {
         Self {
             coordinates: end.coordinates,
             residual: end.residual,
@@ -29,24 +29,24 @@ impl Found {
 }
 
 /// What is asked of a state that may be the result.
-pub(super) struct Measured {
-    pub(super) linear: Linear,
+pub(crate) struct Measured {
+    pub(crate) linear: Linear,
     /// Infinite unless all is finite.
-    pub(super) relative_residual: f64,
+    pub(crate) relative_residual: f64,
 }
 
 /// A state that may be the result.
-pub(super) struct End {
-    pub(super) coordinates: Vector,
-    pub(super) residual: Vector,
+pub(crate) struct End {
+    pub(crate) coordinates: Vector,
+    pub(crate) residual: Vector,
     /// Without constraints.
-    pub(super) measured: Option<Measured>,
+    pub(crate) measured: Option<Measured>,
 }
 
 impl End {
     /// The state at `q`. Without constraints the parts of the residual, with which a result is measured, are the residual as well.
     #[inline]
-    pub(super) fn at(problem: &Problem<'_>, q: Vector) -> Self {
+    pub(crate) fn at(problem: &Problem<'_>, q: Vector) -> Self {
         if !problem.structure.open() {
             return Self {
                 residual: problem.residual(&q),
@@ -74,7 +74,7 @@ impl End {
 
     /// Whether the relative residual is finite and within `tolerance`; `stiffness` is near to that of the state.
     #[inline]
-    pub(super) fn is_solved(
+    pub(crate) fn is_solved(
         &self,
         problem: &Problem<'_>,
         stiffness: &Matrix,
@@ -93,7 +93,7 @@ impl End {
 /// The last Newton step; the stiffness is not needed again, only that the residual fell to rounding: to a small share, or to
 /// what `displacement`, from a residual to the Newton step it asks for, says is nothing.
 #[inline]
-pub(super) fn last_step(
+pub(crate) fn last_step(
     problem: &Problem<'_>,
     q: &[f64],
     (residual, stiffness): (&[f64], &Matrix),

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Policy, Problem, settle};
-use crate::dense::Vector;
+use crate::algebra::Vector;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error, Stability};
 

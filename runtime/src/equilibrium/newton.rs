@@ -4,7 +4,7 @@ use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relati
 use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
-use crate::dense::{Cholesky, Lu, Matrix, Vector, times};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, times};
 
 const MAX_ITERATIONS: usize = 300;
 /// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.

@@ -1,6 +1,6 @@
 //! Where an equilibrium goes along an input, by the last states on its way.
 
-use crate::dense::{Vector, all_finite, greater, largest};
+use crate::algebra::{Vector, all_finite, greater, largest};
 
 /// Share of the way that a prediction may miss.
 pub(crate) const MISSED: f64 = 0.25;
@@ -9,14 +9,14 @@ pub(crate) const STILL: f64 = 1e-9;
 
 /// The last states on the way: at most three, the latest first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Path {
+pub(crate) struct Path {
     states: [(f64, Vector); 3],
     count: usize,
 }
 
 impl Path {
     /// Goes on to a state at another value of the input.
-    pub(super) fn go(&mut self, value: f64, q: &[f64]) {
+    pub(crate) fn go(&mut self, value: f64, q: &[f64]) {
         self.states.rotate_right(1);
         let (last, state) = &mut self.states[0];
         *last = value;
@@ -29,13 +29,13 @@ impl Path {
     }
 
     /// The last three states; `None` with fewer.
-    pub(super) fn last_three(&self) -> Option<&[(f64, Vector); 3]> {
+    pub(crate) fn last_three(&self) -> Option<&[(f64, Vector); 3]> {
         (self.count == 3).then_some(&self.states)
     }
 
     /// The state at a value of the input: by the parabola or the straight line through the last states. `None` with fewer
     /// than two states, or where values of the input repeat.
-    pub(super) fn at(&self, value: f64) -> Option<Vector> {
+    pub(crate) fn at(&self, value: f64) -> Option<Vector> {
         let [(u0, q0), (u1, q1), (u2, q2)] = &self.states;
         if self.count < 2 {
             return None;
@@ -54,7 +54,7 @@ impl Path {
 }
 
 /// Whether a state found from a predicted one is what the prediction meant: much nearer to it than to the last state.
-pub(super) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
+pub(crate) fn confirmed(found: &[f64], predicted: &[f64], last: &[f64]) -> bool {
     let distance = |from: &[f64]| {
         let pairs = found.iter().zip(from);
         pairs.fold(0.0, |most, (a, b)| greater(most, (a - b).abs()))

@@ -1,11 +1,12 @@
 //! One equilibrium problem: a mechanism with inputs and design variables that were checked, evaluated with care.
 
-use super::dependent_names;
+use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
-use crate::dense::{Matrix, Vector, all_finite, all_finite_matrix};
+use crate::eigenproblem::Trouble;
 use crate::kernels::{Kernels, Linear, RestParts};
-use crate::modes::symmetric::Trouble;
-use crate::{DampingKind, Description, Error, Role, Shared, Text};
+use crate::state::dependent_names;
+use crate::{DampingKind, Description, Error, Role, Shared};
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
@@ -32,8 +33,8 @@ impl<'a> Problem<'a> {
         let names = &problem.description;
         check_count("inputs", inputs, names.inputs.len())?;
         check_count("design variables", design, names.design.len())?;
-        finite("input", |k| &names.inputs[k].name, inputs)?;
-        finite("design variable", |k| &names.design[k].name, design)?;
+        check_finite("input", |k| &names.inputs[k].name, inputs)?;
+        check_finite("design variable", |k| &names.design[k].name, design)?;
         if let Some(violation) = mechanism.violation(inputs, design) {
             return Err(Error::Unphysical {
                 quantity: violation.quantity,
@@ -95,7 +96,7 @@ impl<'a> Problem<'a> {
     pub(crate) fn check_start(&self, start: &[f64]) -> Result<(), Error> {
         let unknowns = &self.description.coordinates;
         check_count("start values", start, unknowns.len())?;
-        finite("start value of coordinate", |k| &unknowns[k].name, start)
+        check_finite("start value of coordinate", |k| &unknowns[k].name, start)
     }
 
     /// Residual and stiffness, its gauge fixed; `None` when either is not finite.
@@ -190,38 +191,6 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Refuses a list that has not one value for each of what it belongs to.
-pub(crate) fn check_count(kind: &'static str, values: &[f64], count: usize) -> Result<(), Error> {
-    if values.len() == count {
-        return Ok(());
-    }
-    Err(Error::WrongLength {
-        kind,
-        found: values.len(),
-        expected: count,
-    })
-}
-
-/// Refuses the first value that is not finite, under its name.
-#[inline]
-fn finite<'n>(
-    kind: &'static str,
-    name: impl Fn(usize) -> &'n Text,
-    values: &[f64],
-) -> Result<(), Error> {
-    if all_finite(values) {
-        return Ok(());
-    }
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(index) => Err(Error::NotFinite {
-            kind,
-            name: name(index).clone(),
-            value: values[index],
-        }),
-    }
-}
-
 /// Why a solve failed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Failure {
@@ -296,12 +265,12 @@ impl Failure {
                 iterations,
             } => Error::NotAssembled {
                 reason,
-                constraint: name(description, worst),
+                constraint: description.unknown_name(worst),
                 gap: gaps[worst],
                 unit: gap_unit(description, worst),
                 others: (0..gaps.len())
                     .filter(|&row| row != worst && gaps[row] != 0.0)
-                    .map(|row| (name(description, row), gaps[row]))
+                    .map(|row| (description.unknown_name(row), gaps[row]))
                     .collect(),
                 coordinates,
                 iterations,
@@ -315,17 +284,11 @@ impl Failure {
                 coordinates,
             },
             Self::SingularMass(row) => Error::SingularMass {
-                coordinate: name(description, row),
+                coordinate: description.unknown_name(row),
             },
             Self::Mode { mode, residual } => Error::ModesNotFound { mode, residual },
         }
     }
-}
-
-/// Name of an unknown.
-pub(crate) fn name(description: &Description, index: usize) -> Text {
-    let found = description.coordinates.get(index);
-    found.map_or(Text::Static("?"), |info| info.name.clone())
 }
 
 /// Unit of the gap of a constraint: what its reaction does work on.

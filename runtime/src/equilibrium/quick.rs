@@ -6,7 +6,7 @@ use super::convergence::{Last, last};
 use super::descent::{GROWTH, Place, Way};
 use super::end::{Found, last_step};
 use super::problem::Problem;
-use crate::dense::{Cholesky, Matrix, Vector, dot, form, largest};
+use crate::algebra::{Cholesky, Matrix, Vector, dot, form, largest};
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
@@ -83,10 +83,10 @@ pub(super) fn quick(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Place
 
 #[cfg(test)]
 mod tests {
-    use super::super::descent::stable;
-    use super::super::space::Whole;
     use super::*;
-    use crate::dense::add_scaled;
+    use crate::algebra::add_scaled;
+    use crate::equilibrium::descent::stable;
+    use crate::equilibrium::space::Whole;
     use crate::mechanism;
 
     mechanism! {

@@ -9,8 +9,8 @@
 
 use super::convergence::FLOOR;
 use super::problem::{Failure, Problem};
+use crate::algebra::{Lu, Vector, dot, greater, largest};
 use crate::constraints::{ConstraintState, NEARLY, Tangent, placed};
-use crate::dense::{Lu, Vector, dot, greater, largest};
 use crate::kernels::Linear;
 
 /// Share of the distance from a singular configuration by which rounding may move an equilibrium: beyond it, reactions and
@@ -26,7 +26,7 @@ const TAKES_PART: f64 = 1e-3;
 ///
 /// # Errors
 /// [`Failure::Unbalanced`] where they do not.
-pub(super) fn constraint_state(
+pub(crate) fn constraint_state(
     problem: &Problem<'_>,
     q: &[f64],
     residual: &[f64],
@@ -65,7 +65,7 @@ pub(super) fn constraint_state(
 
 /// Why a search that ended at `q` found nothing, if that is a singular configuration beside it in which forces do not balance.
 #[cold]
-pub(super) fn unbalanced(problem: &Problem<'_>, q: &[f64]) -> Option<Failure> {
+pub(crate) fn unbalanced(problem: &Problem<'_>, q: &[f64]) -> Option<Failure> {
     let linear = problem.linear(q).ok()?;
     let residual = problem.residual(q);
     let state = match constraint_state(problem, q, &residual, &linear) {

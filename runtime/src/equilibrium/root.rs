@@ -3,18 +3,18 @@
 
 /// A bracket `[low, high]` with the values of the function at its ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bracket {
-    pub(super) low: f64,
-    pub(super) high: f64,
-    pub(super) at_low: f64,
-    pub(super) at_high: f64,
+pub(crate) struct Bracket {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) at_low: f64,
+    pub(crate) at_high: f64,
 }
 
 /// Shrinks the bracket to rounding and returns its best point.
 ///
 /// `function` returns its value and, where it knows it, its slope; `None` where it is not defined: such a point counts as
 /// lying on the side of `high`.
-pub(super) fn refine(
+pub(crate) fn refine(
     mut bracket: Bracket,
     mut function: impl FnMut(f64) -> Option<(f64, Option<f64>)>,
 ) -> f64 {

@@ -7,8 +7,8 @@ use super::prediction::confirmed;
 use super::problem::{Failure, Problem};
 use super::regularity::{constraint_state, unbalanced};
 use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
+use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
-use crate::dense::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::kernels::Linear;
 use crate::rounding::Place;
 use crate::{DampingKind, Stability};
@@ -66,7 +66,7 @@ fn departed(problem: &Problem<'_>, from: &[f64], downhill: &[f64]) -> Result<Vec
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
 /// it is what was predicted. For mechanisms with a potential and without constraints.
-pub(super) fn settle_from_prediction(
+pub(crate) fn settle_from_prediction(
     problem: &Problem<'_>,
     last: &[f64],
     predicted: &[f64],

@@ -13,8 +13,8 @@
 use super::convergence::{TOLERANCE, relative_gap};
 use super::problem::{Failure, Problem};
 use super::weights::weights;
+use crate::algebra::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 use crate::constraints::Tangent;
-use crate::dense::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 
 /// A state with what a step from it needs.
 pub(super) struct Base<S> {

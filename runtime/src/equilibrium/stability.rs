@@ -1,63 +1,20 @@
 //! What the linearised mechanism says about the stability of an equilibrium.
 
 use super::problem::Failure;
+use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, largest_element};
 use crate::constraints::{Structure, Tangent};
-use crate::dense::{Cholesky, Lu, Matrix, asymmetry, largest_element};
+use crate::eigenproblem::symmetric;
 use crate::kernels::{Kernels, Linear};
-use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes, symmetric};
+use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes};
 use crate::rounding::{self, Place, Sign, of_form, sign};
-use crate::{Behaviour, DampingKind, Description, Shared};
-
-/// Stability of an equilibrium against small disturbances.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stability {
-    /// Stable: no small disturbance grows.
-    Stable,
-    /// Stable by gyroscopic forces alone, which hold directions without stiffness; the least dissipation destroys it.
-    GyroscopicallyStabilised {
-        /// Number of directions with negative stiffness.
-        negative: usize,
-    },
-    /// Some oscillation neither grows nor decays within rounding, and no theorem says that it does not grow.
-    Marginal,
-    /// Not unstable, but this many directions have no stiffness: the mechanism rests anywhere along them.
-    Neutral {
-        /// Number of eigenvalues that are zero within rounding.
-        zero: usize,
-    },
-    /// A disturbance grows without oscillation (static instability).
-    Divergent {
-        /// Number of negative eigenvalues `lambda`, or of growing real eigenvalues `s`.
-        negative: usize,
-    },
-    /// A disturbance grows in an oscillation (dynamic instability).
-    Flutter {
-        /// Number of growing oscillations.
-        growing: usize,
-    },
-    /// The general eigenvalues, which would decide it, were not found to working accuracy.
-    Undecided,
-}
-
-impl Stability {
-    /// Whether small disturbances stay small as far as the linearised mechanism tells, neutral directions included.
-    pub fn holds(self) -> bool {
-        matches!(
-            self,
-            Self::Stable
-                | Self::GyroscopicallyStabilised { .. }
-                | Self::Marginal
-                | Self::Neutral { .. }
-        )
-    }
-}
+use crate::{Behaviour, DampingKind, Description, Shared, Stability};
 
 /// What a state is, and which eigenvalues `lambda` cannot be told from zero.
-pub(super) type Verdict = (Stability, f64);
+pub(crate) type Verdict = (Stability, f64);
 
 /// Whether `Khat` is positive definite beyond any doubt.
 #[inline]
-pub(super) fn clearly_definite(linear: &Linear) -> bool {
+pub(crate) fn clearly_definite(linear: &Linear) -> bool {
     Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
 }
 
@@ -65,7 +22,7 @@ pub(super) fn clearly_definite(linear: &Linear) -> bool {
 /// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
 /// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
 /// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
-pub(super) fn judge(
+pub(crate) fn judge(
     mechanism: &dyn Kernels,
     at: &Place<'_>,
     linear: &Linear,

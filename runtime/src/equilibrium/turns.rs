@@ -2,8 +2,8 @@
 
 use super::problem::Problem;
 use crate::Description;
+use crate::algebra::{Vector, largest_element};
 use crate::constraints::Structure;
-use crate::dense::{Vector, largest_element};
 
 /// Difference of coordinates, and share of the greatest stiffness, that counts as none.
 const CLOSE: f64 = 1e-6;
@@ -13,7 +13,7 @@ const CLOSE_SINGULAR: f64 = 1e-4;
 const ROUNDED: f64 = 1e-10;
 
 /// `q` with its angles turned to the side of `other` by full turns.
-pub(super) fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Vector {
+pub(crate) fn turned_towards(q: &[f64], other: &[f64], description: &Description) -> Vector {
     Vector::from_fn(q.len(), |i| {
         let angle = description.coordinates[i].unit.symbol == *"rad";
         let turns = ((q[i] - other[i]) / core::f64::consts::TAU).round();
@@ -26,7 +26,7 @@ pub(super) fn turned_towards(q: &[f64], other: &[f64], description: &Description
 }
 
 /// Whether coordinates and speeds are equal but for rounding. Reactions follow from them, but not as well.
-pub(super) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
+pub(crate) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Description) -> bool {
     let close = if singular { CLOSE_SINGULAR } else { CLOSE };
     let motions = Structure::of(description).motions();
     let mut pairs = a.iter().zip(b).take(motions);
@@ -34,7 +34,7 @@ pub(super) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Descr
 }
 
 /// Whether the mechanism is the same at two states that differ by full turns: no spring or screw counts the turns.
-pub(super) fn turns_do_not_count(problem: &Problem<'_>, q: &[f64], turned: &[f64]) -> bool {
+pub(crate) fn turns_do_not_count(problem: &Problem<'_>, q: &[f64], turned: &[f64]) -> bool {
     let (Some(a), Some(b)) = (problem.evaluate_plain(q), problem.evaluate_plain(turned)) else {
         return false;
     };

@@ -1,8 +1,8 @@
 //! What makes the equations of Newton's method on all unknowns comparable.
 
 use super::problem::{Failure, Problem};
+use crate::algebra::Vector;
 use crate::constraints::inertias;
-use crate::dense::Vector;
 
 /// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
 /// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it; a reaction is the

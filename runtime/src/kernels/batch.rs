@@ -5,9 +5,9 @@
 //! are the same, one rounding each, and none are fused.
 
 use super::{DirectionalKernels, Gradient, Linear, LinearPartials, ResidualPartials, RestParts};
-use crate::dense::Matrix;
-use crate::lanes::{Batch, Instructions, Lanes, Task, WIDTH};
+use crate::algebra::Matrix;
 use crate::mechanism::{self, Array, Mechanism, Square};
+use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::{DampingKind, Description, Shared};
 
 /// Unknowns, inputs and design variables of a batch of states.

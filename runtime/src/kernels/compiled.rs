@@ -5,7 +5,7 @@ use super::{
     DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, ResidualPartials,
     RestParts, Sizes,
 };
-use crate::dense::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
     Array, Description, GradientOf, Mechanism, PartialsOf, PoseMargin, Shared, Square, Violation,
 };

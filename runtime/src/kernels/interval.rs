@@ -131,7 +131,7 @@ impl Real for Interval {
         ALL
     }
     fn powi(self, exponent: i32) -> Self {
-        crate::real::integer_power(self, exponent)
+        crate::scalar::integer_power(self, exponent)
     }
     fn powf(self, _: Self) -> Self {
         ALL

@@ -19,7 +19,7 @@ pub use directional::DirectionalKernels;
 pub use interval::Interval;
 pub use motion::MotionKernels;
 
-use crate::dense::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
 
 /// Mass, damping and stiffness.

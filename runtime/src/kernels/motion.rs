@@ -1,7 +1,7 @@
 //! The kernels of the nonlinear motion.
 
 use super::{DirectionalKernels, Linear};
-use crate::dense::{Matrix, Vector};
+use crate::algebra::{Matrix, Vector};
 
 /// The equations of motion and their linearisation along any motion.
 pub trait MotionKernels: DirectionalKernels {

@@ -28,6 +28,13 @@ impl Description {
     pub fn kernel(&self, name: &str) -> Option<&KernelInfo> {
         self.kernels.iter().find(|kernel| kernel.name == *name)
     }
+
+    /// The name of a coordinate, speed or reaction.
+    #[cfg(feature = "std")]
+    pub(crate) fn unknown_name(&self, index: usize) -> Text {
+        let found = self.coordinates.get(index);
+        found.map_or(Text::Static("?"), |info| info.name.clone())
+    }
 }
 
 /// What the compiler proved about `Chat`.

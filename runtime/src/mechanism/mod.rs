@@ -16,7 +16,7 @@ pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Viola
 pub use shared::{List, Shared, Text};
 
 use crate::Real;
-use crate::dual::Dual;
+use crate::scalar::Dual;
 
 /// A matrix with a row and a column for each unknown.
 pub type Square<M, T> = <M as Mechanism>::Coordinates<<M as Mechanism>::Coordinates<T>>;

@@ -2,7 +2,7 @@
 
 use super::kinetic::{kinetic, product};
 use super::{Family, Mode};
-use crate::dense::{Matrix, greater, times_complex};
+use crate::algebra::{Matrix, greater, times_complex};
 use crate::kernels::Linear;
 use crate::{Complex, Modes};
 

@@ -1,8 +1,8 @@
 //! Weights of shapes that have speeds: those of the kinetic energy.
 
 use super::Mode;
+use crate::algebra::{Matrix, Vector, largest_element, times_complex};
 use crate::constraints::Structure;
-use crate::dense::{Matrix, Vector, largest_element, times_complex};
 use crate::kernels::Linear;
 use crate::{Complex, Modes};
 

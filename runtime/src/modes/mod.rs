@@ -9,29 +9,28 @@
 
 mod assurance;
 mod constrained;
-mod general;
 mod kinetic;
 mod mode;
-mod refine;
-pub(crate) mod symmetric;
+mod pencil;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
+pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
 pub use whirl::{Sense, Whirl, whirls};
 
+use crate::algebra::{Matrix, asymmetry, dot_complex};
 use crate::constraints::Structure;
-use crate::dense::{Matrix, asymmetry, dot_complex};
-use crate::equilibrium::name;
+use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
 use crate::kernels::Linear;
-use crate::pencil::pencil_slope_times;
 use crate::rounding::{Sign, sign};
-use crate::sensitivity::CLUSTER_GAP;
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
-use general::Root;
-use symmetric::Trouble;
+
+/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
+/// shapes.
+pub(crate) const CLUSTER_GAP: f64 = 1e-6;
 
 /// Which equation modes solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +86,7 @@ impl Modes {
 
     /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
     /// a chain in which each is within 1e-6 of the next, relative to the greater. Tolerances bring more together
-    /// ([`tolerance::clusters`](crate::tolerance::clusters)). Empty when there is no such mode.
+    /// ([`clusters::clusters`](crate::clusters::clusters)). Empty when there is no such mode.
     pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
         let mut members: Vec<usize> = (mode < self.modes.len())
             .then_some(mode)
@@ -194,7 +193,7 @@ impl ModesFailure {
             Self::NotHolonomic => Error::NoUndampedModes,
             Self::Range { mode, size } => Error::EigenvalueRange { mode, size },
             Self::Pencil(Trouble::SingularMass(row)) => Error::SingularMass {
-                coordinate: name(description, row),
+                coordinate: description.unknown_name(row),
             },
             Self::Pencil(Trouble::Inaccurate { mode, residual }) => {
                 Error::ModesNotFound { mode, residual }
@@ -277,7 +276,7 @@ fn damped(
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
-        general::solve(linear)
+        roots_of(Eigenproblem::Quadratic(linear))
     } else {
         constrained::general_roots(linear, structure)
     };

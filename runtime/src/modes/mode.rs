@@ -1,7 +1,7 @@
 //! One mode, and what it means.
 
 use crate::Complex;
-use crate::dense::Vector;
+use crate::algebra::Vector;
 use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number};
-use crate::equilibrium::{Branch, BranchEnd, Branches, SpecialKind, SpecialPoint};
+use crate::branches::{Branch, BranchEnd, Branches, SpecialKind, SpecialPoint};
 use crate::{Description, Input};
 
 impl fmt::Display for SpecialKind {

@@ -4,9 +4,8 @@ use core::fmt;
 
 use super::branches::critical_vectors;
 use super::table::{Table, cells, heading, in_unit, number};
-use crate::equilibrium::{
-    Assembly, AssemblyMode, Condition, ConstraintState, CriticalState, Crossing,
-};
+use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState};
+use crate::sweep::{Condition, CriticalState, Crossing};
 use crate::{Description, Equilibrium, Role, Stability, Text};
 
 impl fmt::Display for Stability {

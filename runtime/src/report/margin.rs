@@ -3,13 +3,13 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number, per};
-use crate::tolerance::Margin;
+use crate::second_order::Margin;
 use crate::{Description, Unit};
 
 /// A margin, printed with the name and the unit of its quantity and the names of the design variables.
 #[derive(Clone, Debug)]
 pub struct MarginTable<'a> {
-    /// The margin, as [`margin`](crate::tolerance::margin) returns it.
+    /// The margin, as [`margin`](crate::second_order::margin) returns it.
     pub margin: &'a Margin,
     /// What the quantity is, for example `frequency 1`.
     pub quantity: &'a str,

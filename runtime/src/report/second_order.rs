@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::margin::MarginTable;
 use super::table::{Table, cells, number};
-use crate::tolerance::{ModeMargin, SecondOrder};
+use crate::second_order::{ModeMargin, SecondOrder};
 use crate::{Quantity, Text, Unit};
 
 impl fmt::Display for SecondOrder {

@@ -4,10 +4,9 @@ use core::fmt;
 
 use super::table::{Table, cells, number, optional, undamped};
 use crate::Quantity;
-use crate::tolerance::{
-    ClusterSpread, ClusterTolerance, Doubt, MemberSpread, SortedSpread, Statistics, Summary,
-    TRUSTED_DISTANCE,
-};
+use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
+use crate::summary::{Doubt, Summary};
+use crate::tolerance::{Statistics, TRUSTED_DISTANCE};
 
 /// `mode 2`, `modes 2 and 3`, `modes 1, 2 and 3`, counted from 1.
 fn named(modes: &[usize]) -> String {

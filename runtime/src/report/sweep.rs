@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::table::{Table, heading, in_unit, optional, undamped};
 use crate::Mode;
-use crate::equilibrium::Sweep;
+use crate::sweep::Sweep;
 
 impl fmt::Display for Sweep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

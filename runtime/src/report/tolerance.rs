@@ -6,9 +6,9 @@ use super::equilibrium::meeting;
 use super::shares;
 use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, per, undamped};
 use crate::modes::Family;
-use crate::tolerance::{
-    Counts, Doubt, Event, EventTolerance, OutputTolerances, Statistics, TRUSTED_DISTANCE,
-};
+use crate::summary::Doubt;
+use crate::sweep::{Event, EventTolerance};
+use crate::tolerance::{Counts, OutputTolerances, Statistics, TRUSTED_DISTANCE};
 use crate::{FirstOrder, MonteCarlo};
 
 impl fmt::Display for OutputTolerances {

@@ -5,10 +5,9 @@
 use super::gradients::{Source, of_general, of_undamped};
 use super::pencil::{ComplexGradient, Form, form_gradient};
 use super::{Method, ModeSensitivity, Sensitivities, assemble, check_state, redundancy};
-use crate::dense::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex};
 use crate::kernels::{Gradient, Kernels, LinearPartials, ResidualPartials};
-use crate::modes::Family;
-use crate::pencil::pencil_slope_times;
+use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode by every input and design variable.
@@ -187,7 +186,7 @@ fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
 }
 
 /// `psi^T (2 s Mhat + Chat) phi`; zero where the eigenvalue has merged with another.
-pub(super) fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
+pub(crate) fn normaliser(at: &Equilibrium, mode: &Mode) -> Complex {
     dot_complex(
         &mode.left,
         &pencil_slope_times(&at.linear, mode.s, &mode.shape),

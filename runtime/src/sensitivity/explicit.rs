@@ -4,10 +4,9 @@
 use super::adjoint::normaliser;
 use super::shift::equilibrium_shift;
 use super::{Method, Sensitivities, Slopes, assemble, check_state};
-use crate::dense::{dot_complex, form};
+use crate::algebra::{dot_complex, form};
 use crate::kernels::{Kernels, Linear};
-use crate::modes::Family;
-use crate::pencil::pencil_times;
+use crate::modes::{Family, pencil_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
 /// Total derivatives of every mode, from explicit partials and the shift (eqs. 19-21 completed).
@@ -57,14 +56,14 @@ pub fn sensitivities_with_frozen_equilibrium(
 }
 
 /// How the eigenvalue of a mode moves with its matrices: of an undamped mode `lambda`, of a general one `s`.
-pub(super) struct Rate<'a> {
+pub(crate) struct Rate<'a> {
     family: Family,
     mode: &'a Mode,
     scale: Complex,
 }
 
 impl<'a> Rate<'a> {
-    pub(super) fn of(at: &Equilibrium, family: Family, mode: &'a Mode) -> Self {
+    pub(crate) fn of(at: &Equilibrium, family: Family, mode: &'a Mode) -> Self {
         Self {
             family,
             mode,
@@ -73,7 +72,7 @@ impl<'a> Rate<'a> {
     }
 
     /// From the changes of the matrices with each variable.
-    pub(super) fn slopes(&self, by_input: &[Linear], by_design: &[Linear]) -> Slopes<Complex> {
+    pub(crate) fn slopes(&self, by_input: &[Linear], by_design: &[Linear]) -> Slopes<Complex> {
         let slope = |change: &Linear| self.along(change);
         Slopes {
             by_input: by_input.iter().map(slope).collect(),
@@ -82,7 +81,7 @@ impl<'a> Rate<'a> {
     }
 
     /// Along a change of the matrices: `phi^T (dK - lambda dM) phi` (eq. 20), and the same for general modes.
-    pub(super) fn along(&self, change: &Linear) -> Complex {
+    pub(crate) fn along(&self, change: &Linear) -> Complex {
         let mode = self.mode;
         match self.family {
             Family::Undamped => {

@@ -3,7 +3,7 @@
 
 use super::explicit::Rate;
 use super::{Method, Sensitivities, assemble};
-use crate::dense::Matrix;
+use crate::algebra::Matrix;
 use crate::kernels::{Kernels, Linear};
 use crate::{Equilibrium, Error, Modes, Policy, equilibrium::equilibrium};
 

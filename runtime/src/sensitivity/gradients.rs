@@ -2,7 +2,7 @@
 //! partial derivatives, which all modes share. A small mechanism has few partials, and they cost less.
 
 use super::pencil::ComplexGradient;
-use crate::dense::Matrix;
+use crate::algebra::Matrix;
 use crate::kernels::{Gradient, Linear, LinearPartials};
 use crate::modes::Family;
 use crate::{Complex, Description, Mode};
@@ -72,7 +72,7 @@ fn cost(description: &Description, name: &str) -> Option<usize> {
 
 /// Gradient of `phi^T (Khat - lambda Mhat) phi`, vector and eigenvalue held fixed, from explicit partials;
 /// those of `Khat` are `symmetric` or not.
-pub(super) fn of_undamped(
+pub(crate) fn of_undamped(
     partials: &LinearPartials,
     phi: &[f64],
     lambda: f64,
@@ -109,7 +109,7 @@ fn rate(change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.
-pub(super) fn of_general(partials: &LinearPartials, mode: &Mode, gradient: &mut ComplexGradient) {
+pub(crate) fn of_general(partials: &LinearPartials, mode: &Mode, gradient: &mut ComplexGradient) {
     let n = mode.shape.len();
     let s = mode.s;
     let weights = Matrix::from_fn(n, n, |i, j| mode.left[i] * mode.shape[j]);

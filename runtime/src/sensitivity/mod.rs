@@ -2,10 +2,7 @@
 //! the equilibrium included (eqs. 19-21 completed).
 
 mod adjoint;
-mod clusters;
-mod directional;
 mod eigenvalues;
-mod events;
 mod explicit;
 mod finite_difference;
 mod gradients;
@@ -14,30 +11,28 @@ mod outputs;
 mod pencil;
 mod quantity;
 mod redundancy;
-mod second;
-mod shapes;
 mod shift;
-mod sweep;
 
+pub(crate) use adjoint::normaliser;
 pub use adjoint::sensitivities;
-pub use clusters::{ModalCouplings, modal_couplings};
-pub use directional::{DirectionalDerivatives, directional_derivatives};
 pub(crate) use eigenvalues::eigenvalues;
-pub use events::{critical_sensitivity, crossing_sensitivity};
+pub(crate) use explicit::Rate;
 pub use explicit::{sensitivities_explicit, sensitivities_with_frozen_equilibrium};
 pub use finite_difference::sensitivities_by_finite_difference;
 pub(crate) use gradients::Source;
 pub use mode::{ModeSensitivity, Slopes};
 pub use outputs::{OutputSensitivities, output_sensitivities};
+pub(crate) use pencil::{
+    ComplexGradient, Direction, Form, form_gradient, form_gradient_along, subtract,
+};
 pub use quantity::Quantity;
-pub use second::{ModeCurvature, SecondDerivatives, mode_curvature};
-pub use shapes::{ShapeSensitivity, shape_sensitivity};
+pub(crate) use quantity::{eigenvalue_curvature, eigenvalue_slope};
 pub use shift::{EquilibriumShift, equilibrium_shift};
-pub use sweep::sensitivity_sweep;
+pub(crate) use shift::{directions, outside_domain};
 
-use crate::equilibrium::check_count;
+use crate::arguments::check_count;
 use crate::kernels::Kernels;
-use crate::modes::{Family, merged, near_another};
+use crate::modes::{CLUSTER_GAP, Family, merged, near_another};
 use crate::{Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// How derivatives were found.
@@ -83,10 +78,6 @@ impl Sensitivities {
     }
 }
 
-/// Eigenvalues closer than this, relative to the larger, form a cluster whatever the tolerances are: rounding mixes their
-/// shapes.
-pub(crate) const CLUSTER_GAP: f64 = 1e-6;
-
 /// The derivatives of every mode that has not merged with another from `set`. Refuses what is not finite.
 fn assemble(
     at: &Equilibrium,
@@ -114,7 +105,7 @@ fn assemble(
 }
 
 /// Refuses a state of another mechanism.
-fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
+pub(crate) fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
     let sizes = mechanism.sizes();
     check_count("coordinates", &at.coordinates, sizes.coordinates)?;
     check_count("inputs", &at.inputs, sizes.inputs)?;
@@ -122,7 +113,7 @@ fn check_state(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Error> {
 }
 
 /// Refuses modes of another mechanism.
-fn check_modes(at: &Equilibrium, modes: &Modes) -> Result<(), Error> {
+pub(crate) fn check_modes(at: &Equilibrium, modes: &Modes) -> Result<(), Error> {
     let expected = at.coordinates.len();
     let mut lengths = modes.modes.iter().map(|mode| mode.shape.len());
     match lengths.find(|&found| found != expected) {

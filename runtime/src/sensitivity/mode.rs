@@ -1,7 +1,7 @@
 //! Total derivatives of one mode.
 
 use super::Quantity;
-use crate::dense::{Vector, all_finite, unless_finite};
+use crate::algebra::{Vector, all_finite, unless_finite};
 use crate::modes::Family;
 use crate::{Complex, Mode};
 
@@ -15,7 +15,7 @@ pub struct Slopes<T> {
 }
 
 impl<T: Copy> Slopes<T> {
-    pub(super) fn map<R>(&self, f: impl Fn(T) -> R) -> Slopes<R> {
+    pub(crate) fn map<R>(&self, f: impl Fn(T) -> R) -> Slopes<R> {
         Slopes {
             by_input: self.by_input.map(&f),
             by_design: self.by_design.map(&f),
@@ -52,7 +52,7 @@ pub struct ModeSensitivity {
     /// `domega/db`, rad/s by SI unit (eq. 21); `None` for a mode that does not oscillate.
     pub omega_by_design: Option<Vector>,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)): these numbers belong to the
-    /// computed basis of the cluster, any other one has others. What exists are [`directional_derivatives`](super::directional_derivatives).
+    /// computed basis of the cluster, any other one has others. What exists are [`directional_derivatives`](crate::clusters::directional_derivatives).
     pub clustered: bool,
     /// The eigenvalue they belong to.
     value: Complex,
@@ -71,7 +71,7 @@ impl ModeSensitivity {
     }
 
     /// What stands where derivatives are going to be written.
-    pub(super) fn blank() -> Self {
+    pub(crate) fn blank() -> Self {
         Self {
             lambda_by_input: Vector::default(),
             lambda_by_design: Vector::default(),
@@ -85,7 +85,7 @@ impl ModeSensitivity {
 
     /// Goes to a mode, apart from all others, with these derivatives of its eigenvalue: of `lambda` (real part) for an undamped
     /// mode, of `s` for a general one.
-    pub(super) fn set(&mut self, mode: &Mode, family: Family, slopes: &Slopes<Complex>) {
+    pub(crate) fn set(&mut self, mode: &Mode, family: Family, slopes: &Slopes<Complex>) {
         let (by_input, by_design) = (slopes.by_input.iter(), slopes.by_design.iter());
         match family {
             Family::Undamped => {
@@ -128,7 +128,7 @@ impl ModeSensitivity {
     }
 
     /// Goes to a general mode with these derivatives of `s`; where they are not finite, it has merged with another.
-    pub(super) fn set_general(
+    pub(crate) fn set_general(
         &mut self,
         mode: &Mode,
         by_input: impl IntoIterator<Item = Complex>,
@@ -150,7 +150,7 @@ impl ModeSensitivity {
     }
 
     /// Goes to a general mode that has merged with another: it has no derivatives by so many variables.
-    pub(super) fn set_merged(&mut self, mode: &Mode, inputs: usize, design: usize) {
+    pub(crate) fn set_merged(&mut self, mode: &Mode, inputs: usize, design: usize) {
         self.lambda_by_input = Vector::zeros(inputs);
         self.lambda_by_design = Vector::zeros(design);
         self.s = None;
@@ -178,7 +178,7 @@ impl ModeSensitivity {
     }
 
     #[inline]
-    pub(super) fn finite(&self) -> bool {
+    pub(crate) fn finite(&self) -> bool {
         match &self.s {
             // As finite as those of `lambda`, from which they come or which come from them.
             Some(s) => {

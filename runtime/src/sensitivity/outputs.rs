@@ -1,7 +1,7 @@
 //! Total derivatives of the declared outputs.
 
 use super::shift::{equilibrium_shift, outside_domain};
-use crate::dense::{Matrix, Vector, add_to, all_finite};
+use crate::algebra::{Matrix, Vector, add_to, all_finite};
 use crate::kernels::Kernels;
 use crate::{Description, Equilibrium, Error, Shared};
 

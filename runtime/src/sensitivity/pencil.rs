@@ -1,12 +1,12 @@
 //! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, by the real kernels.
 
-use crate::dense::{Values, Vector};
+use crate::algebra::{Values, Vector};
 use crate::kernels::{DirectionalKernels, Gradient, Kernels, Linear};
 use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of the four
 /// vectors, in this order.
-pub(super) struct Form {
+pub(crate) struct Form {
     re: [Vector; 4],
     im: [Vector; 4],
 }
@@ -18,14 +18,14 @@ const IM: Part = |form| &form.im;
 
 impl Form {
     /// `psi^T (s^2 Mhat + s Chat + Khat) phi`.
-    pub(super) fn of(left: &[Complex], s: Complex, right: &[Complex]) -> Self {
+    pub(crate) fn of(left: &[Complex], s: Complex, right: &[Complex]) -> Self {
         let acceleration = right.map(|value| s * s * value);
         let velocity = right.map(|value| s * value);
         Self::new([left, &acceleration, &velocity, right])
     }
 
     /// How the form of a mode changes with its vectors and its eigenvalue.
-    pub(super) fn along(mode: &Mode, dleft: &[Complex], ds: Complex, dright: &[Complex]) -> Self {
+    pub(crate) fn along(mode: &Mode, dleft: &[Complex], ds: Complex, dright: &[Complex]) -> Self {
         let (s, right) = (mode.s, &mode.shape);
         let n = right.len();
         let acceleration = Vector::from_fn(n, |i| s * (2.0 * ds * right[i] + s * dright[i]));
@@ -52,25 +52,25 @@ impl Form {
 }
 
 /// A direction in coordinates, inputs and design variables.
-pub(super) struct Direction {
-    pub(super) coordinates: Vector,
-    pub(super) inputs: Vector,
-    pub(super) design: Vector,
+pub(crate) struct Direction {
+    pub(crate) coordinates: Vector,
+    pub(crate) inputs: Vector,
+    pub(crate) design: Vector,
 }
 
 impl Direction {
-    pub(super) fn parts(&self) -> [&[f64]; 3] {
+    pub(crate) fn parts(&self) -> [&[f64]; 3] {
         [&self.coordinates, &self.inputs, &self.design]
     }
 
     /// Total derivatives of the linearised matrices along it.
-    pub(super) fn linear(&self, mechanism: &dyn DirectionalKernels, at: &Equilibrium) -> Linear {
+    pub(crate) fn linear(&self, mechanism: &dyn DirectionalKernels, at: &Equilibrium) -> Linear {
         mechanism.linear_along(&at.coordinates, &at.inputs, &at.design, self.parts())
     }
 }
 
 /// The gradient of a complex number: of its real and of its imaginary part.
-pub(super) type ComplexGradient = [Gradient; 2];
+pub(crate) type ComplexGradient = [Gradient; 2];
 
 /// A gradient from real kernel calls; `call(left, others, ..)` is linear in each of the two parts of forms that it is to take.
 /// Needs room for one more.
@@ -92,7 +92,7 @@ fn complex(
     each(im, room, |im, product| *im += product);
 }
 
-pub(super) fn subtract(from: &mut Gradient, gradient: &Gradient) {
+pub(crate) fn subtract(from: &mut Gradient, gradient: &Gradient) {
     each(from, gradient, |from, value| *from -= value);
 }
 
@@ -109,7 +109,7 @@ fn each(to: &mut Gradient, from: &Gradient, f: impl Fn(&mut f64, f64)) {
 }
 
 /// Gradient of a form by coordinates, inputs and design variables, its vectors held fixed.
-pub(super) fn form_gradient(
+pub(crate) fn form_gradient(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
     form: &Form,
@@ -123,7 +123,7 @@ pub(super) fn form_gradient(
 }
 
 /// Derivative of [`form_gradient`] along a direction in which the vectors of the form move by `change`.
-pub(super) fn form_gradient_along(
+pub(crate) fn form_gradient_along(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,
     (form, change): (&Form, &Form),

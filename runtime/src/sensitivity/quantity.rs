@@ -82,7 +82,7 @@ impl Quantity {
 }
 
 /// Of undamped modes: derivatives of `s` from those of `lambda = -s^2`.
-pub(super) fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
+pub(crate) fn eigenvalue_slope(s: Complex, dlambda: f64) -> Complex {
     over((-0.5 * dlambda).into(), s)
 }
 
@@ -93,6 +93,6 @@ fn over(a: Complex, s: Complex) -> Complex {
 }
 
 /// Second derivative of `s` from the first ones and the second derivative of `lambda = -s^2`.
-pub(super) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
+pub(crate) fn eigenvalue_curvature(s: Complex, a: Complex, b: Complex, ddlambda: f64) -> Complex {
     -(over((0.5 * ddlambda).into(), s) + a * over(b, s))
 }

@@ -1,8 +1,7 @@
 //! Redundant constraints: whether they go on saying the same when a variable changes.
 
+use crate::algebra::Matrix;
 use crate::constraints::{Structure, Tangent};
-use crate::dense::Matrix;
-use crate::equilibrium::name;
 use crate::kernels::Kernels;
 use crate::{Equilibrium, Error};
 
@@ -36,7 +35,7 @@ pub(super) fn check(mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(), Err
         let design = || broken(&n, &by_design).map(|(i, j)| (i, &description.design[j].name));
         if let Some((constraint, variable)) = input.or_else(design) {
             return Err(Error::ClosesHereOnly {
-                constraint: name(description, constraint),
+                constraint: description.unknown_name(constraint),
                 variable: variable.clone(),
             });
         }

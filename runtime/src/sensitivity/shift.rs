@@ -2,7 +2,7 @@
 
 use super::pencil::Direction;
 use super::{check_state, redundancy};
-use crate::dense::{Lu, Matrix, Vector, all_finite_matrix};
+use crate::algebra::{Lu, Matrix, Vector, all_finite_matrix};
 use crate::kernels::Kernels;
 use crate::{Description, Equilibrium, Error, Shared};
 
@@ -44,7 +44,7 @@ pub fn equilibrium_shift(
 }
 
 /// The directions in which a state moves with each input and each design variable, the equilibrium included.
-pub(super) fn directions(
+pub(crate) fn directions(
     mechanism: &dyn Kernels,
     at: &Equilibrium,
 ) -> Result<impl Iterator<Item = Direction> + use<>, Error> {
@@ -82,7 +82,7 @@ fn solve_columns(factors: &Lu<f64>, mut partials: Matrix) -> Matrix {
     partials
 }
 
-pub(super) fn outside_domain(at: &Equilibrium) -> Error {
+pub(crate) fn outside_domain(at: &Equilibrium) -> Error {
     Error::OutsideDomain {
         mechanism: at.description.name.clone(),
         what: "a derivative",

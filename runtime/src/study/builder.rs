@@ -3,8 +3,8 @@
 use super::settings::{Settings, Width};
 use crate::equilibrium::Policy;
 use crate::kernels::Kernels;
-use crate::lanes::Instructions;
 use crate::modes::Family;
+use crate::scalar::Instructions;
 use crate::tolerance::Tolerances;
 use crate::{Coordinate, Description, DesignVariable, Error, Input, Matrix, Output};
 

@@ -1,16 +1,17 @@
 //! What a study can be asked at one operating point.
 
 use super::{Solved, Study};
+use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::modes::Whirl;
-use crate::sensitivity::{
-    self, DirectionalDerivatives, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity,
-    ShapeSensitivity,
-};
-use crate::tolerance::{
-    self, Band, ClusterTolerance, ModeMargin, OutputTolerances, SecondOrder, Summary,
-};
+use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
+use crate::sensitivity;
+use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
+use crate::shapes::ShapeSensitivity;
+use crate::summary::Summary;
+use crate::tolerance;
+use crate::tolerance::OutputTolerances;
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 impl<M: Kernels> Study<M> {
@@ -168,7 +169,7 @@ impl<M: Kernels> Study<M> {
 
 impl<M: DirectionalKernels> Study<M> {
     /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
-    /// design variables ([`sensitivity::directional_derivatives`]).
+    /// design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
     ///
     /// # Errors
     /// Those of equilibrium, modes and the function.
@@ -180,7 +181,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.directional_derivatives(mode, direction)
     }
 
-    /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).
+    /// Derivatives of the shapes of one mode, counted from 0 ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
     ///
     /// # Errors
     /// Those of equilibrium, modes and the function.
@@ -188,7 +189,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.shape_sensitivity(mode)
     }
 
-    /// First and second derivatives of one mode, counted from 0 ([`sensitivity::mode_curvature`]).
+    /// First and second derivatives of one mode, counted from 0 ([`mode_curvature`](crate::second_order::mode_curvature)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -204,7 +205,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.mode_curvature(mode)
     }
 
-    /// Spread of every mode to second order ([`tolerance::second_order`]).
+    /// Spread of every mode to second order ([`second_order`](crate::second_order::second_order)).
     ///
     /// # Errors
     /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
@@ -212,7 +213,7 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.second_order()
     }
 
-    /// The modes that tolerances bring together, and their spread ([`tolerance::clusters`]).
+    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
     ///
     /// # Errors
     /// Those of equilibrium, modes, tolerances and the function.
@@ -221,7 +222,7 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
-    /// ([`tolerance::summary`]).
+    /// ([`summary`](crate::summary::summary)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -236,11 +237,11 @@ impl<M: DirectionalKernels> Study<M> {
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
-    /// ([`tolerance::mode_margin`]).
+    /// ([`mode_margin`](crate::second_order::mode_margin)).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::tolerance::Band;
+    /// use eigentol::second_order::Band;
     ///
     /// let band = Band::Between { low: 4.1, high: 4.2 };
     /// println!("{}", study.margin(0, band)?);

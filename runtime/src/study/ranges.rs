@@ -1,17 +1,18 @@
 //! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
 
 use super::Study;
+use crate::branches::{self, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell};
-use crate::equilibrium::{
-    self, Branches, Continuation, CriticalState, Crossing, Line, Search, Sweep, SweepPoint,
-};
+use crate::equilibrium::Search;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
-use crate::sensitivity::{self, Sensitivities};
-use crate::tolerance::{self, EventTolerance, FirstOrder, Tolerances};
+use crate::sensitivity::Sensitivities;
+use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Sweep, SweepPoint};
+use crate::tolerance;
+use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input};
 
 impl<M: BatchKernels> Study<M> {
-    /// Equilibria and modes at each value of one input, and the critical values on the way ([`equilibrium::sweep`]).
+    /// Equilibria and modes at each value of one input, and the critical values on the way ([`sweep::sweep`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -30,11 +31,11 @@ impl<M: BatchKernels> Study<M> {
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
         let following = settings.following();
-        equilibrium::sweep(mechanism, u, b, &start, following, input.any(), values)
+        sweep::sweep(mechanism, u, b, &start, following, input.any(), values)
     }
 
     /// Shows equilibrium, modes and their total derivatives at each value of one input to `each`, in order
-    /// ([`sensitivity::sensitivity_sweep`]).
+    /// ([`sweep::sensitivity_sweep`]).
     ///
     /// # Errors
     /// [`Error::UnknownHandle`]; a point that fails carries its own error.
@@ -51,7 +52,7 @@ impl<M: BatchKernels> Study<M> {
         let point = (&settings.inputs[..], &settings.design[..]);
         let start = settings.assembled_start(mechanism)?;
         let (following, along) = (settings.following(), (input.any(), values));
-        sensitivity::sensitivity_sweep(mechanism, point, &start, following, along, each)
+        sweep::sensitivity_sweep(mechanism, point, &start, following, along, each)
     }
 
     /// First-order spread of the frequencies at each value of one input, in order; modes keep their place and their label
@@ -108,7 +109,7 @@ impl<M: DirectionalKernels> Study<M> {
         campbell::campbell(mechanism, u, b, &start, following, &axes, &tolerances)
     }
 
-    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`equilibrium::branches`]).
+    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`branches::branches`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -140,10 +141,10 @@ impl<M: DirectionalKernels> Study<M> {
         } = self;
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
-        equilibrium::branches(mechanism, u, b, &start, continuation, search)
+        branches::branches(mechanism, u, b, &start, continuation, search)
     }
 
-    /// First critical value of an input between `low` and `high`, SI ([`equilibrium::critical_state`]).
+    /// First critical value of an input between `low` and `high`, SI ([`sweep::critical_state`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -167,10 +168,10 @@ impl<M: DirectionalKernels> Study<M> {
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
         let range = settings.range(input.any(), low, high);
-        equilibrium::critical_state(mechanism, u, b, &start, range)
+        sweep::critical_state(mechanism, u, b, &start, range)
     }
 
-    /// As [`Study::critical_state`], with its sensitivity and spread ([`tolerance::critical_tolerance`]).
+    /// As [`Study::critical_state`], with its sensitivity and spread ([`sweep::critical_tolerance`]).
     ///
     /// # Errors
     /// Those of [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative says so itself.
@@ -182,7 +183,7 @@ impl<M: DirectionalKernels> Study<M> {
     ) -> Result<EventTolerance, Error> {
         let tolerances = self.tolerances()?;
         let state = self.critical_state(input, low, high)?;
-        Ok(tolerance::critical_tolerance(
+        Ok(sweep::critical_tolerance(
             &self.mechanism,
             &state,
             &tolerances,
@@ -193,7 +194,7 @@ impl<M: DirectionalKernels> Study<M> {
 impl<M: Kernels> Study<M> {
     /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
     /// `k u`, or a [`Line`]
-    /// ([`equilibrium::crossings`]).
+    /// ([`sweep::crossings`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -219,10 +220,10 @@ impl<M: Kernels> Study<M> {
         let start = settings.assembled_start(mechanism)?;
         let range = settings.range(input.any(), low, high);
         let (following, line) = (settings.following(), line.into());
-        equilibrium::crossings(mechanism, u, b, &start, following, range, line)
+        sweep::crossings(mechanism, u, b, &start, following, range, line)
     }
 
-    /// As [`Study::crossings`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    /// As [`Study::crossings`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
     ///
     /// # Errors
     /// Those of [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative says so itself.
@@ -239,7 +240,7 @@ impl<M: Kernels> Study<M> {
     }
 
     /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
-    /// ([`equilibrium::flutter_onsets`]).
+    /// ([`sweep::flutter_onsets`]).
     ///
     /// # Errors
     /// Those of the function.
@@ -256,10 +257,10 @@ impl<M: Kernels> Study<M> {
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
         let range = settings.range(input.any(), low, high);
-        equilibrium::flutter_onsets(mechanism, u, b, &start, settings.following(), range)
+        sweep::flutter_onsets(mechanism, u, b, &start, settings.following(), range)
     }
 
-    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`tolerance::crossing_tolerance`]).
+    /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
     ///
     /// # Errors
     /// Those of [`Study::flutter_onsets`] and [`Study::tolerances`]; a value without a derivative says so itself.
@@ -293,6 +294,6 @@ fn spreads(
     crossings: &[Crossing],
     tolerances: &Tolerances,
 ) -> Vec<EventTolerance> {
-    let spread = |crossing| tolerance::crossing_tolerance(mechanism, crossing, tolerances);
+    let spread = |crossing| sweep::crossing_tolerance(mechanism, crossing, tolerances);
     crossings.iter().map(spread).collect()
 }

@@ -2,12 +2,14 @@
 
 use std::borrow::Cow;
 
+use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
-use crate::dense::{Matrix, Vector};
-use crate::equilibrium::{self, Assembly, Following, Policy, Range};
+use crate::equilibrium;
+use crate::equilibrium::{Assembly, Policy};
 use crate::kernels::Kernels;
-use crate::lanes::Instructions;
 use crate::modes::{self, Family};
+use crate::scalar::Instructions;
+use crate::sweep::{Following, Range};
 use crate::tolerance::{Sampling, Tolerances};
 use crate::{Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Modes, Shared};
 

@@ -1,15 +1,14 @@
 //! A study with its equilibrium and modes: what follows from them is not solved again for every question.
 
 use super::Study;
+use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::modes::{self, Whirl};
-use crate::sensitivity::{
-    self, DirectionalDerivatives, EquilibriumShift, ModeCurvature, OutputSensitivities, Quantity,
-    ShapeSensitivity,
-};
-use crate::tolerance::{
-    self, Band, ClusterTolerance, ModeMargin, OutputTolerances, SecondOrder, Summary,
-};
+use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
+use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
+use crate::shapes::{self, ShapeSensitivity};
+use crate::summary::{self, Summary};
+use crate::tolerance::{self, OutputTolerances};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 /// The equilibrium and the modes of a study, and what else can be asked of them. Each method is that of [`Study`] of the same
@@ -75,7 +74,7 @@ impl<M: Kernels> Solved<'_, M> {
 
 impl<M: DirectionalKernels> Solved<'_, M> {
     /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
-    /// design variables ([`sensitivity::directional_derivatives`]).
+    /// design variables ([`clusters::directional_derivatives`]).
     ///
     /// # Errors
     /// Those of the function.
@@ -89,10 +88,10 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        sensitivity::directional_derivatives(&study.mechanism, equilibrium, modes, mode, direction)
+        clusters::directional_derivatives(&study.mechanism, equilibrium, modes, mode, direction)
     }
 
-    /// Derivatives of the shapes of one mode, counted from 0 ([`sensitivity::shape_sensitivity`]).
+    /// Derivatives of the shapes of one mode, counted from 0 ([`shapes::shape_sensitivity`]).
     ///
     /// # Errors
     /// Those of the function.
@@ -102,10 +101,10 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        sensitivity::shape_sensitivity(&study.mechanism, equilibrium, modes, mode)
+        shapes::shape_sensitivity(&study.mechanism, equilibrium, modes, mode)
     }
 
-    /// First and second derivatives of one mode, counted from 0 ([`sensitivity::mode_curvature`]).
+    /// First and second derivatives of one mode, counted from 0 ([`second_order::mode_curvature`]).
     ///
     /// # Errors
     /// Those of the function.
@@ -115,10 +114,10 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        sensitivity::mode_curvature(&study.mechanism, equilibrium, modes, mode)
+        second_order::mode_curvature(&study.mechanism, equilibrium, modes, mode)
     }
 
-    /// Spread of every mode to second order ([`tolerance::second_order`]).
+    /// Spread of every mode to second order ([`second_order::second_order`]).
     ///
     /// # Errors
     /// Those of tolerances; a mode without second derivatives says so itself.
@@ -129,7 +128,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             modes,
         } = self;
         let tolerances = study.tolerances()?;
-        Ok(tolerance::second_order(
+        Ok(second_order::second_order(
             &study.mechanism,
             equilibrium,
             modes,
@@ -137,7 +136,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         ))
     }
 
-    /// The modes that tolerances bring together, and their spread ([`tolerance::clusters`]).
+    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
     ///
     /// # Errors
     /// Those of tolerances and the function.
@@ -147,11 +146,11 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        tolerance::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
-    /// ([`tolerance::summary`]).
+    /// ([`summary::summary`]).
     ///
     /// # Errors
     /// Those of tolerances and the function.
@@ -161,11 +160,11 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        tolerance::summary(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        summary::summary(&study.mechanism, equilibrium, modes, &study.tolerances()?)
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
-    /// ([`tolerance::mode_margin`]).
+    /// ([`second_order::mode_margin`]).
     ///
     /// # Errors
     /// Those of tolerances and the function.
@@ -191,7 +190,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         } = self;
         let tolerances = study.tolerances()?;
         let what = (mode, quantity);
-        tolerance::mode_margin(
+        second_order::mode_margin(
             &study.mechanism,
             equilibrium,
             modes,

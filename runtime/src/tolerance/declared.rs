@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::dense::{Matrix, Vector, dot, largest, times};
+use crate::algebra::{Matrix, Vector, dot, largest, times};
 use crate::{Description, Error};
 
 /// Tolerances of the design variables.
@@ -172,7 +172,7 @@ impl Tolerances {
 
     /// The correlation matrix times a vector.
     #[inline]
-    pub(super) fn correlated<'a>(&self, x: &'a [f64]) -> Cow<'a, [f64]> {
+    pub(crate) fn correlated<'a>(&self, x: &'a [f64]) -> Cow<'a, [f64]> {
         match &self.correlation {
             None => Cow::Borrowed(x),
             Some(matrix) => Cow::Owned(times(matrix, x).into()),

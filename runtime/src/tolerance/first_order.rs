@@ -1,7 +1,7 @@
 //! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
 
 use super::{Spread, Tolerances};
-use crate::dense::{Vector, greater};
+use crate::algebra::{Vector, greater};
 use crate::modes::Family;
 use crate::sensitivity::{ModeSensitivity, Quantity};
 use crate::{Behaviour, Complex, Description, Error, Mode, Modes, Sensitivities, Shared};
@@ -44,7 +44,7 @@ pub struct ModeTolerance {
     pub distance_to_neighbour: f64,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
     /// and the numbers here belong to the computed basis of the cluster. That tolerances mix modes
-    /// farther apart is told by [`clusters`](super::clusters) and [`summary`](super::summary).
+    /// farther apart is told by [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary).
     pub clustered: bool,
 }
 
@@ -79,7 +79,7 @@ pub struct FirstOrder {
 
 impl FirstOrder {
     /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]). It looks at each
-    /// mode alone; [`summary`](super::summary) also sees what mixes modes and how frequencies bend.
+    /// mode alone; [`summary`](crate::summary::summary) also sees what mixes modes and how frequencies bend.
     pub fn trusted(&self) -> bool {
         self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }

@@ -8,12 +8,10 @@ use super::sample::Solution;
 use super::sampling::{Batches, Draw};
 use super::statistics::Moments;
 use super::{Counts, Outcome, Sample, Statistics, Tolerances};
-use crate::dense::Vector;
+use crate::algebra::Vector;
 use crate::kernels::BatchKernels;
-use crate::lanes::{Batch, Instructions, WIDTH};
-use crate::modes::{Family, clusters};
-use crate::room::stack;
-use crate::sensitivity::CLUSTER_GAP;
+use crate::modes::{CLUSTER_GAP, Family, clusters};
+use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 
 /// Samples worked on by one thread at a time, whole batches; fixed, so that sums are formed in the same order on any machine.
@@ -74,7 +72,7 @@ pub struct MonteCarlo {
     /// one the statistics differ in the last bits.
     pub side_by_side: bool,
     /// Some nominal modes have equal eigenvalues: which of them a mode of a sample is taken for is arbitrary, and only
-    /// statistics of all of them together mean something ([`clusters`](crate::tolerance::clusters)).
+    /// statistics of all of them together mean something ([`clusters`](crate::clusters::clusters)).
     pub clustered: bool,
     /// Every sample in order, when asked for.
     pub all: Option<Vec<Sample>>,
@@ -113,7 +111,7 @@ pub fn monte_carlo(
     let batches = || run.batches();
     let chunk = |batches: &mut Vec<Solved>, index: usize| run.chunk(batches, index);
     let chunks = 0..sampling.samples.div_ceil(CHUNK);
-    let size = stack(nominal.coordinates.len(), nominal.design.len());
+    let size = pool::stack(nominal.coordinates.len(), nominal.design.len());
     let pieces: Vec<Piece> = match (sampling.threads, size) {
         (1, _) => {
             let mut batches = batches();

@@ -1,8 +1,7 @@
 //! Normal variables from random bits, one pair of each or vectors of them, without a function of the system's library: the
 //! same bits everywhere.
 
-use crate::lanes::Lanes;
-use crate::trigonometry::sin_cos_of_turns;
+use crate::scalar::{Lanes, sin_cos_of_turns};
 
 /// No value that is drawn is greater: the least probability is 2^-53, and `sqrt(-2 ln 2^-53) = 8.572`.
 pub(super) const GREATEST_NORMAL: f64 = 8.6;
@@ -44,7 +43,7 @@ const LN: [f64; 7] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{Batch, Instructions, Task, WIDTH};
+    use crate::scalar::{Batch, Instructions, Task, WIDTH};
 
     /// Probabilities from the least that is drawn to the greatest, close together at both ends.
     fn probabilities() -> Vec<f64> {

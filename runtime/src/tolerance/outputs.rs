@@ -1,7 +1,7 @@
 //! First-order spread of the outputs.
 
 use super::{Spread, Tolerances};
-use crate::dense::Vector;
+use crate::algebra::Vector;
 use crate::sensitivity::OutputSensitivities;
 use crate::{Description, Error, Shared};
 

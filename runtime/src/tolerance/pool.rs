@@ -7,6 +7,23 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::Error;
 
+/// Up to this many matrix elements of coordinates by coordinates and design variables the stack of any thread will do.
+const SMALL: usize = 256;
+/// Stack of a sample, and what it grows by with an element: some hundred copies of every matrix and gradient. Memory that is
+/// not used is not taken.
+const STACK: usize = 16 << 20;
+const STACK_PER_ELEMENT: usize = 4 << 10;
+
+/// Stack for samples of a mechanism of `n` unknowns and `p` design variables; `None` where that of any thread will do.
+pub(super) const fn stack(n: usize, p: usize) -> Option<usize> {
+    let elements = n * (n + p);
+    if elements <= SMALL || cfg!(target_family = "wasm") {
+        None
+    } else {
+        Some(STACK + STACK_PER_ELEMENT * elements)
+    }
+}
+
 /// By number of threads, and by stack size where it is not the usual one.
 type Pools = BTreeMap<(usize, Option<usize>), Arc<ThreadPool>>;
 

@@ -1,7 +1,7 @@
 //! One sample, solved by itself.
 
 use super::Outcome;
-use crate::dense::Vector;
+use crate::algebra::Vector;
 use crate::equilibrium::{Problem, settle};
 use crate::kernels::Kernels;
 use crate::modes::{match_modes, solve_modes};

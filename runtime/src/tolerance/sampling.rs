@@ -5,14 +5,14 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::Tolerances;
 use super::normal::standard_normal_pair;
-use crate::dense::Vector;
-use crate::lanes::{Lanes, WIDTH};
+use crate::algebra::Vector;
+use crate::scalar::{Lanes, WIDTH};
 
 /// Random bits of one probability of each sample of a batch.
-pub(super) type Bits = [u64; WIDTH];
+pub(crate) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence from a given sample on.
-pub(super) struct Draw<'a> {
+pub(crate) struct Draw<'a> {
     random: ChaCha8Rng,
     nominal: &'a [f64],
     tolerances: &'a Tolerances,
@@ -25,7 +25,7 @@ pub(super) struct Draw<'a> {
 
 impl<'a> Draw<'a> {
     /// Prepares to draw sample `first` and its successors.
-    pub(super) fn from(
+    pub(crate) fn from(
         sequence: (u64, u64),
         first: u64,
         nominal: &'a [f64],
@@ -50,7 +50,7 @@ impl<'a> Draw<'a> {
     }
 
     /// The next sample.
-    pub(super) fn next(&mut self) -> &[f64] {
+    pub(crate) fn next(&mut self) -> &[f64] {
         for (values, used) in self.standard.chunks_mut(2).zip(&self.used) {
             let (radius, angle) = (self.random.next_u64(), self.random.next_u64());
             if *used {
@@ -70,16 +70,16 @@ impl<'a> Draw<'a> {
 }
 
 /// The random bits of the samples that [`Draw`] gives, batch after batch.
-pub(super) struct Batches(ChaCha8Rng);
+pub(crate) struct Batches(ChaCha8Rng);
 
 impl Batches {
     /// Prepares to draw sample `first` of this many variables and its successors.
-    pub(super) fn from(sequence: (u64, u64), first: u64, variables: usize) -> Self {
+    pub(crate) fn from(sequence: (u64, u64), first: u64, variables: usize) -> Self {
         Self(generator(sequence, first, variables))
     }
 
     /// Writes those of a batch, by pair of variables.
-    pub(super) fn next(&mut self, pairs: &mut [[Bits; 2]]) {
+    pub(crate) fn next(&mut self, pairs: &mut [[Bits; 2]]) {
         for sample in 0..WIDTH {
             for pair in &mut *pairs {
                 for number in pair {
@@ -111,7 +111,10 @@ fn probability(bits: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tolerance::distribution::normal::upper;
+
+    fn upper(z: f64) -> f64 {
+        0.5 * libm::erfc(z * core::f64::consts::FRAC_1_SQRT_2)
+    }
 
     fn design(seed: u64, first: u64, tolerances: &Tolerances) -> Vector {
         let nominal = Vector::zeros(tolerances.sigmas().len());

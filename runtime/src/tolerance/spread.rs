@@ -1,7 +1,7 @@
 //! First-order spread of one quantity.
 
 use super::Tolerances;
-use crate::dense::Vector;
+use crate::algebra::Vector;
 
 /// First-order spread of one quantity.
 #[derive(Clone, Debug, PartialEq)]

@@ -19,7 +19,7 @@ pub struct Statistics {
 
 /// Running mean and sum of squared deviations (Welford 1962; merged after Chan, Golub and LeVeque 1979).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moments {
+pub(crate) struct Moments {
     count: usize,
     mean: f64,
     squares: f64,
@@ -28,7 +28,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    pub(super) const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         count: 0,
         mean: 0.0,
         squares: 0.0,
@@ -38,7 +38,7 @@ impl Moments {
 
     /// Of `count` values from sums of their deviations from `about` and of the squares of these, and their least and
     /// greatest deviation.
-    pub(super) fn of_deviations(
+    pub(crate) fn of_deviations(
         count: usize,
         about: f64,
         (sum, squares): (f64, f64),
@@ -57,7 +57,7 @@ impl Moments {
         }
     }
 
-    pub(super) fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         self.count += 1;
         let deviation = value - self.mean;
         self.mean += deviation / self.count as f64;
@@ -66,7 +66,7 @@ impl Moments {
         self.max = self.max.max(value);
     }
 
-    pub(super) fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         if other.count == 0 {
             return;
         }
@@ -85,7 +85,7 @@ impl Moments {
     }
 
     /// `None` without values.
-    pub(super) fn statistics(&self) -> Option<Statistics> {
+    pub(crate) fn statistics(&self) -> Option<Statistics> {
         if self.count == 0 {
             return None;
         }

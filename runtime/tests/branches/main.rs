@@ -18,10 +18,11 @@ use common::derived::Derived;
 use common::models::Plate;
 use common::pendulum::{Pendulum, W};
 use common::{GRAVITY, close};
-use eigentol::equilibrium::{
-    Branch, BranchEnd, BranchPoint, Branches, Continuation, Search, SpecialKind, SpecialPoint,
-    branch, branches, equilibrium, find_equilibria,
+use eigentol::branches::{
+    Branch, BranchEnd, BranchPoint, Branches, Continuation, SpecialKind, SpecialPoint, branch,
+    branches,
 };
+use eigentol::equilibrium::{Search, equilibrium, find_equilibria};
 use eigentol::kernels::{DirectionalKernels, Kernels};
 use eigentol::{Equilibrium, Error, Input, Policy, Stability, Study};
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use eigentol::sensitivity::modal_couplings;
-use eigentol::tolerance::clusters;
+use eigentol::clusters::clusters;
+use eigentol::clusters::modal_couplings;
 use eigentol::{Complex, DesignVariable, Error, Family, Input, Quantity, Study, modes};
 
 use super::common::derived::Derived;
@@ -307,7 +307,7 @@ fn a_pair_of_a_general_family_meets_the_undamped_one() {
     let study = plate(0.0, 0.0).design(KY, 50.5);
     let general = study.clone().clusters().unwrap();
     let undamped = study.family(Family::Undamped).clusters().unwrap();
-    let of = |k: usize, found: &eigentol::tolerance::ClusterTolerance| {
+    let of = |k: usize, found: &eigentol::clusters::ClusterTolerance| {
         let spread = found.spread.as_ref().unwrap();
         spread.frequency.members[k].value.unwrap()
     };

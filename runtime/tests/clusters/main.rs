@@ -10,8 +10,9 @@ mod small;
 mod summary;
 mod undamped;
 
+use eigentol::clusters::SortedSpread;
 use eigentol::kernels::BatchKernels;
-use eigentol::tolerance::{SortedSpread, Statistics};
+use eigentol::tolerance::Statistics;
 use eigentol::{Complex, Error, MonteCarlo, Study, Tolerances};
 
 use common::close;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use eigentol::sensitivity::ModalCouplings;
-use eigentol::tolerance::{ClusterSampling, ClusterSpread, sample_cluster};
+use eigentol::clusters::ModalCouplings;
+use eigentol::clusters::{ClusterSampling, ClusterSpread, sample_cluster};
 use eigentol::{Complex, Error, Family, Tolerances};
 
 use super::{close, independent, refused, within};

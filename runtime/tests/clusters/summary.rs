@@ -1,6 +1,6 @@
 //! Verdicts: each doubt where its cause is, none where there is none, and a sentence for each.
 
-use eigentol::tolerance::{Doubt, Summary};
+use eigentol::summary::{Doubt, Summary};
 use eigentol::{Coordinate, DesignVariable, Family, Input, Study};
 
 use super::close;

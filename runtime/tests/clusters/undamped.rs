@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use eigentol::tolerance::ClusterTolerance;
+use eigentol::clusters::ClusterTolerance;
 use eigentol::{DesignVariable, Study};
 
 use super::common::derived::Derived;

@@ -1,9 +1,8 @@
 //! Folds, pitchforks and critical speeds of mechanisms with constraints.
 
-use eigentol::equilibrium::{
-    BranchEnd, Continuation, Range, SpecialKind, branches, critical_state, crossings,
-};
-use eigentol::sensitivity::{critical_sensitivity, crossing_sensitivity};
+use eigentol::branches::{BranchEnd, Continuation, SpecialKind, branches};
+use eigentol::sweep::{Range, critical_state, crossings};
+use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{Input, Policy, Stability};
 
 use crate::common::derived::Derived;

@@ -2,9 +2,9 @@
 
 use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::modes;
+use eigentol::second_order::mode_curvature;
 use eigentol::sensitivity::{
-    Quantity, mode_curvature, sensitivities, sensitivities_by_finite_difference,
-    sensitivities_explicit,
+    Quantity, sensitivities, sensitivities_by_finite_difference, sensitivities_explicit,
 };
 use eigentol::{Array, Equilibrium, Modes, Policy, Sensitivities, equilibrium::equilibrium};
 

@@ -1,6 +1,8 @@
 //! Constraints on positions against minimal coordinates.
 
-use eigentol::sensitivity::{modal_couplings, sensitivities, shape_sensitivity};
+use eigentol::clusters::modal_couplings;
+use eigentol::sensitivity::sensitivities;
+use eigentol::shapes::shape_sensitivity;
 use eigentol::{Error, Family};
 
 use crate::compare::{State, all_near, same_mechanism, same_modes};
@@ -131,7 +133,7 @@ fn equal_frequencies_are_a_cluster() {
     let found = sensitivities(&*own.mechanism, &own.at, &own.modes).unwrap();
     assert!(found.modes.iter().all(|mode| mode.clustered));
     assert!(shape_sensitivity(&*own.mechanism, &own.at, &own.modes, 0).is_err());
-    let mean = |couplings: eigentol::sensitivity::ModalCouplings| {
+    let mean = |couplings: eigentol::clusters::ModalCouplings| {
         let all = couplings.mean_by_design();
         all.iter().flat_map(|x| [x.re, x.im]).collect::<Vec<_>>()
     };

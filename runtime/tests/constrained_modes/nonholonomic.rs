@@ -1,11 +1,13 @@
 //! Speeds and constraints on velocities against closed forms.
 
-use eigentol::equilibrium::{Range, equilibrium, flutter_onsets};
+use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{DirectionalKernels, Kernels, Linear};
 use eigentol::modes::{match_modes, modes, modes_of, undamped_modes};
-use eigentol::sensitivity::{
-    crossing_sensitivity, mode_curvature, sensitivities, sensitivities_explicit, shape_sensitivity,
-};
+use eigentol::second_order::mode_curvature;
+use eigentol::sensitivity::{sensitivities, sensitivities_explicit};
+use eigentol::shapes::shape_sensitivity;
+use eigentol::sweep::crossing_sensitivity;
+use eigentol::sweep::{Range, flutter_onsets};
 use eigentol::{
     Behaviour, Complex, DampingKind, Description, Equilibrium, Error, Family, Input, Mode, Modes,
     Policy, Real, Shared,

@@ -8,7 +8,7 @@ mod margin;
 mod moments;
 mod probability;
 
-use eigentol::tolerance::Quadratic;
+use eigentol::second_order::Quadratic;
 use eigentol::{Matrix, Tolerances, Vector};
 
 fn close(value: f64, expected: f64, tolerance: f64) {

@@ -1,7 +1,7 @@
 //! Margins: closed forms, and derivatives against differences.
 
 use eigentol::report::MarginTable;
-use eigentol::tolerance::{Margin, Quadratic, margin};
+use eigentol::second_order::{Margin, Quadratic, margin};
 use eigentol::{Error, Mechanism, Tolerances, Vector};
 
 use super::common::{SPEED, pendulum::Pendulum};

@@ -1,6 +1,6 @@
 //! Mean, standard deviation, skewness and kurtosis; the measure of nonlinearity.
 
-use eigentol::tolerance::Quadratic;
+use eigentol::second_order::Quadratic;
 use eigentol::{Error, Matrix, Tolerances, Vector};
 
 use super::{close, coupled, factor, independent, spread, value_at};

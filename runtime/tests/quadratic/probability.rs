@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use eigentol::tolerance::{Probability, Quadratic};
+use eigentol::second_order::{Probability, Quadratic};
 use eigentol::{Error, Matrix, Vector};
 
 use super::{Normal, close, coupled, factor, independent, spread, value_at, within};

@@ -7,10 +7,11 @@ use std::time::Instant;
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::DirectionalKernels;
-use eigentol::lanes::Instructions;
 use eigentol::modes::modes;
-use eigentol::sensitivity::{mode_curvature, sensitivities};
-use eigentol::tolerance::second_order;
+use eigentol::scalar::Instructions;
+use eigentol::second_order::mode_curvature;
+use eigentol::second_order::second_order;
+use eigentol::sensitivity::sensitivities;
 use eigentol::{Error, Policy, Study, Tolerances, Vector};
 
 use crate::chains::{LONGEST, Longest};

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use eigentol::kernels::{BatchKernels, BatchPoint, Gradient, Linear};
-use eigentol::lanes::{Batch, Instructions, WIDTH};
+use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, Mechanism, Vector};
 
 use crate::chains::{self, State, Visitor, visit_short};

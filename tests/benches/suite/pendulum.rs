@@ -6,10 +6,11 @@ use std::ffi::c_int;
 use std::hint::black_box;
 use std::path::Path;
 
-use eigentol::equilibrium::{Following, SweepPoint, equilibrium};
-use eigentol::lanes::Instructions;
+use eigentol::equilibrium::equilibrium;
 use eigentol::modes::modes;
-use eigentol::sensitivity::sensitivity_sweep;
+use eigentol::scalar::Instructions;
+use eigentol::sweep::sensitivity_sweep;
+use eigentol::sweep::{Following, SweepPoint};
 use eigentol::tolerance::{Sampling, monte_carlo};
 use eigentol::{
     Equilibrium, Error, Mechanism, Modes, MonteCarlo, Policy, Sensitivities, Tolerances, mechanism,

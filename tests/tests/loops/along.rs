@@ -1,7 +1,8 @@
 //! Along the speed: folds and resonances with their derivatives and spreads, and sweeps from rest through the file's points.
 
-use eigentol::equilibrium::{Condition, SpecialKind};
-use eigentol::tolerance::EventTolerance;
+use eigentol::branches::SpecialKind;
+use eigentol::sweep::Condition;
+use eigentol::sweep::EventTolerance;
 use eigentol::{Input, Mechanism};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};

@@ -2,9 +2,9 @@
 //! second derivatives, outputs with reactions among them, and first-order spreads.
 
 use eigentol::equilibrium::Stability;
+use eigentol::second_order::SecondDerivatives;
 use eigentol::sensitivity::{
-    EquilibriumShift, SecondDerivatives, Slopes, equilibrium_shift, sensitivities,
-    sensitivities_explicit,
+    EquilibriumShift, Slopes, equilibrium_shift, sensitivities, sensitivities_explicit,
 };
 use eigentol::{
     Complex, Coordinate, Equilibrium, Input, Kernels, Mechanism, Mode, Modes, Role, Study,

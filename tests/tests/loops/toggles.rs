@@ -10,7 +10,8 @@
 //! them with reactions beyond 1e5 N, of these 2, 19, 193 "stable"; of 441 single starts 83 ended at one and 6 at none, with
 //! frequencies from 23 to 31 rad/s for one place.
 
-use eigentol::equilibrium::{Continuation, Search, branches};
+use eigentol::branches::{Continuation, branches};
+use eigentol::equilibrium::Search;
 use eigentol::{Equilibrium, Error, Policy, Stability, Study, mechanism};
 
 mechanism! {
@@ -353,7 +354,7 @@ fn branches_are_found_once_each_and_stay_on_the_circles() {
         }
         let across = |value: f64| {
             let at = |branch: &&_| {
-                let branch: &eigentol::equilibrium::Branch = branch;
+                let branch: &eigentol::branches::Branch = branch;
                 branch.points.iter().any(|point| point.value == value)
             };
             found.branches.iter().filter(at).count()

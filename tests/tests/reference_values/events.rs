@@ -1,8 +1,9 @@
 //! Critical speeds and resonances, and how they move with the design.
 
-use eigentol::equilibrium::{Policy, SpecialKind};
+use eigentol::branches::SpecialKind;
+use eigentol::equilibrium::Policy;
 use eigentol::kernels::BatchKernels;
-use eigentol::sensitivity::{critical_sensitivity, crossing_sensitivity};
+use eigentol::sweep::{critical_sensitivity, crossing_sensitivity};
 use eigentol::{DesignVariable, Input, Stability, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::chain_of_eight::ChainOfEight;

@@ -2,9 +2,8 @@
 //! moments.
 
 use eigentol::kernels::DirectionalKernels;
-use eigentol::sensitivity::{
-    Quantity, SecondDerivatives, mode_curvature, sensitivities, sensitivities_explicit,
-};
+use eigentol::second_order::{SecondDerivatives, mode_curvature};
+use eigentol::sensitivity::{Quantity, sensitivities, sensitivities_explicit};
 use eigentol::{Complex, Family, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;

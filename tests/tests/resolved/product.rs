@@ -4,9 +4,9 @@
 use eigentol::equilibrium::Equilibrium;
 use eigentol::kernels::DirectionalKernels;
 use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
-use eigentol::sensitivity::{
-    Quantity, SecondDerivatives, mode_curvature, sensitivities, shape_sensitivity,
-};
+use eigentol::second_order::{SecondDerivatives, mode_curvature};
+use eigentol::sensitivity::{Quantity, sensitivities};
+use eigentol::shapes::shape_sensitivity;
 use eigentol::{Complex, Description, Error, Role, Sensitivities};
 use eigentol_tests::resolved::{Comparison, ComplexDerived, Derived, State, every_machine};
 

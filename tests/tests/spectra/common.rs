@@ -1,6 +1,6 @@
 //! Comparisons.
 
-use eigentol::tolerance::EventTolerance;
+use eigentol::sweep::EventTolerance;
 use eigentol::{Complex, Kernels, Study};
 
 /// Relative error allowed against a closed form.

@@ -1,7 +1,7 @@
 //! Jeffcott's rotor with internal damping, and a disk that tilts.
 
 use eigentol::modes::Sense;
-use eigentol::tolerance::Event;
+use eigentol::sweep::Event;
 use eigentol::{Behaviour, Complex, Stability, Study};
 use eigentol_tests::machines::{JeffcottRotor, OverhungRotor};
 

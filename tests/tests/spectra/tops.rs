@@ -1,6 +1,6 @@
 //! A top held by its spin, and a double frequency that turning splits.
 
-use eigentol::sensitivity::modal_couplings;
+use eigentol::clusters::modal_couplings;
 use eigentol::{Behaviour, Complex, Family, Stability, Study};
 use eigentol_tests::machines::{SleepingTop, SphericalPendulum};
 

@@ -1,6 +1,6 @@
 //! Speeds at which something happens, found by the library, and how the parameters move them.
 
-use eigentol::tolerance::EventTolerance;
+use eigentol::sweep::EventTolerance;
 use eigentol::{Behaviour, Error, Mechanism, Stability, Study};
 use eigentol_oracle::truth::Truth;
 use eigentol_tests::wheels::{CirclingTrailer, TowedCaster, WhippleBicycle};

@@ -3,8 +3,8 @@
 use super::super::convergence::largest_of;
 use super::super::problem::Problem;
 use super::{FIRST_RADIUS, Gaps, free, gaps};
+use crate::algebra::{Vector, add_scaled, dot};
 use crate::constraints::Rows;
-use crate::dense::{Vector, add_scaled, dot};
 
 /// A step without dependent rows is taken when it leaves no more than this share of the greatest gap.
 const FALLS: f64 = 0.1;

@@ -4,12 +4,11 @@
 use super::system::System;
 use super::{Gathered, Normalisation, is_shared, lift, with_reactions};
 use crate::Complex;
+use crate::algebra::Vector;
 use crate::constraints::Tangent;
-use crate::dense::Vector;
+use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
 use crate::kernels::Linear;
-use crate::modes::general::{Eigenproblem, Root, roots_of};
-use crate::modes::symmetric::Trouble;
-use crate::pencil::pencil_transposed_times;
+use crate::modes::pencil::pencil_transposed_times;
 
 pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Trouble> {
     let system = System::new(linear, tangent)?;

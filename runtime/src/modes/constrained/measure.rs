@@ -1,9 +1,9 @@
 //! What a pair of vectors says about an eigenvalue of the bordered pencil.
 
 use crate::Complex;
-use crate::dense::{Lu, Matrix, Vector, dot_complex, largest_element};
+use crate::algebra::{Lu, Matrix, Vector, dot_complex, largest_element};
 use crate::kernels::Linear;
-use crate::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
+use crate::modes::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
 
 /// Accepted residual.
 pub(super) const ACCEPTED: f64 = 1e-9;

@@ -14,12 +14,11 @@ mod system;
 
 pub(crate) use pairs::free_pairs;
 
-use super::general::Root;
-use super::symmetric::Trouble;
+use super::pencil::pencil_times;
+use crate::algebra::{Matrix, Vector, dot, times, times_complex};
 use crate::constraints::{Structure, Tangent};
-use crate::dense::{Matrix, Vector, dot, times, times_complex};
+use crate::eigenproblem::{Root, Trouble};
 use crate::kernels::Linear;
-use crate::pencil::pencil_times;
 use crate::{Complex, Description};
 use measure::Measure;
 

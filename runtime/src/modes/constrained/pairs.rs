@@ -7,10 +7,10 @@
 use super::quadratic::tangent_trouble;
 use super::{measure, projected};
 use crate::Description;
+use crate::algebra::{Matrix, Vector, dot, largest, largest_element, times};
 use crate::constraints::{Structure, Tangent};
-use crate::dense::{Matrix, Vector, dot, largest, largest_element, times};
+use crate::eigenproblem::{Pairs, Trouble, symmetric};
 use crate::kernels::Linear;
-use crate::modes::symmetric::{self, Pairs, Trouble};
 use crate::rounding::of_form;
 
 /// Eigenpairs of a symmetric `Khat` and `Mhat` along the directions that constraints leave free, reactions included, of the

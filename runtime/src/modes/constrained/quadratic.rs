@@ -2,10 +2,9 @@
 
 use super::{Gathered, Normalisation, is_shared, lift, projected, with_reactions};
 use crate::constraints::Tangent;
+use crate::eigenproblem::{Root, Trouble, general};
 use crate::kernels::Linear;
-use crate::modes::general::{self, Root};
-use crate::modes::symmetric::Trouble;
-use crate::pencil::transposed;
+use crate::modes::pencil::transposed;
 
 pub(super) fn roots(linear: &Linear, tangent: &Tangent) -> Result<Vec<Root>, Trouble> {
     let reduced = Linear {

@@ -14,10 +14,10 @@
 )]
 
 use super::quadratic::greatest;
+use crate::algebra::{Cholesky, Matrix, Vector, dot, times};
 use crate::constraints::{Rows, Tangent, inertias};
-use crate::dense::{Cholesky, Matrix, Vector, dot, times};
+use crate::eigenproblem::Trouble;
 use crate::kernels::Linear;
-use crate::modes::symmetric::Trouble;
 
 /// Share of a constraint on velocities below which it follows from those on positions.
 const FOLLOWS: f64 = 1e-10;

@@ -1,11 +1,11 @@
 //! What all samples share: how the nominal state answers to the design, to first and second order.
 
+use crate::algebra::{Cholesky, Matrix, Vector, all_finite, all_finite_matrix, form};
 use crate::batched::algebra::{LARGEST, Row, Square, small};
 use crate::batched::possible;
-use crate::dense::{Cholesky, Matrix, Vector, all_finite, all_finite_matrix, form};
 use crate::kernels::{BatchKernels, Kernels};
-use crate::lanes::{Batch, Instructions};
 use crate::modes::Family;
+use crate::scalar::{Batch, Instructions};
 use crate::tolerance::Tolerances;
 use crate::tolerance::normal::GREATEST_NORMAL;
 use crate::{Equilibrium, Modes, Stability};

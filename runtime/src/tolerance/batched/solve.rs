@@ -2,10 +2,10 @@
 
 use super::stages;
 use super::{Prepared, Sums};
+use crate::algebra::{Matrix, Vector};
 use crate::batched::algebra::for_size;
-use crate::dense::{Matrix, Vector};
 use crate::kernels::{BatchPoint, Linear};
-use crate::lanes::{Batch, Lanes, Task, WIDTH};
+use crate::scalar::{Batch, Lanes, Task, WIDTH};
 use crate::tolerance::sampling::Bits;
 
 /// Steps of Newton's method; one does where second derivatives predict the equilibrium well.

@@ -5,9 +5,9 @@ use super::{Prepared, Solved};
 use crate::batched::POSITIVE;
 use crate::batched::algebra::{self, LARGEST, Row, Square, congruent, keep, load_matrix};
 use crate::batched::closed::{self, Solver};
-use crate::equilibrium::convergence::SMALL_MOTION;
+use crate::equilibrium::SMALL_MOTION;
 use crate::kernels::Kernels;
-use crate::lanes::{Batch, Lanes, WIDTH};
+use crate::scalar::{Batch, Lanes, WIDTH};
 use crate::tolerance::normal::standard_normal_pair;
 
 /// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change

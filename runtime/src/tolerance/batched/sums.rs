@@ -1,7 +1,7 @@
 //! Statistics gathered by lane.
 
 use super::super::statistics::Moments;
-use crate::lanes::{Batch, Lanes};
+use crate::scalar::{Batch, Lanes};
 
 /// Sums over the accepted samples of a chunk, by place in the batch; merged in that order, whatever the vectors were.
 pub(in crate::tolerance) struct Sums {

@@ -1,0 +1,140 @@
+//! Factors of a symmetric positive definite matrix.
+
+use super::matrix::Matrix;
+use super::vector::Vector;
+
+/// `matrix = L D L^T`: Cholesky's factors without roots.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cholesky {
+    /// `L` below the diagonal, which is one.
+    lower: Matrix,
+    /// The diagonal of `D`.
+    pivots: Vector,
+}
+
+impl Cholesky {
+    /// Room for the factors of an `n` by `n` matrix.
+    #[inline]
+    pub(crate) fn zeros(n: usize) -> Self {
+        Self {
+            lower: Matrix::zeros(n, n),
+            pivots: Vector::zeros(n),
+        }
+    }
+
+    /// Factors `matrix`; `Err` names the first row whose pivot is not above rounding.
+    #[inline]
+    pub(crate) fn new(matrix: &Matrix) -> Result<Self, usize> {
+        let mut factors = Self::zeros(matrix.row_count());
+        factors.factor(matrix)?;
+        Ok(factors)
+    }
+
+    /// Writes the factors of `matrix`, of the same size, over those there are; `Err` as in [`Self::new`].
+    #[inline(always)]
+    pub(crate) fn factor(&mut self, matrix: &Matrix) -> Result<(), usize> {
+        let n = matrix.row_count();
+        let threshold = 8.0 * n as f64 * f64::EPSILON;
+        let lower = self.lower.as_flattened_mut();
+        let pivots = &mut self.pivots[..n];
+        for i in 0..n {
+            let row = &matrix[i];
+            let (above, own) = lower.split_at_mut(i * n);
+            let own = &mut own[..n];
+            let mut pivot = row[i];
+            for j in 0..i {
+                let mut sum = row[j];
+                let other = &above[j * n..j * n + j];
+                for k in 0..j {
+                    sum -= own[k] * other[k];
+                }
+                // Scaled by its pivot until the row is finished.
+                own[j] = sum;
+            }
+            for j in 0..i {
+                let scaled = own[j];
+                own[j] = scaled / pivots[j];
+                pivot -= scaled * own[j];
+            }
+            if pivot > threshold * row[i].abs() && pivot < f64::INFINITY {
+                pivots[i] = pivot;
+            } else {
+                return Err(i);
+            }
+        }
+        Ok(())
+    }
+
+    /// The diagonal of `D`.
+    #[inline]
+    pub(crate) fn pivots(&self) -> &[f64] {
+        &self.pivots
+    }
+
+    /// Turns vectors `x_i` whose products are `matrix` into orthonormal ones: `sum_j x_j L^-T D^-1/2`.
+    pub(crate) fn orthonormalise(&self, vectors: &mut [Vector]) {
+        for i in 0..vectors.len() {
+            let (before, own) = vectors.split_at_mut(i);
+            let own = &mut own[0];
+            for (k, other) in before.iter().enumerate() {
+                let factor = -self.lower[i][k];
+                for (own, other) in own.iter_mut().zip(other) {
+                    *own += factor * other;
+                }
+            }
+        }
+        for (vector, pivot) in vectors.iter_mut().zip(&self.pivots) {
+            let size = pivot.sqrt();
+            vector.iter_mut().for_each(|value| *value /= size);
+        }
+    }
+
+    #[inline]
+    pub(crate) fn solve(&self, right: &[f64]) -> Vector {
+        let mut x = Vector::from(right);
+        self.solve_in_place(&mut x);
+        x
+    }
+
+    /// Writes the solution over the right-hand side.
+    #[inline(always)]
+    pub(crate) fn solve_in_place(&self, x: &mut [f64]) {
+        let n = x.len();
+        for i in 0..n {
+            let row = &self.lower[i];
+            for k in 0..i {
+                x[i] -= row[k] * x[k];
+            }
+        }
+        for i in (0..n).rev() {
+            x[i] /= self.pivots[i];
+            for k in i + 1..n {
+                x[i] -= self.lower[k][i] * x[k];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::matrix::times;
+    use crate::algebra::vector::{add_scaled, largest};
+
+    #[test]
+    fn it_solves() {
+        let matrix = Matrix::from([[4.0, 1.0, 0.5], [1.0, 3.0, -1.0], [0.5, -1.0, 5.0]]);
+        let x = [1.0, -2.0, 3.0];
+        let Ok(factors) = Cholesky::new(&matrix) else {
+            panic!("positive definite")
+        };
+        let solution = factors.solve(&times(&matrix, &x));
+        assert!(largest(&add_scaled(&solution, -1.0, &x)) < 1e-14);
+    }
+
+    #[test]
+    fn singular_matrices_are_refused() {
+        let singular = Matrix::from([[1.0, 2.0], [2.0, 4.0]]);
+        assert_eq!(Cholesky::new(&singular).err(), Some(1));
+    }
+}

@@ -1,0 +1,309 @@
+//! Branch points, where two branches cross.
+//!
+//! About a branch point the equations reduce to one scalar of two variables (Lyapunov and Schmidt): on
+//! `g(x) + mu c = 0`, `n1 . x = xi`, `n2 . x = eta`, `x = (q, u_k)`, the branches are the lines `mu(xi, eta) = 0`, and they
+//! cross where `mu` has a saddle of height zero. Newton's method on the gradient of `mu` is regular there, and the
+//! second derivatives give the directions of both branches (algebraic branching equation).
+
+use super::bordered::Bordered;
+use super::curve::{Curve, Trouble, plane};
+use super::fold::{LAST_STEP, ROUNDING, beside};
+use super::frame::{Frame, Place};
+use super::special::{Junction, SpecialKind};
+use super::station::Station;
+use crate::algebra::{Vector, dot, form};
+use crate::equilibrium::ACCEPTED;
+
+const MAX_ITERATIONS: usize = 30;
+/// A direction with a smaller part along the input is that of the critical vector.
+const STATIONARY: f64 = 1e-6;
+/// Height of the saddle, relative to its second order, that counts as zero: the branches then pass within 3e-7.
+const CROSSING: f64 = 1e-13;
+/// Halvings towards the change of sign where the critical vectors are looked for.
+const NEARER: usize = 12;
+/// Distance, in local units, at which the third order is felt out.
+const PROBE: f64 = 1e-3;
+
+/// `mu` and its derivatives at one place.
+struct Reduced {
+    /// Newton step to `g + mu c = 0` and the value of `mu` after it.
+    correction: Place,
+    mu: f64,
+    /// `dx/dxi`, `dx/deta`.
+    tangents: [Place; 2],
+    w: Vector,
+    gradient: [f64; 2],
+    hessian: [[f64; 2]; 2],
+}
+
+/// Directions that complete the equations, and the column that does.
+struct Borders {
+    normals: [Place; 2],
+    column: Vector,
+}
+
+impl Curve<'_> {
+    /// The branch point between two stations.
+    pub(crate) fn branch_point(&self, a: &Station, b: &Station) -> Result<Junction, Trouble> {
+        let frame = &a.frame;
+        let end = frame.local(&b.place);
+        let (mut local, borders) = self.saddle(a, &end)?;
+        // Two more inner steps leave the residual at rounding.
+        for _ in 0..2 {
+            let reduced = self.reduced(frame, &local, 0.0, &borders)?;
+            local = local.plus(1.0, &reduced.correction);
+        }
+        let place = frame.place(&local);
+        let reduced = self.reduced(frame, &local, 0.0, &borders)?;
+        let [first, second] = directions(&reduced)?;
+        let own_is_first = first.dot(&end).abs() >= second.dot(&end).abs();
+        let (own, other) = if own_is_first {
+            (first, second)
+        } else {
+            (second, first)
+        };
+        let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
+        let stationary = |direction: &Place| direction.p.abs() <= STATIONARY;
+        let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
+        let kind = match (stationary(&own), stationary(&other)) {
+            (true, true) => return Err(not_simple()),
+            (false, false) => SpecialKind::Transcritical,
+            _ => SpecialKind::Pitchfork {
+                supercritical: self.supercritical(frame, &local, &borders, &v)?,
+            },
+        };
+        let critical = frame.stretched(&v);
+        // The branches pass each other at a distance of the root of mu / H.
+        let size = reduced
+            .hessian
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, h| most.max(h.abs()));
+        let gap = reduced.mu.abs() / size;
+        let also = ACCEPTED * gap / CROSSING;
+        let weights = frame.weights(&reduced.w);
+        let special = self.special(kind, &place, (&critical.q, &weights), 1, Some(also))?;
+        Ok(Junction {
+            special,
+            frame: frame.at(place),
+            own,
+            other,
+        })
+    }
+
+    /// The saddle of `mu` between the origin of the frame and `end`, both on the branch.
+    fn saddle(&self, a: &Station, end: &Place) -> Result<(Place, Borders), Trouble> {
+        let frame = &a.frame;
+        let mut borders = self.borders(a, end)?;
+        let mut local = end.scaled(0.5);
+        let (mut mu, mut last) = (0.0, f64::INFINITY);
+        for _ in 0..MAX_ITERATIONS {
+            let reduced = self.reduced(frame, &local, mu, &borders)?;
+            if last <= LAST_STEP {
+                return Ok((local, borders));
+            }
+            let [[a, b], [c, d]] = reduced.hessian;
+            let det = a * d - b * c;
+            let size = a.abs().max(b.abs()).max(d.abs());
+            if det.is_nan() || det.abs() <= 1e-12 * size * size {
+                return Err(not_simple());
+            }
+            let [x, y] = reduced.gradient.map(|value| -value);
+            let amounts = [(d * x - b * y) / det, (a * y - c * x) / det];
+            let step = reduced
+                .correction
+                .plus(amounts[0], &reduced.tangents[0])
+                .plus(amounts[1], &reduced.tangents[1]);
+            let size = step.norm();
+            if !step.finite() {
+                return Err(not_simple());
+            }
+            if last <= ROUNDING && size >= 0.5 * last {
+                return Ok((local, borders));
+            }
+            local = local.plus(1.0, &step);
+            (mu, last) = (reduced.mu, size);
+            if !beside(&local, end) {
+                return Err(Trouble::Missed(
+                    "the branch point is not between the points",
+                ));
+            }
+            if let Some(column) = unit(&reduced.w) {
+                mu *= dot(&column, &borders.column);
+                borders.column = column;
+            }
+        }
+        Err(Trouble::Missed("the branch point was not located"))
+    }
+
+    /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
+    fn borders(&self, a: &Station, end: &Place) -> Result<Borders, Trouble> {
+        let first = end.unit().ok_or_else(not_simple)?;
+        let factors = self.nearly_singular(&a.frame, end, &first)?;
+        let mut left = (Vector::filled(end.q.len(), 1.0), [0.5]);
+        for (i, value) in left.0.iter_mut().enumerate() {
+            *value += 0.1 * i as f64;
+        }
+        let mut right = Place::zero(end.q.len());
+        for _ in 0..6 {
+            let (q, [p]) = factors.solve(&left.0, left.1);
+            right = Place { q, p }.unit().ok_or_else(not_simple)?;
+            let (q, [p]) = factors.solve_transposed(&right.q, [right.p]);
+            let image = Place { q, p }.unit().ok_or_else(not_simple)?;
+            left = (image.q, [image.p]);
+        }
+        let second = right
+            .plus(-right.dot(&first), &first)
+            .unit()
+            .ok_or_else(not_simple)?;
+        Ok(Borders {
+            normals: [first, second],
+            column: unit(&left.0).ok_or_else(not_simple)?,
+        })
+    }
+
+    /// `[Khat dg/du; n1^T]` near its change of sign between the origin of the frame and `end`. Farther away something else
+    /// may be softer than what becomes singular.
+    fn nearly_singular(
+        &self,
+        frame: &Frame,
+        end: &Place,
+        first: &Place,
+    ) -> Result<Bordered, Trouble> {
+        let at = |fraction: f64| {
+            let system = self.system(&frame.place(&end.scaled(fraction)))?;
+            plane(&frame.scaled(&system), first).ok_or_else(not_simple)
+        };
+        let mut best = at(0.0)?;
+        let sign = best.negative_determinant();
+        if at(1.0).is_ok_and(|far| far.negative_determinant() != sign) {
+            let mut step = 0.5;
+            let mut fraction = 0.0;
+            for _ in 0..NEARER {
+                if let Ok(next) = at(fraction + step)
+                    && next.negative_determinant() == sign
+                {
+                    fraction += step;
+                    best = next;
+                }
+                step *= 0.5;
+            }
+        }
+        Ok(best)
+    }
+
+    fn reduced(
+        &self,
+        frame: &Frame,
+        local: &Place,
+        mu: f64,
+        borders: &Borders,
+    ) -> Result<Reduced, Trouble> {
+        let place = frame.place(local);
+        let scaled = frame.scaled(&self.system(&place)?);
+        let [first, second] = &borders.normals;
+        let factors = Bordered::new(
+            &scaled.stiffness,
+            [&scaled.by_input, &borders.column],
+            [&first.q, &second.q],
+            [[first.p, 0.0], [second.p, 0.0]],
+        )
+        .ok_or_else(not_simple)?;
+        let n = local.q.len();
+        let off = Vector::from_fn(n, |i| -(scaled.residual[i] + mu * borders.column[i]));
+        let (q, [p, change]) = factors.solve(&off, [0.0; 2]);
+        let correction = Place { q, p };
+        let tangents = [[1.0, 0.0], [0.0, 1.0]].map(|right| {
+            let (q, [p, _]) = factors.solve(&Vector::zeros(n), right);
+            Place { q, p }
+        });
+        let (w, slopes) = factors.solve_transposed(&Vector::zeros(n), [0.0, 1.0]);
+        let weights = frame.weights(&w);
+        let bend = |tangent: &Place| -> Result<Place, Trouble> {
+            let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
+            Ok(frame.stretched(&curvature))
+        };
+        let bent = [bend(&tangents[0])?, bend(&tangents[1])?];
+        // w^T [Khat dg/du] + a1 n1 + a2 n2 = 0, so that the slopes of mu are a1 and a2.
+        Ok(Reduced {
+            mu: mu + change,
+            w,
+            gradient: core::array::from_fn(|i| slopes[i] - bent[i].dot(&correction)),
+            hessian: bent
+                .each_ref()
+                .map(|bent| tangents.each_ref().map(|tangent| -bent.dot(tangent))),
+            correction,
+            tangents,
+        })
+    }
+
+    /// Sign of the third order along the critical vector, by differences of exact second orders.
+    fn supercritical(
+        &self,
+        frame: &Frame,
+        at: &Place,
+        borders: &Borders,
+        v: &Place,
+    ) -> Result<Option<bool>, Trouble> {
+        let place = frame.place(at);
+        let mass = self.linear(&place)?.mass;
+        let parts = borders.normals.each_ref().map(|normal| normal.dot(v));
+        let probe = |distance: f64| -> Result<(f64, f64), Trouble> {
+            let mut local = at.plus(distance, v);
+            let mut mu = 0.0;
+            for _ in 0..4 {
+                let reduced = self.reduced(frame, &local, mu, borders)?;
+                local = local.plus(1.0, &reduced.correction);
+                mu = reduced.mu;
+            }
+            let reduced = self.reduced(frame, &local, mu, borders)?;
+            let h = reduced.hessian;
+            let second = parts[0] * (h[0][0] * parts[0] + h[0][1] * parts[1])
+                + parts[1] * (h[1][0] * parts[0] + h[1][1] * parts[1]);
+            let side = form(&frame.weights(&reduced.w), &mass, &frame.stretched(v).q);
+            let size = h
+                .iter()
+                .flatten()
+                .fold(0.0, |most: f64, x| most.max(x.abs()));
+            Ok((-second * side.signum(), size))
+        };
+        let (Ok((up, size_up)), Ok((down, size_down))) = (probe(PROBE), probe(-PROBE)) else {
+            return Ok(None);
+        };
+        let third = (up - down) / (2.0 * PROBE);
+        let known = third.abs() > 1e-6 * size_up.max(size_down);
+        Ok(known.then_some(third > 0.0))
+    }
+}
+
+fn not_simple() -> Trouble {
+    Trouble::Missed("the branch point is not simple")
+}
+
+/// Unit directions of the two branches: the roots of the quadratic form of second derivatives.
+fn directions(reduced: &Reduced) -> Result<[Place; 2], Trouble> {
+    let [[a, b], [_, c]] = reduced.hessian;
+    let discriminant = b * b - a * c;
+    let size = a.abs().max(b.abs()).max(c.abs());
+    if discriminant.is_nan() || discriminant <= 1e-12 * size * size {
+        return Err(not_simple());
+    }
+    let q = -(b + discriminant.sqrt().copysign(b));
+    let [x, y] = &reduced.tangents;
+    let combine = |s: f64, t: f64| x.scaled(s).plus(t, y).unit().ok_or_else(not_simple);
+    Ok([combine(q, a)?, combine(c, q)?])
+}
+
+/// The combination of the tangents along which the input stands still.
+fn critical([x, y]: &[Place; 2]) -> Option<Place> {
+    let v = x.scaled(y.p).plus(-x.p, y);
+    Place { q: v.q, p: 0.0 }.unit()
+}
+
+fn unit(x: &[f64]) -> Option<Vector> {
+    let direction = Place {
+        q: x.into(),
+        p: 0.0,
+    };
+    direction.unit().map(|place| place.q)
+}

@@ -1,0 +1,341 @@
+//! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
+
+use super::bordered::Bordered;
+use super::frame::{Frame, Place, System};
+use super::settings::Continuation;
+use crate::algebra::{Vector, all_finite};
+use crate::constraints::{Structure, redundant_rows};
+use crate::equilibrium::{
+    ACCEPTED, Failure, Problem, Stability, constraint_state, judge, relative_residual,
+};
+use crate::kernels::{DirectionalKernels, Linear};
+use crate::rounding;
+use crate::{Description, Equilibrium, Error, Shared};
+
+/// A mechanism of which one input varies.
+pub(crate) struct Curve<'a> {
+    pub(crate) mechanism: &'a dyn DirectionalKernels,
+    pub(crate) description: Shared<Description>,
+    pub(crate) structure: Structure,
+    pub(crate) inputs: &'a [f64],
+    pub(crate) design: &'a [f64],
+    pub(crate) settings: &'a Continuation,
+    /// Redundant constraints, which Newton's method is better off without; every point is held to all of them.
+    dropped: Vec<bool>,
+}
+
+/// Why a point was not reached.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Trouble {
+    /// The equations are not finite there.
+    OutsideDomain(Vector),
+    /// The input describes no body that can exist.
+    Unphysical(Error),
+    /// The point does not pass as an equilibrium.
+    Refused(Failure),
+    /// The reason in words.
+    Missed(&'static str),
+}
+
+impl Trouble {
+    /// Whether the equations end there.
+    pub(crate) fn at_edge(&self) -> bool {
+        matches!(
+            self,
+            Self::OutsideDomain(_)
+                | Self::Unphysical(_)
+                | Self::Refused(Failure::OutsideDomain { .. })
+        )
+    }
+}
+
+/// A point of the branch on a given plane.
+pub(crate) struct Corrected {
+    pub(crate) local: Place,
+    pub(crate) place: Place,
+    pub(crate) system: System,
+    pub(crate) iterations: usize,
+}
+
+/// Displacement, in units of coordinates and input, that residuals are compared with.
+const SMALL: f64 = 1e-3;
+/// A Newton step this small, in local units, leaves rounding.
+const LAST_STEP: f64 = 1e-13;
+/// A step that no longer shrinks has reached rounding below this size.
+const ROUNDING: f64 = 1e-8;
+/// A Newton step that keeps more than this share of the one before does not converge.
+const CONTRACTION: f64 = 0.5;
+
+impl<'a> Curve<'a> {
+    pub(crate) fn new(
+        mechanism: &'a dyn DirectionalKernels,
+        inputs: &'a [f64],
+        design: &'a [f64],
+        settings: &'a Continuation,
+    ) -> Result<Self, Error> {
+        let description = mechanism.description();
+        settings.check(&description)?;
+        Ok(Self {
+            mechanism,
+            structure: Structure::of(&description),
+            dropped: Vec::new(),
+            description,
+            inputs,
+            design,
+            settings,
+        })
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn size(&self) -> usize {
+        self.description.coordinates.len()
+    }
+
+    /// The problem at these inputs, with all constraints.
+    pub(crate) fn problem<'b>(&'b self, inputs: &'b [f64]) -> Problem<'b> {
+        Problem::unchecked(self.mechanism, inputs, self.design)
+    }
+
+    /// The same for branches near a state.
+    pub(crate) fn about(mut self, state: &Equilibrium) -> Self {
+        if self.structure.constraints() > 1 {
+            self.dropped = redundant_rows(&state.linear.stiffness, self.structure);
+        }
+        self
+    }
+
+    pub(crate) fn inputs_at(&self, p: f64) -> Vector {
+        let mut inputs = Vector::from(self.inputs);
+        if let Some(value) = inputs.get_mut(self.settings.input.index()) {
+            *value = p;
+        }
+        inputs
+    }
+
+    /// The linearised mechanism at a place.
+    pub(crate) fn linear(&self, at: &Place) -> Result<Linear, Trouble> {
+        self.problem(&self.inputs_at(at.p))
+            .linear(&at.q)
+            .map_err(Trouble::Refused)
+    }
+
+    pub(crate) fn system(&self, at: &Place) -> Result<System, Trouble> {
+        let inputs = self.inputs_at(at.p);
+        let problem = self.problem(&inputs).without(&self.dropped);
+        let (residual, stiffness) = problem
+            .evaluate(&at.q)
+            .ok_or_else(|| Trouble::OutsideDomain(at.q.clone()))?;
+        let (by_inputs, _) = problem
+            .mechanism
+            .residual_partials(&at.q, &inputs, self.design);
+        let mut by_input = by_inputs.column(self.settings.input.index());
+        for (value, dropped) in by_input.iter_mut().zip(&self.dropped) {
+            if *dropped {
+                *value = 0.0;
+            }
+        }
+        if all_finite(&by_input) {
+            Ok(System {
+                residual,
+                stiffness,
+                by_input,
+            })
+        } else {
+            Err(Trouble::OutsideDomain(at.q.clone()))
+        }
+    }
+
+    /// Gradient by `(q, u_k)` of the derivative of `w^T g` along `direction`.
+    pub(crate) fn curvature(
+        &self,
+        at: &Place,
+        w: &[f64],
+        direction: &Place,
+    ) -> Result<Place, Trouble> {
+        let input = self.settings.input.index();
+        let mut along = Vector::zeros(self.inputs.len());
+        along[input] = direction.p;
+        let gradient = self.mechanism.residual_gradient_along(
+            &at.q,
+            &self.inputs_at(at.p),
+            self.design,
+            w,
+            [
+                &direction.q,
+                &along,
+                &Vector::zeros(self.design.len()),
+                &Vector::zeros(self.size()),
+            ],
+        );
+        let found = Place {
+            q: gradient.coordinates,
+            p: gradient.inputs[input],
+        };
+        if found.finite() {
+            Ok(found)
+        } else {
+            Err(Trouble::OutsideDomain(at.q.clone()))
+        }
+    }
+
+    /// The equilibrium at a place. Its residual is relative, beside what an ordinary solve knows, to what a thousandth of the
+    /// range restores: where `Khat` is singular the input holds what coordinates do not. Where neither does, `also` is
+    /// another measure of it.
+    pub(crate) fn equilibrium(
+        &self,
+        at: &Place,
+        system: &System,
+        iterations: usize,
+        also: Option<f64>,
+    ) -> Result<Equilibrium, Trouble> {
+        let inputs = self.inputs_at(at.p);
+        if let Some(violation) = self.mechanism.violation(&inputs, self.design) {
+            return Err(Trouble::Unphysical(Error::Unphysical {
+                quantity: violation.quantity,
+                requirement: violation.requirement,
+                value: violation.value,
+            }));
+        }
+        let problem = self.problem(&inputs);
+        let linear = problem.linear(&at.q).map_err(Trouble::Refused)?;
+        let residual = if self.dropped.contains(&true) {
+            problem.residual(&at.q)
+        } else {
+            system.residual.clone()
+        };
+        let mut relative = relative_residual(&problem, &at.q, &residual, &linear.stiffness);
+        if relative.is_nan() || relative > ACCEPTED {
+            relative = self
+                .with_input(&at.q, system)
+                .min(also.unwrap_or(f64::INFINITY));
+        }
+        if relative > ACCEPTED {
+            return Err(Trouble::Refused(Failure::NotFound {
+                reason: "the residual stays larger than rounding explains",
+                coordinates: at.q.to_vec(),
+                iterations,
+                relative,
+            }));
+        }
+        let constraints =
+            constraint_state(&problem, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
+        let (stability, rounding) = if constraints.singular {
+            (Stability::Undecided, 0.0)
+        } else {
+            let place = rounding::Place {
+                coordinates: &at.q,
+                inputs: &inputs,
+                design: self.design,
+                residual: &residual,
+            };
+            judge(self.mechanism, &place, &linear).map_err(Trouble::Refused)?
+        };
+        Ok(Equilibrium {
+            pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
+            coordinates: at.q.clone(),
+            inputs,
+            design: self.design.into(),
+            stability,
+            rounding,
+            constraints,
+            linear,
+            residual,
+            relative_residual: relative,
+            iterations,
+            left_unstable_region: false,
+            description: self.description.clone(),
+        })
+    }
+
+    /// Greatest residual, each relative to what a thousandth of the range or of a coordinate's unit restores.
+    fn with_input(&self, q: &[f64], system: &System) -> f64 {
+        (0..q.len()).fold(0.0, |most: f64, i| {
+            let input = system.by_input[i].abs() * self.settings.range();
+            let scale = (0..q.len()).fold(input, |sum, j| {
+                sum + system.stiffness[i][j].abs() * (self.settings.size + q[j].abs())
+            });
+            let residual = system.residual[i].abs();
+            most.max(if residual > 0.0 {
+                residual / (SMALL * scale)
+            } else {
+                0.0
+            })
+        })
+    }
+
+    pub(crate) fn frame(&self, at: &Place, system: &System) -> Frame {
+        Frame::new(
+            at.clone(),
+            self.settings.size,
+            self.settings.range(),
+            system,
+            self.structure.motions(),
+        )
+    }
+
+    /// Solves `g = 0` on the plane through `from` across `normal` (both local), not farther than `reach` from it.
+    pub(crate) fn correct(
+        &self,
+        frame: &Frame,
+        from: &Place,
+        normal: &Place,
+        reach: f64,
+    ) -> Result<Corrected, Trouble> {
+        let mut local = from.clone();
+        let mut last = f64::INFINITY;
+        let mut stalled = false;
+        for iterations in 0..=self.settings.max_corrections + 1 {
+            let place = frame.place(&local);
+            let system = self.system(&place)?;
+            if last <= LAST_STEP || stalled {
+                return Ok(Corrected {
+                    local,
+                    place,
+                    system,
+                    iterations,
+                });
+            }
+            let scaled = frame.scaled(&system);
+            let off = normal.dot(&local.plus(-1.0, from));
+            let step = plane(&scaled, normal)
+                .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-off]))
+                .map(|(q, [p])| Place { q, p })
+                .filter(Place::finite)
+                .ok_or(Trouble::Missed("the branch is not isolated"))?;
+            let size = step.norm();
+            if size > CONTRACTION * last {
+                if last > ROUNDING {
+                    return Err(Trouble::Missed("Newton's method does not converge"));
+                }
+                stalled = true;
+                continue;
+            }
+            local = local.plus(1.0, &step);
+            last = size;
+            if local.plus(-1.0, from).norm() > reach {
+                return Err(Trouble::Missed("the branch bends away"));
+            }
+        }
+        if last <= ROUNDING {
+            let place = frame.place(&local);
+            let system = self.system(&place)?;
+            return Ok(Corrected {
+                local,
+                place,
+                system,
+                iterations: self.settings.max_corrections,
+            });
+        }
+        Err(Trouble::Missed("Newton's method does not converge"))
+    }
+}
+
+/// `[Khat dg/du; normal^T]`.
+pub(crate) fn plane(scaled: &System, normal: &Place) -> Option<Bordered> {
+    Bordered::new(
+        &scaled.stiffness,
+        [&scaled.by_input],
+        [&normal.q],
+        [[normal.p]],
+    )
+}

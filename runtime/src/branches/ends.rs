@@ -1,0 +1,151 @@
+//! Where a walk along a branch ends, and why.
+
+use super::BranchEnd;
+use super::curve::{Corrected, Curve, Trouble};
+use super::frame::Place;
+use super::station::{Station, VERTICAL};
+use crate::algebra::Vector;
+use crate::equilibrium::Failure;
+use crate::{Equilibrium, Error};
+
+/// Share of the range by which a branch along one of its ends may stray by rounding.
+pub(super) const STRAY: f64 = 1e-9;
+/// Local distance on which a branch is its tangent to rounding.
+const BESIDE: f64 = 1e-7;
+
+/// A last station, unless the walk already stands there, and how the branch ends.
+type LastStep = (Option<Station>, BranchEnd);
+
+impl Curve<'_> {
+    /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
+    pub(super) fn arrive_singular(
+        &self,
+        corrected: &Corrected,
+        before: &Station,
+    ) -> Result<Station, Trouble> {
+        let (place, system) = (&corrected.place, &corrected.system);
+        let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
+        let frame = self.frame(place, system);
+        let tangent = frame.direction(&before.direction()).unit();
+        Ok(Station {
+            place: place.clone(),
+            equilibrium,
+            frame,
+            tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
+            signs: before.signs,
+        })
+    }
+
+    pub(super) fn end_at(&self, bound: f64) -> BranchEnd {
+        if bound == self.settings.low {
+            BranchEnd::Low
+        } else {
+            BranchEnd::High
+        }
+    }
+
+    /// The end of the range at which a station is about to leave it.
+    pub(super) fn leaving(&self, at: &Station) -> Option<BranchEnd> {
+        let (least, most) = self.settings.bounds();
+        let rate = at.tangent.p;
+        if at.place.p <= least && rate < -VERTICAL {
+            Some(self.end_at(least))
+        } else if at.place.p >= most && rate > VERTICAL {
+            Some(self.end_at(most))
+        } else {
+            None
+        }
+    }
+
+    /// The end of the range that an input lies beyond.
+    pub(super) fn beyond(&self, p: f64) -> Option<f64> {
+        let (least, most) = self.settings.bounds();
+        if p < least {
+            Some(least)
+        } else if p > most {
+            Some(most)
+        } else {
+            None
+        }
+    }
+
+    /// The point of the branch exactly at an end of the range.
+    pub(super) fn land(
+        &self,
+        at: &Station,
+        outside: &Corrected,
+        bound: f64,
+    ) -> Result<Corrected, Trouble> {
+        let target = at.frame.local(&Place {
+            p: bound,
+            ..at.place.clone()
+        });
+        let share = target.p / outside.local.p;
+        // A step that turns back between the points would land on the wrong side of the turn.
+        if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
+            return Err(Trouble::Missed(
+                "the end of the range is not straight ahead",
+            ));
+        }
+        let from = outside.local.scaled(share);
+        let input = Place {
+            q: Vector::zeros(self.size()),
+            p: 1.0,
+        };
+        let mut landed = self.correct(&at.frame, &from, &input, 0.5 * outside.local.norm())?;
+        landed.place.p = bound;
+        landed.system = self.system(&landed.place)?;
+        Ok(landed)
+    }
+
+    /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
+    /// is there.
+    pub(super) fn last_step(&self, at: &Station) -> Option<LastStep> {
+        let (least, most) = self.settings.bounds();
+        let away = |bound: f64| (bound - at.place.p) / self.settings.range();
+        let bound = if away(least).abs() < away(most).abs() {
+            least
+        } else {
+            most
+        };
+        if away(bound) == 0.0 {
+            return Some((None, self.end_at(bound)));
+        }
+        let step = at.tangent.scaled(away(bound) / at.tangent.p);
+        if !(step.norm() <= BESIDE && step.dot(&at.tangent) > 0.0) {
+            return None;
+        }
+        let mut place = at.frame.place(&step);
+        place.p = bound;
+        let system = self.system(&place).ok()?;
+        let corrected = Corrected {
+            local: step,
+            place,
+            system,
+            iterations: 0,
+        };
+        let station = self.arrive_singular(&corrected, at).ok()?;
+        Some((Some(station), self.end_at(bound)))
+    }
+
+    pub(crate) fn broken_off(&self, trouble: Trouble, at: &Equilibrium) -> BranchEnd {
+        match trouble {
+            Trouble::OutsideDomain(q) => BranchEnd::Domain(Error::OutsideDomain {
+                mechanism: self.description.name.clone(),
+                what: "the residual",
+                coordinates: q.to_vec(),
+            }),
+            Trouble::Unphysical(error) => BranchEnd::Domain(error),
+            Trouble::Refused(failure @ Failure::OutsideDomain { .. }) => {
+                BranchEnd::Domain(failure.explain(&self.description))
+            }
+            Trouble::Refused(failure) => BranchEnd::Lost(failure.explain(&self.description)),
+            Trouble::Missed(reason) => BranchEnd::Lost(Error::NoEquilibrium {
+                reason,
+                iterations: self.settings.max_corrections,
+                coordinates: at.coordinates.to_vec(),
+                relative_residual: at.relative_residual,
+            }),
+        }
+    }
+}

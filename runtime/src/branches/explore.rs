@@ -1,0 +1,300 @@
+//! All branches that can be reached: along each from its start, and at every branch point into the other one.
+
+use std::collections::VecDeque;
+
+use super::curve::{Curve, Trouble};
+use super::frame::Place;
+use super::settings::Continuation;
+use super::special::{Junction, SpecialKind};
+use super::station::Station;
+use super::walk::{SAME, Walk};
+use super::{Branch, BranchEnd, BranchPoint, Branches};
+use crate::algebra::Vector;
+use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, settle};
+use crate::kernels::DirectionalKernels;
+use crate::{Equilibrium, Error};
+
+/// Share of the range by which a start on a singular state is moved.
+const NUDGE: f64 = 1e-6;
+
+/// A branch and the branch points passed on it, each with whether the branch is an arm that ends there.
+type Followed = (Branch, Vec<(Junction, bool)>);
+
+/// What is still to be followed.
+enum Lead {
+    /// Both ways from a regular point.
+    Start(Station),
+    /// Both ways through a junction.
+    Through(Junction, Place),
+    /// One arm of a pitchfork.
+    Arm(Junction, Place),
+}
+
+/// Follows the branch through the stable equilibrium at `settings.low` that is found from `start`, in both directions.
+///
+/// `u` inputs (of which `settings.input` is replaced), `b` design variables, `start` coordinates, all SI. Branches that
+/// cross it are told by its special points, but not followed: [`branches`] does.
+///
+/// # Errors
+/// [`Error::Setting`], [`Error::UnknownHandle`], and those of [`equilibrium`] at the low end.
+pub fn branch(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    settings: &Continuation,
+) -> Result<Branch, Error> {
+    let curve = Curve::new(mechanism, u, b, settings)?;
+    let inputs = curve.inputs_at(settings.low);
+    let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
+    let curve = curve.about(&state);
+    Ok(match curve.begin(&state) {
+        Ok(station) => curve.both_ways(&station).0,
+        Err(trouble) => curve.lone_point(state, trouble),
+    })
+}
+
+/// Finds the branches of equilibria over a range of one input.
+///
+/// Starts at the low end of the range with the equilibria found from `start`, at the high end where there are none, and
+/// at both ends with those that `search` finds; then follows every branch and enters every other branch that crosses
+/// one. The arms of a pitchfork are branches of their own. A branch that is connected to none of these and passes
+/// neither end near a start is not found: completeness is not promised.
+///
+/// # Errors
+/// [`Error::Setting`], [`Error::UnknownHandle`], [`Error::NotFinite`]; those of [`equilibrium`] when there is no
+/// equilibrium at either end.
+pub fn branches(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    settings: &Continuation,
+    search: Option<&Search>,
+) -> Result<Branches, Error> {
+    let curve = Curve::new(mechanism, u, b, settings)?;
+    let none = Search {
+        lower: start.into(),
+        upper: start.into(),
+        starts: 0,
+        seed: 0,
+    };
+    let search_or_none = search.unwrap_or(&none);
+    let mut states = Vec::new();
+    let mut refused = None;
+    for value in [settings.low, settings.high] {
+        if search.is_none() && !states.is_empty() {
+            break;
+        }
+        let inputs = curve.inputs_at(value);
+        match find_equilibria(mechanism, &inputs, b, start, search_or_none) {
+            Ok(found) => states.extend(found),
+            Err(error) => _ = refused.get_or_insert(error),
+        }
+    }
+    if states.is_empty() {
+        if let Some(error) = refused {
+            return Err(error);
+        }
+        let inputs = curve.inputs_at(settings.low);
+        states.push(equilibrium(mechanism, &inputs, b, start, Policy::Stable)?);
+    }
+    let curve = match states.first() {
+        Some(state) => curve.about(state),
+        None => curve,
+    };
+    Ok(curve.explore(states))
+}
+
+impl Curve<'_> {
+    /// The station at an equilibrium, or beside it where branches cross there.
+    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<Station, Trouble> {
+        self.first_station(state.clone()).or_else(|trouble| {
+            let (low, high) = (self.settings.low, self.settings.high);
+            let value = state.inputs[self.settings.input.index()];
+            let target = if value == low { high } else { low };
+            let inputs = self.inputs_at(value + NUDGE * (target - value));
+            match settle(&self.problem(&inputs), &state.coordinates, Policy::Nearest) {
+                Ok(beside) => self.first_station(beside),
+                Err(_) => Err(trouble),
+            }
+        })
+    }
+
+    /// The branch through a station, and the junctions on it.
+    fn both_ways(&self, station: &Station) -> Followed {
+        let front = self.walk(station, &station.place, |_, _| false);
+        let back = if front.end == BranchEnd::Closed {
+            nothing(BranchEnd::Closed)
+        } else {
+            self.walk(&station.reversed(), &station.place, |_, _| false)
+        };
+        self.joined(back, Some(self.point(station)), front)
+    }
+
+    /// One branch of two walks from one place.
+    fn joined(&self, back: Walk, start: Option<BranchPoint>, front: Walk) -> Followed {
+        let mut points: Vec<_> = back
+            .points
+            .into_iter()
+            .rev()
+            .map(BranchPoint::reversed)
+            .collect();
+        points.extend(start);
+        points.extend(front.points);
+        let mut special: Vec<_> = back.special.into_iter().rev().collect();
+        special.extend(front.special);
+        let mut junctions = back.junctions;
+        junctions.extend(front.junctions);
+        let branch = Branch {
+            input: self.settings.input,
+            points,
+            special,
+            ends: [back.end, front.end],
+            description: self.description.clone(),
+        };
+        (branch, junctions)
+    }
+
+    /// A branch of which nothing but one point is known.
+    fn lone_point(&self, state: Equilibrium, trouble: Trouble) -> Branch {
+        let end = self.broken_off(trouble, &state);
+        Branch {
+            input: self.settings.input,
+            points: vec![BranchPoint {
+                value: state.inputs[self.settings.input.index()],
+                equilibrium: state,
+                tangent: Vector::zeros(self.size()),
+                input_tangent: 0.0,
+            }],
+            special: Vec::new(),
+            ends: [end.clone(), end],
+            description: self.description.clone(),
+        }
+    }
+
+    fn explore(&self, states: Vec<Equilibrium>) -> Branches {
+        let mut found: Vec<Branch> = Vec::new();
+        let mut leads = VecDeque::new();
+        for state in states {
+            match self.begin(&state) {
+                Ok(station) => leads.push_back(Lead::Start(station)),
+                Err(trouble) => found.push(self.lone_point(state, trouble)),
+            }
+        }
+        let mut entered: Vec<Place> = Vec::new();
+        while let Some(lead) = leads.pop_front() {
+            let Some((branch, junctions)) = self.follow(&lead, &found) else {
+                continue;
+            };
+            if found.len() >= self.settings.max_branches {
+                return Branches {
+                    branches: found,
+                    truncated: true,
+                };
+            }
+            for (junction, ends_arm) in junctions {
+                let near = |known: &Place| junction.frame.local(known).norm() <= SAME;
+                if entered.iter().any(near) {
+                    continue;
+                }
+                entered.push(junction.frame.origin.clone());
+                let (own, other) = (junction.own.clone(), junction.other.clone());
+                if ends_arm {
+                    leads.push_back(Lead::Through(junction.clone(), other));
+                    leads.push_back(Lead::Arm(junction, own));
+                } else if matches!(junction.special.kind, SpecialKind::Pitchfork { .. }) {
+                    let opposite = other.scaled(-1.0);
+                    leads.push_back(Lead::Arm(junction.clone(), other));
+                    leads.push_back(Lead::Arm(junction, opposite));
+                } else {
+                    leads.push_back(Lead::Through(junction, other));
+                }
+            }
+            found.push(branch);
+        }
+        Branches {
+            branches: found,
+            truncated: false,
+        }
+    }
+
+    /// The branch of a lead; `None` where there is none or it is known.
+    fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
+        let fresh = |station: &Station| !self.known(known, &station.place);
+        let from = |junction: &Junction, station: &Station| {
+            let mut walk = self.walk(station, &junction.frame.origin, |_, _| false);
+            walk.points.insert(0, self.point(station));
+            walk
+        };
+        let at = |junction: &Junction, direction: &Place| {
+            let direction = junction.frame.stretched(direction);
+            Some(self.special_point(&junction.special, &direction))
+        };
+        let (mut branch, junctions, place) = match lead {
+            Lead::Start(station) => {
+                return fresh(station).then(|| self.both_ways(station));
+            }
+            Lead::Arm(junction, direction) => {
+                let station = self.depart(junction, direction).filter(fresh)?;
+                let front = from(junction, &station);
+                let back = nothing(BranchEnd::BranchPoint);
+                let (branch, junctions) = self.joined(back, at(junction, direction), front);
+                (branch, junctions, 0)
+            }
+            Lead::Through(junction, direction) => {
+                let forward = (self.settings.high - self.settings.low).signum();
+                let direction = &direction.scaled(forward * direction.p.signum());
+                let behind = direction.scaled(-1.0);
+                let ahead = self.depart(junction, direction);
+                let behind = self.depart(junction, &behind);
+                if !ahead.iter().chain(&behind).all(fresh) {
+                    return None;
+                }
+                let front = ahead.map(|station| from(junction, &station));
+                let closed = front
+                    .as_ref()
+                    .is_some_and(|walk| walk.end == BranchEnd::Closed);
+                let back = behind
+                    .filter(|_| !closed)
+                    .map(|station| from(junction, &station));
+                if front.is_none() && back.is_none() {
+                    return None;
+                }
+                let stopped = || {
+                    nothing(if closed {
+                        BranchEnd::Closed
+                    } else {
+                        BranchEnd::BranchPoint
+                    })
+                };
+                let place = back.as_ref().map_or(0, |walk| walk.special.len());
+                let (branch, junctions) = self.joined(
+                    back.unwrap_or_else(stopped),
+                    at(junction, direction),
+                    front.unwrap_or_else(stopped),
+                );
+                (branch, junctions, place)
+            }
+        };
+        let special = junction_of(lead).map(|junction| junction.special.clone());
+        branch.special.splice(place..place, special);
+        Some((branch, junctions))
+    }
+}
+
+fn junction_of(lead: &Lead) -> Option<&Junction> {
+    match lead {
+        Lead::Start(_) => None,
+        Lead::Through(junction, _) | Lead::Arm(junction, _) => Some(junction),
+    }
+}
+
+fn nothing(end: BranchEnd) -> Walk {
+    Walk {
+        points: Vec::new(),
+        special: Vec::new(),
+        junctions: Vec::new(),
+        end,
+    }
+}

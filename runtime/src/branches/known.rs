@@ -1,0 +1,60 @@
+//! Whether an equilibrium lies on a branch that is already known.
+
+use super::Branch;
+use super::curve::Curve;
+use super::frame::{Frame, Place};
+use crate::equilibrium::{turned_towards, turns_do_not_count};
+
+/// Local distance from a branch below which a place is on it.
+const CLOSE: f64 = 1e-6;
+
+impl Curve<'_> {
+    /// Whether a place, or one that differs from it by full turns and is the same state, lies on one of the branches.
+    pub(super) fn known(&self, branches: &[Branch], place: &Place) -> bool {
+        branches.iter().any(|branch| self.on(branch, place))
+    }
+
+    fn on(&self, branch: &Branch, place: &Place) -> bool {
+        let at = |k: usize| Place {
+            q: branch.points[k].equilibrium.coordinates.clone(),
+            p: branch.points[k].value,
+        };
+        (1..branch.points.len()).any(|k| {
+            let (from, to) = (at(k - 1), at(k));
+            let turned = Place {
+                q: turned_towards(&place.q, &from.q, &self.description),
+                p: place.p,
+            };
+            self.near(&from, &to, &turned) && (turned == *place || self.same(place, &turned))
+        })
+    }
+
+    /// Whether a place on some branch lies on the piece of branch between two neighbouring points.
+    fn near(&self, from: &Place, to: &Place, place: &Place) -> bool {
+        let Ok(system) = self.system(from) else {
+            return false;
+        };
+        let frame: Frame = self.frame(from, &system);
+        let (end, target) = (frame.local(to), frame.local(place));
+        let length = end.norm();
+        let Some(normal) = end.unit() else {
+            return target.norm() <= CLOSE;
+        };
+        let along = target.dot(&normal);
+        let across = target.plus(-along, &normal).norm();
+        if across > 0.3 * length + CLOSE || along < -CLOSE || along > length + CLOSE {
+            return false;
+        }
+        let tolerance = CLOSE.min(0.01 * length);
+        match self.correct(&frame, &normal.scaled(along), &normal, length) {
+            Ok(found) => found.local.plus(-1.0, &target).norm() <= tolerance,
+            Err(_) => across <= tolerance,
+        }
+    }
+
+    /// Whether two places that differ by full turns are the same state.
+    fn same(&self, place: &Place, turned: &Place) -> bool {
+        let inputs = self.inputs_at(place.p);
+        turns_do_not_count(&self.problem(&inputs), &place.q, &turned.q)
+    }
+}

@@ -1,0 +1,187 @@
+//! What happens between two neighbouring points of a branch.
+
+use super::curve::{Curve, Trouble};
+use super::special::{Located, SpecialKind};
+use super::station::{Signs, Station};
+use crate::equilibrium::{Bracket, refine};
+use crate::modes::free_pairs;
+
+/// Local distance below which events are not told apart.
+const NARROW: f64 = 1e-7;
+/// Most points set between two stations to tell events apart.
+const MOST_POINTS: usize = 120;
+
+/// Which signs change between two stations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Changes {
+    falling: bool,
+    crossed: bool,
+    /// Change of the number of negative eigenvalues, where it is known.
+    negative: Option<usize>,
+}
+
+impl Changes {
+    fn between(a: &Signs, b: &Signs) -> Self {
+        Self {
+            falling: a.falling != b.falling,
+            crossed: a.crossed != b.crossed,
+            negative: a.negative.zip(b.negative).map(|(a, b)| a.abs_diff(b)),
+        }
+    }
+
+    fn none(self) -> bool {
+        !self.falling && !self.crossed && self.negative.is_none_or(|count| count == 0)
+    }
+
+    fn is(self, falling: bool, crossed: bool, negative: usize) -> bool {
+        self.falling == falling
+            && self.crossed == crossed
+            && self.negative.is_none_or(|count| count == negative)
+    }
+}
+
+impl Curve<'_> {
+    /// Appends the special points between two stations in their order along the branch.
+    pub(crate) fn locate(
+        &self,
+        a: &Station,
+        b: &Station,
+        found: &mut Vec<Located>,
+    ) -> Result<(), Trouble> {
+        self.divide(a, b, found, &mut 0)
+    }
+
+    fn divide(
+        &self,
+        a: &Station,
+        b: &Station,
+        found: &mut Vec<Located>,
+        points: &mut usize,
+    ) -> Result<(), Trouble> {
+        let changes = Changes::between(&a.signs, &b.signs);
+        if changes.none() {
+            return Ok(());
+        }
+        if let Some(located) = self.simple(a, b, changes)? {
+            found.push(located);
+            return Ok(());
+        }
+        let width = a.frame.local(&b.place).norm();
+        if width <= NARROW {
+            found.push(self.unresolved(a, b, changes)?);
+            return Ok(());
+        }
+        *points += 1;
+        if *points > MOST_POINTS {
+            return Err(Trouble::Missed("too many events between two points"));
+        }
+        let middle = self.middle(a, b)?;
+        self.divide(a, &middle, found, points)?;
+        self.divide(&middle, b, found, points)
+    }
+
+    /// The one event that explains the changes, if one does.
+    fn simple(
+        &self,
+        a: &Station,
+        b: &Station,
+        changes: Changes,
+    ) -> Result<Option<Located>, Trouble> {
+        if changes.crossed {
+            let junction = match self.branch_point(a, b) {
+                Ok(junction) => junction,
+                // Branches that nearly meet do not cross: the step has jumped from one to the other.
+                Err(trouble @ Trouble::Refused(_)) => return Err(trouble),
+                Err(_) => return Ok(None),
+            };
+            let pitchfork = matches!(junction.special.kind, SpecialKind::Pitchfork { .. });
+            let ends_arm = pitchfork && junction.own.p.abs() < junction.other.p.abs();
+            let explained = changes.is(false, true, 1) && !ends_arm;
+            let explained_arm = changes.is(true, true, 0) && ends_arm;
+            return Ok((explained || explained_arm).then(|| Located {
+                special: junction.special.clone(),
+                direction: junction.frame.stretched(&junction.own),
+                junction: Some(junction),
+                ends_arm,
+            }));
+        }
+        if changes.is(true, false, 1) {
+            return Ok(self.fold(a, b).ok().map(|(special, direction)| Located {
+                special,
+                direction,
+                junction: None,
+                ends_arm: false,
+            }));
+        }
+        Ok(None)
+    }
+
+    /// A station between two.
+    fn middle(&self, a: &Station, b: &Station) -> Result<Station, Trouble> {
+        let mut trouble = Trouble::Missed("no point between two points");
+        for fraction in [0.5, 0.41, 0.62] {
+            match self.between(a, b, fraction) {
+                Ok(station) => return Ok(station),
+                Err(reason) => trouble = reason,
+            }
+        }
+        Err(trouble)
+    }
+
+    fn between(&self, a: &Station, b: &Station, fraction: f64) -> Result<Station, Trouble> {
+        let end = a.frame.local(&b.place);
+        let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
+        let from = end.scaled(fraction);
+        let corrected = self.correct(&a.frame, &from, &normal, 0.5 * end.norm())?;
+        self.arrive(&corrected, &a.frame.stretched(&normal), Some(a))
+    }
+
+    /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
+    fn unresolved(&self, a: &Station, b: &Station, changes: Changes) -> Result<Located, Trouble> {
+        let end = a.frame.local(&b.place);
+        let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
+        let first = a
+            .signs
+            .negative
+            .zip(b.signs.negative)
+            .map_or(0, |(a, b)| a.min(b));
+        let zero = changes.negative.unwrap_or(0).max(1);
+        let mean = |station: &crate::Equilibrium| {
+            let pairs = free_pairs(&station.linear, &self.description).ok()?;
+            let sum: f64 = pairs.lambda.iter().skip(first).take(zero).sum();
+            Some(sum)
+        };
+        let mut fraction = 0.5;
+        if let (Some(at_low), Some(at_high), Some(2..)) =
+            (mean(&a.equilibrium), mean(&b.equilibrium), changes.negative)
+            && at_low * at_high < 0.0
+        {
+            let bracket = Bracket {
+                low: 0.0,
+                high: 1.0,
+                at_low,
+                at_high,
+            };
+            fraction = refine(bracket, |trial| {
+                let from = end.scaled(trial);
+                let at = self
+                    .correct(&a.frame, &from, &normal, 0.5 * end.norm())
+                    .ok()?;
+                let mean = mean(&self.equilibrium(&at.place, &at.system, 0, None).ok()?)?;
+                Some((mean, None))
+            });
+        }
+        let from = end.scaled(fraction);
+        let place = match self.correct(&a.frame, &from, &normal, 0.5 * end.norm()) {
+            Ok(corrected) => corrected.place,
+            Err(_) => a.frame.place(&from),
+        };
+        let special = self.degenerate(&place, (&a.frame, &normal), zero)?;
+        Ok(Located {
+            special,
+            direction: a.frame.stretched(&normal),
+            junction: None,
+            ends_arm: false,
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! Points of a branch at which `Khat` is singular.
+
+use super::curve::{Curve, Trouble};
+use super::frame::{Frame, Place};
+use super::station::symmetric_to_rounding;
+use crate::algebra::{Values, Vector, dot, form, largest, times};
+use crate::equilibrium::{Equilibrium, Stability};
+use crate::kernels::Linear;
+use crate::modes::free_pairs;
+use crate::{DampingKind, Input};
+
+/// What happens where `Khat` is singular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpecialKind {
+    /// A limit point: the branch turns back, `w^T dg/du` is not zero.
+    Fold,
+    /// A branch crosses this one on which the input is stationary: two arms leave to the same side of the input.
+    Pitchfork {
+        /// The arms lie where the critical mode of the branch that they leave has lost its stiffness (supercritical, a
+        /// soft loss), or where it still has it (subcritical, a hard loss). `None` where the third order vanishes.
+        supercritical: Option<bool>,
+    },
+    /// Another branch crosses this one and goes on to both sides of the input.
+    Transcritical,
+    /// Several modes lose their stiffness at once, or branches touch: located, but not resolved into branches.
+    Degenerate,
+}
+
+/// A point of a branch at which `Khat` is singular.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecialPoint {
+    /// What happens there.
+    pub kind: SpecialKind,
+    /// The input that varies.
+    pub input: Input,
+    /// Its value there, SI.
+    pub value: f64,
+    /// The equilibrium there; its stability counts the critical mode as neutral.
+    pub equilibrium: Equilibrium,
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    pub v: Vector,
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    pub w: Vector,
+}
+
+/// Where branches cross, with what is needed to enter the other one.
+#[derive(Clone, Debug)]
+pub(crate) struct Junction {
+    pub(crate) special: SpecialPoint,
+    /// At the junction, with the units of a regular point nearby.
+    pub(crate) frame: Frame,
+    /// Local unit direction of the branch on which it was found, along the walk.
+    pub(crate) own: Place,
+    /// Local unit direction of the other branch.
+    pub(crate) other: Place,
+}
+
+/// A special point on a walk.
+pub(crate) struct Located {
+    pub(crate) special: SpecialPoint,
+    /// Tangent of the walk, SI units.
+    pub(crate) direction: Place,
+    pub(crate) junction: Option<Junction>,
+    /// The walk came along an arm of a pitchfork, which ends there.
+    pub(crate) ends_arm: bool,
+}
+
+impl Curve<'_> {
+    /// The special point at a place with these critical vectors of any length; `zero` modes are critical; `also` as for
+    /// [`Self::equilibrium`].
+    pub(crate) fn special(
+        &self,
+        kind: SpecialKind,
+        place: &Place,
+        (v, w): (&[f64], &[f64]),
+        zero: usize,
+        also: Option<f64>,
+    ) -> Result<SpecialPoint, Trouble> {
+        let (least, most) = self.settings.bounds();
+        let place = &Place {
+            q: place.q.clone(),
+            p: place.p.clamp(least, most),
+        };
+        let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
+        let (v, w) = normalised(&equilibrium.linear, self.structure.motions(), v, w)
+            .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
+        make_critical(&mut equilibrium, zero);
+        Ok(SpecialPoint {
+            kind,
+            input: self.settings.input,
+            value: place.p,
+            equilibrium,
+            v,
+            w,
+        })
+    }
+
+    /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
+    pub(crate) fn degenerate(
+        &self,
+        place: &Place,
+        (frame, tangent): (&Frame, &Place),
+        zero: usize,
+    ) -> Result<SpecialPoint, Trouble> {
+        let linear = self.linear(place)?;
+        let softest = symmetric_to_rounding(&linear, &self.description)
+            .then(|| free_pairs(&linear, &self.description).ok())
+            .flatten()
+            .and_then(|pairs| {
+                let shapes = pairs.lambda.iter().zip(pairs.shapes.iter());
+                let (_, least) = shapes.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+                Some(Vector::from(least))
+            });
+        let v = softest.unwrap_or_else(|| tangent.q.clone());
+        let residual = largest(&frame.weights(&self.system(place)?.residual));
+        self.special(
+            SpecialKind::Degenerate,
+            place,
+            (&v, &v),
+            zero,
+            Some(residual),
+        )
+    }
+}
+
+/// `v^T M v = 1` with the largest of the first components positive, `w^T M v = 1`.
+fn normalised(linear: &Linear, motions: usize, v: &[f64], w: &[f64]) -> Option<(Vector, Vector)> {
+    let motion = &v[..motions];
+    let most = motion
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let lead = motion
+        .iter()
+        .copied()
+        .find(|value| value.abs() >= most * (1.0 - 1e-9))?;
+    let length = form(v, &linear.mass, v).sqrt() * lead.signum();
+    let v = v.map(|value| value / length);
+    let both = dot(w, &times(&linear.mass, &v));
+    let w = w.map(|value| value / both);
+    let finite = v.iter().chain(&w).all(|value| value.is_finite());
+    finite.then_some((v, w))
+}
+
+/// Makes `zero` modes of an equilibrium critical, whatever sign rounding gives them.
+pub(crate) fn make_critical(at: &mut Equilibrium, zero: usize) {
+    let (judged, description) = (at.stability, &at.description);
+    let flutters = matches!(judged, Stability::Flutter { .. });
+    if flutters || !symmetric_to_rounding(&at.linear, description) {
+        return;
+    }
+    let Ok(pairs) = free_pairs(&at.linear, description) else {
+        return;
+    };
+    let mut lambda = pairs.lambda;
+    lambda.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (critical, others) = lambda.split_at(zero.min(lambda.len()));
+    at.rounding = critical
+        .iter()
+        .fold(at.rounding, |most, value| most.max(value.abs()));
+    let negative = others.iter().filter(|&&value| value < 0.0).count();
+    let damped = description.damping != DampingKind::Zero;
+    at.stability = match negative {
+        0 => Stability::Neutral { zero },
+        _ if negative % 2 == 0 && damped => judged,
+        _ => Stability::Divergent { negative },
+    };
+}

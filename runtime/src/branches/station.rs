@@ -1,0 +1,164 @@
+//! A point on a branch with what is needed to go on from it, and the signs that tell that something lies between two.
+
+use super::curve::{Curve, Trouble, plane};
+use super::frame::{Frame, Place, System};
+use crate::Description;
+use crate::algebra::{Cholesky, Vector, asymmetry};
+use crate::constraints::Structure;
+use crate::equilibrium::Equilibrium;
+use crate::kernels::Linear;
+use crate::modes::free_pairs;
+
+/// A regular point of a branch.
+#[derive(Clone, Debug)]
+pub(crate) struct Station {
+    pub(crate) place: Place,
+    pub(crate) equilibrium: Equilibrium,
+    pub(crate) frame: Frame,
+    /// Local unit tangent.
+    pub(crate) tangent: Place,
+    pub(crate) signs: Signs,
+}
+
+/// Signs that change where something happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Signs {
+    /// The input falls along the branch.
+    pub(crate) falling: bool,
+    /// The input stands still along the branch.
+    pub(crate) vertical: bool,
+    /// `det [Khat dg/du; t^T] < 0` where as many constraints as there are change no sign: changes where branches cross.
+    pub(crate) crossed: bool,
+    /// Number of negative eigenvalues of a symmetric `Khat`, along the directions that constraints leave free.
+    pub(crate) negative: Option<usize>,
+}
+
+/// Tangents with a smaller part along the input are vertical.
+pub(crate) const VERTICAL: f64 = 1e-10;
+
+impl Curve<'_> {
+    /// The station at a place on the branch, its tangent on the side of `towards` (SI units).
+    pub(crate) fn station(
+        &self,
+        place: &Place,
+        system: &System,
+        equilibrium: Equilibrium,
+        towards: &Place,
+        before: Option<&Signs>,
+    ) -> Result<Station, Trouble> {
+        let frame = self.frame(place, system);
+        let scaled = frame.scaled(system);
+        let singular = Trouble::Missed("the branch is not isolated");
+        let towards = frame.direction(towards).unit();
+        let factors = towards.and_then(|towards| plane(&scaled, &towards));
+        let Some(factors) = factors else {
+            return Err(singular);
+        };
+        let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
+        let tangent = Place { q, p }.unit().ok_or(singular)?;
+        let vertical = tangent.p.abs() <= VERTICAL;
+        let constraints = self.structure.constraints();
+        let signs = Signs {
+            falling: match before {
+                Some(before) if vertical => before.falling,
+                _ => tangent.p < 0.0,
+            },
+            vertical,
+            // Each constraint turns the sign: its multiplier adds a negative eigenvalue.
+            crossed: factors.negative_determinant() != (constraints % 2 == 1),
+            negative: if vertical {
+                None
+            } else {
+                negative(&equilibrium.linear, &self.description)
+            },
+        };
+        // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
+        let odd = signs.falling != signs.crossed;
+        if signs.negative.is_some_and(|count| (count % 2 == 1) != odd) {
+            return Err(Trouble::Missed("the stiffness is singular to rounding"));
+        }
+        Ok(Station {
+            place: place.clone(),
+            equilibrium,
+            frame,
+            tangent,
+            signs,
+        })
+    }
+
+    /// The first station of a branch, its tangent towards the end of the range.
+    pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<Station, Trouble> {
+        let place = Place {
+            q: equilibrium.coordinates.clone(),
+            p: equilibrium.inputs[self.settings.input.index()],
+        };
+        let system = self.system(&place)?;
+        let frame = self.frame(&place, &system);
+        let scaled = frame.scaled(&system);
+        let axis = |k: Option<usize>| Place {
+            q: Vector::from_fn(self.size(), |i| if k == Some(i) { 1.0 } else { 0.0 }),
+            p: if k.is_none() { 1.0 } else { 0.0 },
+        };
+        let mut best: Option<Place> = None;
+        let mut share = 0.0;
+        for k in core::iter::once(None).chain((0..self.size()).map(Some)) {
+            let Some(factors) = plane(&scaled, &axis(k)) else {
+                continue;
+            };
+            let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
+            let found = Place { q, p };
+            if found.finite() && 1.0 / found.norm() > share {
+                share = 1.0 / found.norm();
+                best = found.unit();
+            }
+        }
+        let forward = (self.settings.high - self.settings.low).signum();
+        let tangent = best.ok_or(Trouble::Missed("the branch is not isolated"))?;
+        let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
+        let direction = frame.stretched(&tangent);
+        self.station(&place, &system, equilibrium, &direction, None)
+    }
+}
+
+impl Station {
+    /// The same point, looking back.
+    pub(crate) fn reversed(&self) -> Self {
+        Self {
+            tangent: self.tangent.scaled(-1.0),
+            signs: Signs {
+                falling: !self.signs.falling,
+                crossed: !self.signs.crossed,
+                ..self.signs
+            },
+            ..self.clone()
+        }
+    }
+
+    /// Whether the determinant of `Khat` (reduced by constraints), and where it is symmetric every eigenvalue, is positive.
+    pub(crate) fn stiff(&self) -> bool {
+        self.signs.falling == self.signs.crossed
+            && self.signs.negative.is_none_or(|count| count == 0)
+    }
+
+    /// Tangent in SI units.
+    pub(crate) fn direction(&self) -> Place {
+        self.frame.stretched(&self.tangent)
+    }
+}
+
+/// Negative eigenvalues of a symmetric `Khat` along the directions that constraints leave free.
+fn negative(linear: &Linear, description: &Description) -> Option<usize> {
+    if !symmetric_to_rounding(linear, description) {
+        return None;
+    }
+    if Structure::of(description).open() && Cholesky::new(&linear.stiffness).is_ok() {
+        return Some(0);
+    }
+    Some(free_pairs(linear, description).ok()?.negative())
+}
+
+/// Whether `Khat` has modes of its own: it is symmetric, and nothing in it belongs to speeds.
+pub(crate) fn symmetric_to_rounding(linear: &Linear, description: &Description) -> bool {
+    Structure::of(description).holonomic()
+        && (description.symmetric_stiffness || asymmetry(&linear.stiffness) <= 1e-11)
+}

@@ -1,0 +1,149 @@
+//! How design variables couple modes: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
+//! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
+
+use crate::algebra::{dot_complex, times_complex};
+use crate::kernels::{DirectionalKernels, Linear};
+use crate::modes::{Family, pencil_times};
+use crate::sensitivity::{check_modes, directions, normaliser};
+use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
+
+/// First-order motion of several modes together: along a change `db` their eigenvalues are those of
+/// `diag(eigenvalues) + sum_k db_k by_design[k]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalCouplings {
+    /// Positions of the modes.
+    pub modes: Vec<usize>,
+    /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    pub family: Family,
+    /// Their eigenvalues.
+    pub eigenvalues: Vec<Complex>,
+    /// For each input one square matrix, row by row: in its diagonal the derivatives of the eigenvalues as if each mode
+    /// stood alone, beside it how the variable mixes the modes. Per SI unit.
+    pub by_input: Vec<Vec<Complex>>,
+    /// For each design variable one such matrix.
+    pub by_design: Vec<Vec<Complex>>,
+}
+
+impl ModalCouplings {
+    /// Mean of the eigenvalues.
+    pub fn mean(&self) -> Complex {
+        self.eigenvalues.iter().sum::<Complex>() / self.modes.len().max(1) as f64
+    }
+
+    /// Total derivatives of the mean of the eigenvalues by the inputs.
+    pub fn mean_by_input(&self) -> Vec<Complex> {
+        self.by_input.iter().map(|own| self.trace(own)).collect()
+    }
+
+    /// Total derivatives of the mean of the eigenvalues by the design variables: it has them whatever the modes do.
+    pub fn mean_by_design(&self) -> Vec<Complex> {
+        self.by_design.iter().map(|own| self.trace(own)).collect()
+    }
+
+    /// Trace of a matrix over its size.
+    fn trace(&self, matrix: &[Complex]) -> Complex {
+        let count = self.modes.len();
+        let diagonal = (0..count).map(|i| matrix[i * count + i]);
+        diagonal.sum::<Complex>() / count.max(1) as f64
+    }
+
+    /// Element (`i`, `j`) of the matrix of each design variable.
+    pub(crate) fn element(&self, i: usize, j: usize) -> impl Iterator<Item = Complex> {
+        let place = i * self.modes.len() + j;
+        self.by_design.iter().map(move |matrix| matrix[place])
+    }
+
+    /// The couplings among some of these modes, given by their places here.
+    pub(crate) fn among(&self, places: &[usize]) -> Self {
+        let count = self.modes.len();
+        let minor = |matrix: &Vec<Complex>| {
+            let rows = places.iter();
+            rows.flat_map(|i| places.iter().map(move |j| matrix[i * count + j]))
+                .collect()
+        };
+        Self {
+            modes: places.iter().map(|&i| self.modes[i]).collect(),
+            family: self.family,
+            eigenvalues: places.iter().map(|&i| self.eigenvalues[i]).collect(),
+            by_input: self.by_input.iter().map(minor).collect(),
+            by_design: self.by_design.iter().map(minor).collect(),
+        }
+    }
+}
+
+/// The couplings among the modes at `positions`, the shift of the equilibrium included.
+///
+/// # Errors
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::NoSuchMode`].
+pub fn modal_couplings(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    positions: &[usize],
+) -> Result<ModalCouplings, Error> {
+    let count = modes.modes.len();
+    if let Some(&mode) = positions.iter().find(|&&mode| mode >= count) {
+        return Err(Error::NoSuchMode { mode, count });
+    }
+    check_modes(at, modes)?;
+    let members: Vec<&Mode> = positions.iter().map(|&r| &modes.modes[r]).collect();
+    let mut matrices = directions(mechanism, at)?.map(|along| {
+        let change = along.linear(mechanism, at);
+        match modes.family {
+            Family::Undamped => undamped(&members, &change),
+            Family::General => general(at, &members, &change),
+        }
+    });
+    let by_input: Vec<_> = matrices.by_ref().take(at.inputs.len()).collect();
+    let by_design: Vec<_> = matrices.collect();
+    let eigenvalue = |mode: &&Mode| match (modes.family, mode.behaviour) {
+        // Zero but for rounding, whose sign must not count as growth.
+        (_, Behaviour::Neutral) => Complex::ZERO,
+        (Family::Undamped, _) => mode.lambda.into(),
+        (Family::General, _) => mode.s,
+    };
+    Ok(ModalCouplings {
+        modes: positions.to_vec(),
+        family: modes.family,
+        eigenvalues: members.iter().map(eigenvalue).collect(),
+        by_input,
+        by_design,
+    })
+}
+
+/// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
+fn undamped(members: &[&Mode], change: &Linear) -> Vec<Complex> {
+    matrix(members, |b| {
+        let k = times_complex(&change.stiffness, &b.shape);
+        let m = times_complex(&change.mass, &b.shape);
+        move |a| {
+            let lambda = 0.5 * (a.lambda + b.lambda);
+            dot_complex(&a.left, &k) - lambda * dot_complex(&a.left, &m)
+        }
+    })
+}
+
+/// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
+/// its left and right vectors.
+fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Vec<Complex> {
+    matrix(members, |b| {
+        let moved = pencil_times(change, b.s, &b.shape);
+        move |a| -dot_complex(&a.left, &moved) / normaliser(at, a)
+    })
+}
+
+/// Row by row; `column` prepares for one right vector what every left vector meets.
+fn matrix<'a, F: Fn(&Mode) -> Complex>(
+    members: &[&'a Mode],
+    column: impl Fn(&'a Mode) -> F,
+) -> Vec<Complex> {
+    let count = members.len();
+    let mut matrix = vec![Complex::default(); count * count];
+    for (j, b) in members.iter().enumerate() {
+        let element = column(b);
+        for (i, a) in members.iter().enumerate() {
+            matrix[i * count + j] = element(a);
+        }
+    }
+    matrix
+}

@@ -1,0 +1,84 @@
+//! Derivatives of equal eigenvalues along one direction: there alone they have any (Prells and Friswell 1997, Dailey 1989).
+
+use super::couplings::modal_couplings;
+use crate::arguments::check_count;
+use crate::kernels::DirectionalKernels;
+use crate::modes::{Family, merged};
+use crate::sensitivity::{eigenvalues, outside_domain};
+use crate::{Complex, Equilibrium, Error, Modes};
+
+/// How the eigenvalues of a cluster move along one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectionalDerivatives {
+    /// Positions of its modes, from 0; which of them moves how is not a question that has an answer.
+    pub modes: Vec<usize>,
+    /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    pub family: Family,
+    /// Derivatives of the eigenvalues, ascending by their real parts, then by their imaginary ones.
+    pub eigenvalues: Vec<Complex>,
+    /// Derivatives of the frequencies, rad/s, ascending; `None` for modes that do not oscillate.
+    pub frequencies: Option<Vec<f64>>,
+}
+
+/// Derivatives of the eigenvalues of the cluster of number `mode` along the change `du` of the inputs and `db` of the design
+/// variables (SI), the shift of the equilibrium included: the eigenvalues of `Phi^T (dKhat - lambda dMhat) Phi`, of general modes
+/// those of the couplings `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The opposite
+/// direction has the opposite derivatives; other directions do not add up, because each splits the cluster in its own way. For
+/// a mode apart from all others it is the ordinary derivative.
+///
+/// # Errors
+/// [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`] where eigenvalues have merged, [`Error::CriticalState`] when `Khat` is singular,
+/// [`Error::OutsideDomain`] when a derivative is not finite.
+pub fn directional_derivatives(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    mode: usize,
+    (du, db): (&[f64], &[f64]),
+) -> Result<DirectionalDerivatives, Error> {
+    check_count("changes of inputs", du, at.inputs.len())?;
+    check_count("changes of design variables", db, at.design.len())?;
+    let count = modes.modes.len();
+    if mode >= count {
+        return Err(Error::NoSuchMode { mode, count });
+    }
+    let cluster = modes.cluster_of(mode);
+    if cluster.iter().any(|&member| merged(modes, member)) {
+        return Err(Error::Defective { modes: cluster });
+    }
+    let couplings = modal_couplings(mechanism, at, modes, &cluster)?;
+    let m = cluster.len();
+    let mut matrix = vec![Complex::ZERO; m * m];
+    let changes = couplings.by_input.iter().zip(du);
+    for (slopes, &change) in changes.chain(couplings.by_design.iter().zip(db)) {
+        for (sum, slope) in matrix.iter_mut().zip(slopes) {
+            *sum += slope * change;
+        }
+    }
+    let mut found = vec![Complex::ZERO; m];
+    let finite = matrix.iter().all(|value| value.is_finite());
+    if !(finite && eigenvalues(&mut matrix, &mut found)) {
+        return Err(outside_domain(at));
+    }
+    if modes.family == Family::Undamped {
+        // Symmetric: an imaginary part is rounding.
+        found.iter_mut().for_each(|value| value.im = 0.0);
+    }
+    found.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+    let own = &modes.modes[mode];
+    let frequencies = own.frequency().map(|omega| {
+        let slope = |value: &Complex| match modes.family {
+            Family::Undamped => value.re / (2.0 * omega),
+            Family::General => value.im,
+        };
+        let mut slopes: Vec<f64> = found.iter().map(slope).collect();
+        slopes.sort_by(f64::total_cmp);
+        slopes
+    });
+    Ok(DirectionalDerivatives {
+        modes: cluster,
+        family: modes.family,
+        eigenvalues: found,
+        frequencies,
+    })
+}

@@ -1,0 +1,11 @@
+//! Clusters: frequencies so close that tolerances bring them together, whose modes mix.
+
+mod couplings;
+mod directional;
+mod sampling;
+mod tolerance;
+
+pub use couplings::{ModalCouplings, modal_couplings};
+pub use directional::{DirectionalDerivatives, directional_derivatives};
+pub use sampling::{ClusterSampling, ClusterSpread, MemberSpread, SortedSpread, sample_cluster};
+pub use tolerance::{ClusterTolerance, MeanEigenvalue, clusters};

@@ -1,0 +1,318 @@
+//! A cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that splits
+//! them has.
+
+use super::couplings::ModalCouplings;
+use crate::algebra::Vector;
+use crate::eigenproblem::diagonalise;
+use crate::modes::Family;
+use crate::rounding::{Sign, of_elements, sign};
+use crate::sensitivity::eigenvalues;
+use crate::tolerance::{Draw, Moments, Statistics, Tolerances};
+use crate::{Complex, Error, Quantity};
+
+/// How to sample a cluster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClusterSampling {
+    /// Number of samples.
+    pub samples: usize,
+    /// The same seed gives bit-identical results.
+    pub seed: u64,
+    /// Which of the independent sequences of the seed.
+    pub stream: u64,
+}
+
+impl Default for ClusterSampling {
+    fn default() -> Self {
+        Self {
+            samples: 4096,
+            seed: 0,
+            stream: 0,
+        }
+    }
+}
+
+/// Spread of a cluster: what its sorted members do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClusterSpread {
+    /// Number of samples.
+    pub samples: usize,
+    /// Frequency, rad/s: `sqrt(lambda)` or `Im s`.
+    pub frequency: SortedSpread,
+    /// Eigenvalue `lambda`, 1/s^2; `None` for general modes.
+    pub lambda: Option<SortedSpread>,
+    /// Growth `Re s`, 1/s; `None` for undamped modes.
+    pub growth: Option<SortedSpread>,
+    /// Damping ratio; `None` for undamped modes.
+    pub damping_ratio: Option<SortedSpread>,
+    /// Samples in which a member grows: `lambda` negative, or `Re s` positive, beyond rounding.
+    pub unstable: usize,
+    /// Samples whose eigenvalues were not found; they count in nothing else.
+    pub unsolved: usize,
+}
+
+/// Spread of one quantity over the members of a cluster, sorted by this quantity in every sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SortedSpread {
+    /// By position, ascending. A member without the quantity counts as lower than all others.
+    pub members: Vec<MemberSpread>,
+    /// Highest less lowest, over the samples where every member has the quantity; `None` without any.
+    pub splitting: Option<Statistics>,
+}
+
+impl SortedSpread {
+    /// The lowest; `None` for an empty cluster.
+    pub fn lowest(&self) -> Option<&MemberSpread> {
+        self.members.first()
+    }
+
+    /// The highest; `None` for an empty cluster.
+    pub fn highest(&self) -> Option<&MemberSpread> {
+        self.members.last()
+    }
+}
+
+/// Spread of one position of a sorted cluster.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MemberSpread {
+    /// Over the samples whose member has the quantity, in its unit; `None` without any.
+    pub value: Option<Statistics>,
+    /// Samples whose member has no such quantity, for example no frequency.
+    pub without: usize,
+}
+
+/// Samples the eigenvalues of `diag(eigenvalues) + sum_k x_k by_design[k]` for deviations `x` of the design variables,
+/// `x ~ N(0, Sigma)`.
+///
+/// # Errors
+/// [`Error::Setting`] for matrices of a wrong number or size, not finite, or not real and symmetric for undamped modes,
+/// and for samples beyond the range of a double.
+pub fn sample_cluster(
+    couplings: &ModalCouplings,
+    tolerances: &Tolerances,
+    sampling: &ClusterSampling,
+) -> Result<ClusterSpread, Error> {
+    check(couplings, tolerances)?;
+    let family = couplings.family;
+    let m = couplings.eigenvalues.len();
+    let mut work = Work::new(m);
+    let mut frequency = Sorted::new(m);
+    let mut parts = [Sorted::new(m), Sorted::new(m)];
+    let (mut unstable, mut unsolved) = (0, 0);
+    let sequence = (sampling.seed, sampling.stream);
+    let nominal = Vector::zeros(couplings.by_design.len());
+    let mut draw = Draw::from(sequence, 0, &nominal, tolerances);
+    for _ in 0..sampling.samples {
+        work.fill(couplings, draw.next());
+        let size = |most: f64, value: &Complex| most.max(value.l1_norm());
+        let size = work.matrix.iter().fold(0.0, size);
+        if !work.matrix.iter().all(|value| value.l1_norm() < LARGEST) {
+            return Err(refuse("a sample exceeds the range of a double".to_owned()));
+        }
+        if !work.solve(family) {
+            unsolved += 1;
+            continue;
+        }
+        let values = work.values.as_slice();
+        unstable += usize::from(
+            values
+                .iter()
+                .any(|&value| grows(family, value, of_elements(m) * size)),
+        );
+        frequency.add(values, |value| frequency_of(family, value));
+        let [first, second] = &mut parts;
+        first.add(values, |value| Some(value.re));
+        if family == Family::General {
+            second.add(values, damping_ratio);
+        }
+    }
+    let solved = sampling.samples - unsolved;
+    let [first, second] = parts.map(|part| part.spread(solved));
+    let (lambda, growth, damping_ratio) = match family {
+        Family::Undamped => (Some(first), None, None),
+        Family::General => (None, Some(first), Some(second)),
+    };
+    Ok(ClusterSpread {
+        samples: sampling.samples,
+        frequency: frequency.spread(solved),
+        lambda,
+        growth,
+        damping_ratio,
+        unstable,
+        unsolved,
+    })
+}
+
+/// Elements up to here can be squared and added by the eigenvalue iteration.
+const LARGEST: f64 = 1e150;
+/// `Re s` of an oscillation that keeps its amplitude comes out below this, relative to `|s|`.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether a member grows beyond rounding, `rounding` that of `lambda`.
+fn grows(family: Family, value: Complex, rounding: f64) -> bool {
+    match family {
+        Family::Undamped => sign(value.re, rounding) == Sign::Negative,
+        Family::General => sign(value.re, ROUNDING * value.norm()) == Sign::Positive,
+    }
+}
+
+/// `sqrt(lambda)` or `Im s`, where positive.
+pub(super) fn frequency_of(family: Family, value: Complex) -> Option<f64> {
+    match family {
+        Family::Undamped => (value.re > 0.0).then(|| value.re.sqrt()),
+        Family::General => (value.im > 0.0).then_some(value.im),
+    }
+}
+
+fn damping_ratio(s: Complex) -> Option<f64> {
+    (s.norm() > 0.0).then(|| Quantity::DampingRatio.value(s))
+}
+
+/// Matrices of the right number and size, finite, and symmetric where the method rests on it.
+fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Error> {
+    let m = couplings.eigenvalues.len();
+    let (count, variables) = (couplings.by_design.len(), tolerances.half_widths().len());
+    if count != variables {
+        return Err(refuse(format!(
+            "{count} matrices for {variables} design variables"
+        )));
+    }
+    for (k, matrix) in couplings.by_design.iter().enumerate() {
+        if matrix.len() != m * m {
+            let size = matrix.len();
+            let wanted = m * m;
+            return Err(refuse(format!(
+                "matrix {k} has {size} elements and must have {wanted}"
+            )));
+        }
+    }
+    let mut numbers = couplings
+        .eigenvalues
+        .iter()
+        .chain(couplings.by_design.iter().flatten());
+    if let Some(value) = numbers.find(|value| !value.is_finite()) {
+        return Err(refuse(format!("an element is {value}")));
+    }
+    if couplings.family == Family::General {
+        return Ok(());
+    }
+    if couplings.eigenvalues.iter().any(|value| value.im != 0.0) {
+        return Err(refuse("eigenvalues of undamped modes are real".to_owned()));
+    }
+    for (k, matrix) in couplings.by_design.iter().enumerate() {
+        let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.l1_norm()));
+        let mirrored = |e: usize| (matrix[e] - matrix[e % m * m + e / m].conj()).l1_norm();
+        let real = |e: usize| matrix[e].im.abs();
+        if (0..m * m).any(|e| mirrored(e).max(real(e)) > SYMMETRIC * size) {
+            return Err(refuse(format!("matrix {k} is not real and symmetric")));
+        }
+    }
+    Ok(())
+}
+
+/// Mirrored elements may differ by rounding.
+const SYMMETRIC: f64 = 1e-9;
+
+fn refuse(reason: String) -> Error {
+    Error::Setting {
+        setting: "cluster",
+        reason,
+    }
+}
+
+/// Space for one sample.
+struct Work {
+    matrix: Vec<Complex>,
+    real: Vec<f64>,
+    values: Vec<Complex>,
+}
+
+impl Work {
+    fn new(m: usize) -> Self {
+        Self {
+            matrix: vec![Complex::default(); m * m],
+            real: vec![0.0; m * m],
+            values: vec![Complex::default(); m],
+        }
+    }
+
+    /// `diag(eigenvalues) + sum_k x_k by_design[k]`.
+    fn fill(&mut self, couplings: &ModalCouplings, x: &[f64]) {
+        let m = self.values.len();
+        self.matrix.fill(Complex::default());
+        for (i, &value) in couplings.eigenvalues.iter().enumerate() {
+            self.matrix[i * m + i] = value;
+        }
+        for (slopes, &x) in couplings.by_design.iter().zip(x) {
+            if x == 0.0 {
+                continue;
+            }
+            for (sum, slope) in self.matrix.iter_mut().zip(slopes) {
+                *sum += slope * x;
+            }
+        }
+    }
+
+    /// Fills the values; `false` when they were not found.
+    fn solve(&mut self, family: Family) -> bool {
+        if family == Family::General {
+            return eigenvalues(&mut self.matrix, &mut self.values);
+        }
+        let m = self.values.len();
+        for (real, value) in self.real.iter_mut().zip(&self.matrix) {
+            *real = value.re;
+        }
+        diagonalise(&mut self.real, m, &mut []);
+        for (i, value) in self.values.iter_mut().enumerate() {
+            *value = self.real[i * m + i].into();
+        }
+        true
+    }
+}
+
+/// Sums over samples of one quantity of the members, sorted by it.
+struct Sorted {
+    values: Vec<f64>,
+    members: Vec<Moments>,
+    splitting: Moments,
+}
+
+impl Sorted {
+    fn new(m: usize) -> Self {
+        Self {
+            values: vec![0.0; m],
+            members: vec![Moments::EMPTY; m],
+            splitting: Moments::EMPTY,
+        }
+    }
+
+    fn add(&mut self, eigenvalues: &[Complex], quantity: impl Fn(Complex) -> Option<f64>) {
+        for (value, &s) in self.values.iter_mut().zip(eigenvalues) {
+            *value = quantity(s).unwrap_or(f64::NEG_INFINITY);
+        }
+        self.values.sort_unstable_by(f64::total_cmp);
+        for (sums, &value) in self.members.iter_mut().zip(&self.values) {
+            if value.is_finite() {
+                sums.add(value);
+            }
+        }
+        if let (Some(low), Some(high)) = (self.values.first(), self.values.last())
+            && low.is_finite()
+        {
+            self.splitting.add(high - low);
+        }
+    }
+
+    fn spread(&self, samples: usize) -> SortedSpread {
+        let member = |sums: &Moments| {
+            let value = sums.statistics();
+            MemberSpread {
+                value,
+                without: samples - value.map_or(0, |found| found.count),
+            }
+        };
+        SortedSpread {
+            members: self.members.iter().map(member).collect(),
+            splitting: self.splitting.statistics(),
+        }
+    }
+}

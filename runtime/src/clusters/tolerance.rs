@@ -1,0 +1,235 @@
+//! Which modes tolerances bring together, and what can be said of them: the mean of their eigenvalues, which has
+//! derivatives, and the sorted members, by sampling (THEORY sections 5 and 6).
+
+use super::couplings::{ModalCouplings, modal_couplings};
+use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
+use crate::algebra::Vector;
+use crate::kernels::DirectionalKernels;
+use crate::modes::{CLUSTER_GAP, Family, merged};
+use crate::sensitivity::Quantity;
+use crate::tolerance::{Spread, TRUSTED_DISTANCE, Tolerances};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
+
+/// Modes that tolerances bring together, or that rounding cannot tell apart. A mode that has merged with its own conjugate
+/// is a defective cluster of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClusterTolerance {
+    /// Positions of the modes, from 0, ascending.
+    pub modes: Vec<usize>,
+    /// Which equation they solve.
+    pub family: Family,
+    /// Their nominal eigenvalues: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
+    pub eigenvalues: Vec<Complex>,
+    /// Least distance of two members, in standard deviations of what moves their difference
+    /// ([`clusters`] defines it); zero for equal eigenvalues.
+    pub distance: f64,
+    /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
+    pub mean: Option<MeanEigenvalue>,
+    /// Spread of the sorted members from 4096 samples of a fixed seed, or why there is none: [`Error::Defective`], or
+    /// [`Error::Setting`] for tolerances beyond the range of a double.
+    pub spread: Result<ClusterSpread, Error>,
+    /// How many standard deviations a tolerance and a band hold.
+    pub sigma_level: f64,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+impl ClusterTolerance {
+    /// Whether the members have merged into one eigenvalue that no derivative describes.
+    pub fn defective(&self) -> bool {
+        matches!(self.spread, Err(Error::Defective { .. }))
+    }
+}
+
+/// Mean of the eigenvalues of a cluster. Whatever its members do, it has exact derivatives: a trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeanEigenvalue {
+    /// The mean: of `lambda`, 1/s^2, or of `s`, 1/s.
+    pub value: Complex,
+    /// Total derivatives by the inputs, per SI unit.
+    pub by_input: Vector<Complex>,
+    /// Total derivatives by the design variables, per SI unit.
+    pub by_design: Vector<Complex>,
+    /// Standard deviation of the real part: of `lambda`, or of the growth.
+    pub sigma_re: f64,
+    /// Standard deviation of the imaginary part; zero for undamped modes.
+    pub sigma_im: f64,
+    /// First-order spread of the frequency that belongs to the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` without one.
+    pub frequency: Option<Spread>,
+    /// First-order spread of the damping ratio of the mean; `None` for undamped modes and without a frequency.
+    pub damping_ratio: Option<Spread>,
+}
+
+/// The clusters of a set of modes under tolerances, none twice, by their first mode.
+///
+/// Along a change `x` of the design variables two modes have the difference `sqrt((gap + d)^2 + 4 o_ij o_ji)` with
+/// `d = x.(S_ii - S_jj)` and `o = x.S`, `S` the couplings of [`modal_couplings`]. It lies within `|d| + 2 sqrt|o_ij o_ji|`
+/// of the gap, whose standard deviations are added up: `spread = sigma(d) + 2 sqrt(sigma(o_ij) sigma(o_ji))`, the standard
+/// deviation of a complex number being that of its distance from the mean. Two modes belong together when `gap / spread` is less
+/// than [`TRUSTED_DISTANCE`], or the gap is within rounding (1e-6 of the greater eigenvalue); clusters are chains of such
+/// pairs. For two modes about to merge into a defective one `gap / spread` is the distance to that state: half the gap
+/// squared over the standard deviation of the discriminant.
+///
+/// # Errors
+/// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`], [`Error::WrongLength`] for tolerances of another
+/// mechanism.
+pub fn clusters(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> Result<Vec<ClusterTolerance>, Error> {
+    tolerances.check_count(at.design.len())?;
+    let count = modes.modes.len();
+    if count == 0 || count == 1 && !merged(modes, 0) {
+        return Ok(Vec::new());
+    }
+    let all: Vec<usize> = (0..count).collect();
+    let couplings = modal_couplings(mechanism, at, modes, &all)?;
+    let mut label = all;
+    for i in 0..count {
+        for j in 0..i {
+            if label[i] != label[j] && together(&couplings, modes, (i, j), tolerances) {
+                let (old, new) = (label[i].max(label[j]), label[i].min(label[j]));
+                label
+                    .iter_mut()
+                    .filter(|own| **own == old)
+                    .for_each(|own| *own = new);
+            }
+        }
+    }
+    let members = |first| (0..count).filter(|&i| label[i] == first).collect();
+    let wanted =
+        |group: &Vec<usize>| group.len() > 1 || group.iter().any(|&mode| merged(modes, mode));
+    let groups = (0..count).map(members).filter(wanted);
+    Ok(groups
+        .map(|group| tolerance(&couplings.among(&group), modes, tolerances))
+        .collect())
+}
+
+/// What moves the difference of two modes.
+struct Pair {
+    gap: f64,
+    /// Standard deviation of the difference as if each mode stood alone.
+    apart: f64,
+    /// Of what mixes them, `2 sqrt(sigma(o_ij) sigma(o_ji))`.
+    mixing: f64,
+}
+
+impl Pair {
+    fn new(couplings: &ModalCouplings, (i, j): (usize, usize), tolerances: &Tolerances) -> Self {
+        let sigma = |slopes: &Vector<Complex>| {
+            let part = |pick: fn(Complex) -> f64| tolerances.sigma(&slopes.map(pick));
+            part(|value| value.re).hypot(part(|value| value.im))
+        };
+        let difference = couplings.element(i, i).zip(couplings.element(j, j));
+        let apart = sigma(&difference.map(|(a, b)| a - b).collect());
+        let mixed = |i, j| sigma(&couplings.element(i, j).collect()).sqrt();
+        Self {
+            gap: (couplings.eigenvalues[i] - couplings.eigenvalues[j]).norm(),
+            apart,
+            mixing: 2.0 * mixed(i, j) * mixed(j, i),
+        }
+    }
+
+    /// Distance in standard deviations.
+    fn distance(&self) -> f64 {
+        if self.gap == 0.0 {
+            return 0.0;
+        }
+        self.gap / (self.apart + self.mixing)
+    }
+
+    /// Whether the difference under tolerances is that of two great numbers that agree to rounding: next to a defective
+    /// eigenvalue couplings grow without bound and cancel in what can be seen, `(gap + d)^2 + 4 o_ij o_ji`.
+    fn hidden_by_rounding(&self, condition: f64) -> bool {
+        const WELL_CONDITIONED: f64 = 1e4;
+        const NOTICEABLE: f64 = 1e-3;
+        let rounding = 16.0 * f64::EPSILON * condition * (self.apart + self.mixing).powi(2);
+        let seen = self.gap * (self.gap + 2.0 * self.apart);
+        condition > WELL_CONDITIONED && (rounding.is_nan() || rounding > NOTICEABLE * seen)
+    }
+}
+
+fn together(
+    couplings: &ModalCouplings,
+    modes: &Modes,
+    (i, j): (usize, usize),
+    tolerances: &Tolerances,
+) -> bool {
+    let values = &couplings.eigenvalues;
+    let gap = (values[i] - values[j]).norm();
+    let (a, b) = (&modes.modes[i], &modes.modes[j]);
+    if gap <= CLUSTER_GAP * values[i].norm().max(values[j].norm()) {
+        return true;
+    }
+    if merged(modes, i) || merged(modes, j) {
+        // Their couplings mean nothing: only rounding can be compared.
+        let error = if a.error < b.error { b.error } else { a.error };
+        return error.is_finite() && gap <= error;
+    }
+    Pair::new(couplings, (i, j), tolerances).distance() < TRUSTED_DISTANCE
+}
+
+fn tolerance(
+    couplings: &ModalCouplings,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> ClusterTolerance {
+    let own = |place: usize| &modes.modes[couplings.modes[place]];
+    let count = couplings.modes.len();
+    let mut defective = couplings.modes.iter().any(|&mode| merged(modes, mode));
+    let mut distance = f64::INFINITY;
+    for i in 0..count {
+        for j in 0..i {
+            let pair = Pair::new(couplings, (i, j), tolerances);
+            let condition = own(i).condition.max(own(j).condition);
+            defective = defective || pair.hidden_by_rounding(condition);
+            distance = distance.min(pair.distance());
+        }
+    }
+    let finite = couplings.by_design.iter().chain(&couplings.by_input);
+    defective = defective || !finite.flatten().all(|value| value.is_finite());
+    let spread = if defective {
+        let modes = couplings.modes.clone();
+        Err(Error::Defective { modes })
+    } else {
+        sample_cluster(couplings, tolerances, &ClusterSampling::default())
+    };
+    ClusterTolerance {
+        modes: couplings.modes.clone(),
+        family: couplings.family,
+        eigenvalues: couplings.eigenvalues.clone(),
+        distance: if defective { 0.0 } else { distance },
+        mean: (!defective).then(|| MeanEigenvalue::new(couplings, tolerances)),
+        spread,
+        sigma_level: tolerances.sigma_level(),
+        description: modes.description.clone(),
+    }
+}
+
+impl MeanEigenvalue {
+    fn new(couplings: &ModalCouplings, tolerances: &Tolerances) -> Self {
+        let (value, family) = (couplings.mean(), couplings.family);
+        let by_design = Vector::from(couplings.mean_by_design());
+        let spread = |mean, slope: &dyn Fn(Complex) -> f64| {
+            Spread::new(mean, by_design.map(slope), tolerances)
+        };
+        let frequency = frequency_of(family, value);
+        Self {
+            value,
+            by_input: couplings.mean_by_input().into(),
+            sigma_re: tolerances.sigma(&by_design.map(|slope| slope.re)),
+            sigma_im: tolerances.sigma(&by_design.map(|slope| slope.im)),
+            frequency: frequency.map(|mean| match family {
+                Family::Undamped => spread(mean, &|slope| 0.5 * slope.re / mean),
+                Family::General => spread(mean, &|slope| slope.im),
+            }),
+            damping_ratio: frequency.filter(|_| family == Family::General).map(|_| {
+                let ratio = Quantity::DampingRatio;
+                spread(ratio.value(value), &|slope| ratio.slope(value, slope))
+            }),
+            by_design,
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The general eigenproblem `(s^2 M + s C + K) phi = 0`, `psi^T (s^2 M + s C + K) = 0` with `M` symmetric positive
+//! definite and any real `C` and `K`; the same for `A phi = s phi`, which is the case `M = 0`, `C = I`, `K = -A`.
+//!
+//! The eigenvalues come from a bounded QR iteration on a balanced linearisation ([`schur`]), the vectors and the last
+//! digits from the pencil itself ([`pair`]); what the pencil cannot tell apart is merged ([`cluster`]), every error is
+//! estimated ([`accuracy`]), and what remains inaccurate is found by a second method ([`aberth`]). No library does this
+//! well enough: nalgebra's general Schur form is not bounded and has no vectors, faer's left vectors fail where
+//! eigenvalues meet.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+mod aberth;
+mod accuracy;
+mod cluster;
+mod driver;
+mod eigenspaces;
+mod hessenberg;
+mod linearisation;
+mod lu;
+mod measure;
+mod order;
+mod pair;
+mod pencil;
+mod problem;
+mod scaling;
+mod schur;
+mod scratch;
+#[cfg(test)]
+mod tests;
+
+use num_complex::Complex64;
+
+pub(crate) use driver::solve as roots_of;
+pub(crate) use problem::Eigenproblem;
+
+use super::symmetric::Trouble;
+use crate::algebra::Vector;
+use crate::kernels::Linear;
+
+/// One eigenvalue, or one of a conjugate pair, with its vectors.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Root {
+    /// Eigenvalue, 1/s; `Im s >= 0`.
+    pub(crate) s: Complex64,
+    /// `phi` with `phi^H M phi = 1`, largest component real and positive.
+    pub(crate) right: Vector<Complex64>,
+    /// `psi`, normalised in the same way.
+    pub(crate) left: Vector<Complex64>,
+    /// Greatest component of `Q(s) phi` and of `psi^T Q(s)` relative to the terms in it.
+    pub(crate) residual: f64,
+    /// Estimated absolute error of `s`.
+    pub(crate) error: f64,
+    /// Condition number of `s` as an eigenvalue of the balanced linearisation; infinite for a defective one.
+    pub(crate) condition: f64,
+}
+
+/// Solves the general eigenproblem of `linear`.
+pub(crate) fn solve(linear: &Linear) -> Result<Vec<Root>, Trouble> {
+    driver::solve(Eigenproblem::Quadratic(linear))
+}

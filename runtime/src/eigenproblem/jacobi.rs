@@ -1,0 +1,129 @@
+//! Eigenvalues of a symmetric matrix by rotations, in place: no allocation, always converging, one vector carried along.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+/// Sweeps after which the rest is left as it is; convergence is quadratic and takes fewer than ten.
+const SWEEPS: usize = 40;
+
+/// Reduces the symmetric `n` x `n` matrix (row by row) to diagonal form by cyclic Jacobi rotations (Golub and Van Loan,
+/// Matrix Computations, section 8.5); on return its diagonal holds the eigenvalues, in no particular order, to a few
+/// rounding errors of the largest. `vector` becomes `Q^T vector`, where the columns of `Q` are the eigenvectors; it may be
+/// empty. Elements must be finite and their sum not overflow.
+pub(crate) fn diagonalise(matrix: &mut [f64], n: usize, vector: &mut [f64]) {
+    let size = matrix
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let negligible = size * f64::EPSILON / 64.0;
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for p in 0..n {
+            for q in p + 1..n {
+                if matrix[p * n + q].abs() > negligible {
+                    rotate(matrix, n, vector, p, q);
+                    rotated = true;
+                }
+            }
+        }
+        if !rotated {
+            return;
+        }
+    }
+}
+
+/// One rotation that makes element (`p`, `q`) zero, by the smaller of the two angles.
+fn rotate(matrix: &mut [f64], n: usize, vector: &mut [f64], p: usize, q: usize) {
+    let off = matrix[p * n + q];
+    let half = (matrix[q * n + q] - matrix[p * n + p]) / (2.0 * off);
+    let tangent = half.signum() / (half.abs() + half.hypot(1.0));
+    let cosine = 1.0 / tangent.hypot(1.0);
+    let sine = tangent * cosine;
+    for k in 0..n {
+        if k == p || k == q {
+            continue;
+        }
+        let (a, b) = (matrix[k * n + p], matrix[k * n + q]);
+        let (a, b) = (cosine * a - sine * b, sine * a + cosine * b);
+        matrix[k * n + p] = a;
+        matrix[p * n + k] = a;
+        matrix[k * n + q] = b;
+        matrix[q * n + k] = b;
+    }
+    matrix[p * n + p] -= tangent * off;
+    matrix[q * n + q] += tangent * off;
+    matrix[p * n + q] = 0.0;
+    matrix[q * n + p] = 0.0;
+    if !vector.is_empty() {
+        let (a, b) = (vector[p], vector[q]);
+        vector[p] = cosine * a - sine * b;
+        vector[q] = sine * a + cosine * b;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn eigenvalues(matrix: &[f64], n: usize) -> Vec<f64> {
+        let mut work = matrix.to_vec();
+        diagonalise(&mut work, n, &mut []);
+        let mut values: Vec<f64> = (0..n).map(|i| work[i * n + i]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    #[test]
+    fn second_difference_matrix_has_its_closed_form() {
+        const N: usize = 30;
+        let mut matrix = vec![0.0; N * N];
+        for i in 0..N {
+            matrix[i * N + i] = 2.0;
+            if i + 1 < N {
+                matrix[i * N + i + 1] = -1.0;
+                matrix[(i + 1) * N + i] = -1.0;
+            }
+        }
+        for (k, value) in eigenvalues(&matrix, N).iter().enumerate() {
+            let angle = core::f64::consts::PI * (k + 1) as f64 / (2 * (N + 1)) as f64;
+            assert!((value - 4.0 * angle.sin().powi(2)).abs() < 2e-14, "{k}");
+        }
+    }
+
+    #[test]
+    fn vector_is_carried_along() {
+        // v^T A^k v does not change under the rotation.
+        let matrix = [2.0, -1.0, 0.5, -1.0, 3.0, 0.25, 0.5, 0.25, -4.0];
+        let vector = [1.0, -2.0, 0.5];
+        let (mut work, mut turned) = (matrix, vector);
+        diagonalise(&mut work, 3, &mut turned);
+        let once: f64 = (0..9)
+            .map(|e| vector[e / 3] * matrix[e] * vector[e % 3])
+            .sum();
+        let again: f64 = (0..3).map(|i| turned[i].powi(2) * work[4 * i]).sum();
+        assert!((once - again).abs() < 1e-13);
+        let twice: f64 = (0..3)
+            .map(|i| {
+                (0..3)
+                    .map(|j| matrix[3 * i + j] * vector[j])
+                    .sum::<f64>()
+                    .powi(2)
+            })
+            .sum();
+        let again: f64 = (0..3).map(|i| (turned[i] * work[4 * i]).powi(2)).sum();
+        assert!((twice - again).abs() < 1e-12);
+    }
+
+    #[test]
+    fn hard_scales_converge() {
+        assert_eq!(eigenvalues(&[0.0; 4], 2), [0.0, 0.0]);
+        assert_eq!(eigenvalues(&[], 0), [0.0; 0]);
+        assert_eq!(eigenvalues(&[7.0], 1), [7.0]);
+        let huge = eigenvalues(&[1e200, 1e200, 1e200, 1e200], 2);
+        assert!(huge[0].abs() < 1e185 && (huge[1] / 2e200 - 1.0).abs() < 1e-14);
+        let graded = eigenvalues(&[1.0, 1e-200, 1e-200, -1e-300], 2);
+        assert!((graded[1] - 1.0).abs() < 1e-15 && graded[0].abs() < 1e-16);
+        let subnormal = eigenvalues(&[0.0, 5e-324, 5e-324, 0.0], 2);
+        assert!(subnormal.iter().all(|value| value.is_finite()));
+    }
+}

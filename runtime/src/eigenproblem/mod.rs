@@ -1,0 +1,10 @@
+//! Eigenproblems: `K phi = lambda M phi` with symmetric matrices, and `(s^2 M + s C + K) phi = 0` with any.
+
+pub(crate) mod general;
+mod jacobi;
+mod refine;
+pub(crate) mod symmetric;
+
+pub(crate) use general::{Eigenproblem, Root, roots_of};
+pub(crate) use jacobi::diagonalise;
+pub(crate) use symmetric::{INACCURATE, Pairs, Trouble};

@@ -1,0 +1,394 @@
+//! The symmetric generalised eigenproblem `K phi = lambda M phi`, by code of its own for each small size.
+
+use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
+
+use super::refine::refine;
+use crate::algebra::{Matrix, Vector, greater, largest};
+use crate::rounding::of_elements;
+
+/// Why the eigenproblem was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Trouble {
+    /// The mass matrix has no positive pivot in this row.
+    SingularMass(usize),
+    /// This pair did not pass its residual check.
+    Inaccurate { mode: usize, residual: f64 },
+}
+
+/// Eigenvalues ascending; `shapes[r]` the vector of eigenvalue `r` with `phi^T M phi = 1`, largest component positive.
+#[derive(Debug)]
+pub(crate) struct Pairs {
+    pub(crate) lambda: Vector,
+    pub(crate) shapes: Matrix,
+    pub(crate) residuals: Vector,
+    /// How far each eigenvalue may be off by rounding.
+    pub(crate) errors: Vector,
+}
+
+impl Pairs {
+    /// Number of eigenvalues below zero.
+    pub(crate) fn negative(&self) -> usize {
+        self.lambda.iter().filter(|&&value| value < 0.0).count()
+    }
+}
+
+/// Accepted residual of a pair relative to `|K| + |lambda| |M|`.
+const ACCEPTED: f64 = 1e-9;
+/// Residual of a pair that has nothing but rounding in it.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Residual beyond which a pair is improved by inverse iteration.
+pub(crate) const INACCURATE: f64 = 1e-13;
+
+/// Share of the greatest eigenvalue below which one may be nothing but what the other modes leave in its shape.
+const SMALL: f64 = 1e-6;
+
+/// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
+pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
+    let n = mass.row_count();
+    let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
+    let mut pairs = Pairs {
+        lambda: Vector::zeros(n),
+        shapes: Matrix::zeros(n, n),
+        residuals: Vector::zeros(n),
+        errors: Vector::zeros(n),
+    };
+    let lambda = &mut pairs.lambda[..];
+    let shapes = pairs.shapes.as_flattened_mut();
+    match n {
+        0 => {}
+        1 => one(k, m, lambda, shapes)?,
+        2 => two(k, m, lambda, shapes)?,
+        3 => small_3(k, m, lambda, shapes)?,
+        4 => small_4(k, m, lambda, shapes)?,
+        5 => small_5(k, m, lambda, shapes)?,
+        6 => small_6(k, m, lambda, shapes)?,
+        7 => small_7(k, m, lambda, shapes)?,
+        8 => small_8(k, m, lambda, shapes)?,
+        _ => large(n, k, m, lambda, shapes)?,
+    }
+    let sizes = (&mut pairs.residuals[..], &mut pairs.errors[..]);
+    finish(&Matrices { n, k, m }, lambda, shapes, sizes)?;
+    Ok(pairs)
+}
+
+#[inline]
+fn one(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    lambda[0] = k[0] / m[0];
+    vectors[0] = 1.0 / m[0].sqrt();
+    Ok(())
+}
+
+/// Size two directly: Cholesky reduction by hand and one Jacobi rotation.
+#[inline]
+fn two(k: &[f64], m: &[f64], lambda: &mut [f64], vectors: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 16.0 * f64::EPSILON;
+    if !(m[0] > 0.0 && m[0].is_finite()) {
+        return Err(Trouble::SingularMass(0));
+    }
+    // Reciprocals of the diagonal of L.
+    let r0 = 1.0 / m[0].sqrt();
+    let l10 = m[2] * r0;
+    let pivot = m[3] - l10 * l10;
+    if !(pivot > threshold * m[3].abs() && pivot.is_finite()) {
+        return Err(Trouble::SingularMass(1));
+    }
+    let r1 = 1.0 / pivot.sqrt();
+    // A = L^-1 K L^-T
+    let a00 = k[0] * r0 * r0;
+    let k10 = k[2] * r0;
+    let a10 = (k10 - l10 * a00) * r1;
+    let a11 = (k[3] - l10 * (2.0 * k10 - l10 * a00)) * r1 * r1;
+    let (cosine, tangent) = if a10 == 0.0 {
+        (1.0, 0.0)
+    } else {
+        let ratio = (a11 - a00) / (2.0 * a10);
+        let size = ratio.abs() + (1.0 + ratio * ratio).sqrt();
+        let tangent = (1.0 / size).copysign(ratio);
+        (1.0 / (1.0 + tangent * tangent).sqrt(), tangent)
+    };
+    lambda[0] = a00 - tangent * a10;
+    lambda[1] = a11 + tangent * a10;
+    // phi = L^-T y with y = (c, -s) and (s, c)
+    let sine = tangent * cosine;
+    for (r, (y0, y1)) in [(cosine, -sine), (sine, cosine)].into_iter().enumerate() {
+        let x1 = y1 * r1;
+        vectors[2 * r] = (y0 - l10 * x1) * r0;
+        vectors[2 * r + 1] = x1;
+    }
+    Ok(())
+}
+
+/// One function for each size.
+macro_rules! small {
+    ($($name:ident $size:literal)*) => {$(
+        fn $name(
+            k: &[f64],
+            m: &[f64],
+            lambda: &mut [f64],
+            vectors: &mut [f64],
+        ) -> Result<(), Trouble> {
+            let lower = factor($size, m)?;
+            let lower = SMatrix::<f64, $size, $size>::from_row_slice(&lower[..$size * $size]);
+            let mut reduced = SMatrix::<f64, $size, $size>::from_row_slice(k);
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let mut reduced = reduced.transpose();
+            lower.solve_lower_triangular_mut(&mut reduced);
+            let reduced = (reduced + reduced.transpose()) * 0.5;
+            let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * $size) else {
+                return Err(Trouble::Inaccurate { mode: 0, residual: f64::INFINITY });
+            };
+            let mut shapes = eigen.eigenvectors;
+            lower.tr_solve_lower_triangular_mut(&mut shapes);
+            lambda.copy_from_slice(eigen.eigenvalues.as_slice());
+            vectors.copy_from_slice(shapes.as_slice());
+            Ok(())
+        }
+    )*};
+}
+small! { small_3 3 small_4 4 small_5 5 small_6 6 small_7 7 small_8 8 }
+
+/// Lower Cholesky factor of a mass matrix of size up to 8, row by row.
+fn factor(n: usize, m: &[f64]) -> Result<[f64; 64], Trouble> {
+    let mut lower = [0.0; 64];
+    factor_into(n, m, &mut lower)?;
+    Ok(lower)
+}
+
+/// Lower Cholesky factor of a mass matrix, row by row; what is above the diagonal of `lower` stays as it is.
+pub(crate) fn factor_into(n: usize, m: &[f64], lower: &mut [f64]) -> Result<(), Trouble> {
+    let threshold = 8.0 * n as f64 * f64::EPSILON;
+    for i in 0..n {
+        for j in 0..=i {
+            let mut sum = m[i * n + j];
+            for k in 0..j {
+                sum -= lower[i * n + k] * lower[j * n + k];
+            }
+            if i != j {
+                lower[i * n + j] = sum / lower[j * n + j];
+            } else if sum > threshold * m[i * n + i].abs() && sum.is_finite() {
+                lower[i * n + i] = sum.sqrt();
+            } else {
+                return Err(Trouble::SingularMass(i));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn large(
+    n: usize,
+    k: &[f64],
+    m: &[f64],
+    lambda: &mut [f64],
+    vectors: &mut [f64],
+) -> Result<(), Trouble> {
+    let mut lower = vec![0.0; n * n];
+    factor_into(n, m, &mut lower)?;
+    let lower = DMatrix::<f64>::from_row_slice(n, n, &lower);
+    let mut reduced = DMatrix::<f64>::from_row_slice(n, n, k);
+    lower.solve_lower_triangular_mut(&mut reduced);
+    let mut reduced = reduced.transpose();
+    lower.solve_lower_triangular_mut(&mut reduced);
+    let reduced = (&reduced + reduced.transpose()) * 0.5;
+    let Some(eigen) = SymmetricEigen::try_new(reduced, f64::EPSILON, 60 * n) else {
+        return Err(Trouble::Inaccurate {
+            mode: 0,
+            residual: f64::INFINITY,
+        });
+    };
+    let mut shapes = eigen.eigenvectors;
+    lower.tr_solve_lower_triangular_mut(&mut shapes);
+    lambda.copy_from_slice(eigen.eigenvalues.as_slice());
+    vectors.copy_from_slice(shapes.as_slice());
+    Ok(())
+}
+
+/// Stiffness and mass, row by row.
+pub(crate) struct Matrices<'a> {
+    pub(crate) n: usize,
+    pub(crate) k: &'a [f64],
+    pub(crate) m: &'a [f64],
+}
+
+/// Sorts, refines where needed, fixes signs and checks each residual.
+#[inline(always)]
+fn finish(
+    matrices: &Matrices,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) -> Result<(), Trouble> {
+    let n = matrices.n;
+    sort(n, lambda, shapes, (residuals, errors));
+    let mut refined = false;
+    for r in 0..n {
+        let own = r * n..(r + 1) * n;
+        let measured = |lambda: &[f64], shapes: &[f64]| {
+            let rest = matrices.rest(lambda[r], &shapes[own.clone()]);
+            (rest.relative(), rest.error(n))
+        };
+        (residuals[r], errors[r]) = measured(lambda, shapes);
+        if residuals[r] > INACCURATE {
+            refine(matrices, lambda, shapes, r);
+            (residuals[r], errors[r]) = measured(lambda, shapes);
+            refined = true;
+        }
+        if residuals[r].is_nan() || residuals[r] > ACCEPTED {
+            if !matrices.is_rounding(lambda[r], &shapes[own]) {
+                return Err(Trouble::Inaccurate {
+                    mode: r,
+                    residual: residuals[r],
+                });
+            }
+            // Relative to the matrices instead of to terms that are rounding themselves.
+            residuals[r] = ROUNDING;
+        }
+    }
+    if refined {
+        sort(n, lambda, shapes, (residuals, errors));
+    }
+    let small = SMALL * largest(lambda);
+    for r in 0..n {
+        if lambda[r].abs() <= small {
+            errors[r] += matrices.error_of_shape(lambda, shapes, r);
+        }
+    }
+    for r in 0..n {
+        fix_sign(&mut shapes[r * n..(r + 1) * n]);
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn sort(
+    n: usize,
+    lambda: &mut [f64],
+    shapes: &mut [f64],
+    (residuals, errors): (&mut [f64], &mut [f64]),
+) {
+    for i in 1..n {
+        let mut j = i;
+        while j > 0 && lambda[j] < lambda[j - 1] {
+            lambda.swap(j, j - 1);
+            residuals.swap(j, j - 1);
+            errors.swap(j, j - 1);
+            for k in 0..n {
+                shapes.swap(j * n + k, (j - 1) * n + k);
+            }
+            j -= 1;
+        }
+    }
+}
+
+/// Makes the largest component positive; a margin keeps the choice when two are equal but for rounding.
+#[inline(always)]
+pub(crate) fn fix_sign(shape: &mut [f64]) {
+    let mut lead = 0;
+    for i in 1..shape.len() {
+        if shape[i].abs() > shape[lead].abs() * (1.0 + 1e-9) {
+            lead = i;
+        }
+    }
+    if !shape.is_empty() && shape[lead] < 0.0 {
+        shape.iter_mut().for_each(|value| *value = -*value);
+    }
+}
+
+impl Matrices<'_> {
+    /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+    #[inline(always)]
+    pub(crate) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
+        self.rest(lambda, phi).relative()
+    }
+
+    /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
+    /// that act, and their terms are no measure.
+    fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
+        let most = self.rest(lambda, phi).most;
+        let matrices = largest(self.k) + lambda.abs() * largest(self.m);
+        most <= of_elements(self.n) * matrices * largest(phi)
+    }
+
+    /// What the parts of other modes in shape `r` make of its eigenvalue: of second order, twice the sum of
+    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`.
+    #[cold]
+    fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
+        let n = self.n;
+        let phi = &shapes[r * n..(r + 1) * n];
+        let rest = Vector::from_fn(n, |i| {
+            let row = |matrix: &[f64]| -> f64 {
+                let row = &matrix[i * n..(i + 1) * n];
+                row.iter().zip(phi).map(|(a, b)| a * b).sum()
+            };
+            row(self.k) - lambda[r] * row(self.m)
+        });
+        let mut sum = 0.0;
+        for s in (0..n).filter(|&s| s != r) {
+            let own = &shapes[s * n..(s + 1) * n];
+            let part: f64 = own.iter().zip(&rest).map(|(a, b)| a * b).sum();
+            let part = part.abs();
+            if part > 0.0 {
+                // Of equal eigenvalues to first order.
+                sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
+            }
+        }
+        2.0 * sum
+    }
+
+    /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
+    #[inline(always)]
+    fn rest(&self, lambda: f64, phi: &[f64]) -> Rest {
+        let n = self.n;
+        let mut rest = Rest::default();
+        for i in 0..n {
+            let (mut sum, mut terms) = (0.0, 0.0);
+            let (k, m) = (&self.k[i * n..(i + 1) * n], &self.m[i * n..(i + 1) * n]);
+            for ((k, m), phi) in k.iter().zip(m).zip(phi) {
+                let (k, m) = (k * phi, lambda * m * phi);
+                sum += k - m;
+                terms += k.abs() + m.abs();
+            }
+            if sum.is_nan() {
+                rest.most = f64::NAN;
+                return rest;
+            }
+            rest.most = greater(rest.most, sum.abs());
+            rest.size = greater(rest.size, terms);
+            rest.along += phi[i] * sum;
+            rest.terms += phi[i].abs() * terms;
+        }
+        rest
+    }
+}
+
+/// `K phi - lambda M phi`, summed up.
+#[derive(Default)]
+struct Rest {
+    /// Greatest component.
+    most: f64,
+    /// Greatest sum of absolute terms in a row.
+    size: f64,
+    /// `phi^T (K - lambda M) phi`, and its absolute terms.
+    along: f64,
+    terms: f64,
+}
+
+impl Rest {
+    #[inline(always)]
+    fn relative(&self) -> f64 {
+        if self.most == 0.0 {
+            0.0
+        } else {
+            self.most / self.size
+        }
+    }
+
+    /// Error of `lambda`: by rounding of the elements, and by twice what it is away from the quotient of `phi`.
+    #[inline(always)]
+    fn error(&self, n: usize) -> f64 {
+        of_elements(n) * self.terms + 2.0 * self.along.abs()
+    }
+}

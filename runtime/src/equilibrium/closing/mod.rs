@@ -1,0 +1,224 @@
+//! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
+//! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to lose their independence.
+
+mod step;
+
+use super::convergence::{TOLERANCE, largest_of, relative_gap};
+use super::problem::{Failure, Problem};
+use crate::algebra::{Matrix, Vector, add_to, dot};
+use crate::constraints::{Rows, Structure, inertias};
+use step::{Aim, LEAST_DAMPING, damped, plain, scaled, without_dependent};
+
+const MAX_ITERATIONS: usize = 200;
+/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
+/// the way decides which assembly mode is found.
+const FIRST_RADIUS: f64 = 0.3;
+/// A gap that keeps this share in a step has stopped falling.
+const STALLED: f64 = 0.5;
+/// How often, and by how much (rad or m), a state is kicked that is no way to close.
+const KICKS: usize = 4;
+const KICK: f64 = 0.02;
+/// A kick is worth its while when it leaves no more than this share of the gaps.
+const BETTER: f64 = 0.9;
+
+/// Constraints on positions at a state, numbered from zero.
+pub(super) struct Gaps {
+    pub(super) gaps: Vector,
+    /// `Phi_q`.
+    pub(super) rows: Matrix,
+    /// Greatest gap relative to what small motions open.
+    pub(super) relative: f64,
+    worst: usize,
+}
+
+/// The constraints on positions; `None` where they are not finite.
+pub(super) fn gaps(problem: &Problem<'_>, x: &[f64]) -> Option<Gaps> {
+    let structure = problem.structure;
+    let (residual, stiffness) =
+        problem
+            .mechanism
+            .residual_and_stiffness(x, problem.inputs, problem.design);
+    let mut found = Gaps {
+        gaps: residual[structure.position_rows()].into(),
+        rows: Matrix::zeros(structure.position_constraints, x.len()),
+        relative: 0.0,
+        worst: 0,
+    };
+    for (k, row) in structure.position_rows().enumerate() {
+        found.rows[k][..structure.coordinates]
+            .copy_from_slice(&stiffness[row][..structure.coordinates]);
+        let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
+        if !finite {
+            return None;
+        }
+        let motions = &x[..structure.coordinates];
+        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
+        if relative > found.relative {
+            (found.relative, found.worst) = (relative, k);
+        }
+    }
+    Some(found)
+}
+
+/// Rows over the coordinates that are not held.
+pub(super) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
+    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
+        if held[j] { 0.0 } else { rows[k][j] }
+    })
+}
+
+/// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
+/// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left
+/// by a kick.
+pub(super) fn close(
+    problem: &Problem<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<(Vector, usize), Failure> {
+    let first = match close_from(problem, start, held) {
+        Err(failure @ (Failure::NotAssembled { .. } | Failure::OutsideDomain { .. })) => failure,
+        other => return other,
+    };
+    let mut best = first;
+    for kick in 1..=KICKS {
+        let from = match &best {
+            Failure::NotAssembled { coordinates, .. } => coordinates,
+            _ => start,
+        };
+        let from = kicked(from, held, kick, problem.structure);
+        match close_from(problem, &from, held) {
+            Ok(found) => return Ok(found),
+            Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
+            Err(_) => {}
+        }
+    }
+    Err(best)
+}
+
+/// Some displacement without symmetry.
+fn kicked(x: &[f64], held: &[bool], kick: usize, structure: Structure) -> Vector {
+    Vector::from_fn(x.len(), |j| {
+        if held[j] || j >= structure.coordinates {
+            x[j]
+        } else {
+            x[j] + KICK * (1.0 + 1.7 * j as f64 + 2.3 * kick as f64).sin()
+        }
+    })
+}
+
+fn open_by(failure: &Failure) -> f64 {
+    match failure {
+        Failure::NotAssembled { gaps, .. } => largest_of(gaps),
+        _ => f64::INFINITY,
+    }
+}
+
+fn close_from(
+    problem: &Problem<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<(Vector, usize), Failure> {
+    let structure = problem.structure;
+    let mut x = Vector::from(start);
+    let mut at = gaps(problem, &x).ok_or_else(|| Failure::OutsideDomain {
+        what: "the constraints",
+        coordinates: start.into(),
+    })?;
+    let metric = metric(problem, &x);
+    let mut radius = FIRST_RADIUS;
+    let mut damping = LEAST_DAMPING;
+    let mut last = f64::INFINITY;
+    let mut dependent_at_start = 0;
+    for iterations in 0..MAX_ITERATIONS {
+        if at.relative <= TOLERANCE && at.relative >= STALLED * last {
+            return Ok((x, iterations));
+        }
+        last = at.relative;
+        let rows = Rows::new(free(&at.rows, held), metric.clone());
+        if iterations == 0 {
+            dependent_at_start = rows.dependent();
+        }
+        let aim = Aim::new(&at, &rows);
+        let next = if aim.minimal() {
+            None
+        } else {
+            without_dependent(problem, &x, &at, held, &metric)
+                .or_else(|| plain(problem, &x, &aim, &mut radius))
+                .or_else(|| damped(problem, &x, &aim, (&mut radius, &mut damping)))
+        };
+        match next {
+            Some((coordinates, there)) => (x, at) = (coordinates, there),
+            None if at.relative <= TOLERANCE => return Ok((x, iterations)),
+            None => {
+                let reason = reason(&at, dependent_at_start, held);
+                return Err(not_assembled(structure, &x, &at, reason, iterations));
+            }
+        }
+    }
+    let reason = "the gaps do not close within the number of iterations";
+    Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
+}
+
+/// What makes motions comparable: the roots of the masses that move.
+fn metric(problem: &Problem<'_>, x: &[f64]) -> Vector {
+    let linear = problem.mechanism.linear(x, problem.inputs, problem.design);
+    inertias(&linear, problem.structure).map(f64::sqrt)
+}
+
+/// Why the gaps have a minimum.
+fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> &'static str {
+    let all = Rows::balanced(at.rows.clone());
+    let slope = all.descent(&scaled(&at.gaps, &all));
+    let gaps = scaled(&at.gaps, &all);
+    if held.contains(&true) && dot(&slope, &slope) > 1e-8 * dot(&gaps, &gaps) {
+        "the coordinates that are held do not let it close: hold fewer, or at other values"
+    } else if dependent_at_start > 0 {
+        "constraints that depend on each other contradict each other"
+    } else {
+        "the gaps have a minimum that is not zero: lengths that do not reach, or start values on the wrong side"
+    }
+}
+
+fn not_assembled(
+    structure: Structure,
+    x: &[f64],
+    at: &Gaps,
+    reason: &'static str,
+    iterations: usize,
+) -> Failure {
+    let first = structure.position_rows().start;
+    let motions = &x[..structure.coordinates];
+    let mut left = Vector::zeros(x.len());
+    for k in 0..structure.position_constraints {
+        if relative_gap(at.gaps[k], motions, &at.rows[k]) > TOLERANCE {
+            left[first + k] = at.gaps[k];
+        }
+    }
+    Failure::NotAssembled {
+        reason,
+        coordinates: x.into(),
+        gaps: left.into(),
+        worst: first + at.worst,
+        iterations,
+    }
+}
+
+/// Speeds that meet the constraints on velocities as far as speeds can, those held fixed: the least change.
+pub(super) fn close_speeds(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Option<Vector> {
+    let structure = problem.structure;
+    let places = structure.velocity_rows();
+    let mut x = Vector::from(start);
+    // The constraints are linear in the speeds: the second round removes rounding.
+    for _ in 0..2 {
+        let (residual, stiffness) = problem.evaluate_plain(&x)?;
+        let rows = Rows::balanced(Matrix::from_fn(places.len(), x.len(), |k, j| {
+            if structure.speed_range().contains(&j) && !held[j] {
+                stiffness[places.start + k][j]
+            } else {
+                0.0
+            }
+        }));
+        add_to(&mut x, -1.0, &rows.shortest(&residual[places.clone()]));
+    }
+    Some(x)
+}

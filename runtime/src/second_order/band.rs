@@ -1,0 +1,155 @@
+//! How probable it is that a quantity of a mode lies in a forbidden band: a frequency within 10 % of the running speed, a
+//! growth above zero.
+
+use super::curvature::mode_curvature;
+use super::margin::{Margin, margin};
+use crate::algebra::Vector;
+use crate::arguments::check_input;
+use crate::kernels::DirectionalKernels;
+use crate::sensitivity::Quantity;
+use crate::tolerance::Tolerances;
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
+
+/// A band of values to keep clear of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Band {
+    /// Between two values, SI; either may be infinite.
+    Between {
+        /// Low end, SI.
+        low: f64,
+        /// High end, SI.
+        high: f64,
+    },
+    /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`.
+    Around {
+        /// The input `u`, rad/s in SI.
+        input: Input,
+        /// Engine order.
+        order: f64,
+        /// Half-width of the band as a fraction of its centre.
+        fraction: f64,
+    },
+}
+
+impl Band {
+    /// Within `fraction` of the value of an input.
+    pub fn around(input: Input, fraction: f64) -> Self {
+        Self::Around {
+            input,
+            order: 1.0,
+            fraction,
+        }
+    }
+
+    /// Ends of the band, rad/s, low end first.
+    fn ends(self, at: &Equilibrium) -> Result<(f64, f64), Error> {
+        match self {
+            Self::Between { low, high } => Ok((low, high)),
+            Self::Around {
+                input,
+                order,
+                fraction,
+            } => {
+                check_input(input, &at.description)?;
+                let centre = (order * at.inputs[input.index()]).abs();
+                Ok((centre * (1.0 - fraction), centre * (1.0 + fraction)))
+            }
+        }
+    }
+
+    /// Refuses a band about something infinite; what is between two values is checked where it is used.
+    fn check(self, (low, high): (f64, f64)) -> Result<(), Error> {
+        let Self::Around {
+            order, fraction, ..
+        } = self
+        else {
+            return Ok(());
+        };
+        let reason = if !(fraction > 0.0 && fraction.is_finite()) {
+            format!("its fraction {fraction} must be positive")
+        } else if !order.is_finite() {
+            format!("its order {order} must be finite")
+        } else if !(low.is_finite() && high.is_finite()) {
+            format!("order {order} and fraction {fraction} take it beyond the range of a double")
+        } else {
+            return Ok(());
+        };
+        Err(Error::Setting {
+            setting: "band",
+            reason,
+        })
+    }
+
+    /// How the ends move with an input.
+    fn slopes(self, inputs: &[f64], input: usize) -> (f64, f64) {
+        match self {
+            Self::Around {
+                input: own,
+                order,
+                fraction,
+            } if own.index() == input => {
+                let rate = order * (order * inputs[input]).signum();
+                (rate * (1.0 - fraction), rate * (1.0 + fraction))
+            }
+            _ => (0.0, 0.0),
+        }
+    }
+}
+
+/// The margin of a quantity of a mode against a forbidden band.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeMargin {
+    /// Position of the mode, from 0.
+    pub mode: usize,
+    /// What is looked at.
+    pub quantity: Quantity,
+    /// What it keeps clear of.
+    pub band: Band,
+    /// Probabilities, distance, derivatives by design variables and half-widths; SI.
+    pub margin: Margin,
+    /// Total derivatives of the first-order probability by each input, by SI unit: the quantity, its standard deviation
+    /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
+    pub by_input: Option<Vector>,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+/// Probability that a quantity of mode number `mode` lies in a forbidden band, to first order and corrected, with its
+/// sensitivities. [`Quantity::Growth`] between zero and infinity is the probability that the mode is unstable.
+///
+/// # Errors
+/// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
+/// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for a band without sense.
+pub fn mode_margin(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    (mode, quantity): (usize, Quantity),
+    tolerances: &Tolerances,
+    band: Band,
+) -> Result<ModeMargin, Error> {
+    let ends = band.ends(at)?;
+    band.check(ends)?;
+    let curvature = mode_curvature(mechanism, at, modes, mode)?;
+    let lambda = modes.modes[mode].lambda;
+    let silent = Error::NotOscillating { mode, lambda };
+    let model = curvature.quadratic(quantity).ok_or(silent.clone())?;
+    let first = curvature.first.of(quantity).ok_or(silent.clone())?;
+    let mixed = curvature.of(quantity).ok_or(silent)?.by_input_and_design;
+    let margin = margin(&model, tolerances, ends)?;
+    let by_input = margin.derivatives.as_ref().map(|derivatives| {
+        Vector::from_fn(at.inputs.len(), |k| {
+            let sigma = tolerances.covariance(&first.by_design, &mixed[k]) / margin.sigma;
+            let (low, high) = band.slopes(&at.inputs, k);
+            derivatives.along(first.by_input[k], sigma, low, high)
+        })
+    });
+    Ok(ModeMargin {
+        mode,
+        quantity,
+        band,
+        margin,
+        by_input,
+        description: at.description.clone(),
+    })
+}

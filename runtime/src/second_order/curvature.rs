@@ -1,0 +1,316 @@
+//! Exact second total derivatives of a mode, by differentiating its adjoint gradient along the motion of the equilibrium,
+//! of the shapes and of the eigenvalue with each variable: as many gradient evaluations as there are variables.
+
+use crate::algebra::{Lu, Matrix, Vector, dot_complex, times_complex};
+use crate::kernels::{DirectionalKernels, Gradient, Kernels, Linear};
+use crate::modes::{Family, pencil_slope_times};
+use crate::sensitivity::{
+    ComplexGradient, Direction, Form, ModeSensitivity, Quantity, Slopes, directions,
+    eigenvalue_curvature, eigenvalue_slope, form_gradient, form_gradient_along, normaliser,
+    outside_domain, subtract,
+};
+use crate::shapes::Shapes;
+use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
+
+/// Second derivatives of one number, SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondDerivatives<T> {
+    /// By two inputs.
+    pub by_input: Matrix<T>,
+    /// `by_input_and_design[i][j]`: by input `i` and design variable `j`.
+    pub by_input_and_design: Matrix<T>,
+    /// By two design variables: the Hessian.
+    pub by_design: Matrix<T>,
+}
+
+/// First and second total derivatives of one mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeCurvature {
+    /// Position of the mode.
+    pub mode: usize,
+    /// Its eigenvalue, 1/s.
+    pub s: Complex,
+    /// First derivatives, from the same gradients.
+    pub first: ModeSensitivity,
+    /// Of `lambda = -Re s^2`.
+    pub lambda: SecondDerivatives<f64>,
+    /// Of `s`; `None` for an undamped neutral mode.
+    pub eigenvalue: Option<SecondDerivatives<Complex>>,
+    /// Greatest difference of mirrored second derivatives before they were averaged, relative to the greatest: exact
+    /// arithmetic would give zero.
+    pub asymmetry: f64,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl ModeCurvature {
+    /// Second derivatives of a quantity of the mode; `None` where it has none.
+    pub fn of(&self, quantity: Quantity) -> Option<SecondDerivatives<f64>> {
+        self.first.of(quantity)?;
+        let (first, second) = (self.first.s.as_ref()?, self.eigenvalue.as_ref()?);
+        let curvature = |a, b, ab| quantity.curvature(self.s, a, b, ab);
+        Some(second.combine(first, curvature))
+    }
+}
+
+impl<T: Copy> SecondDerivatives<T> {
+    /// Element by element with the two first derivatives it belongs to.
+    fn combine<F: Copy, R: Copy>(
+        &self,
+        first: &Slopes<F>,
+        f: impl Fn(F, F, T) -> R,
+    ) -> SecondDerivatives<R> {
+        let block = |matrix: &Matrix<T>, rows: &[F], columns: &[F]| {
+            Matrix::from_fn(rows.len(), columns.len(), |i, j| {
+                f(rows[i], columns[j], matrix[i][j])
+            })
+        };
+        let (inputs, design) = (&first.by_input, &first.by_design);
+        SecondDerivatives {
+            by_input: block(&self.by_input, inputs, inputs),
+            by_input_and_design: block(&self.by_input_and_design, inputs, design),
+            by_design: block(&self.by_design, design, design),
+        }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &T> {
+        let blocks = [&self.by_input, &self.by_input_and_design, &self.by_design];
+        blocks.into_iter().flat_map(Matrix::as_flattened)
+    }
+}
+
+/// First and second total derivatives of mode number `mode` by all inputs and design variables.
+///
+/// # Errors
+/// [`Error::ClusteredMode`] where the mode has (nearly) equal neighbours, [`Error::CriticalState`] when `Khat` is
+/// singular, [`Error::OutsideDomain`] when a derivative is not finite, [`Error::NoSuchMode`].
+pub fn mode_curvature(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    mode: usize,
+) -> Result<ModeCurvature, Error> {
+    let position = mode;
+    let shapes = Shapes::new(at, modes, position)?;
+    let mode = &modes.modes[position];
+    let gradient = AdjointGradient::new(mechanism, at, modes.family, mode)?;
+    let rows: Vec<_> = directions(mechanism, at)?
+        .map(|direction| gradient.along(&direction, &shapes))
+        .collect();
+    let slopes = gradient.slopes();
+    let (second, asymmetry) = symmetric(&rows, at.inputs.len());
+    let mut first = ModeSensitivity::blank();
+    first.set(mode, modes.family, &slopes);
+    let (lambda, eigenvalue) = match modes.family {
+        Family::Undamped => {
+            let lambda = second.combine(&slopes, |_, _, value| value.re);
+            let moves = mode.s != Complex::new(0.0, 0.0);
+            let eigenvalue = moves.then(|| {
+                let ds = slopes.map(|value| eigenvalue_slope(mode.s, value.re));
+                lambda.combine(&ds, |a, b, value| eigenvalue_curvature(mode.s, a, b, value))
+            });
+            (lambda, eigenvalue)
+        }
+        Family::General => {
+            let lambda = second.combine(&slopes, |a, b, ab| -2.0 * (a * b + mode.s * ab).re);
+            (lambda, Some(second))
+        }
+    };
+    let of_s = eigenvalue.as_ref();
+    let finite = lambda.iter().all(|value| value.is_finite())
+        && of_s.is_none_or(|of_s| of_s.iter().all(|value| value.is_finite()))
+        && first.finite();
+    if !finite {
+        return Err(outside_domain(at));
+    }
+    Ok(ModeCurvature {
+        mode: position,
+        s: mode.s,
+        first,
+        lambda,
+        eigenvalue,
+        asymmetry,
+        description: modes.description.clone(),
+    })
+}
+
+/// The adjoint gradient of a mode, ready to be differentiated: with `n` the total derivative of
+/// `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors `dlambda = n` for an undamped mode; with that of
+/// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi` it is `ds = -n / d` for a general one.
+struct AdjointGradient<'a> {
+    mechanism: &'a dyn DirectionalKernels,
+    at: &'a Equilibrium,
+    family: Family,
+    mode: &'a Mode,
+    factors: Lu<f64>,
+    /// `Khat^T w = da/dq`: the real part, and the imaginary one of a general mode.
+    w: Vec<Vector>,
+    /// `n`.
+    numerator: Slopes<Complex>,
+    /// `d`.
+    denominator: Complex,
+}
+
+impl<'a> AdjointGradient<'a> {
+    fn new(
+        mechanism: &'a dyn DirectionalKernels,
+        at: &'a Equilibrium,
+        family: Family,
+        mode: &'a Mode,
+    ) -> Result<Self, Error> {
+        let factors = Lu::new(&at.linear.stiffness.transpose()).ok_or(Error::CriticalState)?;
+        let kernels: &dyn Kernels = mechanism;
+        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let (mut total, mut room) = gradients(kernels);
+        match family {
+            Family::Undamped => {
+                let phi = mode.real_shape();
+                kernels.mode_gradient_into(q, u, b, &phi, mode.lambda, &mut total[0]);
+            }
+            Family::General => {
+                form_gradient(kernels, at, &form(mode), &mut room, &mut total);
+            }
+        }
+        let mut w = Vec::new();
+        for part in &mut total[..parts(family)] {
+            let adjoint = factors.solve(&part.coordinates);
+            kernels.residual_gradient_into(q, u, b, &adjoint, &mut room);
+            subtract(part, &room);
+            w.push(adjoint);
+        }
+        Ok(Self {
+            mechanism,
+            at,
+            family,
+            mode,
+            factors,
+            w,
+            numerator: joined(&total),
+            denominator: normaliser(at, mode),
+        })
+    }
+
+    /// Derivatives of `lambda` of an undamped mode, of `s` of a general one.
+    fn slopes(&self) -> Slopes<Complex> {
+        match self.family {
+            Family::Undamped => self.numerator.clone(),
+            Family::General => self.numerator.map(|value| -value / self.denominator),
+        }
+    }
+
+    /// Their derivatives along a direction.
+    fn along(&self, direction: &Direction, shapes: &Shapes<'_>) -> Slopes<Complex> {
+        let (mechanism, at, mode) = (self.mechanism, self.at, self.mode);
+        let kernels: &dyn Kernels = mechanism;
+        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+        let [dq, du, db] = direction.parts();
+        let change = direction.linear(mechanism, at);
+        let rate = shapes.rate.along(&change);
+        let (dphi, dpsi) = shapes.along(&change, rate);
+        let (mut total, mut room) = gradients(kernels);
+        match self.family {
+            Family::Undamped => mechanism.mode_gradient_along_into(
+                q,
+                u,
+                b,
+                &mode.real_shape(),
+                mode.lambda,
+                [dq, du, db, &dphi.map(|value| value.re)],
+                rate.re,
+                &mut total[0],
+            ),
+            Family::General => {
+                let moved = Form::along(mode, &dpsi, rate, &dphi);
+                let forms = (&form(mode), &moved);
+                form_gradient_along(mechanism, at, forms, direction, &mut room, &mut total);
+            }
+        }
+        let fixed = Vector::zeros(q.len());
+        for (part, w) in total.iter_mut().zip(&self.w) {
+            mechanism.residual_gradient_along_into(q, u, b, w, [dq, du, db, &fixed], &mut room);
+            subtract(part, &room);
+            let dw = self.factors.solve(&part.coordinates);
+            kernels.residual_gradient_into(q, u, b, &dw, &mut room);
+            subtract(part, &room);
+        }
+        let mut slopes = joined(&total);
+        if self.family == Family::General {
+            let ratio = self.denominator_along(&change, rate, &dphi, &dpsi) / self.denominator;
+            let n = &self.numerator;
+            let inputs = slopes.by_input.iter_mut().zip(&n.by_input);
+            for (dn, n) in inputs.chain(slopes.by_design.iter_mut().zip(&n.by_design)) {
+                *dn = (ratio * n - *dn) / self.denominator;
+            }
+        }
+        slopes
+    }
+
+    /// Derivative of `d` while the matrices move by `change`, the eigenvalue by `ds` and the shapes by `dphi` and `dpsi`.
+    fn denominator_along(
+        &self,
+        change: &Linear,
+        ds: Complex,
+        dphi: &[Complex],
+        dpsi: &[Complex],
+    ) -> Complex {
+        let linear = &self.at.linear;
+        let (s, phi, psi) = (self.mode.s, &self.mode.shape, &self.mode.left);
+        dot_complex(dpsi, &pencil_slope_times(linear, s, phi))
+            + dot_complex(psi, &pencil_slope_times(linear, s, dphi))
+            + 2.0 * ds * dot_complex(psi, &times_complex(&linear.mass, phi))
+            + dot_complex(psi, &pencil_slope_times(change, s, phi))
+    }
+}
+
+fn form(mode: &Mode) -> Form {
+    Form::of(&mode.left, mode.s, &mode.shape)
+}
+
+/// Room for the gradient of a complex number, and for one more.
+fn gradients(kernels: &dyn Kernels) -> (ComplexGradient, Gradient) {
+    let zeros = || Gradient::zeros(kernels.sizes());
+    ([zeros(), zeros()], zeros())
+}
+
+/// By inputs and design variables, from the real and the imaginary part.
+fn joined([re, im]: &ComplexGradient) -> Slopes<Complex> {
+    let join = |re: &Vector, im: &Vector| {
+        let parts = re.iter().zip(im);
+        parts.map(|(&re, &im)| Complex { re, im }).collect()
+    };
+    Slopes {
+        by_input: join(&re.inputs, &im.inputs),
+        by_design: join(&re.design, &im.design),
+    }
+}
+
+/// How many real numbers an eigenvalue is.
+fn parts(family: Family) -> usize {
+    match family {
+        Family::Undamped => 1,
+        Family::General => 2,
+    }
+}
+
+/// The mean of mirrored elements, and how far they differ relative to the greatest; the first `inputs` rows belong to inputs.
+fn symmetric(rows: &[Slopes<Complex>], inputs: usize) -> (SecondDerivatives<Complex>, f64) {
+    let element = |i: usize, j: usize| match j.checked_sub(inputs) {
+        None => rows[i].by_input[j],
+        Some(j) => rows[i].by_design[j],
+    };
+    let mean = |i: usize, j: usize| 0.5 * (element(i, j) + element(j, i));
+    let (mut most, mut difference) = (0.0_f64, 0.0_f64);
+    for i in 0..rows.len() {
+        for j in 0..=i {
+            most = most.max(element(i, j).norm());
+            difference = difference.max((element(i, j) - element(j, i)).norm());
+        }
+    }
+    let (u, p) = (inputs, rows.len() - inputs);
+    let second = SecondDerivatives {
+        by_input: Matrix::from_fn(u, u, mean),
+        by_input_and_design: Matrix::from_fn(u, p, |i, j| mean(i, u + j)),
+        by_design: Matrix::from_fn(p, p, |i, j| mean(u + i, u + j)),
+    };
+    (second, if most > 0.0 { difference / most } else { 0.0 })
+}

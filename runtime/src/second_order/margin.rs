@@ -1,0 +1,146 @@
+//! Safety margin of a forbidden band: how probable it is that tolerances bring a quantity into it, and what changes that.
+
+use super::probability::{Probability, check_interval, normal_probability};
+use super::quadratic::Quadratic;
+use crate::Error;
+use crate::algebra::{Vector, all_finite, dot};
+use crate::second_order::distribution::normal::density;
+use crate::tolerance::Tolerances;
+
+/// Margin of a quantity against a forbidden band, in the units of the quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Margin {
+    /// The band; an end may be infinite.
+    pub band: (f64, f64),
+    /// Nominal value.
+    pub value: f64,
+    /// First-order standard deviation.
+    pub sigma: f64,
+    /// Distance of the nominal value to the nearest end of the band in standard deviations: negative inside, infinite when
+    /// nothing varies.
+    pub distance: f64,
+    /// Probability of the band at first order (a normal distribution).
+    pub first_order: f64,
+    /// Probability of the band, exact for the second-order model.
+    pub corrected: Probability,
+    /// Derivatives of the first-order probability; `None` when nothing varies or one exceeds the range of a double.
+    pub derivatives: Option<MarginDerivatives>,
+}
+
+/// Derivatives of the first-order probability of a band.
+///
+/// Those by mean, sigma and ends are exact for a normal distribution. Those by half-widths are exact for the first-order
+/// model. Those by design variables are exact for the first-order probability as a function of the nominal design, since
+/// slopes and curvature are total derivatives and half-widths stay as they are; a half-width that follows its nominal value
+/// (a tolerance in percent) adds its `by_half_width` times its own derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MarginDerivatives {
+    /// By the mean.
+    pub by_mean: f64,
+    /// By the standard deviation.
+    pub by_sigma: f64,
+    /// By the low end; zero when it is infinite.
+    pub by_low: f64,
+    /// By the high end; zero when it is infinite.
+    pub by_high: f64,
+    /// By the nominal value of each design variable, half-widths and band unchanged:
+    /// `dP/dmean S + dP/dsigma H Sigma S / sigma`.
+    pub by_design: Vector,
+    /// By each half-width, correlation and sigma level unchanged.
+    pub by_half_width: Vector,
+}
+
+impl MarginDerivatives {
+    /// Derivative along anything that moves mean, standard deviation, low and high end at these rates: for the running
+    /// speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
+    pub fn along(&self, mean: f64, sigma: f64, low: f64, high: f64) -> f64 {
+        self.by_mean * mean + self.by_sigma * sigma + self.by_low * low + self.by_high * high
+    }
+}
+
+/// Margin of `quadratic` against the forbidden `band` (low and high end, either may be infinite).
+///
+/// # Errors
+/// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables than
+/// the tolerances have, [`Error::Setting`] for a band whose ends are NaN or in the wrong order, or a spread beyond the range of
+/// a double.
+pub fn margin(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
+    band: (f64, f64),
+) -> Result<Margin, Error> {
+    check_interval(band)?;
+    let sigma = quadratic.sigma(tolerances)?;
+    let value = quadratic.value;
+    Ok(Margin {
+        band,
+        value,
+        sigma,
+        distance: distance(value, sigma, band),
+        first_order: normal_probability(value, sigma, band),
+        corrected: quadratic.probability(tolerances, band)?,
+        derivatives: derivatives(quadratic, tolerances, sigma, band),
+    })
+}
+
+fn distance(value: f64, sigma: f64, (low, high): (f64, f64)) -> f64 {
+    let outside = (low - value).max(value - high);
+    if outside == 0.0 { 0.0 } else { outside / sigma }
+}
+
+fn derivatives(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
+    sigma: f64,
+    (low, high): (f64, f64),
+) -> Option<MarginDerivatives> {
+    if sigma == 0.0 {
+        return None;
+    }
+    let [at_low, at_high] = [low, high].map(|end| {
+        let z = (end - quadratic.value) / sigma;
+        let height = density(z);
+        // z density(z) vanishes at infinity.
+        let moment = if height > 0.0 { z * height } else { 0.0 };
+        (height / sigma, moment / sigma)
+    });
+    let by_mean = at_low.0 - at_high.0;
+    let by_sigma = at_low.1 - at_high.1;
+    let (sigma_by_design, sigma_by_half_width) = sigma_derivatives(quadratic, tolerances, sigma);
+    let found = MarginDerivatives {
+        by_mean,
+        by_sigma,
+        by_low: -at_low.0,
+        by_high: at_high.0,
+        by_design: (quadratic.slopes.iter().zip(&sigma_by_design))
+            .map(|(mean, sigma)| by_mean * mean + by_sigma * sigma)
+            .collect(),
+        by_half_width: sigma_by_half_width.map(|slope| by_sigma * slope),
+    };
+    let finite = all_finite(&[by_mean, by_sigma, found.by_low, found.by_high])
+        && all_finite(&found.by_design)
+        && all_finite(&found.by_half_width);
+    finite.then_some(found)
+}
+
+/// Derivatives of `sigma = sqrt(S Sigma S^T)` by the nominal design, `H Sigma S / sigma`, and by the half-widths.
+fn sigma_derivatives(
+    quadratic: &Quadratic,
+    tolerances: &Tolerances,
+    sigma: f64,
+) -> (Vector, Vector) {
+    let Quadratic {
+        slopes, curvature, ..
+    } = quadratic;
+    let sigmas = tolerances.sigmas();
+    let n = sigmas.len();
+    let parts = Vector::from_fn(n, |k| (slopes[k] / sigma) * sigmas[k]);
+    let weighted = tolerances.correlated(&parts);
+    let covariances = Vector::from_fn(n, |k| sigmas[k] * weighted[k]);
+    let by_design = Vector::from_fn(n, |k| {
+        let row = Vector::from_fn(n, |j| 0.5 * curvature[k][j] + 0.5 * curvature[j][k]);
+        dot(&row, &covariances)
+    });
+    let by_half_width = Vector::from_fn(n, |k| slopes[k] * weighted[k] / tolerances.sigma_level());
+    (by_design, by_half_width)
+}

@@ -1,0 +1,18 @@
+//! Second order: how frequencies curve with the tolerances, and the exact distribution of what curves like that.
+
+mod band;
+mod curvature;
+mod distribution;
+mod margin;
+mod nonlinearity;
+mod probability;
+mod quadratic;
+mod spread;
+
+pub use band::{Band, ModeMargin, mode_margin};
+pub use curvature::{ModeCurvature, SecondDerivatives, mode_curvature};
+pub use margin::{Margin, MarginDerivatives, margin};
+pub use nonlinearity::Nonlinearity;
+pub use probability::Probability;
+pub use quadratic::{ModelMoments, Quadratic};
+pub use spread::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};

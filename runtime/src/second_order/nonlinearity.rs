@@ -1,0 +1,57 @@
+//! When first order is to be believed: its error as the second-order model sees it.
+
+use super::quadratic::Quadratic;
+use crate::Error;
+use crate::tolerance::Tolerances;
+
+/// Second-order terms in units of the first-order standard deviation; both small where first order holds.
+///
+/// They measure the curvature at the nominal design, not what lies beyond second order: near a critical state the series
+/// does not converge, and the distance to it in standard deviations is the measure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nonlinearity {
+    /// Shift of the mean, `|tr(H Sigma) / 2| / sigma`.
+    pub mean_shift: f64,
+    /// Standard deviation that curvature adds, `sqrt(tr((H Sigma)^2) / 2) / sigma`.
+    pub spread: f64,
+}
+
+impl Nonlinearity {
+    /// Relative error of the first-order standard deviation against that of the model, `1 - 1 / sqrt(1 + spread^2)`.
+    pub fn sigma_error(&self) -> f64 {
+        let ratio = 1.0_f64.hypot(self.spread);
+        // 1 - 1 / ratio without cancellation.
+        if ratio.is_finite() {
+            self.spread / ratio * (self.spread / (1.0 + ratio))
+        } else {
+            1.0
+        }
+    }
+
+    /// The greater of the two ratios.
+    pub fn largest(&self) -> f64 {
+        self.mean_shift.max(self.spread)
+    }
+}
+
+impl Quadratic {
+    /// Second-order terms against first order: infinite where first order sees no spread and second order does, zero
+    /// where nothing varies.
+    ///
+    /// # Errors
+    /// As [`moments`](Self::moments).
+    pub fn nonlinearity(&self, tolerances: &Tolerances) -> Result<Nonlinearity, Error> {
+        let moments = self.moments(tolerances)?;
+        let ratio = |part: f64| {
+            if part == 0.0 {
+                0.0
+            } else {
+                part.abs() / moments.first_order_sigma
+            }
+        };
+        Ok(Nonlinearity {
+            mean_shift: ratio(moments.mean_shift),
+            spread: ratio(moments.curvature_sigma),
+        })
+    }
+}

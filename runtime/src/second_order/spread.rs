@@ -1,0 +1,105 @@
+//! Spread to second order: what the curvature of a frequency adds to first order, and whether the two agree.
+
+use super::curvature::{ModeCurvature, mode_curvature};
+use super::nonlinearity::Nonlinearity;
+use super::quadratic::{ModelMoments, Quadratic};
+use crate::kernels::DirectionalKernels;
+use crate::sensitivity::Quantity;
+use crate::tolerance::Tolerances;
+use crate::{Description, Equilibrium, Error, Modes, Shared};
+
+/// A quantity of a mode to second order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondOrderSpread {
+    /// Value, gradient and Hessian by the design variables.
+    pub model: Quadratic,
+    /// Mean, standard deviation, skewness and kurtosis of that model.
+    pub moments: ModelMoments,
+    /// How much of them is due to curvature.
+    pub nonlinearity: Nonlinearity,
+}
+
+/// A mode to second order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeSecondOrder {
+    /// Frequency `Im s`, rad/s.
+    pub frequency: SecondOrderSpread,
+    /// Natural frequency `|s|`, rad/s.
+    pub natural_frequency: SecondOrderSpread,
+    /// Damping ratio.
+    pub damping_ratio: SecondOrderSpread,
+}
+
+/// All modes to second order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondOrder {
+    /// In the order of the modes; a mode that does not oscillate or has no derivatives of its own says so.
+    pub modes: Vec<Result<ModeSecondOrder, Error>>,
+    /// Standard deviations that a tolerance holds.
+    pub sigma_level: f64,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+impl ModeCurvature {
+    /// The second-order model of a quantity by the design variables; `None` where the mode has no such quantity.
+    pub fn quadratic(&self, quantity: Quantity) -> Option<Quadratic> {
+        Some(Quadratic {
+            value: quantity.value(self.s),
+            slopes: self.first.of(quantity)?.by_design,
+            curvature: self.of(quantity)?.by_design,
+        })
+    }
+}
+
+/// Spread of every mode to second order (THEORY section 6): exact mean and variance of the second-order model of each
+/// quantity under normally distributed design variables.
+pub fn second_order(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+) -> SecondOrder {
+    let one = |mode: usize| mode_second_order(mechanism, at, modes, mode, tolerances);
+    SecondOrder {
+        modes: (0..modes.modes.len()).map(one).collect(),
+        sigma_level: tolerances.sigma_level(),
+        description: modes.description.clone(),
+    }
+}
+
+fn mode_second_order(
+    mechanism: &dyn DirectionalKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    mode: usize,
+    tolerances: &Tolerances,
+) -> Result<ModeSecondOrder, Error> {
+    let curvature = mode_curvature(mechanism, at, modes, mode)?;
+    let lambda = modes.modes[mode].lambda;
+    let spread = |quantity| {
+        let found = second_order_spread(&curvature, quantity, tolerances).transpose();
+        found.unwrap_or(Err(Error::NotOscillating { mode, lambda }))
+    };
+    Ok(ModeSecondOrder {
+        frequency: spread(Quantity::Frequency)?,
+        natural_frequency: spread(Quantity::NaturalFrequency)?,
+        damping_ratio: spread(Quantity::DampingRatio)?,
+    })
+}
+
+/// The spread of one quantity; `None` where the mode has no such quantity.
+fn second_order_spread(
+    curvature: &ModeCurvature,
+    quantity: Quantity,
+    tolerances: &Tolerances,
+) -> Result<Option<SecondOrderSpread>, Error> {
+    let Some(model) = curvature.quadratic(quantity) else {
+        return Ok(None);
+    };
+    Ok(Some(SecondOrderSpread {
+        moments: model.moments(tolerances)?,
+        nonlinearity: model.nonlinearity(tolerances)?,
+        model,
+    }))
+}

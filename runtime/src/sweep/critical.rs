@@ -1,0 +1,139 @@
+//! Values of an input where stiffness vanishes on a branch of equilibria: critical speeds.
+
+use super::points::CriticalState;
+use super::range::Range;
+use super::track::Following;
+use crate::branches::{BranchEnd, Continuation, Curve, SpecialPoint, Station};
+use crate::equilibrium::{Policy, equilibrium};
+use crate::kernels::DirectionalKernels;
+use crate::{Equilibrium, Error, Input, Text};
+
+/// Least and greatest step of the continuation, whatever the number of steps that is asked for.
+const FINEST_STEP: f64 = 1e-4;
+const COARSEST_STEP: f64 = 0.05;
+/// Most points of the continuation.
+const MOST_POINTS: usize = 50_000;
+
+/// Finds the first value of an input at which the branch that is stable at `range.low` loses its stiffness: a limit
+/// point or a branch point, located to rounding.
+///
+/// The branch itself is followed, by continuation with steps of at most the `steps`-th part of the range, also where a
+/// neighbouring one is the stable one. A branch that runs to infinity is not critical. A non-symmetric `Khat` is critical
+/// where its determinant changes sign.
+///
+/// # Errors
+/// [`Error::NotInRange`] when the branch keeps its stiffness; where it cannot be followed so far, the reason;
+/// otherwise as [`equilibrium`].
+pub fn critical_state(
+    mechanism: &dyn DirectionalKernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    range: Range,
+) -> Result<CriticalState, Error> {
+    range.check(&mechanism.description())?;
+    let settings = Continuation {
+        max_step: (1.0 / range.steps as f64).clamp(FINEST_STEP, COARSEST_STEP),
+        max_points: MOST_POINTS,
+        ..Continuation::new(range.input, range.low, range.high)
+    };
+    let curve = Curve::new(mechanism, u, b, &settings)?;
+    let inputs = curve.inputs_at(range.low);
+    let state = equilibrium(mechanism, &inputs, b, start, Policy::Stable)?;
+    let curve = curve.about(&state);
+    let mut found = None;
+    let end = match curve.begin(&state) {
+        Ok(station) => {
+            let stop = |special: &SpecialPoint, before: &Station| {
+                if before.stiff() {
+                    found = Some(special.clone());
+                }
+                found.is_some()
+            };
+            curve.walk(&station, &station.place, stop).end
+        }
+        Err(trouble) => curve.broken_off(trouble, &state),
+    };
+    match (found, end) {
+        (Some(special), _) => Ok(CriticalState {
+            input: range.input,
+            value: special.value,
+            kind: special.kind,
+            equilibrium: special.equilibrium,
+            v: special.v,
+            w: special.w,
+        }),
+        (None, BranchEnd::Domain(error) | BranchEnd::Lost(error)) => Err(error),
+        (None, _) => Err(not_in_range(
+            "critical value",
+            &curve.description.inputs,
+            &range,
+        )),
+    }
+}
+
+/// Most critical states on one path: a safeguard, far above what a machine has.
+const MOST_STATES: usize = 32;
+
+/// The critical states on a path of stable equilibria, each on the branch that the path follows up to it. None where
+/// stable equilibria are not what is followed, or the values neither ascend nor descend. With each state, whether the path
+/// leads to it from the one before so smoothly that there is none between the two: it is not looked for there.
+pub(crate) fn critical_states_on<'a>(
+    mechanism: &dyn DirectionalKernels,
+    (u, b): (&[f64], &[f64]),
+    following: Following,
+    input: Input,
+    path: impl Iterator<Item = (f64, &'a Result<Equilibrium, Error>, bool)>,
+) -> Vec<CriticalState> {
+    let mut found = Vec::new();
+    if following.policy != Policy::Stable {
+        return found;
+    }
+    let solved = path.filter_map(|(value, state, smooth)| {
+        let state = state.as_ref().ok()?;
+        Some((value, &*state.coordinates, smooth))
+    });
+    let path: Vec<_> = solved.collect();
+    let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
+    let (Some(&(end, ..)), true) = (path.last(), monotonic) else {
+        return found;
+    };
+    let direction = end - path[0].0;
+    let mut rest = &path[..];
+    while let [(low, start, _), after @ ..] = rest
+        && found.len() < MOST_STATES
+    {
+        // How far nothing excludes one.
+        let steps = after.iter().take_while(|(.., smooth)| !smooth).count();
+        if steps == 0 {
+            rest = after;
+            continue;
+        }
+        let range = Range {
+            input,
+            low: *low,
+            high: after[steps - 1].0,
+            steps,
+        };
+        let Ok(critical) = critical_state(mechanism, u, b, start, range) else {
+            rest = &rest[steps..];
+            continue;
+        };
+        let beyond = |(value, ..): &(f64, &[f64], bool)| (value - critical.value) * direction > 0.0;
+        let next = rest.iter().position(beyond).unwrap_or(rest.len());
+        rest = &rest[next.max(1)..];
+        found.push(critical);
+    }
+    found
+}
+
+fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {
+    Error::NotInRange {
+        what,
+        input: inputs
+            .get(range.input.index())
+            .map_or(Text::Static("?"), |info| info.name.clone()),
+        low: range.low,
+        high: range.high,
+    }
+}

@@ -1,0 +1,186 @@
+//! How a critical speed or a resonance moves with the design: `du_c/db`.
+
+use super::crossing::{Condition, Crossing};
+use super::points::CriticalState;
+use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
+use crate::branches::{Bordered, SpecialKind};
+use crate::constraints::Structure;
+use crate::kernels::{DirectionalKernels, Gradient, Kernels};
+use crate::sensitivity::{check_state, outside_domain, sensitivities};
+use crate::{Equilibrium, Error};
+
+/// Condition number of an eigenvalue from which on it counts as merged with another.
+const MERGED: f64 = 1e5;
+
+/// `du_c/db` of a crossing: of `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, of an onset of flutter
+/// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable.
+///
+/// # Errors
+/// [`Error::ClusteredMode`] where the mode has no derivative of its own, [`Error::NoSensitivity`] where the two sides of
+/// the condition touch without crossing; otherwise as [`sensitivities`].
+pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Result<Vector, Error> {
+    let all = sensitivities(mechanism, &crossing.equilibrium, &crossing.modes)?;
+    let mode = crossing.mode;
+    let (Some(own), Some(there)) = (all.modes.get(mode), crossing.modes.modes.get(mode)) else {
+        let count = all.modes.len();
+        return Err(Error::NoSuchMode { mode, count });
+    };
+    if own.clustered {
+        return Err(Error::ClusteredMode { mode });
+    }
+    if crossing.condition == Condition::FlutterOnset && there.condition > MERGED {
+        return Err(Error::NoSensitivity {
+            reason: "two frequencies merge there: the least damping moves the onset by a finite amount",
+        });
+    }
+    let (quantity, other) = crossing.condition.sides();
+    let Some(slopes) = own.of(quantity).filter(|_| there.frequency().is_some()) else {
+        let lambda = there.lambda;
+        return Err(Error::NotOscillating { mode, lambda });
+    };
+    let Some(&by_input) = slopes.by_input.get(crossing.input.index()) else {
+        return Err(Error::NoSensitivity {
+            reason: "there is no such input",
+        });
+    };
+    let rate = by_input - other;
+    if rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
+        return Err(Error::NoSensitivity {
+            reason: "the two sides touch without crossing",
+        });
+    }
+    let slopes = slopes.by_design.map(|value| -value / rate);
+    finite(slopes, &crossing.equilibrium)
+}
+
+fn finite(slopes: Vector, at: &Equilibrium) -> Result<Vector, Error> {
+    if all_finite(&slopes) {
+        Ok(slopes)
+    } else {
+        Err(outside_domain(at))
+    }
+}
+
+/// Parts of the residual along the critical mode below this fraction of what a unit of motion there does count as zero.
+const UNFORCED: f64 = 1e-6;
+
+/// `du_c/db` of a critical value, where `Khat` is singular and the ordinary formulas fail; `v`, `w` the critical vectors.
+///
+/// - At a limit point, where the input pushes along the critical mode: `-(w^T dg/db) / (w^T dg/du)`.
+/// - At a branch point, where neither input nor design does, the crossing of the branches moves: with the null vectors
+///   `x_1 = (v, 0)`, `x_2 = (dq/du, 1)` of `[Khat dg/du]` and the shift `x_b` in their complement,
+///   `H (dxi, du) = -w^T (g''(x_i, x_b) + dg'/db x_i)`, `H_ij = w^T g''(x_i, x_j)`. At a pitchfork `H_11 = 0`, and this is
+///   the ratio of the slopes of the critical eigenvalue, `-(dlambda/db) / (dlambda/du)`.
+///
+/// # Errors
+/// [`Error::NoSensitivity`] when a design variable pushes along the mode at a branch point (it destroys the crossing:
+/// its effect is not differentiable) or the branches do not cross; [`Error::ClusteredMode`] where several modes are
+/// critical at once; [`Error::OutsideDomain`] when a derivative is not finite.
+pub fn critical_sensitivity(
+    mechanism: &dyn DirectionalKernels,
+    critical: &CriticalState,
+) -> Result<Vector, Error> {
+    let at = &critical.equilibrium;
+    let input = critical.input.index();
+    let kernels: &dyn Kernels = mechanism;
+    check_state(kernels, at)?;
+    if input >= at.inputs.len() {
+        return Err(Error::NoSensitivity {
+            reason: "there is no such input",
+        });
+    }
+    let (by_input, by_design) = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
+    let force_input = by_input.column(input);
+    let forces_design = by_design.transpose();
+    match critical.kind {
+        SpecialKind::Degenerate => Err(Error::ClusteredMode { mode: 0 }),
+        SpecialKind::Fold => {
+            let push = dot(&critical.w, &force_input);
+            let slopes = forces_design
+                .iter()
+                .map(|force| -dot(&critical.w, force) / push);
+            finite(slopes.collect(), at)
+        }
+        SpecialKind::Pitchfork { .. } | SpecialKind::Transcritical => {
+            Crossed::new(mechanism, critical, &force_input)?.shifts(critical, &forces_design)
+        }
+    }
+}
+
+/// The neighbourhood of a branch point.
+struct Crossed {
+    /// `Khat` bordered by the critical vectors.
+    factors: Bordered,
+    /// `w^T g''(x_i, .)` by coordinate and by design variable.
+    second: [(Vector, Vector); 2],
+    /// `H`.
+    hessian: [[f64; 2]; 2],
+}
+
+impl Crossed {
+    fn new(
+        mechanism: &dyn DirectionalKernels,
+        critical: &CriticalState,
+        force_input: &[f64],
+    ) -> Result<Self, Error> {
+        let at = &critical.equilibrium;
+        let column = times(&at.linear.mass, &critical.v);
+        let factors = Bordered::new(&at.linear.stiffness, [&column], [&column], [[0.0]])
+            .ok_or(Error::ClusteredMode { mode: 0 })?;
+        let (along, _) = factors.solve(&force_input.map(|value| -value), [0.0]);
+        let bend = |dq: &[f64], share: f64| {
+            let (mut du, db) = (
+                Vector::zeros(at.inputs.len()),
+                Vector::zeros(at.design.len()),
+            );
+            du[critical.input.index()] = share;
+            let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+            let direction = [dq, &du, &db, &Vector::zeros(q.len())];
+            mechanism.residual_gradient_along(q, u, b, &critical.w, direction)
+        };
+        let by_v = bend(&critical.v, 0.0);
+        let by_along = bend(&along, 1.0);
+        let row = |bend: &Gradient| {
+            let input = bend.inputs[critical.input.index()];
+            [
+                dot(&bend.coordinates, &critical.v),
+                dot(&bend.coordinates, &along) + input,
+            ]
+        };
+        Ok(Self {
+            factors,
+            hessian: [row(&by_v), row(&by_along)],
+            second: [by_v, by_along].map(|bend| (bend.coordinates, bend.design)),
+        })
+    }
+
+    fn shifts(&self, critical: &CriticalState, forces: &Matrix) -> Result<Vector, Error> {
+        let at = &critical.equilibrium;
+        let [[a, b], [c, d]] = self.hessian;
+        let det = a * d - b * c;
+        if det.is_nan() || det.abs() <= 1e-12 * b * b {
+            return Err(Error::NoSensitivity {
+                reason: "the stiffness does not depend on the input",
+            });
+        }
+        let motions = Structure::of(&at.description).motions();
+        let motion = 1.0 / largest(&critical.v[..motions]);
+        let mut result = Vector::zeros(at.design.len());
+        for (j, force) in forces.iter().enumerate() {
+            let (shift, _) = self.factors.solve(&force.map(|value| -value), [0.0]);
+            let rates = self
+                .second
+                .each_ref()
+                .map(|(coordinates, design)| dot(coordinates, &shift) + design[j]);
+            let share = (critical.value / at.design[j]).abs();
+            let scale = rates[0].abs() + b.abs() * if share.is_finite() { share } else { 0.0 };
+            if dot(&critical.w, force).abs() > UNFORCED * scale * motion {
+                return Err(Error::NoSensitivity {
+                    reason: "a design variable pushes along the critical mode and destroys the bifurcation",
+                });
+            }
+            result[j] = (c * rates[0] - a * rates[1]) / det;
+        }
+        finite(result, at)
+    }
+}

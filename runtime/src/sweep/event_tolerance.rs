@@ -1,0 +1,115 @@
+//! First-order spread of the values of an input at which something happens: critical speeds and resonances.
+
+use super::crossing::{Condition, Crossing};
+use super::event_sensitivity::{critical_sensitivity, crossing_sensitivity};
+use super::points::CriticalState;
+use crate::algebra::Vector;
+use crate::kernels::{DirectionalKernels, Kernels};
+use crate::modes::{Family, Whirl, whirls};
+use crate::tolerance::{Spread, Tolerances};
+use crate::{Complex, Description, Error, Input, Shared};
+
+/// What happens at a value of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// The lowest mode loses its stiffness.
+    Critical,
+    /// A mode meets a condition.
+    Crossing {
+        /// Position of the mode, from 0.
+        mode: usize,
+        /// What it meets.
+        condition: Condition,
+        /// Its eigenvalue there, 1/s.
+        s: Complex,
+        /// How it whirls there; `None` where that does not apply.
+        whirl: Option<Whirl>,
+    },
+}
+
+/// A value of an input at which something happens, and how tolerances move it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventTolerance {
+    /// What happens.
+    pub event: Event,
+    /// The input.
+    pub input: Input,
+    /// Its nominal value there, SI.
+    pub value: f64,
+    /// How tolerances move the value, or why it has no derivative.
+    pub spread: Result<Spread, Error>,
+    /// How many standard deviations a tolerance and a band hold.
+    pub sigma_level: f64,
+    /// Which modes it was found with.
+    pub family: Family,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl EventTolerance {
+    /// The same with another number for the mode of a crossing.
+    pub(crate) fn with_mode(mut self, number: usize) -> Self {
+        if let Event::Crossing { mode, .. } = &mut self.event {
+            *mode = number;
+        }
+        self
+    }
+
+    /// Standard deviation of the value, SI; `None` where it has no derivative.
+    pub fn sigma(&self) -> Option<f64> {
+        self.spread.as_ref().ok().map(|spread| spread.sigma)
+    }
+}
+
+/// Spread of a critical value ([`critical_sensitivity`]).
+pub fn critical_tolerance(
+    mechanism: &dyn DirectionalKernels,
+    critical: &CriticalState,
+    tolerances: &Tolerances,
+) -> EventTolerance {
+    EventTolerance {
+        event: Event::Critical,
+        input: critical.input,
+        value: critical.value,
+        spread: critical_sensitivity(mechanism, critical)
+            .and_then(|slopes| spread(critical.value, slopes, tolerances)),
+        sigma_level: tolerances.sigma_level(),
+        family: Family::General,
+        description: critical.equilibrium.description.clone(),
+    }
+}
+
+/// Spread of a crossing ([`crossing_sensitivity`]).
+pub fn crossing_tolerance(
+    mechanism: &dyn Kernels,
+    crossing: &Crossing,
+    tolerances: &Tolerances,
+) -> EventTolerance {
+    EventTolerance {
+        event: Event::Crossing {
+            mode: crossing.mode,
+            condition: crossing.condition,
+            s: crossing
+                .modes
+                .modes
+                .get(crossing.mode)
+                .map_or_else(Complex::default, |mode| mode.s),
+            whirl: whirls(mechanism, &crossing.equilibrium, &crossing.modes)
+                .get(crossing.mode)
+                .copied()
+                .flatten(),
+        },
+        input: crossing.input,
+        value: crossing.value,
+        spread: crossing_sensitivity(mechanism, crossing)
+            .and_then(|slopes| spread(crossing.value, slopes, tolerances)),
+        sigma_level: tolerances.sigma_level(),
+        family: crossing.modes.family,
+        description: crossing.equilibrium.description.clone(),
+    }
+}
+
+fn spread(value: f64, by_design: Vector, tolerances: &Tolerances) -> Result<Spread, Error> {
+    tolerances.check_count(by_design.len())?;
+    Ok(Spread::new(value, by_design, tolerances))
+}

@@ -1,0 +1,112 @@
+//! Following an equilibrium from value to value of an input: side by side in the vectors of the processor where the way is
+//! smooth, one by one elsewhere.
+
+use super::points::SweepPoint;
+use super::track::{Tracked, Tracker, even};
+use crate::batched;
+use crate::batched::Block;
+use crate::kernels::BatchKernels;
+use crate::scalar::WIDTH;
+use crate::sensitivity::{Method, sensitivities};
+use crate::{Error, Sensitivities};
+
+/// What is known at one value.
+pub(crate) struct Station {
+    pub(crate) point: SweepPoint,
+    /// Derivatives of the modes, if they are wanted.
+    pub(crate) slopes: Option<Result<Sensitivities, Error>>,
+    /// No critical state lies between it and the value before.
+    pub(crate) smooth: bool,
+}
+
+/// Goes on to each of `values`; `each` sees what is there, in order, with derivatives of the modes if they are wanted.
+pub(crate) fn follow(
+    tracker: &mut Tracker<'_>,
+    kernels: &dyn BatchKernels,
+    values: &[f64],
+    with_slopes: bool,
+    mut each: impl FnMut(&Station),
+) {
+    let (mut room, mut rest) = (None, values);
+    // Values to be solved one by one before a block is tried again; three tell a way.
+    let mut alone = 3;
+    let possible = batched::possible(&tracker.description, &batched::KERNELS);
+    while let Some((&value, behind)) = rest.split_first() {
+        if possible && alone == 0 && !behind.is_empty() {
+            let room = room.get_or_insert_with(|| tracker.block(with_slopes));
+            let number = tracker.ahead(kernels, room, rest);
+            let (block, _) = room;
+            if let (Some(last), true) = (&tracker.last, number > 0) {
+                let mut station = Station::shared(last, with_slopes);
+                for lane in 0..number {
+                    station.go(tracker, block, lane);
+                    each(&station);
+                }
+                tracker.arrive(&station.point, block, number);
+            }
+            rest = &rest[number..];
+            // Where the way bends too much for a whole block, so it does a little farther on.
+            alone = WIDTH - number;
+            continue;
+        }
+        alone = alone.saturating_sub(1);
+        each(&solve(tracker, value, with_slopes));
+        rest = behind;
+    }
+}
+
+/// One value alone.
+fn solve(tracker: &mut Tracker<'_>, value: f64, with_slopes: bool) -> Station {
+    let (equilibrium, modes) = match tracker.advance(value) {
+        Ok((state, modes)) => (Ok(state), modes),
+        Err(error) => (Err(error.clone()), Err(error)),
+    };
+    let slopes = with_slopes.then(|| match (&equilibrium, &modes) {
+        (Ok(state), Ok(modes)) => sensitivities(tracker.mechanism, state, modes),
+        (_, Err(error)) | (Err(error), _) => Err(error.clone()),
+    });
+    Station {
+        smooth: tracker.smooth && modes.is_ok(),
+        point: SweepPoint {
+            value,
+            equilibrium,
+            modes,
+        },
+        slopes,
+    }
+}
+
+impl Station {
+    /// What states side by side share with the one before them.
+    fn shared(last: &Tracked, slopes: bool) -> Self {
+        Self {
+            point: SweepPoint {
+                value: last.value,
+                equilibrium: Ok(last.equilibrium.clone()),
+                modes: Ok(last.modes.clone()),
+            },
+            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes, Method::Adjoint))),
+            smooth: true,
+        }
+    }
+
+    /// Goes on to a lane of a block.
+    fn go(&mut self, tracker: &Tracker<'_>, block: &Block, lane: usize) {
+        let SweepPoint {
+            value,
+            equilibrium,
+            modes,
+        } = &mut self.point;
+        *value = block.values.0[lane];
+        if let (Ok(state), Ok(modes)) = (equilibrium, modes) {
+            state.inputs[tracker.input.index()] = *value;
+            block.read_state(lane, tracker.mechanism, state);
+            let before = modes.least_lambda();
+            block.read_modes(lane, modes);
+            self.smooth = even(before, modes.least_lambda());
+            if let Some(Ok(slopes)) = &mut self.slopes {
+                block.read_slopes(lane, modes, slopes);
+            }
+        }
+    }
+}

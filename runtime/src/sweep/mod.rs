@@ -1,0 +1,29 @@
+//! Along an input: equilibria and modes from value to value, and where they become critical, resonant or unstable.
+
+mod critical;
+mod crossing;
+mod event_sensitivity;
+mod event_tolerance;
+mod follow;
+mod points;
+mod range;
+mod sensitivity_sweep;
+#[expect(
+    clippy::module_inception,
+    reason = "the question that gives the room its name"
+)]
+mod sweep;
+mod track;
+
+pub use critical::critical_state;
+pub(crate) use critical::critical_states_on;
+pub(crate) use crossing::between;
+pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
+pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
+pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_tolerance};
+pub use points::{CriticalState, Sweep, SweepPoint};
+pub use range::Range;
+pub use sensitivity_sweep::sensitivity_sweep;
+pub use sweep::sweep;
+pub use track::Following;
+pub(crate) use track::Tracker;

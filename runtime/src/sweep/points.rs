@@ -1,0 +1,76 @@
+//! What is found along an input.
+
+use core::ops::Deref;
+
+use crate::algebra::Vector;
+use crate::branches::SpecialKind;
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
+
+/// A sweep: its points read as a slice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The swept input.
+    pub input: Input,
+    /// One point for each value.
+    pub points: Vec<SweepPoint>,
+    /// Where the stable equilibrium that the sweep follows loses its stiffness: critical values of the input, located to
+    /// rounding, each on the branch before it. Looked for when a stable equilibrium is wanted and the values ascend or
+    /// descend.
+    pub critical: Vec<CriticalState>,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl Deref for Sweep {
+    type Target = [SweepPoint];
+
+    fn deref(&self) -> &Self::Target {
+        &self.points
+    }
+}
+
+impl IntoIterator for Sweep {
+    type Item = SweepPoint;
+    type IntoIter = std::vec::IntoIter<Self::Item>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.points.into_iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a Sweep {
+    type Item = &'a SweepPoint;
+    type IntoIter = core::slice::Iter<'a, SweepPoint>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.points.iter()
+    }
+}
+
+/// One point of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepPoint {
+    /// Value of the swept input, SI.
+    pub value: f64,
+    /// The equilibrium, or why there is none.
+    pub equilibrium: Result<Equilibrium, Error>,
+    /// The modes there: modes with one label are one motion along the whole sweep.
+    pub modes: Result<Modes, Error>,
+}
+
+/// A state where `Khat` is singular.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriticalState {
+    /// The input that was varied.
+    pub input: Input,
+    /// Its critical value, SI.
+    pub value: f64,
+    /// What happens to the branch there.
+    pub kind: SpecialKind,
+    /// The equilibrium there, on the branch that is stable below; its critical mode counts as neutral.
+    pub equilibrium: Equilibrium,
+    /// Critical vector: `Khat v = 0`, `v^T Mhat v = 1`, largest component positive; one of them when degenerate.
+    pub v: Vector,
+    /// Left critical vector: `Khat^T w = 0`, `w^T Mhat v = 1`; equal to `v` for a symmetric `Khat`.
+    pub w: Vector,
+}

@@ -1,0 +1,54 @@
+//! A range of one input in which something is looked for.
+
+use crate::arguments::check_input;
+use crate::{Any, Description, Error, Input};
+
+/// Where to look: `steps` equal steps of one input from `low` to `high`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range<M = Any> {
+    /// The input that varies.
+    pub input: Input<M>,
+    /// Where the search starts, SI.
+    pub low: f64,
+    /// Where it ends, SI; below `low` to search downwards.
+    pub high: f64,
+    /// Number of steps; two events within one step are not told apart.
+    pub steps: usize,
+}
+
+impl<M> Range<M> {
+    /// The same, of any mechanism.
+    pub fn any(&self) -> Range {
+        Range {
+            input: self.input.any(),
+            low: self.low,
+            high: self.high,
+            steps: self.steps,
+        }
+    }
+}
+
+impl Range {
+    /// The ends of the steps, `low` excluded.
+    pub(super) fn steps(&self) -> impl Iterator<Item = f64> + use<> {
+        let (low, high, count) = (self.low, self.high, self.steps);
+        (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
+    }
+
+    pub(super) fn check(&self, description: &Description) -> Result<(), Error> {
+        check_input(self.input, description)?;
+        let refused = if !(self.low.is_finite() && self.high.is_finite()) {
+            "its ends must be finite"
+        } else if self.low == self.high {
+            "its ends must differ"
+        } else if self.steps == 0 {
+            "it needs at least one step"
+        } else {
+            return Ok(());
+        };
+        Err(Error::Setting {
+            setting: "range",
+            reason: refused.to_owned(),
+        })
+    }
+}

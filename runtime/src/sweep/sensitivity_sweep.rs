@@ -1,0 +1,35 @@
+//! Derivatives along an input.
+
+use super::follow::follow;
+use super::points::SweepPoint;
+use super::track::{Following, Tracker};
+use crate::arguments::check_input;
+use crate::kernels::BatchKernels;
+use crate::sensitivity::Sensitivities;
+use crate::{Error, Input};
+
+/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and shows them to `each` in order:
+/// the fastest way to derivatives along an input, because neighbouring values are solved side by side and nothing is kept.
+///
+/// Arguments as for [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states between
+/// them; states and modes are the same. Derivatives are those of [`sensitivities`](crate::sensitivity::sensitivities), or its error.
+///
+/// # Errors
+/// [`Error::UnknownHandle`] for an input that the mechanism does not have.
+pub fn sensitivity_sweep(
+    mechanism: &dyn BatchKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: impl Into<Following>,
+    (input, values): (Input, &[f64]),
+    mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+) -> Result<(), Error> {
+    check_input(input, &mechanism.description())?;
+    let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
+    follow(&mut tracker, mechanism, values, true, |station| {
+        if let Some(slopes) = &station.slopes {
+            each(&station.point, slopes);
+        }
+    });
+    Ok(())
+}

@@ -1,0 +1,299 @@
+//! Following one equilibrium and its modes while an input changes: each solve starts at the last equilibrium, and modes
+//! keep their identity.
+
+use super::points::SweepPoint;
+use crate::algebra::Vector;
+use crate::batched::{Block, Workspace};
+use crate::equilibrium::{Path, Policy, Problem, settle, settle_from_prediction};
+use crate::kernels::{BatchKernels, Kernels};
+use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another};
+use crate::scalar::{Instructions, WIDTH};
+use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
+
+/// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
+const RECOGNISED: f64 = 0.8;
+/// How often a step may be halved.
+const HALVINGS: usize = 6;
+
+/// What is followed, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Following {
+    /// Which equilibrium.
+    pub policy: Policy,
+    /// Which modes; `None` for the family that leaves nothing out ([`Family::of`]).
+    pub family: Option<Family>,
+    /// The vector instructions with which neighbouring values of a sweep are solved side by side where the mechanism allows
+    /// it; `None` solves each alone. Results are the same up to rounding.
+    pub vectors: Option<Instructions>,
+}
+
+impl Default for Following {
+    fn default() -> Self {
+        Policy::default().into()
+    }
+}
+
+impl From<Policy> for Following {
+    fn from(policy: Policy) -> Self {
+        Self {
+            policy,
+            family: None,
+            vectors: Some(Instructions::best()),
+        }
+    }
+}
+
+/// An equilibrium and its modes at a value of the input.
+#[derive(Clone)]
+pub(crate) struct Tracked {
+    pub(crate) value: f64,
+    pub(crate) equilibrium: Equilibrium,
+    pub(crate) modes: Modes,
+}
+
+/// Follows an equilibrium along an input.
+pub(crate) struct Tracker<'a> {
+    pub(crate) mechanism: &'a dyn Kernels,
+    pub(crate) description: Shared<Description>,
+    pub(crate) input: Input,
+    inputs: Vector,
+    design: Vector,
+    policy: Policy,
+    family: Family,
+    vectors: Option<Instructions>,
+    /// Where the next solve starts.
+    from: Vector,
+    /// The way so far, which tells where it goes on.
+    path: Path,
+    /// The first label that no mode has had: one that has ended does not lend its label to another.
+    unused: usize,
+    /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
+    pub(crate) smooth: bool,
+    /// The last point that has modes.
+    pub(crate) last: Option<Tracked>,
+}
+
+impl<'a> Tracker<'a> {
+    pub(crate) fn new(
+        mechanism: &'a dyn Kernels,
+        (u, b): (&[f64], &[f64]),
+        start: &[f64],
+        following: Following,
+        input: Input,
+    ) -> Self {
+        let description = mechanism.description();
+        Self {
+            mechanism,
+            input,
+            inputs: u.into(),
+            design: b.into(),
+            policy: following.policy,
+            family: following.family.unwrap_or(Family::of(&description)),
+            description,
+            vectors: following.vectors,
+            from: start.into(),
+            path: Path::default(),
+            unused: 0,
+            smooth: false,
+            last: None,
+        }
+    }
+
+    /// Which modes are followed.
+    pub(crate) fn family(&self) -> Family {
+        self.family
+    }
+
+    /// The inputs at a value of the one that varies.
+    pub(super) fn inputs_at(&self, value: f64) -> Vector {
+        let mut inputs = self.inputs.clone();
+        if let Some(place) = inputs.get_mut(self.input.index()) {
+            *place = value;
+        }
+        inputs
+    }
+
+    /// The equilibrium at a value of the input, from `from`, or from where the way leads if it is found there at once: then
+    /// true.
+    fn equilibrium(
+        &self,
+        value: f64,
+        from: &[f64],
+        predicted: Option<&[f64]>,
+    ) -> Result<(Equilibrium, bool), Error> {
+        let inputs = self.inputs_at(value);
+        let problem = Problem::new(self.mechanism, &inputs, &self.design)?;
+        problem.check_start(from)?;
+        let predicted = predicted.filter(|_| self.policy == Policy::Stable);
+        if let Some(state) = predicted.and_then(|to| settle_from_prediction(&problem, from, to)) {
+            return Ok((state, true));
+        }
+        settle(&problem, from, self.policy)
+            .map(|state| (state, false))
+            .map_err(|failure| failure.explain(&problem.description))
+    }
+
+    /// Equilibrium and modes near a point, in the order and with the labels of its modes.
+    pub(crate) fn near(&self, value: f64, point: &Tracked) -> Result<Tracked, Error> {
+        let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
+        let found = modes_at(&equilibrium, self.family)?;
+        Ok(Tracked {
+            value,
+            modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
+            equilibrium,
+        })
+    }
+
+    /// Room for values that are solved side by side.
+    pub(super) fn block(&self, with_slopes: bool) -> (Block, Workspace) {
+        let block = Block::new(&self.description, &self.inputs, &self.design);
+        (block, Workspace::new(&self.description, with_slopes))
+    }
+
+    /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
+    /// them one by one would find.
+    pub(super) fn ahead(
+        &self,
+        kernels: &dyn BatchKernels,
+        (block, workspace): &mut (Block, Workspace),
+        values: &[f64],
+    ) -> usize {
+        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
+        let (Some(vectors), Some(last), Some(past), true) =
+            (self.vectors, &self.last, self.path.last_three(), wanted)
+        else {
+            return 0;
+        };
+        let sound = last.equilibrium.stability == Stability::Stable
+            && last.modes.modes.len() == self.from.len()
+            && last.value == past[0].0;
+        if !sound {
+            return 0;
+        }
+        let possible = |value: &&f64| {
+            let inputs = self.inputs_at(**value);
+            self.mechanism.violation(&inputs, &self.design).is_none()
+        };
+        let number = values.iter().take(WIDTH).take_while(possible).count();
+        let values = (self.input, &values[..number]);
+        let shapes = last.modes.real_shapes();
+        block.solve(workspace, (kernels, vectors), values, past, &shapes)
+    }
+
+    /// Goes on to the last of the first `number` states of a block, which `point` holds.
+    pub(super) fn arrive(&mut self, point: &SweepPoint, block: &Block, number: usize) {
+        for lane in number.saturating_sub(3)..number {
+            self.path.go(block.values.0[lane], &block.state_of(lane));
+        }
+        if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
+            self.from.clone_from(&state.coordinates);
+            self.last = Some(Tracked {
+                value: point.value,
+                equilibrium: state.clone(),
+                modes: modes.clone(),
+            });
+        }
+    }
+
+    /// Goes on to a value of the input; the equilibrium comes back even where its modes fail. Modes that are not
+    /// recognised at once are followed in smaller steps.
+    pub(crate) fn advance(
+        &mut self,
+        value: f64,
+    ) -> Result<(Equilibrium, Result<Modes, Error>), Error> {
+        // Where to go next, how often the way may still be halved, and what comes after it.
+        let (mut next, mut halvings) = (value, HALVINGS);
+        let mut after = Vec::new();
+        let mut smooth = true;
+        loop {
+            let step = self.step(next, halvings);
+            smooth &= self.smooth;
+            match step {
+                Ok(step) => match (step, after.pop()) {
+                    (Step::TooFar(middle), place) => {
+                        after.extend(place);
+                        halvings -= 1;
+                        after.push((next, halvings));
+                        next = middle;
+                    }
+                    (_, Some(place)) => (next, halvings) = place,
+                    (Step::WithoutModes(state, error), None) => return Ok((*state, Err(error))),
+                    (Step::Arrived, None) => {
+                        self.smooth = smooth;
+                        if let Some(last) = &self.last {
+                            return Ok((last.equilibrium.clone(), Ok(last.modes.clone())));
+                        }
+                    }
+                },
+                Err(error) => match after.pop() {
+                    None => return Err(error),
+                    // Taken as it is, doubtful or not.
+                    Some((place, _)) => (next, halvings) = (place, 0),
+                },
+            }
+        }
+    }
+
+    fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
+        let predicted = self.path.at(value);
+        let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_deref())?;
+        let mut found = match modes_at(&state, self.family) {
+            Ok(found) => found,
+            Err(error) => {
+                self.from.clone_from(&state.coordinates);
+                self.path.go(value, &state.coordinates);
+                return Ok(Step::WithoutModes(Box::new(state), error));
+            }
+        };
+        self.smooth = false;
+        if let Some(last) = &self.last {
+            self.smooth = confirmed
+                && self.family == Family::Undamped
+                && even(last.modes.least_lambda(), found.least_lambda());
+            let order = match_with_assurance(&last.modes, &found, &state.linear);
+            // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
+            let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
+            let doubtful = order
+                .iter()
+                .flatten()
+                .any(|&(position, assurance)| assurance < RECOGNISED && !repeated(position));
+            let middle = 0.5 * (last.value + value);
+            let between = (middle - last.value) * (value - middle) > 0.0;
+            if doubtful && halvings > 0 && between {
+                return Ok(Step::TooFar(middle));
+            }
+            let positions = order.iter();
+            let order: Vec<_> = positions
+                .map(|pair| pair.map(|(position, _)| position))
+                .collect();
+            found.arrange(&last.modes, &order, self.unused);
+        }
+        self.from.clone_from(&state.coordinates);
+        self.path.go(value, &state.coordinates);
+        let labels = found.modes.iter().map(|mode| mode.label + 1);
+        self.unused = labels.fold(self.unused, usize::max);
+        self.last = Some(Tracked {
+            value,
+            equilibrium: state,
+            modes: found,
+        });
+        Ok(Step::Arrived)
+    }
+}
+
+/// Whether the least eigenvalues of two sets of undamped modes are positive and nearly the same.
+pub(super) fn even(a: f64, b: f64) -> bool {
+    /// Share of the greater of the two that the lesser one keeps.
+    const KEPT: f64 = 0.75;
+    a.min(b) > 0.0 && a.min(b) >= KEPT * a.max(b)
+}
+
+/// How a step ended.
+enum Step {
+    /// At a state with modes: the last one.
+    Arrived,
+    /// At a state without.
+    WithoutModes(Box<Equilibrium>, Error),
+    /// Modes are not recognised; a value on the way.
+    TooFar(f64),
+}
