@@ -41,6 +41,37 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 2] = ["functions", "kernel_name"];
 
+/// The rooms of the runtime, in order: each may import those before it. The first fifteen are the core: contract, equilibrium,
+/// modes, sensitivities, first-order tolerances and Monte Carlo.
+const RUNTIME: [&str; 25] = [
+    "algebra",
+    "scalar",
+    "mechanism",
+    "error",
+    "kernels",
+    "arguments",
+    "constraints",
+    "rounding",
+    "eigenproblem",
+    "state",
+    "modes",
+    "equilibrium",
+    "sensitivity",
+    "batched",
+    "tolerance",
+    // beyond
+    "branches",
+    "sweep",
+    "shapes",
+    "clusters",
+    "second_order",
+    "summary",
+    "campbell",
+    "motion",
+    "report",
+    "study",
+];
+
 /// Folders whose files import each other in one direction only.
 const WITHOUT_CIRCLES: [&str; 7] = [
     "base",
@@ -170,6 +201,78 @@ fn files_import_each_other_in_one_direction() {
             panic!("in {folder} these import each other: {}", circle.join(", "));
         }
     }
+}
+
+/// The rooms of the runtime: folders, or files of the first level.
+fn runtime_rooms() -> BTreeMap<String, Vec<PathBuf>> {
+    let runtime = root().join("runtime/src");
+    let mut rooms: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+    for file in sources(&runtime) {
+        let path = file.strip_prefix(&runtime).expect("a file of the runtime");
+        let first = path.iter().next().and_then(|name| name.to_str());
+        let room = first.unwrap_or_default().trim_end_matches(".rs");
+        let is_test = path
+            .iter()
+            .any(|name| name == "tests" || name == "tests.rs");
+        if room != "lib" && !is_test {
+            rooms.entry(room.to_owned()).or_default().push(file);
+        }
+    }
+    rooms
+}
+
+#[test]
+fn rooms_of_the_runtime_import_those_before_them() {
+    let lib = read(&root().join("runtime/src/lib.rs"));
+    // `crate::Error` means `crate::error::Error`.
+    let public = lib.split("pub use ").skip(1).flat_map(|rest| {
+        let tree = rest.split(';').next().unwrap_or_default();
+        paths(tree)
+    });
+    let at_root: BTreeMap<String, String> = public
+        .filter_map(|path| {
+            let (room, item) = path.split_once("::")?;
+            let name = item.rsplit(' ').next().unwrap_or(item);
+            Some((name.to_owned(), room.to_owned()))
+        })
+        .collect();
+    let rooms = runtime_rooms();
+    let names: BTreeSet<&str> = rooms.keys().map(String::as_str).collect();
+    assert_eq!(names, BTreeSet::from(RUNTIME));
+    for (place, room) in RUNTIME.iter().enumerate() {
+        for file in &rooms[*room] {
+            for name in runtime_imports(&read(file)) {
+                let other = at_root.get(&name).unwrap_or(&name).as_str();
+                let elsewhere = at_root.contains_key(&name) && !names.contains(other);
+                assert!(
+                    elsewhere || RUNTIME[..=place].contains(&other),
+                    "{} imports `{name}`, which {room} may not",
+                    file.display()
+                );
+            }
+        }
+    }
+}
+
+/// What a file of the runtime names of the crate outside of its tests and its prose.
+fn runtime_imports(text: &str) -> BTreeSet<String> {
+    let code = text.split("mod tests {").next().unwrap_or(text);
+    let code: String = code
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .flat_map(|line| [line, "\n"])
+        .collect();
+    let declared = code.split("use crate::").skip(1).flat_map(|rest| {
+        let tree = rest.split(';').next().unwrap_or_default();
+        paths(tree)
+    });
+    let inline = code.split("crate::").skip(1).map(str::to_owned);
+    let inline = inline.filter(|rest| !rest.starts_with('{'));
+    let first = |path: String| -> String {
+        let end = path.find(|c: char| !c.is_alphanumeric() && c != '_');
+        path[..end.unwrap_or(path.len())].to_owned()
+    };
+    declared.chain(inline).map(first).collect()
 }
 
 /// The path of a file as a module, for example `mechanics::motion::frame`.
@@ -353,7 +456,7 @@ fn unsafe_code_stays_in_one_place() {
     let allowed: Vec<PathBuf> = files
         .filter(|file| read(file).contains("allow(unsafe_code)"))
         .collect();
-    assert_eq!(allowed, [runtime.join("lanes/x86/mod.rs")]);
+    assert_eq!(allowed, [runtime.join("scalar/x86/mod.rs")]);
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod band;
 mod curvature;
 mod distribution;
 mod margin;
+mod moments;
 mod nonlinearity;
 mod probability;
 mod quadratic;

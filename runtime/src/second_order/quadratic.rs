@@ -1,6 +1,5 @@
 //! A quantity known to second order in normally distributed design variables, and its moments.
 
-use super::distribution::Standard;
 use crate::algebra::{Matrix, Vector};
 use crate::tolerance::Tolerances;
 use crate::{Error, Text};
@@ -38,25 +37,6 @@ pub struct ModelMoments {
 }
 
 impl Quadratic {
-    /// Mean, standard deviation, skewness and kurtosis of the model.
-    ///
-    /// With `a = L^T S` and `B = L^T H L`, `Sigma = L L^T`, the cumulants are
-    /// `k_r = (r - 1)! tr(B^r) / 2 + r! a^T B^(r-2) a / 2` for `r >= 2` (Mathai and Provost, Quadratic Forms in Random
-    /// Variables, 1992, section 3.2).
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables
-    /// than the tolerances have, [`Error::Setting`] for a spread beyond the range of a double.
-    pub fn moments(&self, tolerances: &Tolerances) -> Result<ModelMoments, Error> {
-        let standard = Standard::new(self, tolerances)?;
-        let moments = standard.moments(self.value);
-        if moments.mean.is_finite() && moments.sigma.is_finite() {
-            Ok(moments)
-        } else {
-            Err(beyond_range())
-        }
-    }
-
     /// Refuses what is NaN or infinite, or does not belong to these tolerances.
     pub(super) fn check(&self, tolerances: &Tolerances) -> Result<(), Error> {
         for count in [

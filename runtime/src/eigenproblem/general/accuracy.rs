@@ -4,8 +4,9 @@ use num_complex::Complex64;
 
 use super::cluster::Found;
 use super::measure::Pair;
-use super::pair::{INACCURATE, Solver};
+use super::pair::INACCURATE;
 use super::pencil::modulus;
+use super::solver::Solver;
 
 /// Eigenvalues farther away than this many errors do not matter.
 const FAR: f64 = 8.0;

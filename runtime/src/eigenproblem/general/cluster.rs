@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use super::measure::Pair;
-use super::pair::Solver;
 use super::pencil::modulus;
+use super::solver::Solver;
 
 /// The pairs found so far; the vectors of pair `i` are the components `i n .. (i + 1) n`.
 pub(super) struct Found<'a> {

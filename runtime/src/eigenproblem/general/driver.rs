@@ -6,10 +6,10 @@ use super::cluster::Found;
 use super::linearisation::Linearisation;
 use super::measure::Pair;
 use super::order::{finish, sort};
-use super::pair::Solver;
 use super::pencil::{Pencil, Products};
-use super::problem::{Eigenproblem, Scaled, scaled};
+use super::problem::{Eigenproblem, Scaled, not_found, scaled};
 use super::scratch::{Work, take};
+use super::solver::Solver;
 use super::{Root, aberth, accuracy, cluster, hessenberg, schur};
 use crate::eigenproblem::symmetric::Trouble;
 
@@ -17,13 +17,6 @@ use crate::eigenproblem::symmetric::Trouble;
 const ACCEPTED: f64 = 1e-9;
 /// Residual of a pair that has nothing but rounding in it.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-pub(crate) fn not_found() -> Trouble {
-    Trouble::Inaccurate {
-        mode: 0,
-        residual: f64::INFINITY,
-    }
-}
 
 /// All eigenvalues of the linearisation of a scaled pencil; by the second method where QR does not converge.
 fn linear_values(

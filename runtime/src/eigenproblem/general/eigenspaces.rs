@@ -5,8 +5,9 @@ use num_complex::Complex64;
 use super::cluster::{Cluster, Found};
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
-use super::pair::{INACCURATE, Solver};
+use super::pair::INACCURATE;
 use super::pencil::{bound, modulus};
+use super::solver::Solver;
 
 /// Newton steps of a cluster.
 const STEPS: usize = 4;

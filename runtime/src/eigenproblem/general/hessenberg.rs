@@ -1,6 +1,6 @@
 //! Balancing and Hessenberg form of a real square matrix.
 
-use super::scaling::{exponent, power_of_two};
+use super::powers::{exponent, power_of_two};
 
 /// Sweeps of the balancing; what they leave is small.
 const SWEEPS: usize = 8;

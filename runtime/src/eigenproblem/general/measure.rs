@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::pair::Solver;
 use super::pencil::{Pencil, Products, bound, modulus};
+use super::solver::Solver;
 
 /// Terms that are less than this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;

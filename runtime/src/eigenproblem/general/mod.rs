@@ -24,10 +24,12 @@ mod measure;
 mod order;
 mod pair;
 mod pencil;
+mod powers;
 mod problem;
 mod scaling;
 mod schur;
 mod scratch;
+mod solver;
 #[cfg(test)]
 mod tests;
 

@@ -4,24 +4,10 @@
 
 use num_complex::Complex64;
 
-use super::linearisation::Linearisation;
 use super::lu::Lu;
 use super::measure::{Pair, ZERO, normalise};
-use super::pencil::{Pencil, Products, modulus};
-
-/// Everything that finding pairs needs, in slices.
-pub(super) struct Solver<'a> {
-    pub(super) pencil: Pencil<'a>,
-    pub(super) linearisation: Linearisation<'a>,
-    pub(super) q: &'a mut [Complex64],
-    pub(super) order: &'a mut [usize],
-    pub(super) of_right: Products<'a>,
-    pub(super) of_left: Products<'a>,
-    /// `n^2` numbers each, for clusters and solves.
-    pub(super) basis_right: &'a mut [Complex64],
-    pub(super) basis_left: &'a mut [Complex64],
-    pub(super) cross: &'a mut [Complex64],
-}
+use super::pencil::modulus;
+use super::solver::Solver;
 
 /// Improvements of one pair.
 const STEPS: usize = 8;

@@ -1,6 +1,5 @@
 //! What is solved, and how it is scaled.
 
-use super::driver::not_found;
 use super::pencil::{Degree, Pencil};
 use super::scaling::{largest, scale, scale_first_order};
 use super::scratch::take;
@@ -89,4 +88,12 @@ pub(crate) fn scaled<'a>(
         left,
         rate,
     })
+}
+
+/// Why there is no spectrum to give.
+pub(super) fn not_found() -> Trouble {
+    Trouble::Inaccurate {
+        mode: 0,
+        residual: f64::INFINITY,
+    }
 }

@@ -1,16 +1,7 @@
 //! Units in which the elements of the pencil are of order one: powers of two, so that nothing is rounded.
 
 use super::hessenberg::balance;
-
-/// Binary exponent: `2^exponent <= |x| < 2^(exponent + 1)` for normal numbers.
-pub(super) fn exponent(x: f64) -> i32 {
-    ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
-}
-
-/// `2^exponent`, within the range of normal numbers.
-pub(super) fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.clamp(-1022, 1023) + 1023) as u64) << 52)
-}
+use super::powers::{exponent, power_of_two};
 
 /// Greatest absolute value; infinite when one is not finite.
 pub(super) fn largest(x: &[f64]) -> f64 {

@@ -1,18 +1,19 @@
 //! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
 //! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to lose their independence.
 
+mod gaps;
 mod step;
 
 use super::convergence::{TOLERANCE, largest_of, relative_gap};
 use super::problem::{Failure, Problem};
 use crate::algebra::{Matrix, Vector, add_to, dot};
 use crate::constraints::{Rows, Structure, inertias};
-use step::{Aim, LEAST_DAMPING, damped, plain, scaled, without_dependent};
+pub(super) use gaps::{free, gaps};
+
+use gaps::Gaps;
+use step::{Aim, FIRST_RADIUS, LEAST_DAMPING, damped, plain, scaled, without_dependent};
 
 const MAX_ITERATIONS: usize = 200;
-/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
-/// the way decides which assembly mode is found.
-const FIRST_RADIUS: f64 = 0.3;
 /// A gap that keeps this share in a step has stopped falling.
 const STALLED: f64 = 0.5;
 /// How often, and by how much (rad or m), a state is kicked that is no way to close.
@@ -20,52 +21,6 @@ const KICKS: usize = 4;
 const KICK: f64 = 0.02;
 /// A kick is worth its while when it leaves no more than this share of the gaps.
 const BETTER: f64 = 0.9;
-
-/// Constraints on positions at a state, numbered from zero.
-pub(super) struct Gaps {
-    pub(super) gaps: Vector,
-    /// `Phi_q`.
-    pub(super) rows: Matrix,
-    /// Greatest gap relative to what small motions open.
-    pub(super) relative: f64,
-    worst: usize,
-}
-
-/// The constraints on positions; `None` where they are not finite.
-pub(super) fn gaps(problem: &Problem<'_>, x: &[f64]) -> Option<Gaps> {
-    let structure = problem.structure;
-    let (residual, stiffness) =
-        problem
-            .mechanism
-            .residual_and_stiffness(x, problem.inputs, problem.design);
-    let mut found = Gaps {
-        gaps: residual[structure.position_rows()].into(),
-        rows: Matrix::zeros(structure.position_constraints, x.len()),
-        relative: 0.0,
-        worst: 0,
-    };
-    for (k, row) in structure.position_rows().enumerate() {
-        found.rows[k][..structure.coordinates]
-            .copy_from_slice(&stiffness[row][..structure.coordinates]);
-        let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
-        if !finite {
-            return None;
-        }
-        let motions = &x[..structure.coordinates];
-        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
-        if relative > found.relative {
-            (found.relative, found.worst) = (relative, k);
-        }
-    }
-    Some(found)
-}
-
-/// Rows over the coordinates that are not held.
-pub(super) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
-    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
-        if held[j] { 0.0 } else { rows[k][j] }
-    })
-}
 
 /// Moves the coordinates that are not held until the constraints on positions are met; returns the state and how many
 /// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left

@@ -2,7 +2,7 @@
 
 use super::super::convergence::largest_of;
 use super::super::problem::Problem;
-use super::{FIRST_RADIUS, Gaps, free, gaps};
+use super::gaps::{Gaps, free, gaps};
 use crate::algebra::{Vector, add_scaled, dot};
 use crate::constraints::Rows;
 
@@ -10,6 +10,9 @@ use crate::constraints::Rows;
 const FALLS: f64 = 0.1;
 /// Share of the gaps that constraints must still be able to close, else there is a minimum.
 const CLOSABLE: f64 = 1e-9;
+/// Greatest change of a coordinate in the first step, rad or m; grows while the linear model predicts well. Small, because
+/// the way decides which assembly mode is found.
+pub(super) const FIRST_RADIUS: f64 = 0.3;
 /// Damping relative to the constraints.
 pub(super) const LEAST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e9;

@@ -2,6 +2,7 @@
 
 mod contour;
 mod davies;
+mod interval;
 pub(super) mod normal;
 mod single;
 mod standard;

@@ -1,0 +1,51 @@
+//! How far the loops are open.
+
+use super::super::convergence::relative_gap;
+use super::super::problem::Problem;
+use crate::algebra::{Matrix, Vector};
+
+/// Constraints on positions at a state, numbered from zero.
+pub(in crate::equilibrium) struct Gaps {
+    pub(in crate::equilibrium) gaps: Vector,
+    /// `Phi_q`.
+    pub(in crate::equilibrium) rows: Matrix,
+    /// Greatest gap relative to what small motions open.
+    pub(in crate::equilibrium) relative: f64,
+    pub(super) worst: usize,
+}
+
+/// The constraints on positions; `None` where they are not finite.
+pub(in crate::equilibrium) fn gaps(problem: &Problem<'_>, x: &[f64]) -> Option<Gaps> {
+    let structure = problem.structure;
+    let (residual, stiffness) =
+        problem
+            .mechanism
+            .residual_and_stiffness(x, problem.inputs, problem.design);
+    let mut found = Gaps {
+        gaps: residual[structure.position_rows()].into(),
+        rows: Matrix::zeros(structure.position_constraints, x.len()),
+        relative: 0.0,
+        worst: 0,
+    };
+    for (k, row) in structure.position_rows().enumerate() {
+        found.rows[k][..structure.coordinates]
+            .copy_from_slice(&stiffness[row][..structure.coordinates]);
+        let finite = found.gaps[k].is_finite() && found.rows[k].iter().all(|v| v.is_finite());
+        if !finite {
+            return None;
+        }
+        let motions = &x[..structure.coordinates];
+        let relative = relative_gap(found.gaps[k], motions, &found.rows[k]);
+        if relative > found.relative {
+            (found.relative, found.worst) = (relative, k);
+        }
+    }
+    Some(found)
+}
+
+/// Rows over the coordinates that are not held.
+pub(in crate::equilibrium) fn free(rows: &Matrix, held: &[bool]) -> Matrix {
+    Matrix::from_fn(rows.row_count(), rows.column_count(), |k, j| {
+        if held[j] { 0.0 } else { rows[k][j] }
+    })
+}
