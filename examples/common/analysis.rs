@@ -39,14 +39,12 @@ impl Analysis {
         let places = speeds::around(options.speeds, question.range, critical);
         let bar = progress::bar(places.len() * question.levels.len() * options.samples);
         let count = |samples: usize| bar.inc(samples as u64);
-        let sampling = Sampling {
-            samples: options.samples,
-            seed: options.seed,
-            stream: 0,
-            threads: options.threads,
-            progress: Some(&count),
-            ..Sampling::default()
-        };
+        let sampling = Sampling::default()
+            .samples(options.samples)
+            .seed(options.seed)
+            .stream(0)
+            .threads(options.threads)
+            .progress(Some(&count));
         let sampled = Sweep::run(study, question, &places, Some(&sampling))?;
         bar.finish_and_clear();
         let dense = speeds::dense(question.range, critical);

@@ -95,7 +95,7 @@ pub fn by_speed(out: &mut dyn Write, sweep: &Sweep) -> io::Result<()> {
         "  omega: natural frequency, rad/s; theta: from the axis, rad; sigma: first order; MC: sampled, good to {error:.1} %\n  \
          (its standard error); distance: to the critical state, in standard deviations of the eigenvalue; unstable:\n  \
          samples without a stable equilibrium.\n  \
-         `!`: nearer than {TRUSTED_DISTANCE} standard deviations first order is not to be trusted: believe the samples.\n"
+         `!`: nearer than {TRUSTED_DISTANCE} standard deviations first order is not to be trusted: use the samples.\n"
     )
 }
 

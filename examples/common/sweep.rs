@@ -56,7 +56,7 @@ pub struct Spread {
     pub shares: Vec<Vec<f64>>,
     /// Standard deviations to the critical state; `None` when infinite.
     pub distance: Option<f64>,
-    /// Whether first order can be believed here.
+    /// Whether first order can be trusted here.
     pub trusted: bool,
     /// Samples that are not stable, whatever the reason; `None` without Monte Carlo.
     pub unstable: Option<usize>,
@@ -139,10 +139,7 @@ fn row<M: Mechanism>(
             // would look like a systematic one.
             let first_stream = place * question.levels.len() as u64;
             for ((k, &level), stream) in question.levels.iter().enumerate().zip(first_stream..) {
-                let sampling = sampling.map(|sampling| Sampling {
-                    stream,
-                    ..*sampling
-                });
+                let sampling = sampling.map(|sampling| sampling.stream(stream));
                 let tolerances = question.varied_by(study, level).tolerances();
                 let filled = tolerances.and_then(|tolerances| {
                     let at = Place {

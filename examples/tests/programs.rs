@@ -287,10 +287,7 @@ fn a_speed_that_fails_is_reported_and_leaves_its_fields_empty() {
         varied: vec![RotatingPendulum::l.any()],
         levels: vec![0.03],
     };
-    let sampling = Sampling {
-        samples: 10,
-        ..Sampling::default()
-    };
+    let sampling = Sampling::default().samples(10);
     let study = eigentol::Study::new(RotatingPendulum);
     let speeds = [1.0, f64::NAN, 2.0];
     let sweep = Sweep::run(&study, &question, &speeds, Some(&sampling)).unwrap();

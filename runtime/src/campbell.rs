@@ -1,5 +1,6 @@
 //! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
 
+use crate::algebra::Vector;
 use crate::arguments::check_input;
 use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
@@ -13,6 +14,7 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 
 /// One mode at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CampbellMode {
     /// Number of the motion along the diagram.
     pub label: usize,
@@ -32,6 +34,7 @@ pub struct CampbellMode {
 
 /// All modes at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CampbellPoint {
     /// The value, SI.
     pub value: f64,
@@ -43,6 +46,7 @@ pub struct CampbellPoint {
 
 /// A Campbell diagram.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Campbell {
     /// The input along which it is drawn.
     pub input: Input,
@@ -61,12 +65,15 @@ pub struct Campbell {
     pub sigma_level: f64,
     /// Which modes it shows.
     pub family: Family,
+    /// The inputs, SI; all but the one along which it is drawn keep their value.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
 
 impl Campbell {
     /// The modes that occur: their labels, ascending.
+    #[must_use]
     pub fn labels(&self) -> Vec<usize> {
         let modes = self
             .points
@@ -90,6 +97,7 @@ impl Campbell {
 
 /// What a Campbell diagram is drawn of.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Axes<'a> {
     /// The input along which it is drawn.
     pub input: Input,
@@ -97,6 +105,18 @@ pub struct Axes<'a> {
     pub values: &'a [f64],
     /// Lines that crossings are looked for with.
     pub orders: &'a [Line],
+}
+
+impl<'a> Axes<'a> {
+    /// A diagram along `input` at `values`, SI, with the lines `orders`.
+    #[must_use]
+    pub fn new(input: Input, values: &'a [f64], orders: &'a [Line]) -> Self {
+        Self {
+            input,
+            values,
+            orders,
+        }
+    }
 }
 
 /// Draws a Campbell diagram: solves equilibrium and modes at each of the values of one input, follows every mode, and locates
@@ -187,6 +207,7 @@ pub fn campbell(
         flutter_onsets,
         sigma_level: tolerances.sigma_level(),
         family: tracker.family(),
+        inputs: u.into(),
         description,
     })
 }

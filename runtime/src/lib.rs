@@ -1,7 +1,7 @@
 //! Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
 //!
-//! Declare a mechanism with [`mechanism!`]; ask questions through `Study`, or call the functions of the modules
-//! directly: each takes the mechanism, lists of numbers and the results of the step before. Numbers of equations are those of
+//! Declare a mechanism with [`mechanism!`]; ask questions through a [`Study`], or call the functions of the modules
+//! directly: each takes the mechanism, lists of numbers and the results of the step before. Equation numbers are those of
 //! S. M. Eom, D. H. Choi and H. H. Yoo, "Tolerance Analysis for Natural Frequencies of Multi-body Systems in Dynamic
 //! Equilibrium State", completed where the paper is incomplete.
 //!
@@ -38,24 +38,30 @@
 //! # fn main() {}
 //! ```
 //!
-//! What a `Study` answers, and the function behind it; several questions about one operating point share its equilibrium and modes
-//! through `Study::solve`:
+//! Questions of a [`Study`], and the functions behind them. Several questions about one operating point share its equilibrium and
+//! modes through [`Study::solve`].
 //!
 //! | question | method | function |
 //! | --- | --- | --- |
-//! | how does it go together, if loops close? | `assembly` | `equilibrium::assemble` |
-//! | where does it stay, and what moves that? | `equilibrium`, `equilibria`, `equilibrium_shift` | `equilibrium::equilibrium`, ... |
-//! | which branches are there, where do they fold and fork? | `branches` | `branches::branches` |
-//! | how does it vibrate, is it stable? | `modes`, `whirls` | `modes::modes`, `modes::whirls` |
-//! | what moves frequencies, damping, shapes, outputs? | `sensitivities`, `shape_sensitivity`, `outputs` | `sensitivity::sensitivities`, ... |
-//! | ... to second order? | `mode_curvature` | `second_order::mode_curvature` |
-//! | how do equal frequencies split? | `directional_derivatives` | `clusters::directional_derivatives` |
-//! | how much do tolerances spread them? | `first_order`, `second_order`, `output_tolerances` | `tolerance::first_order`, ... |
-//! | which of these sigmas can be believed, which modes mix? | `summary`, `clusters` | `summary::summary`, `clusters::clusters` |
-//! | and without linearisation? | `monte_carlo` | `tolerance::monte_carlo` |
-//! | how probable is a forbidden band, or instability? | `margin`, `margin_of` | `second_order::mode_margin` |
-//! | what happens along an input? | `sweep`, `sensitivity_sweep`, `first_order_sweep`, `campbell` | `sweep::sweep`, `sweep::sensitivity_sweep`, `campbell::campbell` |
-//! | where is it critical, resonant, about to flutter? | `critical_state`, `crossings`, `flutter_onsets`, each with `..._tolerance(s)` | `sweep::critical_state`, ... |
+//! | Does it close, if it has loops? Where do its coordinates go? | [`assembly`](Study::assembly) | [`equilibrium::assemble`] |
+//! | Where does it stay, and what moves that? | [`equilibrium`](Study::equilibrium), [`equilibria`](Study::equilibria), [`equilibrium_shift`](Study::equilibrium_shift) | [`equilibrium::equilibrium`], [`equilibrium::find_equilibria`], [`sensitivity::equilibrium_shift`] |
+//! | Which branches of equilibria are there, where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
+//! | How does it vibrate, is it stable, which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
+//! | What moves frequencies, damping, outputs, shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
+//! | ... to second order? | [`mode_curvature`](Study::mode_curvature) | [`second_order::mode_curvature`] |
+//! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
+//! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
+//! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
+//! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
+//! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
+//! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
+//! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance) | [`sweep::critical_state`], [`sweep::critical_tolerance`] |
+//! | Where does it resonate, where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
+//!
+//! Values are SI, or in the unit of the declaration: [`InDeclaredUnit`]. Handles such as `RotatingPendulum::omega` are constants of the
+//! mechanism's type; where names are known only at run time, [`Study::find_input`] and its like look them up.
+//! Every result prints as a table with names, units and the operating point it belongs to ([`report`]), and lists of numbers
+//! are [`Vector`] and [`Matrix`], which convert to nalgebra.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 // Generated code in unit tests names the crate from outside.
@@ -84,7 +90,7 @@ mod eigenproblem;
 #[cfg(feature = "std")]
 pub mod equilibrium;
 #[cfg(feature = "std")]
-mod error;
+pub mod error;
 #[cfg(feature = "std")]
 pub mod kernels;
 #[cfg(feature = "std")]
@@ -99,6 +105,8 @@ mod rounding;
 pub mod second_order;
 #[cfg(feature = "std")]
 pub mod sensitivity;
+#[cfg(feature = "std")]
+mod setters;
 #[cfg(feature = "std")]
 pub mod shapes;
 #[cfg(feature = "std")]
@@ -142,7 +150,7 @@ pub use sensitivity::{Quantity, Sensitivities};
 #[cfg(feature = "std")]
 pub use state::{Equilibrium, Stability};
 #[cfg(feature = "std")]
-pub use study::{Solved, Study};
+pub use study::{InDeclaredUnit, Solved, Study, Value};
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
 

@@ -7,6 +7,7 @@ use crate::{Description, Error, PoseMargin, Shared, Text};
 
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Equilibrium {
     /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints, SI: what `from`
     /// exerts on `to`, of a distance the tension; with the sign that outputs have ([`Role`](crate::Role)).
@@ -71,6 +72,7 @@ pub(crate) fn dependent_names(
 
 /// Stability of an equilibrium against small disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stability {
     /// Stable: no small disturbance grows.
     Stable,
@@ -102,6 +104,7 @@ pub enum Stability {
 
 impl Stability {
     /// Whether small disturbances stay small as far as the linearised mechanism tells, neutral directions included.
+    #[must_use]
     pub fn holds(self) -> bool {
         matches!(
             self,

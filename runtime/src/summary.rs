@@ -1,6 +1,7 @@
-//! First order, second order and clusters side by side, and for every mode whether its standard deviation is to be
-//! believed.
+//! First order, second order and clusters side by side, and for every mode whether its standard deviation can be
+//! trusted.
 
+use crate::algebra::Vector;
 use crate::clusters::{ClusterTolerance, clusters};
 use crate::kernels::DirectionalKernels;
 use crate::modes::Family;
@@ -9,7 +10,7 @@ use crate::sensitivity::{Quantity, sensitivities};
 use crate::tolerance::{FirstOrder, TRUSTED_DISTANCE, Tolerances, first_order};
 use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Shared};
 
-/// A first-order standard deviation that misses that of the second-order model by more than this is not to be believed.
+/// A first-order standard deviation that misses that of the second-order model by more than this is not to be trusted.
 ///
 /// Nor is the second-order one then: it tells that a quantity bends, not by how much. For the rotating bar at 5 rad/s with a
 /// tolerance of 45 %, against quadrature of the exact distribution, first order misses the standard deviation by -29 % and second
@@ -18,6 +19,7 @@ pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// What tolerances do to the modes, with a verdict for each.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Summary {
     /// First-order spread.
     pub first: FirstOrder,
@@ -25,8 +27,10 @@ pub struct Summary {
     pub second: SecondOrder,
     /// The modes that tolerances bring together.
     pub clusters: Vec<ClusterTolerance>,
-    /// For each mode whether its standard deviation is to be believed.
+    /// For each mode whether its standard deviation can be trusted.
     pub trust: Vec<Trust>,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -38,6 +42,7 @@ impl Summary {
     }
 
     /// The cluster that a mode belongs to.
+    #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Option<&ClusterTolerance> {
         self.clusters
             .iter()
@@ -47,6 +52,7 @@ impl Summary {
 
 /// The verdict on the first-order standard deviation of one mode.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Trust {
     /// Position of the mode, from 0.
     pub mode: usize,
@@ -56,13 +62,15 @@ pub struct Trust {
 
 impl Trust {
     /// Whether nothing speaks against it.
+    #[must_use]
     pub fn trusted(&self) -> bool {
         self.doubts.is_empty()
     }
 }
 
-/// Why a first-order standard deviation is not to be believed.
+/// Why a first-order standard deviation is not to be trusted.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Doubt {
     /// The mode does not oscillate: it has no frequency.
     NoFrequency,
@@ -124,6 +132,7 @@ pub fn summary(
         second: second_order(mechanism, at, modes, tolerances),
         clusters: clusters(mechanism, at, modes, tolerances)?,
         trust: Vec::new(),
+        inputs: at.inputs.clone(),
         description: modes.description.clone(),
     };
     let verdict = |(mode, own)| Trust {

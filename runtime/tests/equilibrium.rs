@@ -122,12 +122,7 @@ fn double_pendulum_matches_reference() {
 
 #[test]
 fn every_branch_is_found() {
-    let search = Search {
-        lower: [-3.2].into(),
-        upper: [3.2].into(),
-        starts: 40,
-        seed: 1,
-    };
+    let search = Search::new([-3.2], [3.2]).starts(40).seed(1);
     let found = find_equilibria(&Pendulum, &[5.0], &BAR, &[0.3], &search).unwrap();
     let mut angles: Vec<_> = found.iter().map(|state| state.coordinates[0]).collect();
     angles.sort_by(f64::total_cmp);

@@ -55,17 +55,12 @@ fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
 
 #[test]
 fn critical_speeds_and_crossings_match_closed_forms() {
-    let range = Range {
-        input: Input::new(0),
-        low: 0.1,
-        high: 5.0,
-        steps: 60,
-    };
+    let range = Range::new(Input::new(0), 0.1, 5.0).steps(60);
     let single = critical_state(&Pendulum, &[0.0], &BAR, &[1.047], range).unwrap();
     close(single.value, 3.836_013_555_763_326_5, 1e-12);
     let double = critical_state(&DOUBLE, &[0.0], &BARS, &[1.047, 1.047], range).unwrap();
     close(double.value, 2.680_114_012_253_375_3, 1e-12);
-    let below = Range { high: 3.0, ..range };
+    let below = Range::new(Input::new(0), 0.1, 3.0).steps(60);
     let none = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], below);
     assert!(matches!(none, Err(Error::NotInRange { input, .. }) if input == "omega"));
 
@@ -89,12 +84,7 @@ fn critical_speeds_and_crossings_match_closed_forms() {
 #[test]
 fn a_limit_point_is_found_where_the_branch_ends() {
     // k q - q^3 = 1 loses its lower solution where k = 3 q^2 and 2 q^3 = 1.
-    let range = Range {
-        input: Input::new(0),
-        low: 4.0,
-        high: 1.0,
-        steps: 20,
-    };
+    let range = Range::new(Input::new(0), 4.0, 1.0).steps(20);
     let design = [1.0, -1.0, 1.0];
     let fold = critical_state(&Derived(Spring), &[0.0], &design, &[0.25], range).unwrap();
     close(fold.value, 3.0 * 0.5f64.powf(2.0 / 3.0), 1e-13);
@@ -103,12 +93,7 @@ fn a_limit_point_is_found_where_the_branch_ends() {
 }
 
 fn through(low: f64, high: f64, steps: usize) -> Range {
-    Range {
-        input: Input::new(0),
-        low,
-        high,
-        steps,
-    }
+    Range::new(Input::new(0), low, high).steps(steps)
 }
 
 #[test]
@@ -202,12 +187,7 @@ fn a_branch_that_runs_to_infinity_is_not_critical() {
 /// Along the upper branch `omega^2 = 3 q^2 - 1` falls from 2 to 0 at the fold; the branch that follows has more than 3.
 #[test]
 fn a_frequency_that_jumps_across_a_line_does_not_meet_it() {
-    let range = Range {
-        input: Input::new(0),
-        low: 0.0,
-        high: 0.6,
-        steps: 7,
-    };
+    let range = Range::new(Input::new(0), 0.0, 0.6).steps(7);
     let line = Line {
         ratio: 0.0,
         offset: 0.9,

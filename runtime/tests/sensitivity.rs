@@ -183,12 +183,7 @@ fn outputs_move_with_the_equilibrium() {
 
 #[test]
 fn critical_speed_and_crossing_move_with_the_length() {
-    let range = Range {
-        input: Input::new(0),
-        low: 0.1,
-        high: 5.0,
-        steps: 60,
-    };
+    let range = Range::new(Input::new(0), 0.1, 5.0).steps(60);
     let critical = critical_state(&Pendulum, &[0.0], &BAR, &[1.0], range).unwrap();
     let rates = critical_sensitivity(&Pendulum, &critical).unwrap();
     close(rates[1], -0.5 * W.sqrt(), 1e-10);
@@ -215,12 +210,7 @@ fn critical_speed_and_crossing_move_with_the_length() {
 #[test]
 fn limit_point_moves_with_the_force() {
     // k_c = 3 (force/2)^(2/3) for k q - q^3 = force.
-    let range = Range {
-        input: Input::new(0),
-        low: 4.0,
-        high: 1.0,
-        steps: 20,
-    };
+    let range = Range::new(Input::new(0), 4.0, 1.0).steps(20);
     let fold = critical_state(&Derived(Spring), &[0.0], &[1.0, -1.0, 1.0], &[0.25], range).unwrap();
     let rates = critical_sensitivity(&Derived(Spring), &fold).unwrap();
     close(rates[2], 0.5f64.powf(2.0 / 3.0) * 2.0, 1e-10);
@@ -234,12 +224,7 @@ fn moves(
     (low, high): (f64, f64),
     expected: &[f64],
 ) {
-    let range = Range {
-        input: Input::new(0),
-        low,
-        high,
-        steps: 20,
-    };
+    let range = Range::new(Input::new(0), low, high).steps(20);
     let at = |b: &[f64]| critical_state(machine, &[0.0], b, start, range).unwrap();
     let rates = critical_sensitivity(machine, &at(b)).unwrap();
     for j in 0..b.len() {
@@ -291,12 +276,7 @@ fn critical_values_move_as_their_closed_forms_do() {
 
 #[test]
 fn what_destroys_a_bifurcation_has_no_derivative() {
-    let range = Range {
-        input: Input::new(0),
-        low: -1.0,
-        high: 1.0,
-        steps: 20,
-    };
+    let range = Range::new(Input::new(0), -1.0, 1.0).steps(20);
     let perfect = [0.0, 0.1];
     let critical = critical_state(&Derived(Imperfect), &[0.0], &perfect, &[0.0], range).unwrap();
     close(critical.value, 0.1, 1e-13);
@@ -304,7 +284,7 @@ fn what_destroys_a_bifurcation_has_no_derivative() {
         critical_sensitivity(&Derived(Imperfect), &critical),
         Err(Error::NoSensitivity { .. })
     ));
-    let range = Range { high: 1.9, ..range };
+    let range = Range::new(Input::new(0), -1.0, 1.9).steps(20);
     let both = critical_state(&Derived(NearlyTwo), &[0.0], &[0.0], &[0.0; 2], range).unwrap();
     assert!(matches!(
         critical_sensitivity(&Derived(NearlyTwo), &both),

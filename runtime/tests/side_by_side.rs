@@ -77,14 +77,12 @@ fn compare(
     let state = equilibrium(m, &[omega], &b, start, Policy::Stable).expect("an equilibrium");
     let found = modes(&state).expect("modes");
     let run = |vectors, threads| -> MonteCarlo {
-        let sampling = Sampling {
-            samples: 1003,
-            seed: 42,
-            threads,
-            vectors,
-            keep_samples: true,
-            ..Sampling::default()
-        };
+        let sampling = Sampling::default()
+            .samples(1003)
+            .seed(42)
+            .threads(threads)
+            .vectors(vectors)
+            .keep_samples(true);
         monte_carlo(m, &state, &found, tolerances, &sampling).expect("a run")
     };
     let alone = run(None, 1);

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
+#[path = "study/operating_point.rs"]
+mod operating_point;
 
 use common::close;
 use common::pendulum::Pendulum;

@@ -100,10 +100,7 @@ fn compare<M>(
 ) -> (Sweep, usize) {
     let input = input.any();
     let b = nominal(m);
-    let following = |vectors| Following {
-        vectors,
-        ..Policy::Stable.into()
-    };
+    let following = |vectors| Following::from(Policy::Stable).vectors(vectors);
     let run = |vectors| sweep(m, u, &b, start, following(vectors), input, values);
     let run = |vectors| run(vectors).expect("an input of the mechanism");
     let alone = run(None);
@@ -178,10 +175,7 @@ fn derivatives(
     along: &Sweep,
 ) {
     let run = |set| {
-        let following = Following {
-            vectors: Some(set),
-            ..Policy::Stable.into()
-        };
+        let following = Following::from(Policy::Stable).vectors(Some(set));
         let mut all: Vec<Result<Sensitivities, Error>> = Vec::new();
         let mut points = along.iter();
         let each = |point: &_, slopes: &Result<Sensitivities, Error>| {
@@ -313,11 +307,10 @@ fn other_policies_and_families_go_one_by_one() {
     let values = steps(4.5, 8.0, 40);
     let design = nominal(&Double);
     let run = |policy, family, vectors| {
-        let following = Following {
-            policy,
-            family,
-            vectors,
-        };
+        let following = Following::default()
+            .policy(policy)
+            .family(family)
+            .vectors(vectors);
         let found = sweep(
             &Double,
             &[0.0, 0.0],
@@ -378,10 +371,7 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
     let start = [1.0, 0.1];
     let design = nominal(&Double);
     let squares = |design: &[f64]| -> Vec<[f64; 2]> {
-        let following = Following {
-            vectors: None,
-            ..Policy::Stable.into()
-        };
+        let following = Following::from(Policy::Stable).vectors(None);
         let found = sweep(
             &Double,
             &[0.0, 3.0],

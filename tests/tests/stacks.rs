@@ -98,14 +98,7 @@ const OMEGA: Input<Bars> = Bars::omega;
 fn questions_about_one_state() {
     ask(Study::equilibrium);
     ask(Study::assembly);
-    ask(|study| {
-        study.equilibria(&Search {
-            lower: [-0.01; 64].into(),
-            upper: [0.01; 64].into(),
-            starts: 1,
-            seed: 0,
-        })
-    });
+    ask(|study| study.equilibria(&Search::new([-0.01; 64], [0.01; 64]).starts(1).seed(0)));
     ask(Study::modes);
     ask(Study::equilibrium_shift);
     ask(Study::sensitivities);

@@ -75,7 +75,7 @@ pub fn find<M: Mechanism>(
         Some(RotorEvent {
             happening: match crossing.condition {
                 Condition::Line(line) => Happening::Order(line.ratio),
-                Condition::FlutterOnset => Happening::Onset,
+                _ => Happening::Onset,
             },
             mode: mode.label,
             speed: crossing.value,

@@ -12,7 +12,25 @@ use crate::Complex;
 /// Entries that stand in the matrix itself.
 const FEW: usize = 16;
 
-/// A matrix, `matrix[row][column]`, stored row by row.
+/// A matrix: `matrix[i][j]` is the element in row `i` and column `j`. Stored row by row.
+///
+/// nalgebra stores column by column, so that a copy of the numbers alone would be the transpose. Conversions in both directions keep
+/// rows rows:
+///
+/// ```
+/// use eigentol::{Matrix, Vector};
+/// use nalgebra::{DMatrix, DVector};
+///
+/// let gyroscopic = Matrix::from([[0.0, 2.0], [-2.0, 0.0]]);
+/// assert_eq!(gyroscopic[0][1], 2.0);
+///
+/// let other = DMatrix::from(&gyroscopic);
+/// assert_eq!(other[(0, 1)], 2.0);
+/// assert_eq!(Matrix::from(&other), gyroscopic);
+///
+/// let force = other * DVector::from(Vector::from([1.0, 0.0]));
+/// assert_eq!(Vector::from(force), [0.0, -2.0]);
+/// ```
 #[derive(Clone, Default, PartialEq)]
 pub struct Matrix<T = f64> {
     rows: usize,
@@ -22,6 +40,7 @@ pub struct Matrix<T = f64> {
 
 impl<T: Copy + Default> Matrix<T> {
     /// All zeros.
+    #[must_use]
     #[inline]
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self {
@@ -48,6 +67,7 @@ impl<T: Copy> Matrix<T> {
     }
 
     /// The matrix whose entries are `entries`, row by row; as many as fit.
+    #[must_use]
     pub fn from_rows(columns: usize, entries: Vec<T>) -> Self {
         Self {
             rows: entries.len().checked_div(columns).unwrap_or(0),
@@ -66,6 +86,7 @@ impl<T: Copy> Matrix<T> {
     }
 
     /// Rows as columns.
+    #[must_use]
     pub fn transpose(&self) -> Self {
         Self::from_fn(self.columns, self.rows, |i, j| self[j][i])
     }

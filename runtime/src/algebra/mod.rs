@@ -9,6 +9,7 @@
 mod cholesky;
 mod lu;
 mod matrix;
+mod nalgebra;
 mod vector;
 
 pub use matrix::Matrix;

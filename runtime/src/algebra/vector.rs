@@ -11,7 +11,7 @@ use crate::Complex;
 /// Entries that stand in the vector itself.
 const FEW: usize = 8;
 
-/// A list of numbers; reads as a slice.
+/// A list of numbers; reads as a slice. Converts to nalgebra and back as a [`Matrix`](crate::Matrix) does.
 #[derive(Clone, Default)]
 pub struct Vector<T = f64> {
     entries: SmallVec<[T; FEW]>,
@@ -19,6 +19,7 @@ pub struct Vector<T = f64> {
 
 impl<T: Copy + Default> Vector<T> {
     /// `n` zeros.
+    #[must_use]
     #[inline]
     pub fn zeros(n: usize) -> Self {
         Self {

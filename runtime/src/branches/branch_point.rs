@@ -13,6 +13,7 @@ use super::special::{Junction, SpecialKind};
 use super::station::Station;
 use crate::algebra::{Vector, dot, form};
 use crate::equilibrium::ACCEPTED;
+use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 30;
 /// A direction with a smaller part along the input is that of the critical vector.
@@ -124,16 +125,14 @@ impl Curve<'_> {
             local = local.plus(1.0, &step);
             (mu, last) = (reduced.mu, size);
             if !beside(&local, end) {
-                return Err(Trouble::Missed(
-                    "the branch point is not between the points",
-                ));
+                return Err(Trouble::Missed(NotFound::BranchPointOutside));
             }
             if let Some(column) = unit(&reduced.w) {
                 mu *= dot(&column, &borders.column);
                 borders.column = column;
             }
         }
-        Err(Trouble::Missed("the branch point was not located"))
+        Err(Trouble::Missed(NotFound::BranchPointLost))
     }
 
     /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
@@ -277,7 +276,7 @@ impl Curve<'_> {
 }
 
 fn not_simple() -> Trouble {
-    Trouble::Missed("the branch point is not simple")
+    Trouble::Missed(NotFound::BranchPointNotSimple)
 }
 
 /// Unit directions of the two branches: the roots of the quadratic form of second derivatives.

@@ -8,6 +8,7 @@ use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
     ACCEPTED, Failure, Problem, Stability, constraint_state, judge, relative_residual,
 };
+use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
 use crate::{Description, Equilibrium, Error, Shared};
@@ -33,8 +34,8 @@ pub(crate) enum Trouble {
     Unphysical(Error),
     /// The point does not pass as an equilibrium.
     Refused(Failure),
-    /// The reason in words.
-    Missed(&'static str),
+    /// Why it was missed.
+    Missed(NotFound),
 }
 
 impl Trouble {
@@ -211,7 +212,7 @@ impl<'a> Curve<'a> {
         }
         if relative > ACCEPTED {
             return Err(Trouble::Refused(Failure::NotFound {
-                reason: "the residual stays larger than rounding explains",
+                reason: NotFound::Inaccurate,
                 coordinates: at.q.to_vec(),
                 iterations,
                 relative,
@@ -301,11 +302,11 @@ impl<'a> Curve<'a> {
                 .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-off]))
                 .map(|(q, [p])| Place { q, p })
                 .filter(Place::finite)
-                .ok_or(Trouble::Missed("the branch is not isolated"))?;
+                .ok_or(Trouble::Missed(NotFound::NotIsolated))?;
             let size = step.norm();
             if size > CONTRACTION * last {
                 if last > ROUNDING {
-                    return Err(Trouble::Missed("Newton's method does not converge"));
+                    return Err(Trouble::Missed(NotFound::Diverges));
                 }
                 stalled = true;
                 continue;
@@ -313,7 +314,7 @@ impl<'a> Curve<'a> {
             local = local.plus(1.0, &step);
             last = size;
             if local.plus(-1.0, from).norm() > reach {
-                return Err(Trouble::Missed("the branch bends away"));
+                return Err(Trouble::Missed(NotFound::BendsAway));
             }
         }
         if last <= ROUNDING {
@@ -326,7 +327,7 @@ impl<'a> Curve<'a> {
                 iterations: self.settings.max_corrections,
             });
         }
-        Err(Trouble::Missed("Newton's method does not converge"))
+        Err(Trouble::Missed(NotFound::Diverges))
     }
 }
 

@@ -6,6 +6,7 @@ use super::frame::Place;
 use super::station::{Station, VERTICAL};
 use crate::algebra::Vector;
 use crate::equilibrium::Failure;
+use crate::error::NotFound;
 use crate::{Equilibrium, Error};
 
 /// Share of the range by which a branch along one of its ends may stray by rounding.
@@ -31,7 +32,7 @@ impl Curve<'_> {
             place: place.clone(),
             equilibrium,
             frame,
-            tangent: tangent.ok_or(Trouble::Missed("the branch is not isolated"))?,
+            tangent: tangent.ok_or(Trouble::Missed(NotFound::NotIsolated))?,
             signs: before.signs,
         })
     }
@@ -83,9 +84,7 @@ impl Curve<'_> {
         let share = target.p / outside.local.p;
         // A step that turns back between the points would land on the wrong side of the turn.
         if at.tangent.p * outside.local.p <= 0.0 || !(0.0..=1.0).contains(&share) {
-            return Err(Trouble::Missed(
-                "the end of the range is not straight ahead",
-            ));
+            return Err(Trouble::Missed(NotFound::TurnsBack));
         }
         let from = outside.local.scaled(share);
         let input = Place {

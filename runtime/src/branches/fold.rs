@@ -7,6 +7,7 @@ use super::frame::Place;
 use super::special::{SpecialKind, SpecialPoint};
 use super::station::Station;
 use crate::algebra::{Values, Vector, dot, largest};
+use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 30;
 /// A Newton step this small, in local units, leaves rounding.
@@ -20,7 +21,7 @@ impl Curve<'_> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let end_tangent = frame.direction(&b.direction());
-        let singular = || Trouble::Missed("no limit point of the ordinary kind");
+        let singular = || Trouble::Missed(NotFound::UnusualLimitPoint);
         // The part along the input falls to zero on the way.
         let (p_a, p_b) = (a.tangent.p, end_tangent.unit().map_or(0.0, |t| t.p));
         let fraction = p_a / (p_a - p_b);
@@ -78,10 +79,10 @@ impl Curve<'_> {
             local = local.plus(1.0, &step);
             last = size;
             if !beside(&local, &end) {
-                return Err(Trouble::Missed("the limit point is not between the points"));
+                return Err(Trouble::Missed(NotFound::LimitPointOutside));
             }
         }
-        Err(Trouble::Missed("the limit point was not located"))
+        Err(Trouble::Missed(NotFound::LimitPointLost))
     }
 }
 

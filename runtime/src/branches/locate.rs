@@ -4,6 +4,7 @@ use super::curve::{Curve, Trouble};
 use super::special::{Located, SpecialKind};
 use super::station::{Signs, Station};
 use crate::equilibrium::{Bracket, refine};
+use crate::error::NotFound;
 use crate::modes::free_pairs;
 
 /// Local distance below which events are not told apart.
@@ -73,7 +74,7 @@ impl Curve<'_> {
         }
         *points += 1;
         if *points > MOST_POINTS {
-            return Err(Trouble::Missed("too many events between two points"));
+            return Err(Trouble::Missed(NotFound::TooManyEvents));
         }
         let middle = self.middle(a, b)?;
         self.divide(a, &middle, found, points)?;
@@ -118,7 +119,7 @@ impl Curve<'_> {
 
     /// A station between two.
     fn middle(&self, a: &Station, b: &Station) -> Result<Station, Trouble> {
-        let mut trouble = Trouble::Missed("no point between two points");
+        let mut trouble = Trouble::Missed(NotFound::NothingBetween);
         for fraction in [0.5, 0.41, 0.62] {
             match self.between(a, b, fraction) {
                 Ok(station) => return Ok(station),
@@ -130,7 +131,7 @@ impl Curve<'_> {
 
     fn between(&self, a: &Station, b: &Station, fraction: f64) -> Result<Station, Trouble> {
         let end = a.frame.local(&b.place);
-        let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
+        let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
         let from = end.scaled(fraction);
         let corrected = self.correct(&a.frame, &from, &normal, 0.5 * end.norm())?;
         self.arrive(&corrected, &a.frame.stretched(&normal), Some(a))
@@ -139,7 +140,7 @@ impl Curve<'_> {
     /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
     fn unresolved(&self, a: &Station, b: &Station, changes: Changes) -> Result<Located, Trouble> {
         let end = a.frame.local(&b.place);
-        let normal = end.unit().ok_or(Trouble::Missed("the points coincide"))?;
+        let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
         let first = a
             .signs
             .negative

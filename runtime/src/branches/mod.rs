@@ -31,6 +31,7 @@ use crate::{Description, Error, Input, Shared};
 
 /// A point of a branch.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BranchPoint {
     /// The input there, SI.
     pub value: f64,
@@ -53,6 +54,7 @@ impl BranchPoint {
 
 /// Where and why a branch ends.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BranchEnd {
     /// At the low end of the range.
     Low,
@@ -74,6 +76,7 @@ pub enum BranchEnd {
 
 /// A connected line of equilibria.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Branch {
     /// The input that varies.
     pub input: Input,
@@ -89,6 +92,7 @@ pub struct Branch {
 
 impl Branch {
     /// The branch cut at its special points, which belong to both sides, and where the stability changes otherwise.
+    #[must_use]
     pub fn stretches(&self) -> Vec<(Stability, &[BranchPoint])> {
         let mut runs = Vec::new();
         let mut start = 0;
@@ -116,6 +120,7 @@ impl Branch {
     }
 
     /// The stretches that are stable or neutral.
+    #[must_use]
     pub fn stable(&self) -> Vec<&[BranchPoint]> {
         let stretches = self.stretches().into_iter();
         let stable = stretches.filter(|(stability, _)| stability.holds());
@@ -132,6 +137,7 @@ impl Branch {
 
 /// Branches that were found.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Branches {
     /// The branches, in the order in which they were found; each once.
     pub branches: Vec<Branch>,
@@ -151,6 +157,7 @@ impl Branches {
     }
 
     /// Every special point once, those that differ by full turns of an angle counting as one.
+    #[must_use]
     pub fn special(&self) -> Vec<&SpecialPoint> {
         let values = self.branches.iter().flat_map(|branch| &branch.points);
         let size = values.fold(0.0, |most: f64, point| most.max(point.value.abs()));

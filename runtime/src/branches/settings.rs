@@ -1,6 +1,7 @@
 //! How far and how finely branches are followed.
 
 use crate::arguments::check_input;
+use crate::setters::setters;
 use crate::{Any, Description, Error, Input};
 
 /// Settings of a continuation: the range of one input and the sizes of the steps.
@@ -9,6 +10,7 @@ use crate::{Any, Description, Error, Input};
 /// coordinate or speed; a reaction of a constraint counts by the work it does on a unit of the coordinates it holds,
 /// compared with the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Continuation<M = Any> {
     /// The input that varies.
     pub input: Input<M>,
@@ -34,7 +36,18 @@ pub struct Continuation<M = Any> {
 }
 
 impl<M> Continuation<M> {
+    setters!(
+        max_step: f64,
+        min_step: f64,
+        max_points: usize,
+        max_corrections: usize,
+        max_branches: usize,
+        size: f64,
+        escape: f64,
+    );
+
     /// From `low` to `high` with the settings that suit most mechanisms.
+    #[must_use]
     pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
         Self {
             input,
@@ -51,6 +64,7 @@ impl<M> Continuation<M> {
     }
 
     /// The same, of any mechanism.
+    #[must_use]
     pub fn any(&self) -> Continuation {
         Continuation {
             input: self.input.any(),

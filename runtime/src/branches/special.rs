@@ -5,12 +5,14 @@ use super::frame::{Frame, Place};
 use super::station::symmetric_to_rounding;
 use crate::algebra::{Values, Vector, dot, form, largest, times};
 use crate::equilibrium::{Equilibrium, Stability};
+use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
 use crate::{DampingKind, Input};
 
 /// What happens where `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SpecialKind {
     /// A limit point: the branch turns back, `w^T dg/du` is not zero.
     Fold,
@@ -28,6 +30,7 @@ pub enum SpecialKind {
 
 /// A point of a branch at which `Khat` is singular.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SpecialPoint {
     /// What happens there.
     pub kind: SpecialKind,
@@ -83,7 +86,7 @@ impl Curve<'_> {
         };
         let mut equilibrium = self.equilibrium(place, &self.system(place)?, 0, also)?;
         let (v, w) = normalised(&equilibrium.linear, self.structure.motions(), v, w)
-            .ok_or(Trouble::Missed("the critical vectors are not independent"))?;
+            .ok_or(Trouble::Missed(NotFound::DependentVectors))?;
         make_critical(&mut equilibrium, zero);
         Ok(SpecialPoint {
             kind,

@@ -6,6 +6,7 @@ use crate::Description;
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
 use crate::equilibrium::Equilibrium;
+use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::modes::free_pairs;
 
@@ -48,7 +49,7 @@ impl Curve<'_> {
     ) -> Result<Station, Trouble> {
         let frame = self.frame(place, system);
         let scaled = frame.scaled(system);
-        let singular = Trouble::Missed("the branch is not isolated");
+        let singular = Trouble::Missed(NotFound::NotIsolated);
         let towards = frame.direction(towards).unit();
         let factors = towards.and_then(|towards| plane(&scaled, &towards));
         let Some(factors) = factors else {
@@ -75,7 +76,7 @@ impl Curve<'_> {
         // Cramer: sign det Khat = sign t_p sign det [Khat dg/du; t^T].
         let odd = signs.falling != signs.crossed;
         if signs.negative.is_some_and(|count| (count % 2 == 1) != odd) {
-            return Err(Trouble::Missed("the stiffness is singular to rounding"));
+            return Err(Trouble::Missed(NotFound::SingularStiffness));
         }
         Ok(Station {
             place: place.clone(),
@@ -113,7 +114,7 @@ impl Curve<'_> {
             }
         }
         let forward = (self.settings.high - self.settings.low).signum();
-        let tangent = best.ok_or(Trouble::Missed("the branch is not isolated"))?;
+        let tangent = best.ok_or(Trouble::Missed(NotFound::NotIsolated))?;
         let tangent = tangent.scaled(if tangent.p * forward < 0.0 { -1.0 } else { 1.0 });
         let direction = frame.stretched(&tangent);
         self.station(&place, &system, equilibrium, &direction, None)

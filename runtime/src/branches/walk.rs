@@ -6,6 +6,7 @@ use super::frame::Place;
 use super::special::{Junction, Located, SpecialPoint, make_critical};
 use super::station::Station;
 use super::{BranchEnd, BranchPoint};
+use crate::error::NotFound;
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
 const STRAIGHT: f64 = 0.9;
@@ -200,7 +201,7 @@ impl Curve<'_> {
         }
         let station = station?;
         if !straight(&frame.direction(&station.direction()), tangent) {
-            return Err(Trouble::Missed("the branch bends sharply"));
+            return Err(Trouble::Missed(NotFound::BendsSharply));
         }
         let mut located = Vec::new();
         self.locate(at, &station, &mut located)?;

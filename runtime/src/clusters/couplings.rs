@@ -10,6 +10,7 @@ use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 /// First-order motion of several modes together: along a change `db` their eigenvalues are those of
 /// `diag(eigenvalues) + sum_k db_k by_design[k]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModalCouplings {
     /// Positions of the modes.
     pub modes: Vec<usize>,
@@ -25,17 +26,32 @@ pub struct ModalCouplings {
 }
 
 impl ModalCouplings {
+    /// Couplings by design variables alone, of modes in the order of their eigenvalues.
+    #[must_use]
+    pub fn new(family: Family, eigenvalues: Vec<Complex>, by_design: Vec<Vec<Complex>>) -> Self {
+        Self {
+            modes: (0..eigenvalues.len()).collect(),
+            family,
+            eigenvalues,
+            by_input: Vec::new(),
+            by_design,
+        }
+    }
+
     /// Mean of the eigenvalues.
+    #[must_use]
     pub fn mean(&self) -> Complex {
         self.eigenvalues.iter().sum::<Complex>() / self.modes.len().max(1) as f64
     }
 
     /// Total derivatives of the mean of the eigenvalues by the inputs.
+    #[must_use]
     pub fn mean_by_input(&self) -> Vec<Complex> {
         self.by_input.iter().map(|own| self.trace(own)).collect()
     }
 
     /// Total derivatives of the mean of the eigenvalues by the design variables: it has them whatever the modes do.
+    #[must_use]
     pub fn mean_by_design(&self) -> Vec<Complex> {
         self.by_design.iter().map(|own| self.trace(own)).collect()
     }

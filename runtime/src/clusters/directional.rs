@@ -9,6 +9,7 @@ use crate::{Complex, Equilibrium, Error, Modes};
 
 /// How the eigenvalues of a cluster move along one direction.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DirectionalDerivatives {
     /// Positions of its modes, from 0; which of them moves how is not a question that has an answer.
     pub modes: Vec<usize>,

@@ -7,11 +7,13 @@ use crate::eigenproblem::diagonalise;
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
 use crate::sensitivity::eigenvalues;
+use crate::setters::setters;
 use crate::tolerance::{Draw, Moments, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};
 
 /// How to sample a cluster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ClusterSampling {
     /// Number of samples.
     pub samples: usize,
@@ -19,6 +21,10 @@ pub struct ClusterSampling {
     pub seed: u64,
     /// Which of the independent sequences of the seed.
     pub stream: u64,
+}
+
+impl ClusterSampling {
+    setters!(samples: usize, seed: u64, stream: u64);
 }
 
 impl Default for ClusterSampling {
@@ -33,6 +39,7 @@ impl Default for ClusterSampling {
 
 /// Spread of a cluster: what its sorted members do.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ClusterSpread {
     /// Number of samples.
     pub samples: usize,
@@ -52,6 +59,7 @@ pub struct ClusterSpread {
 
 /// Spread of one quantity over the members of a cluster, sorted by this quantity in every sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SortedSpread {
     /// By position, ascending. A member without the quantity counts as lower than all others.
     pub members: Vec<MemberSpread>,
@@ -61,11 +69,13 @@ pub struct SortedSpread {
 
 impl SortedSpread {
     /// The lowest; `None` for an empty cluster.
+    #[must_use]
     pub fn lowest(&self) -> Option<&MemberSpread> {
         self.members.first()
     }
 
     /// The highest; `None` for an empty cluster.
+    #[must_use]
     pub fn highest(&self) -> Option<&MemberSpread> {
         self.members.last()
     }
@@ -73,6 +83,7 @@ impl SortedSpread {
 
 /// Spread of one position of a sorted cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MemberSpread {
     /// Over the samples whose member has the quantity, in its unit; `None` without any.
     pub value: Option<Statistics>,

@@ -1,5 +1,5 @@
 //! Which modes tolerances bring together, and what can be said of them: the mean of their eigenvalues, which has
-//! derivatives, and the sorted members, by sampling (THEORY sections 5 and 6).
+//! derivatives, and the sorted members, by sampling.
 
 use super::couplings::{ModalCouplings, modal_couplings};
 use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
@@ -13,6 +13,7 @@ use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 /// Modes that tolerances bring together, or that rounding cannot tell apart. A mode that has merged with its own conjugate
 /// is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ClusterTolerance {
     /// Positions of the modes, from 0, ascending.
     pub modes: Vec<usize>,
@@ -30,12 +31,15 @@ pub struct ClusterTolerance {
     pub spread: Result<ClusterSpread, Error>,
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl ClusterTolerance {
     /// Whether the members have merged into one eigenvalue that no derivative describes.
+    #[must_use]
     pub fn defective(&self) -> bool {
         matches!(self.spread, Err(Error::Defective { .. }))
     }
@@ -43,6 +47,7 @@ impl ClusterTolerance {
 
 /// Mean of the eigenvalues of a cluster. Whatever its members do, it has exact derivatives: a trace.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MeanEigenvalue {
     /// The mean: of `lambda`, 1/s^2, or of `s`, 1/s.
     pub value: Complex,
@@ -204,6 +209,7 @@ fn tolerance(
         mean: (!defective).then(|| MeanEigenvalue::new(couplings, tolerances)),
         spread,
         sigma_level: tolerances.sigma_level(),
+        inputs: modes.inputs.clone(),
         description: modes.description.clone(),
     }
 }

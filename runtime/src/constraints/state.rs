@@ -6,15 +6,16 @@ use crate::kernels::{Gradient, Kernels};
 
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ConstraintState {
     /// Number of directions in which the coordinates can move: all of them for an open mechanism.
     pub freedom: usize,
-    /// Number of constraints that follow from the others. Reactions of constraints that say the same are determined only
-    /// together: given are those of which the squares, in terms of the forces they cause, have the least sum.
+    /// Number of constraints that follow from the others. Of the reactions of constraints that say the same only combinations are determined; those
+    /// reported have the least sum of squares of the forces they cause.
     pub redundant: usize,
-    /// The rows that take part: of these, so many can go.
+    /// The rows involved: any [`redundant`](Self::redundant) of them follow from the rest.
     pub dependent: Vector<bool>,
-    /// Rows lose their independence here, or so near that rounding takes the state there, and nowhere else: a flat
+    /// Rows become dependent at exactly this configuration (within rounding) and are independent around it: a flat
     /// parallelogram, a chain stretched to its limit. The linearised mechanism does not say how it can move.
     pub singular: bool,
 }

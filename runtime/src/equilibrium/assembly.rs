@@ -22,6 +22,7 @@ pub enum AssemblyMode {
 
 /// An assembled mechanism.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Assembly {
     /// Coordinates that meet the constraints, rad or m; speeds that do as far as speeds can; reactions that balance the
     /// forces there as well as reactions can. SI.
@@ -43,6 +44,8 @@ pub struct Assembly {
     pub margin: f64,
     /// A dead centre, or a singular configuration: coordinates that are not held can move, or cannot follow, to first order.
     pub singular: bool,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -142,6 +145,7 @@ fn assembled(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Result<Asse
         constraints,
         mode,
         margin,
+        inputs: problem.inputs.into(),
         description: problem.description.clone(),
     })
 }

@@ -11,6 +11,7 @@ use crate::algebra::{
     Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, form, largest, times,
 };
 use crate::eigenproblem::symmetric;
+use crate::error::NotFound;
 use crate::rounding::{Sign, sign};
 
 const MAX_ITERATIONS: usize = 300;
@@ -89,7 +90,7 @@ where
             };
             departures += 1;
             if departures > MAX_DEPARTURES {
-                let reason = "only unstable equilibria";
+                let reason = NotFound::OnlyUnstable;
                 return Err(failure(problem, reason, &base.q, iterations));
             }
             let shape = base.space.lift(&curved.pairs.shapes[0]);
@@ -119,7 +120,7 @@ where
             if relative <= TOLERANCE && convex.is_some() {
                 return Ok(found(here(base), iterations));
             }
-            let reason = "no descent from the last state";
+            let reason = NotFound::NoDescent;
             return Err(failure(problem, reason, &base.q, iterations));
         };
         if next.length < 1.0 {
@@ -129,11 +130,11 @@ where
         }
         base = S::arrive(problem, next.trial)?;
         if largest_of(&base.q[..motions]) > escaped {
-            let reason = "the coordinates escape to infinity";
+            let reason = NotFound::Escape;
             return Err(failure(problem, reason, &base.q, iterations));
         }
     }
-    let reason = "too many iterations";
+    let reason = NotFound::IterationLimit;
     Err(failure(problem, reason, &base.q, MAX_ITERATIONS))
 }
 
@@ -269,7 +270,7 @@ where
 }
 
 #[cold]
-fn failure(problem: &Problem<'_>, reason: &'static str, q: &[f64], iterations: usize) -> Failure {
+fn failure(problem: &Problem<'_>, reason: NotFound, q: &[f64], iterations: usize) -> Failure {
     let relative = problem
         .evaluate(q)
         .map_or(f64::INFINITY, |(residual, stiffness)| {

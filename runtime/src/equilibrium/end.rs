@@ -1,4 +1,4 @@
-//! A state that may be the result of a solve: the last Newton step, and what is asked of the state where it ends.
+//! The candidate solution: the last Newton step, and the acceptance tests of the state it leads to.
 
 use super::convergence::{TOLERANCE, is_rounding, relative_to, settled};
 use super::problem::Problem;

@@ -7,20 +7,36 @@ use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{Policy, Problem, settle};
 use crate::algebra::Vector;
 use crate::kernels::Kernels;
+use crate::setters::setters;
 use crate::{Equilibrium, Error, Stability};
 
 /// Where to start from.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Search {
     /// Least start value of each coordinate, rad or m.
     pub lower: Vector,
     /// Greatest start value of each coordinate, rad or m.
     pub upper: Vector,
     /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until what was
-    /// found says that no other is to be expected.
+    /// found says that no other is to be expected. 32 unless set.
     pub starts: usize,
-    /// The same seed gives the same starts.
+    /// The same seed gives the same starts. 0 unless set.
     pub seed: u64,
+}
+
+impl Search {
+    setters!(starts: usize, seed: u64);
+
+    /// Starts in the box from `lower` to `upper`: one value for each unknown, SI.
+    pub fn new(lower: impl Into<Vector>, upper: impl Into<Vector>) -> Self {
+        Self {
+            lower: lower.into(),
+            upper: upper.into(),
+            starts: 32,
+            seed: 0,
+        }
+    }
 }
 
 /// Most starts beyond those asked for.

@@ -5,6 +5,7 @@ use super::end::{End, Found, last_step};
 use super::problem::{Failure, Problem};
 use super::space::{Base, Space, Trial};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, times};
+use crate::error::NotFound;
 
 const MAX_ITERATIONS: usize = 300;
 /// Greatest change of a coordinate or speed in the first step, SI; grows while steps succeed.
@@ -53,7 +54,7 @@ where
             if relative <= TOLERANCE {
                 return Ok(found(base, iterations));
             }
-            let reason = "the residual has a minimum that is not zero";
+            let reason = NotFound::Minimum;
             return Err(failure(reason, &base.q, iterations, relative));
         };
         if length < 1.0 {
@@ -68,9 +69,9 @@ where
     }
     let relative = relative_residual(problem, &base.q, &base.residual, &base.stiffness);
     let reason = if largest_of(&base.q[..motions]) > escaped {
-        "the coordinates escape to infinity"
+        NotFound::Escape
     } else {
-        "too many iterations"
+        NotFound::IterationLimit
     };
     Err(failure(reason, &base.q, MAX_ITERATIONS, relative))
 }
@@ -85,7 +86,7 @@ fn found<S>(base: Base<S>, iterations: usize) -> Found {
     Found::new(end, iterations)
 }
 
-fn failure(reason: &'static str, q: &[f64], iterations: usize, relative: f64) -> Failure {
+fn failure(reason: NotFound, q: &[f64], iterations: usize, relative: f64) -> Failure {
     Failure::NotFound {
         reason,
         coordinates: q.into(),

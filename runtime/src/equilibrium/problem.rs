@@ -4,6 +4,7 @@ use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
 use crate::arguments::{check_count, check_finite};
 use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
+use crate::error::{NotClosed, NotFound};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
 use crate::{DampingKind, Description, Error, Role, Shared};
@@ -199,14 +200,14 @@ pub(crate) enum Failure {
         coordinates: Vec<f64>,
     },
     NotFound {
-        reason: &'static str,
+        reason: NotFound,
         coordinates: Vec<f64>,
         iterations: usize,
         relative: f64,
     },
     /// The constraints stay open by `gaps`, in the places of their rows; zero where they are met.
     NotAssembled {
-        reason: &'static str,
+        reason: NotClosed,
         coordinates: Vec<f64>,
         gaps: Vec<f64>,
         /// The row that stays open most, relative to what motions can close.
@@ -218,7 +219,7 @@ pub(crate) enum Failure {
         coordinates: Vec<f64>,
         /// The direction that constraints do not hold there, down the applied forces; its greatest component is one.
         downhill: Vec<f64>,
-        /// The constraints that lose their independence.
+        /// The constraints that become dependent there.
         dependent: Vector<bool>,
     },
     SingularMass(usize),

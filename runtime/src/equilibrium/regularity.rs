@@ -1,4 +1,4 @@
-//! Whether an equilibrium is one where constraints are about to lose their independence.
+//! Whether an equilibrium is one where constraints are about to become dependent.
 //!
 //! Let `s` be the distance from a singular configuration of the constraints, and `F` the applied force in the direction that
 //! they no longer hold there. Beside it their reactions grow as `F / s`. A gap `d` turns the directions they leave free by

@@ -9,6 +9,7 @@ use super::regularity::{constraint_state, unbalanced};
 use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
 use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
+use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::rounding::Place;
 use crate::{DampingKind, Stability};
@@ -169,7 +170,7 @@ fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failur
     };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
-            reason: "the residual stays larger than rounding explains",
+            reason: NotFound::Inaccurate,
             coordinates: found.coordinates.into(),
             iterations: found.iterations,
             relative,

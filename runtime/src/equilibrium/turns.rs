@@ -7,7 +7,7 @@ use crate::constraints::Structure;
 
 /// Difference of coordinates, and share of the greatest stiffness, that counts as none.
 const CLOSE: f64 = 1e-6;
-/// The same between states that rounding takes to a singular configuration, known no better.
+/// The same between states at a singular configuration, which rounding lets us know no better.
 const CLOSE_SINGULAR: f64 = 1e-4;
 /// Share of its terms by which a residual may differ after full turns, which are rounded.
 const ROUNDED: f64 = 1e-10;

@@ -20,6 +20,7 @@ const ALL: Interval = Interval {
 
 impl Interval {
     /// `value` and what is within `distance` of it.
+    #[must_use]
     pub fn about(value: f64, distance: f64) -> Self {
         Self::between([value - distance, value + distance])
     }

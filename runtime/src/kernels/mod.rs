@@ -48,6 +48,7 @@ pub struct Sizes {
 
 impl<T: Copy + Default> Linear<T> {
     /// Zeros for `n` unknowns.
+    #[must_use]
     pub fn zeros(n: usize) -> Self {
         let zeros = || Matrix::zeros(n, n);
         Self {
@@ -60,6 +61,7 @@ impl<T: Copy + Default> Linear<T> {
 
 impl<T: Copy + Default> RestParts<T> {
     /// Zeros for `n` unknowns.
+    #[must_use]
     pub fn zeros(n: usize) -> Self {
         Self {
             inertia: Vector::zeros(n),
@@ -70,6 +72,7 @@ impl<T: Copy + Default> RestParts<T> {
 
 impl<T: Copy + Default> Gradient<T> {
     /// Zeros.
+    #[must_use]
     pub fn zeros(sizes: Sizes) -> Self {
         Self {
             coordinates: Vector::zeros(sizes.coordinates),
@@ -81,6 +84,7 @@ impl<T: Copy + Default> Gradient<T> {
 
 impl<T: Copy + Default> LinearPartials<T> {
     /// Zeros.
+    #[must_use]
     pub fn zeros(sizes: Sizes) -> Self {
         let list = |count: usize| vec![Linear::zeros(sizes.coordinates); count];
         Self {

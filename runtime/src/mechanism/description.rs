@@ -25,6 +25,7 @@ pub struct Description {
 
 impl Description {
     /// The cost of a generated function; `None` where the compiler wrote none of this name.
+    #[must_use]
     pub fn kernel(&self, name: &str) -> Option<&KernelInfo> {
         self.kernels.iter().find(|kernel| kernel.name == *name)
     }
@@ -55,6 +56,20 @@ pub struct Unit {
     pub symbol: Text,
     /// SI value of one unit.
     pub scale: f64,
+}
+
+impl Unit {
+    /// A value in this unit as one in SI.
+    #[must_use]
+    pub fn to_si(&self, value: f64) -> f64 {
+        value * self.scale
+    }
+
+    /// A value in SI as one in this unit.
+    #[must_use]
+    pub fn from_si(&self, value: f64) -> f64 {
+        value / self.scale
+    }
 }
 
 /// An unknown of the steady motion.

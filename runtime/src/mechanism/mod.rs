@@ -177,8 +177,8 @@ pub trait Mechanism: Clone + Sync + Sized {
         }
     }
 
-    /// [`Mechanism::linear_partials`] into a result that is there: sets every entry that can differ from zero and leaves the others
-    /// as they are. Start from zeros ([`LinearPartials::default`]) and pass the same result on, always of the same mechanism:
+    /// [`Mechanism::linear_partials`], written into an existing buffer: sets every entry that can differ from zero and leaves the
+    /// others as they are. Start from zeros ([`LinearPartials::default`]) and pass the same result on, always of the same mechanism:
     /// of thousands of entries a fifth of the time is setting them to zero.
     fn linear_partials_into<T: Real>(
         &self,

@@ -17,6 +17,7 @@ const CERTAIN: f64 = 0.6;
 /// of `linear`; with speeds, with that of the kinetic energy, displacements brought to velocities by the greatest `|s|`.
 /// General modes are motions of positions and velocities: the phase of the eigenvalue counts as well, and of modes with
 /// equal shapes the one with the nearer eigenvalue has up to 5 % more. Both sets and the matrices belong to one mechanism.
+#[must_use]
 pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let own = kinetic(from, to, linear);
     let mass = own.as_ref().unwrap_or(&linear.mass);
@@ -76,6 +77,7 @@ fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
 ///
 /// Pairs are taken in descending order of assurance, ties by position, so that no position occurs twice and the answer is
 /// the same every time.
+#[must_use]
 pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
     let found = match_with_assurance(from, to, linear).into_iter();
     found
@@ -180,6 +182,7 @@ pub(crate) fn merged(modes: &Modes, r: usize) -> bool {
 
 /// Marks the modes whose eigenvalue (`lambda` of undamped modes, `s` of general ones) lies within `gap` of another one,
 /// relative to the larger of the two: they share a cluster and have no derivative of their own.
+#[must_use]
 pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
     let clustered = |i| merged(modes, i) || near_another(modes, i, gap);
     (0..modes.modes.len()).map(clustered).collect()

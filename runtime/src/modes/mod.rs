@@ -21,7 +21,7 @@ pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
 pub use whirl::{Sense, Whirl, whirls};
 
-use crate::algebra::{Matrix, asymmetry, dot_complex};
+use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
 use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
 use crate::kernels::Linear;
@@ -43,6 +43,7 @@ pub enum Family {
 
 impl Family {
     /// The family that leaves nothing out: undamped where the compiler proved `Chat` zero and `Khat` symmetric.
+    #[must_use]
     pub fn of(description: &Description) -> Self {
         if description.damping == DampingKind::Zero && description.symmetric_stiffness {
             Self::Undamped
@@ -55,6 +56,7 @@ impl Family {
 /// All modes at one equilibrium: undamped ones ascending in `lambda`, general ones in `|s|`, unless they follow another
 /// set.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Modes {
     /// The modes.
     pub modes: Vec<Mode>,
@@ -62,6 +64,8 @@ pub struct Modes {
     pub family: Family,
     /// `Chat` is not zero here and was left out: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
+    /// The inputs they belong to, SI; none of modes of given matrices.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
@@ -70,6 +74,44 @@ impl Modes {
     /// Frequencies of the modes in their order, rad/s.
     pub fn frequencies(&self) -> Vec<Option<f64>> {
         self.modes.iter().map(Mode::frequency).collect()
+    }
+
+    /// The modal matrix: column `r` is the shape of mode `r`, row `i` belongs to unknown `i`.
+    ///
+    /// ```
+    /// # use eigentol::{Study, mechanism};
+    /// # mechanism! {
+    /// #     mechanism Pendulum {
+    /// #         body bar: rod(mass: 3 kg, length: 2 m, along: -z);
+    /// #         gravity 9.81 m/s^2 along -z;
+    /// #         joint theta: revolute(y) from ground to bar;
+    /// #     }
+    /// # }
+    /// use eigentol::Complex;
+    /// use nalgebra::DMatrix;
+    ///
+    /// let study = Study::new(Pendulum);
+    /// let solved = study.solve()?;
+    /// let shapes = DMatrix::from(solved.modes.shapes());
+    /// let mass = DMatrix::from(&solved.equilibrium.linear.mass).map(Complex::from);
+    /// let product = shapes.adjoint() * mass * &shapes;
+    /// assert!((product[(0, 0)].re - 1.0).abs() < 1e-12);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn shapes(&self) -> Matrix<Complex> {
+        self.columns(|mode| &mode.shape)
+    }
+
+    /// The left vectors likewise: column `r` is [`Mode::left`] of mode `r`.
+    #[must_use]
+    pub fn left_shapes(&self) -> Matrix<Complex> {
+        self.columns(|mode| &mode.left)
+    }
+
+    fn columns(&self, of: fn(&Mode) -> &[Complex]) -> Matrix<Complex> {
+        let rows = self.modes.first().map_or(0, |mode| of(mode).len());
+        Matrix::from_fn(rows, self.modes.len(), |i, r| of(&self.modes[r])[i])
     }
 
     /// The least `lambda`; infinite without modes.
@@ -87,6 +129,7 @@ impl Modes {
     /// Positions of the modes whose eigenvalues rounding cannot tell from that of number `mode`, its own included, ascending:
     /// a chain in which each is within 1e-6 of the next, relative to the greater. Tolerances bring more together
     /// ([`clusters::clusters`](crate::clusters::clusters)). Empty when there is no such mode.
+    #[must_use]
     pub fn cluster_of(&self, mode: usize) -> Vec<usize> {
         let mut members: Vec<usize> = (mode < self.modes.len())
             .then_some(mode)
@@ -104,6 +147,7 @@ impl Modes {
     }
 
     /// Whether every small disturbance stays small.
+    #[must_use]
     pub fn stable(&self) -> bool {
         !self.modes.iter().any(|mode| mode.behaviour.grows())
     }
@@ -113,7 +157,7 @@ impl Modes {
 ///
 /// # Errors
 /// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
-/// check, [`Error::SingularConfiguration`] where constraints lose their independence.
+/// check, [`Error::SingularConfiguration`] where constraints become dependent.
 pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
     modes_at(equilibrium, Family::of(&equilibrium.description))
@@ -131,8 +175,10 @@ pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
 
 /// The modes of a family about an equilibrium.
 pub(crate) fn modes_at(at: &Equilibrium, family: Family) -> Result<Modes, Error> {
-    solve_modes(&at.linear, family, &at.description, at.rounding)
-        .map_err(|failure| failure.explain(&at.description))
+    let mut found = solve_modes(&at.linear, family, &at.description, at.rounding)
+        .map_err(|failure| failure.explain(&at.description))?;
+    found.inputs.clone_from(&at.inputs);
+    Ok(found)
 }
 
 /// Modes of given matrices, which belong to the mechanism that `description` describes. The elements count as rounded, no
@@ -172,7 +218,7 @@ fn check_sizes(linear: &Linear, description: &Description) -> Result<(), Error> 
     }
 }
 
-/// A failure that owns nothing.
+/// Why there are no modes; allocates nothing.
 pub(crate) enum ModesFailure {
     Asymmetric(f64),
     /// Undamped modes were asked for where speeds or constraints on velocities leave none.
@@ -225,6 +271,7 @@ impl Modes {
             modes: Vec::new(),
             family,
             damping_ignored: false,
+            inputs: Vector::default(),
             description: description.clone(),
         }
     }

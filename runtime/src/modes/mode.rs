@@ -23,11 +23,13 @@ pub enum Behaviour {
 
 impl Behaviour {
     /// Whether a small disturbance grows.
+    #[must_use]
     pub fn grows(self) -> bool {
         matches!(self, Self::Flutter(_) | Self::Divergent(_))
     }
 
     /// Angular frequency of the oscillation, rad/s; `None` without one.
+    #[must_use]
     pub fn frequency(self) -> Option<f64> {
         match self {
             Self::Oscillating(omega) | Self::Damped(omega) | Self::Flutter(omega) => Some(omega),
@@ -38,6 +40,7 @@ impl Behaviour {
 
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Mode {
     /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
     /// undamped divergent mode the growing one.
@@ -67,16 +70,19 @@ pub struct Mode {
 
 impl Mode {
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
+    #[must_use]
     pub fn frequency(&self) -> Option<f64> {
         self.behaviour.frequency()
     }
 
     /// Natural angular frequency `|s|`, rad/s; `None` for a mode that does not oscillate.
+    #[must_use]
     pub fn natural_frequency(&self) -> Option<f64> {
         self.frequency().map(|_| self.s.norm())
     }
 
     /// Damping ratio `-Re s / |s|`; negative for a mode that grows, `None` for a neutral one.
+    #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
         match self.behaviour {
             Behaviour::Oscillating(_) => Some(0.0),

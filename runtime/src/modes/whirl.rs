@@ -16,6 +16,7 @@ pub enum Sense {
 
 /// How a mode whirls.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Whirl {
     /// From 1 (every orbit a circle run through with the spin) through 0 (straight) to -1 (circles against it). Orbits are
     /// those of the centres of mass and of the small rotations of the bodies, weighted with mass, second moment and
@@ -26,6 +27,7 @@ pub struct Whirl {
 
 impl Whirl {
     /// The sense; ratios within 1e-6 of zero are planar.
+    #[must_use]
     pub fn sense(self) -> Sense {
         if self.ratio > 1e-6 {
             Sense::Forward

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number};
+use super::title::title_along;
 use crate::branches::{Branch, BranchEnd, Branches, SpecialKind, SpecialPoint};
 use crate::{Description, Input};
 
@@ -38,6 +39,16 @@ impl fmt::Display for BranchEnd {
             Self::Lost(error) => write!(f, "lost: {error}"),
         }
     }
+}
+
+/// The mechanism and the inputs that keep their value.
+fn branch_title(branch: &Branch) -> String {
+    let inputs = branch.points.first().map(|one| &one.equilibrium.inputs[..]);
+    title_along(
+        &branch.description,
+        inputs.unwrap_or_default(),
+        branch.input,
+    )
 }
 
 fn input_heading(d: &Description, input: Input) -> String {
@@ -85,7 +96,8 @@ impl fmt::Display for SpecialPoint {
         let value = input_value(d, self.input, self.value);
         let info = d.inputs.get(self.input.index());
         let (name, unit) = info.map_or(("?", ""), |info| (&*info.name, &*info.unit.symbol));
-        writeln!(f, "{}: {} at {name} = {value} {unit}", d.name, self.kind)?;
+        let title = title_along(d, &self.equilibrium.inputs, self.input);
+        writeln!(f, "{title}: {} at {name} = {value} {unit}", self.kind)?;
         write!(f, "{}", self.equilibrium)?;
         critical_vectors(f, d, &self.v, &self.w)
     }
@@ -121,7 +133,7 @@ impl fmt::Display for Branch {
         writeln!(
             f,
             "{}: branch of {} equilibria; begins: {first}; ends: {last}",
-            d.name,
+            branch_title(self),
             self.points.len()
         )?;
         let mut head = vec![input_heading(d, self.input)];
@@ -147,7 +159,7 @@ impl fmt::Display for Branches {
             return writeln!(f, "no branches");
         };
         let d = &one.description;
-        writeln!(f, "{}: {} branches", d.name, self.branches.len())?;
+        writeln!(f, "{}: {} branches", branch_title(one), self.branches.len())?;
         let mut head = vec!["branch".to_owned()];
         for end in ["from", "to"] {
             head.push(format!("{end} {}", input_heading(d, one.input)));

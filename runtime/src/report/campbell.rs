@@ -3,12 +3,14 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, undamped};
+use super::title::title_along;
 use crate::campbell::Campbell;
 
 impl fmt::Display for Campbell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: Campbell diagram", d.name)?;
+        let title = title_along(d, &self.inputs, self.input);
+        writeln!(f, "{title}: Campbell diagram")?;
         let Some(info) = d.inputs.get(self.input.index()) else {
             return Ok(());
         };

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::branches::critical_vectors;
 use super::table::{Table, cells, heading, in_unit, number};
+use super::title::{title, title_along};
 use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState};
 use crate::sweep::{Condition, CriticalState, Crossing};
 use crate::{Description, Equilibrium, Role, Stability, Text};
@@ -53,21 +54,11 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
 impl fmt::Display for Equilibrium {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        write!(f, "{}: equilibrium, ", d.name)?;
+        write!(f, "{}: equilibrium, ", title(d, &self.inputs))?;
         if self.constraints.singular {
             write!(f, "stability not decided in a singular configuration")?;
         } else {
             write!(f, "{}", self.stability)?;
-        }
-        for (info, &value) in d.inputs.iter().zip(&self.inputs) {
-            let unit = &info.unit;
-            write!(
-                f,
-                ", {} = {} {}",
-                info.name,
-                in_unit(value, unit),
-                unit.symbol
-            )?;
         }
         writeln!(f)?;
         write!(
@@ -136,8 +127,8 @@ fn redundancy(
     if state.singular {
         writeln!(
             f,
-            "  singular configuration: constraints lose their independence here alone, the linearised mechanism says \
-             nothing of how it moves"
+            "  singular configuration: constraints become dependent at exactly this configuration, so the linearised \
+             mechanism does not say how it can move"
         )?;
     }
     Ok(())
@@ -146,10 +137,11 @@ fn redundancy(
 impl fmt::Display for Assembly {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        write!(f, "{}: assembled in {} iterations", d.name, self.iterations)?;
+        let title = title(d, &self.inputs);
+        write!(f, "{title}: assembled in {} iterations", self.iterations)?;
         match self.mode {
-            Some(AssemblyMode::Positive) => write!(f, ", assembly mode +")?,
-            Some(AssemblyMode::Negative) => write!(f, ", assembly mode -")?,
+            Some(AssemblyMode::Positive) => write!(f, ", positive assembly mode")?,
+            Some(AssemblyMode::Negative) => write!(f, ", negative assembly mode")?,
             None => {}
         }
         if self.margin < 1.0 {
@@ -183,7 +175,10 @@ impl fmt::Display for CriticalState {
             writeln!(
                 f,
                 "{}: critical at {} = {value} {}, {}",
-                d.name, info.name, info.unit.symbol, self.kind
+                title_along(d, &self.equilibrium.inputs, self.input),
+                info.name,
+                info.unit.symbol,
+                self.kind
             )?;
         }
         write!(f, "{}", self.equilibrium)?;
@@ -198,7 +193,8 @@ impl fmt::Display for Crossing {
             let value = in_unit(self.value, &info.unit);
             let what = meeting(self.mode, self.condition, &info.name);
             let symbol = &info.unit.symbol;
-            writeln!(f, "{}: {what} at {} = {value} {symbol}", d.name, info.name)?;
+            let title = title_along(d, &self.equilibrium.inputs, self.input);
+            writeln!(f, "{title}: {what} at {} = {value} {symbol}", info.name)?;
         }
         write!(f, "{}{}", self.equilibrium, self.modes)
     }

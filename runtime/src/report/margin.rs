@@ -3,11 +3,14 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, in_unit, number, per};
+use super::title::title;
 use crate::second_order::Margin;
+use crate::setters::setters;
 use crate::{Description, Unit};
 
 /// A margin, printed with the name and the unit of its quantity and the names of the design variables.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MarginTable<'a> {
     /// The margin, as [`margin`](crate::second_order::margin) returns it.
     pub margin: &'a Margin,
@@ -15,8 +18,31 @@ pub struct MarginTable<'a> {
     pub quantity: &'a str,
     /// Its unit, for example rad/s.
     pub unit: Unit,
+    /// The inputs it belongs to, SI; empty where they do not matter.
+    pub inputs: &'a [f64],
     /// The mechanism it belongs to.
     pub description: &'a Description,
+}
+
+impl<'a> MarginTable<'a> {
+    setters!(inputs: &'a [f64]);
+
+    /// A margin of a `quantity` in `unit`.
+    #[must_use]
+    pub fn new(
+        margin: &'a Margin,
+        quantity: &'a str,
+        unit: Unit,
+        description: &'a Description,
+    ) -> Self {
+        Self {
+            margin,
+            quantity,
+            unit,
+            inputs: &[],
+            description,
+        }
+    }
 }
 
 impl fmt::Display for MarginTable<'_> {
@@ -26,7 +52,7 @@ impl fmt::Display for MarginTable<'_> {
         writeln!(
             f,
             "{}: margin of {} against the band {} to {} {}",
-            d.name,
+            title(d, self.inputs),
             self.quantity,
             in_unit(low, unit),
             in_unit(high, unit),

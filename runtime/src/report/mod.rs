@@ -11,6 +11,7 @@ mod shares;
 mod summary;
 mod sweep;
 mod table;
+mod title;
 mod tolerance;
 
 pub use margin::MarginTable;

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 use core::fmt;
 
 use super::table::{Table, cells, number, optional};
+use super::title::title;
 use crate::modes::{Family, Sense, Whirl};
 use crate::{Behaviour, Complex, CoordinateInfo, Modes, Role};
 
@@ -39,7 +40,8 @@ impl fmt::Display for Whirl {
 impl fmt::Display for Modes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let general = self.family == Family::General;
-        writeln!(f, "{}: natural modes", self.description.name)?;
+        let title = title(&self.description, &self.inputs);
+        writeln!(f, "{title}: natural modes")?;
         let mut head = cells(["mode", "omega [rad/s]", "f [Hz]"]);
         head.extend(if general {
             cells(["|s| [rad/s]", "Re s [1/s]", "damping ratio"])

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::margin::MarginTable;
 use super::table::{Table, cells, number};
+use super::title::title;
 use crate::second_order::{ModeMargin, SecondOrder};
 use crate::{Quantity, Text, Unit};
 
@@ -12,7 +13,7 @@ impl fmt::Display for SecondOrder {
         writeln!(
             f,
             "{}: spread of the frequencies to second order",
-            self.description.name
+            title(&self.description, &self.inputs)
         )?;
         let mut table = Table::new(cells([
             "mode",
@@ -51,6 +52,7 @@ impl fmt::Display for SecondOrder {
 impl fmt::Display for ModeMargin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let table = MarginTable {
+            inputs: &self.inputs,
             margin: &self.margin,
             quantity: &format!("{} {}", self.quantity, self.mode + 1),
             unit: Unit {

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, cells, heading, number, of_mode, per, undamped};
+use super::title::title;
 use crate::Sensitivities;
 use crate::modes::Family;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
@@ -75,7 +76,8 @@ impl fmt::Display for Sensitivities {
         writeln!(
             f,
             "{}: sensitivities of the frequencies, {}",
-            self.description.name, self.method
+            title(&self.description, &self.inputs),
+            self.method
         )?;
         let numbers = 1..=self.modes.len();
         let mut columns: Vec<String> = numbers
@@ -116,7 +118,7 @@ impl fmt::Display for Sensitivities {
 impl fmt::Display for EquilibriumShift {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: shift of the equilibrium", d.name)?;
+        writeln!(f, "{}: shift of the equilibrium", title(d, &self.inputs))?;
         let columns = d
             .coordinates
             .iter()
@@ -134,7 +136,7 @@ impl fmt::Display for EquilibriumShift {
 impl fmt::Display for OutputSensitivities {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: outputs", d.name)?;
+        writeln!(f, "{}: outputs", title(d, &self.inputs))?;
         for (info, &value) in d.outputs.iter().zip(&self.values) {
             let value = number(value / info.unit.scale);
             writeln!(f, "  {} = {value} {}", info.name, info.unit.symbol)?;

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::table::{Table, cells, number, optional, undamped};
+use super::title::title;
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
 use crate::summary::{Doubt, Summary};
@@ -54,23 +55,23 @@ fn members(table: &mut Table, quantity: &str, spread: &SortedSpread) {
 
 impl fmt::Display for ClusterTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = &self.description.name;
+        let title = title(&self.description, &self.inputs);
         let modes = named(&self.modes);
         let spread = match &self.spread {
             Ok(spread) => spread,
             Err(_) if self.defective() => {
                 return writeln!(
                     f,
-                    "{name}: merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
+                    "{title}: merged into a defective eigenvalue: {modes}. It splits as the square root of any change and \
                      has no sigma; use Monte Carlo"
                 );
             }
-            Err(error) => return writeln!(f, "{name}: {modes} form a cluster: {error}"),
+            Err(error) => return writeln!(f, "{title}: {modes} form a cluster: {error}"),
         };
         let (distance, samples) = (number(self.distance), spread.samples);
         writeln!(
             f,
-            "{name}: {modes} form a cluster, {distance} standard deviations apart; {samples} samples"
+            "{title}: {modes} form a cluster, {distance} standard deviations apart; {samples} samples"
         )?;
         let mut table = Table::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
         if let Some(mean) = self.mean.as_ref().and_then(|mean| mean.frequency.as_ref()) {
@@ -109,7 +110,8 @@ fn without(f: &mut fmt::Formatter<'_>, spread: &ClusterSpread) -> fmt::Result {
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: what tolerances do to the frequencies", d.name)?;
+        let title = title(d, &self.inputs);
+        writeln!(f, "{title}: what tolerances do to the frequencies")?;
         let mut head = cells([
             "mode",
             "nominal [rad/s]",
@@ -117,7 +119,7 @@ impl fmt::Display for Summary {
             "second order",
         ]);
         head.push(format!("{} sigma [rad/s]", self.first.sigma_level));
-        head.push("believe it".to_owned());
+        head.push("trusted".to_owned());
         let mut table = Table::new(head);
         for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
             let alone = self.cluster_of(r).is_none();
@@ -205,23 +207,23 @@ impl fmt::Display for Doubt {
                 modes, distance, ..
             } => write!(
                 f,
-                "tolerances mix {}, {} standard deviations apart. None has a sigma of its own: believe that of the \
+                "tolerances mix {}, {} standard deviations apart. None has a sigma of its own: use that of the \
                  mean, of the lowest and of the highest below, or Monte Carlo.",
                 named(modes),
                 number(*distance)
             ),
             Self::NearCritical { distance: 0.0 } => write!(
                 f,
-                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing: believe Monte Carlo."
+                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing here: use Monte Carlo."
             ),
             Self::NearCritical { distance } if *distance < 0.0 => write!(
                 f,
-                "the equilibrium is not stable. Samples settle elsewhere: sigma says nothing about them."
+                "the equilibrium is not stable. Samples settle elsewhere, and sigma says nothing about them."
             ),
             Self::NearCritical { distance } => write!(
                 f,
-                "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them sigma errs without \
-                 bound: believe Monte Carlo.",
+                "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
+                 has no bound: use Monte Carlo.",
                 number(*distance)
             ),
             Self::NearInstability { distance: 0.0 } => write!(
@@ -242,7 +244,7 @@ impl fmt::Display for Doubt {
             Self::NearCriticalDamping { distance } => write!(
                 f,
                 "the oscillation ceases {} standard deviations away, where it becomes two decaying motions. Within \
-                 {TRUSTED_DISTANCE} of them sigma errs without bound: believe Monte Carlo.",
+                 {TRUSTED_DISTANCE} of them the error of sigma has no bound: use Monte Carlo.",
                 number(*distance)
             ),
             Self::Nonlinear {
@@ -257,8 +259,8 @@ impl fmt::Display for Doubt {
                 };
                 write!(
                     f,
-                    "the first-order sigma of the {name} is {:.1} % below that of second order, because it bends within \
-                     the tolerances. Second order tells that it bends, not by how much: believe Monte Carlo.",
+                    "the first-order sigma of the {name} is {:.1} % below that of second order, because it is not linear \
+                     within the tolerances. Second order shows that, but not by how much: use Monte Carlo.",
                     100.0 * sigma_error
                 )
             }

@@ -3,13 +3,15 @@
 use core::fmt;
 
 use super::table::{Table, heading, in_unit, optional, undamped};
+use super::title::title_along;
 use crate::Mode;
 use crate::sweep::Sweep;
 
 impl fmt::Display for Sweep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: sweep", d.name)?;
+        let title = title_along(d, &self.inputs, self.input);
+        writeln!(f, "{title}: sweep")?;
         let input = d.inputs.get(self.input.index());
         let mut head = vec![input.map_or_else(String::new, |info| heading(&info.name, &info.unit))];
         head.extend(

@@ -5,6 +5,7 @@ use core::fmt;
 use super::equilibrium::meeting;
 use super::shares;
 use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, per, undamped};
+use super::title::{title, title_along};
 use crate::modes::Family;
 use crate::summary::Doubt;
 use crate::sweep::{Event, EventTolerance};
@@ -14,7 +15,8 @@ use crate::{FirstOrder, MonteCarlo};
 impl fmt::Display for OutputTolerances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: first-order spread of the outputs", d.name)?;
+        let title = title(d, &self.inputs);
+        writeln!(f, "{title}: first-order spread of the outputs")?;
         let mut head = cells(["output", "mean", "sigma"]);
         head.push(format!("{} sigma", self.sigma_level));
         head.extend(shares::head(d));
@@ -39,7 +41,8 @@ impl fmt::Display for OutputTolerances {
 impl fmt::Display for FirstOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
-        writeln!(f, "{}: first-order spread of the frequencies", d.name)?;
+        let title = title(d, &self.inputs);
+        writeln!(f, "{title}: first-order spread of the frequencies")?;
         let general = self.family == Family::General;
         let mut head = cells(["mode", "mean [rad/s]", "sigma [rad/s]"]);
         head.push(format!("{} sigma [rad/s]", self.sigma_level));
@@ -155,7 +158,9 @@ impl fmt::Display for MonteCarlo {
         writeln!(
             f,
             "{}: Monte Carlo with re-solved equilibria, {} samples: {}",
-            self.description.name, self.samples, self.counts
+            title(&self.description, &self.inputs),
+            self.samples,
+            self.counts
         )?;
         let mut head = cells([
             "mode",
@@ -222,8 +227,9 @@ impl fmt::Display for EventTolerance {
             return Ok(());
         };
         let (name, unit) = (&info.name, &info.unit);
+        let title = title_along(d, &self.inputs, self.input);
         match self.event {
-            Event::Critical => write!(f, "{}: critical at {name}", d.name)?,
+            Event::Critical => write!(f, "{title}: critical at {name}")?,
             Event::Crossing {
                 mode,
                 condition,
@@ -232,7 +238,7 @@ impl fmt::Display for EventTolerance {
             } => {
                 let what = meeting(mode, condition, name);
                 let sense = whirl.map_or(String::new(), |whirl| format!(" ({})", whirl.sense()));
-                write!(f, "{}: {what}{sense} at {name}", d.name)?;
+                write!(f, "{title}: {what}{sense} at {name}")?;
             }
         }
         let (value, symbol) = (in_unit(self.value, unit), &unit.symbol);

@@ -10,6 +10,7 @@ pub struct Batch(pub [f64; WIDTH]);
 
 impl Batch {
     /// The same number for every state.
+    #[must_use]
     pub fn all(value: f64) -> Self {
         Self([value; WIDTH])
     }

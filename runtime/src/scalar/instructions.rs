@@ -24,6 +24,7 @@ impl Instructions {
     pub const SCALAR: Self = Self(Set::Scalar);
 
     /// The widest vectors of this processor.
+    #[must_use]
     #[inline]
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]

@@ -12,6 +12,7 @@ use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
 /// A band of values to keep clear of.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Band {
     /// Between two values, SI; either may be infinite.
     Between {
@@ -33,6 +34,7 @@ pub enum Band {
 
 impl Band {
     /// Within `fraction` of the value of an input.
+    #[must_use]
     pub fn around(input: Input, fraction: f64) -> Self {
         Self::Around {
             input,
@@ -98,6 +100,7 @@ impl Band {
 
 /// The margin of a quantity of a mode against a forbidden band.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModeMargin {
     /// Position of the mode, from 0.
     pub mode: usize,
@@ -110,6 +113,8 @@ pub struct ModeMargin {
     /// Total derivatives of the first-order probability by each input, by SI unit: the quantity, its standard deviation
     /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<Vector>,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -150,6 +155,7 @@ pub fn mode_margin(
         band,
         margin,
         by_input,
+        inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
 }

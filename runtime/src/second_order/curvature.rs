@@ -14,6 +14,7 @@ use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// Second derivatives of one number, SI.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SecondDerivatives<T> {
     /// By two inputs.
     pub by_input: Matrix<T>,
@@ -25,6 +26,7 @@ pub struct SecondDerivatives<T> {
 
 /// First and second total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModeCurvature {
     /// Position of the mode.
     pub mode: usize,
@@ -45,6 +47,7 @@ pub struct ModeCurvature {
 
 impl ModeCurvature {
     /// Second derivatives of a quantity of the mode; `None` where it has none.
+    #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<SecondDerivatives<f64>> {
         self.first.of(quantity)?;
         let (first, second) = (self.first.s.as_ref()?, self.eigenvalue.as_ref()?);

@@ -9,6 +9,7 @@ use crate::tolerance::Tolerances;
 
 /// Margin of a quantity against a forbidden band, in the units of the quantity.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Margin {
     /// The band; an end may be infinite.
     pub band: (f64, f64),
@@ -34,6 +35,7 @@ pub struct Margin {
 /// slopes and curvature are total derivatives and half-widths stay as they are; a half-width that follows its nominal value
 /// (a tolerance in percent) adds its `by_half_width` times its own derivative.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MarginDerivatives {
     /// By the mean.
     pub by_mean: f64,
@@ -53,6 +55,7 @@ pub struct MarginDerivatives {
 impl MarginDerivatives {
     /// Derivative along anything that moves mean, standard deviation, low and high end at these rates: for the running
     /// speed `u` and the band `[0.9 u, 1.1 u]` the rates are `dmean/du`, `dsigma/du`, `0.9` and `1.1`.
+    #[must_use]
     pub fn along(&self, mean: f64, sigma: f64, low: f64, high: f64) -> f64 {
         self.by_mean * mean + self.by_sigma * sigma + self.by_low * low + self.by_high * high
     }

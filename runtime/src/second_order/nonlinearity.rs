@@ -1,4 +1,4 @@
-//! When first order is to be believed: its error as the second-order model sees it.
+//! When first order can be trusted: its error, estimated by the second-order model.
 
 use super::quadratic::Quadratic;
 use crate::Error;
@@ -9,6 +9,7 @@ use crate::tolerance::Tolerances;
 /// They measure the curvature at the nominal design, not what lies beyond second order: near a critical state the series
 /// does not converge, and the distance to it in standard deviations is the measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Nonlinearity {
     /// Shift of the mean, `|tr(H Sigma) / 2| / sigma`.
     pub mean_shift: f64,
@@ -18,6 +19,7 @@ pub struct Nonlinearity {
 
 impl Nonlinearity {
     /// Relative error of the first-order standard deviation against that of the model, `1 - 1 / sqrt(1 + spread^2)`.
+    #[must_use]
     pub fn sigma_error(&self) -> f64 {
         let ratio = 1.0_f64.hypot(self.spread);
         // 1 - 1 / ratio without cancellation.
@@ -29,6 +31,7 @@ impl Nonlinearity {
     }
 
     /// The greater of the two ratios.
+    #[must_use]
     pub fn largest(&self) -> f64 {
         self.mean_shift.max(self.spread)
     }

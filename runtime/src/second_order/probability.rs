@@ -8,6 +8,7 @@ use crate::tolerance::Tolerances;
 
 /// A probability and how far it may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Probability {
     /// In [0, 1].
     pub value: f64,

@@ -19,6 +19,7 @@ pub struct Quadratic {
 
 /// Moments of a second-order model; exact for the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModelMoments {
     /// Mean `f0 + tr(H Sigma) / 2`.
     pub mean: f64,

@@ -3,6 +3,7 @@
 use super::curvature::{ModeCurvature, mode_curvature};
 use super::nonlinearity::Nonlinearity;
 use super::quadratic::{ModelMoments, Quadratic};
+use crate::algebra::Vector;
 use crate::kernels::DirectionalKernels;
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
@@ -10,6 +11,7 @@ use crate::{Description, Equilibrium, Error, Modes, Shared};
 
 /// A quantity of a mode to second order.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SecondOrderSpread {
     /// Value, gradient and Hessian by the design variables.
     pub model: Quadratic,
@@ -21,6 +23,7 @@ pub struct SecondOrderSpread {
 
 /// A mode to second order.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModeSecondOrder {
     /// Frequency `Im s`, rad/s.
     pub frequency: SecondOrderSpread,
@@ -32,17 +35,21 @@ pub struct ModeSecondOrder {
 
 /// All modes to second order.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SecondOrder {
     /// In the order of the modes; a mode that does not oscillate or has no derivatives of its own says so.
     pub modes: Vec<Result<ModeSecondOrder, Error>>,
     /// Standard deviations that a tolerance holds.
     pub sigma_level: f64,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
 
 impl ModeCurvature {
     /// The second-order model of a quantity by the design variables; `None` where the mode has no such quantity.
+    #[must_use]
     pub fn quadratic(&self, quantity: Quantity) -> Option<Quadratic> {
         Some(Quadratic {
             value: quantity.value(self.s),
@@ -52,7 +59,7 @@ impl ModeCurvature {
     }
 }
 
-/// Spread of every mode to second order (THEORY section 6): exact mean and variance of the second-order model of each
+/// Spread of every mode to second order: exact mean and variance of the second-order model of each
 /// quantity under normally distributed design variables.
 pub fn second_order(
     mechanism: &dyn DirectionalKernels,
@@ -64,6 +71,7 @@ pub fn second_order(
     SecondOrder {
         modes: (0..modes.modes.len()).map(one).collect(),
         sigma_level: tolerances.sigma_level(),
+        inputs: at.inputs.clone(),
         description: modes.description.clone(),
     }
 }

@@ -30,6 +30,7 @@ pub(crate) use quantity::{eigenvalue_curvature, eigenvalue_slope};
 pub use shift::{EquilibriumShift, equilibrium_shift};
 pub(crate) use shift::{directions, outside_domain};
 
+use crate::algebra::Vector;
 use crate::arguments::check_count;
 use crate::kernels::Kernels;
 use crate::modes::{CLUSTER_GAP, Family, merged, near_another};
@@ -37,6 +38,7 @@ use crate::{Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// How derivatives were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Adjoint: all variables at once.
     Adjoint,
@@ -50,6 +52,7 @@ pub enum Method {
 
 /// Total derivatives of all modes at one equilibrium, in the order of the modes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sensitivities {
     /// One entry for each mode.
     pub modes: Vec<ModeSensitivity>,
@@ -57,6 +60,8 @@ pub struct Sensitivities {
     pub method: Method,
     /// Which modes they belong to.
     pub family: Family,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
@@ -64,7 +69,7 @@ pub struct Sensitivities {
 impl Sensitivities {
     /// Room for the derivatives of these modes.
     #[inline]
-    pub(crate) fn blank(modes: &Modes, method: Method) -> Self {
+    pub(crate) fn blank(at: &Equilibrium, modes: &Modes, method: Method) -> Self {
         Self {
             modes: modes
                 .modes
@@ -73,6 +78,7 @@ impl Sensitivities {
                 .collect(),
             method,
             family: modes.family,
+            inputs: at.inputs.clone(),
             description: modes.description.clone(),
         }
     }
@@ -86,7 +92,7 @@ fn assemble(
     mut set: impl FnMut(&mut ModeSensitivity, &Mode),
 ) -> Result<Sensitivities, Error> {
     check_modes(at, modes)?;
-    let mut found = Sensitivities::blank(modes, method);
+    let mut found = Sensitivities::blank(at, modes, method);
     let mut finite = true;
     for (position, (own, mode)) in found.modes.iter_mut().zip(&modes.modes).enumerate() {
         if merged(modes, position) {

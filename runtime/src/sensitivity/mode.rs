@@ -7,6 +7,7 @@ use crate::{Complex, Mode};
 
 /// First derivatives of one number by every input and design variable.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Slopes<T> {
     /// By each input, per SI unit.
     pub by_input: Vector<T>,
@@ -38,6 +39,7 @@ impl<T: Copy + Default> Slopes<T> {
 
 /// Total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModeSensitivity {
     /// `dlambda/du`, 1/s^2 by SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
     /// derivative because it has merged with another eigenvalue.
@@ -60,6 +62,7 @@ pub struct ModeSensitivity {
 
 impl ModeSensitivity {
     /// Total derivatives of a quantity of the mode; `None` where it has none, or one beyond the range of a double.
+    #[must_use]
     pub fn of(&self, quantity: Quantity) -> Option<Slopes<f64>> {
         let oscillates = self.omega_by_design.is_some();
         if !oscillates && quantity != Quantity::Growth {

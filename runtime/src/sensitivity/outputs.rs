@@ -7,6 +7,7 @@ use crate::{Description, Equilibrium, Error, Shared};
 
 /// Outputs at an equilibrium and their total derivatives, SI.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OutputSensitivities {
     /// Values.
     pub values: Vector,
@@ -15,6 +16,8 @@ pub struct OutputSensitivities {
     pub by_input: Vec<Option<Vector>>,
     /// `by_design[o][j]`: derivative of output `o` by design variable `j`; `None` likewise.
     pub by_design: Vec<Option<Vector>>,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
@@ -44,6 +47,7 @@ pub fn output_sensitivities(
         values,
         by_input: finite_rows(&by_input),
         by_design: finite_rows(&by_design),
+        inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
 }

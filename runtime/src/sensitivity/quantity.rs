@@ -4,6 +4,7 @@ use crate::{Complex, Mode};
 
 /// A real number that describes a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Angular frequency of the oscillation `Im s`, rad/s.
     Frequency,
@@ -26,6 +27,7 @@ impl Quantity {
 
     /// The value for a mode; `None` where the mode has none: a frequency without oscillation, a damping ratio of a neutral
     /// mode.
+    #[must_use]
     pub fn of(self, mode: &Mode) -> Option<f64> {
         match self {
             Self::Frequency => mode.frequency(),

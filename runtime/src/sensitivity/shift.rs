@@ -8,11 +8,14 @@ use crate::{Description, Equilibrium, Error, Shared};
 
 /// Derivatives of the equilibrium coordinates.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EquilibriumShift {
     /// `by_input[i][j] = dq*_i/du_j`, SI.
     pub by_input: Matrix,
     /// `by_design[i][j] = dq*_i/db_j`, SI.
     pub by_design: Matrix,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -34,6 +37,7 @@ pub fn equilibrium_shift(
     let shift = EquilibriumShift {
         by_input: solve_columns(&factors, by_input),
         by_design: solve_columns(&factors, by_design),
+        inputs: at.inputs.clone(),
         description: at.description.clone(),
     };
     if all_finite_matrix(&shift.by_input) && all_finite_matrix(&shift.by_design) {

@@ -1,12 +1,13 @@
 //! A study, and how it is set up.
 
-use super::settings::{Settings, Width};
+use super::settings::Settings;
+use super::value::Value;
 use crate::equilibrium::Policy;
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::tolerance::Tolerances;
-use crate::{Coordinate, Description, DesignVariable, Error, Input, Matrix, Output};
+use crate::{Coordinate, Description, DesignVariable, Error, Input, Matrix, Output, Text};
 
 /// A mechanism at one operating point, with tolerances and settings.
 ///
@@ -32,11 +33,12 @@ use crate::{Coordinate, Description, DesignVariable, Error, Input, Matrix, Outpu
 /// # Ok::<(), eigentol::Error>(())
 /// ```
 ///
-/// The examples below go on with this one. A study starts from the declared nominal values and tolerances, inputs and start values
-/// zero, a stable equilibrium wanted. Values are SI. Every question solves what it needs; of several about one operating point ask
-/// what [`Study::solve`] returns.
+/// The examples below go on with this one. A study starts from the declared nominal values and tolerances, with inputs and
+/// start values of zero, and looks for a stable equilibrium. Values are SI, or in the
+/// declared unit where the caller says so ([`InDeclaredUnit`](crate::InDeclaredUnit)). Each question solves what it needs; to ask several
+/// about one operating point, call [`Study::solve`] once and ask what it returns.
 ///
-/// Handles such as `Pendulum::omega` belong to their mechanism. That of another one does not compile:
+/// Handles such as `Pendulum::omega` belong to their mechanism. The handle of another one does not compile:
 ///
 /// ```compile_fail,E0308
 /// # use eigentol::{Study, mechanism};
@@ -64,6 +66,7 @@ pub struct Study<M> {
 
 impl<M: Kernels> Study<M> {
     /// A study of `mechanism` at its nominal design.
+    #[must_use]
     pub fn new(mechanism: M) -> Self {
         let settings = Settings::new(mechanism.description());
         Self {
@@ -72,14 +75,14 @@ impl<M: Kernels> Study<M> {
         }
     }
 
-    /// Sets an input, SI.
+    /// Sets an input.
     #[must_use]
-    pub fn input(mut self, input: Input<M>, value: f64) -> Self {
-        self.settings.set_input(input.any(), value);
+    pub fn input(mut self, input: Input<M>, value: impl Into<Value>) -> Self {
+        self.settings.set_input(input.any(), value.into());
         self
     }
 
-    /// Sets a design variable, SI.
+    /// Sets a design variable.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -88,52 +91,55 @@ impl<M: Kernels> Study<M> {
     /// # Ok::<(), eigentol::Error>(())
     /// ```
     #[must_use]
-    pub fn design(mut self, variable: DesignVariable<M>, value: f64) -> Self {
-        self.settings.set_design(variable.any(), value);
+    pub fn design(mut self, variable: DesignVariable<M>, value: impl Into<Value>) -> Self {
+        self.settings.set_design(variable.any(), value.into());
         self
     }
 
-    /// Sets where the search for an equilibrium starts, SI. A mechanism with constraints is first assembled with this
-    /// coordinate held at the value: give as many as are independent, and the others a [`Study::guess`].
+    /// Sets where the search for an equilibrium starts. A mechanism with constraints is first assembled with this coordinate
+    /// held at the value: give a start value to as many coordinates as are independent, and a [`Study::guess`] to the others.
     #[must_use]
-    pub fn start(mut self, coordinate: Coordinate<M>, value: f64) -> Self {
-        self.settings.set_start(coordinate.any(), value, true);
+    pub fn start(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
+        self.settings
+            .set_start(coordinate.any(), value.into(), true);
         self
     }
 
-    /// Sets from where a dependent coordinate is moved when a mechanism with constraints is assembled, SI: it chooses the
-    /// assembly mode. Without constraints the same as [`Study::start`].
+    /// Sets the value from which a dependent coordinate moves when a mechanism with constraints is assembled. It chooses the
+    /// assembly mode. Without constraints it does the same as [`Study::start`].
     #[must_use]
-    pub fn guess(mut self, coordinate: Coordinate<M>, value: f64) -> Self {
-        self.settings.set_start(coordinate.any(), value, false);
+    pub fn guess(mut self, coordinate: Coordinate<M>, value: impl Into<Value>) -> Self {
+        self.settings
+            .set_start(coordinate.any(), value.into(), false);
         self
     }
 
-    /// Sets the half-width of a tolerance, SI.
+    /// Sets the half-width of a tolerance. It stays as it is when the variable is given another value; so does a declared
+    /// tolerance, also one in percent ([`Study::relative_tolerance`] follows the value).
     #[must_use]
-    pub fn tolerance(mut self, variable: DesignVariable<M>, half_width: f64) -> Self {
-        let width = Width::Absolute(half_width);
-        self.settings.set_width(variable.any(), width);
+    pub fn tolerance(mut self, variable: DesignVariable<M>, half_width: impl Into<Value>) -> Self {
+        let half_width = half_width.into();
+        self.settings.set_tolerance(variable.any(), half_width);
         self
     }
 
-    /// Sets the half-width of a tolerance as a fraction of the variable's value, whatever value it is given, before or
-    /// after: 0.03 for 3 %.
+    /// Sets the half-width of a tolerance as a fraction of the variable's value: 0.03 for 3 %. It follows the value, whether that
+    /// is set before or after.
     #[must_use]
     pub fn relative_tolerance(mut self, variable: DesignVariable<M>, fraction: f64) -> Self {
-        let width = Width::Relative(fraction);
-        self.settings.set_width(variable.any(), width);
+        self.settings
+            .set_relative_tolerance(variable.any(), fraction);
         self
     }
 
-    /// Sets how many standard deviations a tolerance holds (3 unless set).
+    /// Sets how many standard deviations the half-width of a tolerance stands for (3 unless set).
     #[must_use]
     pub fn sigma_level(mut self, level: f64) -> Self {
         self.settings.sigma_level = level;
         self
     }
 
-    /// Couples the design variables by a correlation matrix (independent unless set).
+    /// Sets the correlation matrix of the design variables (independent unless set).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
         self.settings.correlation = Some(matrix.into());
@@ -147,8 +153,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Chooses which modes are wanted; unless set, those that leave nothing out: undamped where `Chat` is zero and `Khat`
-    /// symmetric, general ones otherwise ([`Family::of`]).
+    /// Chooses which modes are wanted. Unless set, those that neglect nothing: undamped modes where `Chat` is zero and `Khat`
+    /// symmetric, general modes otherwise ([`Family::of`]).
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
         self.settings.family = Some(family);
@@ -169,17 +175,17 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Chooses one of the independent sequences of samples of the seed (0 unless set): one for each point of a sweep
-    /// keeps the errors of the points apart.
+    /// Chooses one of the seed's independent sequences of samples (0 unless set). With one for each point of a sweep, the sampling
+    /// errors of the points are independent.
     #[must_use]
     pub fn stream(mut self, stream: u64) -> Self {
         self.settings.stream = stream;
         self
     }
 
-    /// Chooses the vector instructions with which a Monte Carlo run solves several samples, and a sweep several values, side
-    /// by side where the mechanism allows it (the best of the processor unless set); `None` solves each alone. The two differ in
-    /// the last bits, which instructions are taken does not matter; a run says which it was
+    /// Chooses the vector instructions with which a Monte Carlo run solves several samples at once, and a sweep several values,
+    /// where the mechanism allows it (the best of the processor unless set); `None` solves one at a time. Results of the two ways
+    /// differ in the last bits; all instruction sets give the same bits. A run says which way it went
     /// ([`MonteCarlo::side_by_side`](crate::MonteCarlo::side_by_side)).
     #[must_use]
     pub fn vectors(mut self, vectors: Option<Instructions>) -> Self {
@@ -187,8 +193,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the number of threads of a Monte Carlo run; 0 takes what the machine has, more than 256 count as 256 or as what the
-    /// machine has if that is more.
+    /// Sets the number of threads of a Monte Carlo run; 0, the default, takes as many as the machine has. The limit is 256, or as many
+    /// as the machine has if that is more.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.settings.threads = threads;
@@ -202,7 +208,7 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets into how many steps a range is cut when something is looked for in it (200 unless set).
+    /// Sets the number of steps in which a range is searched (200 unless set).
     #[must_use]
     pub fn steps(mut self, steps: usize) -> Self {
         self.settings.steps = steps;
@@ -210,61 +216,103 @@ impl<M: Kernels> Study<M> {
     }
 
     /// The mechanism.
+    #[must_use]
     pub fn mechanism(&self) -> &M {
         &self.mechanism
     }
 
-    /// Names, units and nominal values of what the mechanism has.
+    /// Names, units and nominal values of the mechanism.
+    #[must_use]
     pub fn description(&self) -> &Description {
         &self.settings.description
     }
 
     /// The coordinate, or other unknown, of this name.
-    pub fn find_coordinate(&self, name: &str) -> Option<Coordinate<M>> {
-        let mut all = self.description().coordinates.iter();
-        all.position(|info| info.name == *name).map(Coordinate::new)
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names that exist.
+    pub fn find_coordinate(&self, name: &str) -> Result<Coordinate<M>, Error> {
+        let names = self.description().coordinates.iter().map(|info| &info.name);
+        self.find("coordinate", name, names).map(Coordinate::new)
     }
 
-    /// The input of this name.
+    /// The input of this name: a handle for names that are known only at run time.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// let study = match study.find_input("omega") {
-    ///     Some(speed) => study.input(speed, 4.0),
-    ///     None => study,
-    /// };
+    /// let speed = study.find_input("omega")?;
+    /// let study = study.input(speed, 4.0);
     /// assert_eq!(study.input_values(), [4.0]);
+    ///
+    /// let error = study.find_input("speed").unwrap_err();
+    /// assert_eq!(error.to_string(), "`Pendulum` has no input `speed`: it has `omega`");
     /// # Ok::<(), eigentol::Error>(())
     /// ```
-    pub fn find_input(&self, name: &str) -> Option<Input<M>> {
-        let mut all = self.description().inputs.iter();
-        all.position(|info| info.name == *name).map(Input::new)
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names that exist.
+    pub fn find_input(&self, name: &str) -> Result<Input<M>, Error> {
+        let names = self.description().inputs.iter().map(|info| &info.name);
+        self.find("input", name, names).map(Input::new)
     }
 
     /// The design variable of this name.
-    pub fn find_design(&self, name: &str) -> Option<DesignVariable<M>> {
-        let mut all = self.description().design.iter();
-        all.position(|info| info.name == *name)
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let length = study.find_design("l")?;
+    /// assert_eq!(length, Pendulum::l);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names that exist.
+    pub fn find_design(&self, name: &str) -> Result<DesignVariable<M>, Error> {
+        let names = self.description().design.iter().map(|info| &info.name);
+        self.find("design variable", name, names)
             .map(DesignVariable::new)
     }
 
     /// The output of this name.
-    pub fn find_output(&self, name: &str) -> Option<Output<M>> {
-        let mut all = self.description().outputs.iter();
-        all.position(|info| info.name == *name).map(Output::new)
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`], which lists the names that exist.
+    pub fn find_output(&self, name: &str) -> Result<Output<M>, Error> {
+        let names = self.description().outputs.iter().map(|info| &info.name);
+        self.find("output", name, names).map(Output::new)
+    }
+
+    fn find<'a>(
+        &self,
+        kind: &'static str,
+        name: &str,
+        mut names: impl Iterator<Item = &'a Text> + Clone,
+    ) -> Result<usize, Error> {
+        let known = names.clone();
+        names
+            .position(|own| *own == *name)
+            .ok_or_else(|| Error::UnknownName {
+                kind,
+                name: name.to_owned(),
+                mechanism: self.description().name.clone(),
+                known: known.cloned().collect(),
+            })
     }
 
     /// The inputs, SI.
+    #[must_use]
     pub fn input_values(&self) -> &[f64] {
         &self.settings.inputs
     }
 
     /// The design variables, SI.
+    #[must_use]
     pub fn design_values(&self) -> &[f64] {
         &self.settings.design
     }
 
-    /// Start values as set, SI, not assembled.
+    /// Start values as set, SI, before assembly.
+    #[must_use]
     pub fn start_values(&self) -> &[f64] {
         &self.settings.start
     }
@@ -272,7 +320,7 @@ impl<M: Kernels> Study<M> {
     /// The tolerances as set.
     ///
     /// # Errors
-    /// [`Error::Setting`] when they make no sense; [`Error::UnknownHandle`].
+    /// [`Error::Setting`] where they make no sense; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances, Error> {
         self.settings.tolerances()
     }

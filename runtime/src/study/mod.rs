@@ -6,6 +6,8 @@ mod questions;
 mod ranges;
 mod settings;
 mod solved;
+mod value;
 
 pub use builder::Study;
 pub use solved::Solved;
+pub use value::{InDeclaredUnit, Value};

@@ -26,30 +26,51 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the function, and [`Error::UnknownHandle`] when a builder method was given a handle that does not exist.
+    /// [`Error::NoEquilibrium`], [`Error::NotAssembled`], [`Error::UnboundedReactions`]; [`Error::NotFinite`],
+    /// [`Error::Unphysical`], [`Error::OutsideDomain`] for values that no mechanism can have; [`Error::UnknownHandle`]
+    /// for a handle that does not exist.
     pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
         self.settings.equilibrium(&self.mechanism)
     }
 
-    /// The mechanism put together, coordinates with a [`Study::start`] held ([`equilibrium::assemble`]).
+    /// The assembled mechanism, with the coordinates held that have a [`Study::start`] ([`equilibrium::assemble`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let assembled = study.assembly()?;
+    /// assert_eq!(assembled.coordinates, [1.0]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// [`Error::NotAssembled`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`],
+    /// [`Error::UnknownHandle`].
     pub fn assembly(&self) -> Result<Assembly, Error> {
         self.settings.assembly(&self.mechanism)
     }
 
     /// Distinct equilibria from many starts ([`equilibrium::find_equilibria`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::equilibrium::Search;
+    ///
+    /// // Hanging, upside down, and swung out to either side.
+    /// let all = study.equilibria(&Search::new([-3.0], [3.5]))?;
+    /// assert_eq!(all.len(), 4);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::NotAssembled`],
+    /// [`Error::UnknownHandle`]. Finding none is no error.
     pub fn equilibria(&self, search: &Search) -> Result<Vec<Equilibrium>, Error> {
         let (u, b) = (&self.settings.inputs, &self.settings.design);
         let start = self.settings.assembled_start(&self.mechanism)?;
         equilibrium::find_equilibria(&self.mechanism, u, b, &start, search)
     }
 
-    /// The equilibrium and its modes, to ask several questions of them.
+    /// The equilibrium and its modes, for several questions about them.
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -81,12 +102,13 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the equilibrium and of the function.
+    /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::SingularMass`], [`Error::ModesNotFound`],
+    /// [`Error::EigenvalueRange`]; of undamped modes [`Error::NonsymmetricStiffness`] and [`Error::NoUndampedModes`].
     pub fn modes(&self) -> Result<Modes, Error> {
         Ok(self.solve()?.modes)
     }
 
-    /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
+    /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -96,7 +118,8 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the equilibrium and of the function.
+    /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::CriticalState`],
+    /// [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift, Error> {
         let state = self.settings.regular(&self.mechanism)?;
         sensitivity::equilibrium_shift(&self.mechanism, &state)
@@ -112,7 +135,7 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the equilibrium and of the function.
+    /// As [`Study::equilibrium_shift`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         let state = self.settings.regular(&self.mechanism)?;
         sensitivity::output_sensitivities(&self.mechanism, &state)
@@ -120,8 +143,14 @@ impl<M: Kernels> Study<M> {
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.output_tolerances()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of equilibrium, output sensitivities and tolerances.
+    /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
         let outputs = self.outputs()?;
         tolerance::output_tolerances(&outputs, &self.tolerances()?)
@@ -138,7 +167,7 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the equilibrium, the modes and the function.
+    /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
         self.solve()?.sensitivities()
     }
@@ -153,26 +182,42 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes, sensitivities and tolerances.
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
         self.solve()?.first_order()
     }
 
-    /// How each mode whirls ([`modes::whirls`](crate::modes::whirls)).
+    /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`](crate::modes::whirls)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for whirl in study.whirls()?.into_iter().flatten() {
+    ///     println!("{whirl}");
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of equilibrium and modes.
+    /// As [`Study::modes`].
     pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
         Ok(self.solve()?.whirls())
     }
 }
 
 impl<M: DirectionalKernels> Study<M> {
-    /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
-    /// design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
+    /// Derivatives of the eigenvalue of one mode, counted from 0, and of all eigenvalues equal to it, along a direction in the inputs
+    /// and design variables ([`directional_derivatives`](crate::clusters::directional_derivatives)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let (inputs, design) = ([1.0], [0.0, 0.0]);
+    /// let slopes = study.directional_derivatives(0, (&inputs, &design))?;
+    /// println!("{:?} rad/s per rad/s", slopes.frequencies);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes and the function.
+    /// As [`Study::sensitivities`]; [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`].
     pub fn directional_derivatives(
         &self,
         mode: usize,
@@ -183,8 +228,15 @@ impl<M: DirectionalKernels> Study<M> {
 
     /// Derivatives of the shapes of one mode, counted from 0 ([`shape_sensitivity`](crate::shapes::shape_sensitivity)).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let slopes = study.shape_sensitivity(0)?;
+    /// println!("{}", slopes.right_by_design[Pendulum::l.index()][Pendulum::theta.index()]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of equilibrium, modes and the function.
+    /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
         self.solve()?.shape_sensitivity(mode)
     }
@@ -200,28 +252,41 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes and the function.
+    /// As [`Study::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
         self.solve()?.mode_curvature(mode)
     }
 
     /// Spread of every mode to second order ([`second_order`](crate::second_order::second_order)).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.second_order()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
+    /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
         self.solve()?.second_order()
     }
 
     /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // One mode has no other to mix with.
+    /// assert!(study.clusters()?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of equilibrium, modes, tolerances and the function.
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
         self.solve()?.clusters()
     }
 
-    /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
+    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
     /// ([`summary`](crate::summary::summary)).
     ///
     /// ```
@@ -231,7 +296,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes, tolerances and the function.
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
         self.solve()?.summary()
     }
@@ -249,13 +314,24 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of equilibrium, modes, tolerances and the function.
+    /// As [`Study::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for a
+    /// band that makes no sense.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
         self.solve()?.margin(mode, band)
     }
 
     /// As [`Study::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
     /// probability that it is unstable.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::tolerance::Band;
+    ///
+    /// let band = Band::around(Pendulum::omega.any(), 0.1);
+    /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Study::margin`].
@@ -280,12 +356,25 @@ impl<M: BatchKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the nominal equilibrium and modes, of the tolerances, and [`Error::Threads`].
+    /// As [`Study::modes`] and [`Study::tolerances`], of the nominal design; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
         self.solve()?.monte_carlo()
     }
 
-    /// As [`Study::monte_carlo`]; `progress` is called with a number of samples whenever that many more are done.
+    /// As [`Study::monte_carlo`]; `progress` is called with the number of samples done since its last call.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use std::sync::atomic::{AtomicUsize, Ordering};
+    ///
+    /// let done = AtomicUsize::new(0);
+    /// let count = |samples| {
+    ///     done.fetch_add(samples, Ordering::Relaxed);
+    /// };
+    /// study.samples(500).monte_carlo_with_progress(&count)?;
+    /// assert_eq!(done.into_inner(), 500);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Study::monte_carlo`].

@@ -1,6 +1,6 @@
 //! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
 
-use super::Study;
+use super::{Study, Value};
 use crate::branches::{self, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell};
 use crate::equilibrium::Search;
@@ -12,7 +12,7 @@ use crate::tolerance::{FirstOrder, Tolerances};
 use crate::{Error, Input};
 
 impl<M: BatchKernels> Study<M> {
-    /// Equilibria and modes at each value of one input, and the critical values on the way ([`sweep::sweep`]).
+    /// Equilibria and modes at each value of one input, and the critical values between them ([`sweep::sweep`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -22,8 +22,12 @@ impl<M: BatchKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
-    pub fn sweep(&self, input: Input<M>, values: &[f64]) -> Result<Sweep, Error> {
+    /// [`Error::UnknownHandle`], [`Error::NotAssembled`]; a point that fails carries its own error.
+    pub fn sweep(
+        &self,
+        input: Input<M>,
+        values: &[impl Into<Value> + Copy],
+    ) -> Result<Sweep, Error> {
         let Self {
             mechanism,
             settings,
@@ -31,18 +35,29 @@ impl<M: BatchKernels> Study<M> {
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
         let following = settings.following();
-        sweep::sweep(mechanism, u, b, &start, following, input.any(), values)
+        let values = settings.values_si(input.any(), values)?;
+        sweep::sweep(mechanism, u, b, &start, following, input.any(), &values)
     }
 
-    /// Shows equilibrium, modes and their total derivatives at each value of one input to `each`, in order
+    /// Calls `each` with equilibrium, modes and their total derivatives at each value of one input, in order
     /// ([`sweep::sensitivity_sweep`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// study.sensitivity_sweep(Pendulum::omega, &[4.0, 4.5, 5.0], |point, slopes| {
+    ///     if let Ok(slopes) = slopes {
+    ///         println!("{}: {:?}", point.value, slopes.modes[0].omega_by_design);
+    ///     }
+    /// })?;
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// [`Error::UnknownHandle`]; a point that fails carries its own error.
+    /// As [`Study::sweep`].
     pub fn sensitivity_sweep(
         &self,
         input: Input<M>,
-        values: &[f64],
+        values: &[impl Into<Value> + Copy],
         each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let Self {
@@ -51,19 +66,28 @@ impl<M: BatchKernels> Study<M> {
         } = self;
         let point = (&settings.inputs[..], &settings.design[..]);
         let start = settings.assembled_start(mechanism)?;
-        let (following, along) = (settings.following(), (input.any(), values));
+        let values = settings.values_si(input.any(), values)?;
+        let (following, along) = (settings.following(), (input.any(), &values[..]));
         sweep::sensitivity_sweep(mechanism, point, &start, following, along, each)
     }
 
-    /// First-order spread of the frequencies at each value of one input, in order; modes keep their place and their label
+    /// First-order spread of the frequencies at each value of one input, in order; modes keep their position and their label
     /// ([`Study::sensitivity_sweep`], [`tolerance::first_order`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for spread in study.first_order_sweep(Pendulum::omega, &[4.0, 4.5, 5.0])? {
+    ///     println!("{}", spread?);
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the tolerances, [`Error::UnknownHandle`]; a value that fails has its own error.
+    /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn first_order_sweep(
         &self,
         input: Input<M>,
-        values: &[f64],
+        values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
         let tolerances = self.tolerances()?;
         let mut found = Vec::with_capacity(values.len());
@@ -85,11 +109,11 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the tolerances, [`Error::UnknownHandle`]; a point that fails carries its own error.
+    /// As [`Study::sweep`] and [`Study::tolerances`].
     pub fn campbell(
         &self,
         input: Input<M>,
-        values: &[f64],
+        values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
         let Self {
@@ -100,16 +124,13 @@ impl<M: DirectionalKernels> Study<M> {
         let start = settings.assembled_start(mechanism)?;
         let tolerances = settings.tolerances()?;
         let orders: Vec<Line> = orders.iter().map(|&order| order.into()).collect();
-        let axes = Axes {
-            input: input.any(),
-            values,
-            orders: &orders,
-        };
+        let values = settings.values_si(input.any(), values)?;
+        let axes = Axes::new(input.any(), &values, &orders);
         let following = settings.following();
         campbell::campbell(mechanism, u, b, &start, following, &axes, &tolerances)
     }
 
-    /// Branches of equilibria while an input goes from `low` to `high`, SI ([`branches::branches`]).
+    /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -121,15 +142,30 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the function.
-    pub fn branches(&self, input: Input<M>, low: f64, high: f64) -> Result<Branches, Error> {
-        self.branches_with(&Continuation::new(input.any(), low, high), None)
+    /// As [`Study::equilibrium`] at the low end; [`Error::Setting`], [`Error::UnknownHandle`].
+    pub fn branches(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Branches, Error> {
+        self.branches_with(&self.continuation(input, low, high)?, None)
     }
 
-    /// As [`Study::branches`], with other settings and with starts from many places.
+    /// As [`Study::branches`], with other settings, and with a search that starts from many places.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::equilibrium::Search;
+    ///
+    /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.1);
+    /// let search = Search::new([-3.0], [3.0]);
+    /// println!("{}", study.branches_with(&settings, Some(&search))?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Study::branches`].
     pub fn branches_with(
         &self,
         continuation: &Continuation,
@@ -144,7 +180,31 @@ impl<M: DirectionalKernels> Study<M> {
         branches::branches(mechanism, u, b, &start, continuation, search)
     }
 
-    /// First critical value of an input between `low` and `high`, SI ([`sweep::critical_state`]).
+    /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be changed and passed to
+    /// [`Study::branches_with`].
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let fine = study.continuation(Pendulum::omega, 0.0, 6.0)?.max_step(0.01);
+    /// println!("{}", study.branches_with(&fine, None)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownHandle`].
+    pub fn continuation(
+        &self,
+        input: Input<M>,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
+    ) -> Result<Continuation, Error> {
+        let input = input.any();
+        let low = self.settings.input_si(input, low.into())?;
+        let high = self.settings.input_si(input, high.into())?;
+        Ok(Continuation::new(input, low, high))
+    }
+
+    /// First critical value of an input between `low` and `high` ([`sweep::critical_state`]).
     ///
     /// ```
     #[doc = include_str!("example.txt")]
@@ -154,12 +214,13 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// [`Error::NotInRange`], [`Error::Setting`], [`Error::UnknownHandle`]; where the branch cannot be followed so far,
+    /// as [`Study::equilibrium`].
     pub fn critical_state(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
     ) -> Result<CriticalState, Error> {
         let Self {
             mechanism,
@@ -167,19 +228,25 @@ impl<M: DirectionalKernels> Study<M> {
         } = self;
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low, high);
+        let range = settings.range(input.any(), low.into(), high.into())?;
         sweep::critical_state(mechanism, u, b, &start, range)
     }
 
     /// As [`Study::critical_state`], with its sensitivity and spread ([`sweep::critical_tolerance`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.critical_tolerance(Pendulum::omega, 0.0, 6.0)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    /// As [`Study::critical_state`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn critical_tolerance(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
         let tolerances = self.tolerances()?;
         let state = self.critical_state(input, low, high)?;
@@ -192,7 +259,7 @@ impl<M: DirectionalKernels> Study<M> {
 }
 
 impl<M: Kernels> Study<M> {
-    /// Values of an input between `low` and `high`, SI, where a frequency meets a line: a number `k` for the line
+    /// Values of an input between `low` and `high` where a frequency meets a line: a number `k` for the line
     /// `k u`, or a [`Line`]
     /// ([`sweep::crossings`]).
     ///
@@ -204,12 +271,12 @@ impl<M: Kernels> Study<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Study::modes`] at the first point; [`Error::Setting`], [`Error::UnknownHandle`].
     pub fn crossings(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<Crossing>, Error> {
         let Self {
@@ -218,20 +285,28 @@ impl<M: Kernels> Study<M> {
         } = self;
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low, high);
+        let range = settings.range(input.any(), low.into(), high.into())?;
         let (following, line) = (settings.following(), line.into());
         sweep::crossings(mechanism, u, b, &start, following, range, line)
     }
 
     /// As [`Study::crossings`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for resonance in study.crossing_tolerances(Pendulum::omega, 0.5, 3.5, 1.0)? {
+    ///     println!("{resonance}");
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn crossing_tolerances(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let tolerances = self.tolerances()?;
@@ -239,16 +314,23 @@ impl<M: Kernels> Study<M> {
         Ok(spreads(&self.mechanism, &found, &tolerances))
     }
 
-    /// Values of an input between `low` and `high`, SI, where an oscillation begins or ceases to grow
+    /// Values of an input between `low` and `high` where an oscillation begins or ceases to grow
     /// ([`sweep::flutter_onsets`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // A bar without damping never flutters.
+    /// assert!(study.flutter_onsets(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Study::crossings`].
     pub fn flutter_onsets(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
     ) -> Result<Vec<Crossing>, Error> {
         let Self {
             mechanism,
@@ -256,19 +338,25 @@ impl<M: Kernels> Study<M> {
         } = self;
         let (u, b) = (&settings.inputs, &settings.design);
         let start = settings.assembled_start(mechanism)?;
-        let range = settings.range(input.any(), low, high);
+        let range = settings.range(input.any(), low.into(), high.into())?;
         sweep::flutter_onsets(mechanism, u, b, &start, settings.following(), range)
     }
 
     /// As [`Study::flutter_onsets`], with their sensitivities and spreads ([`sweep::crossing_tolerance`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.flutter_onset_tolerances(Pendulum::omega, 4.0, 6.0)?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of [`Study::flutter_onsets`] and [`Study::tolerances`]; a value without a derivative says so itself.
+    /// As [`Study::crossings`] and [`Study::tolerances`]; a value without a derivative carries its own error.
     pub fn flutter_onset_tolerances(
         &self,
         input: Input<M>,
-        low: f64,
-        high: f64,
+        low: impl Into<Value>,
+        high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
         let tolerances = self.tolerances()?;
         let found = self.flutter_onsets(input, low, high)?;

@@ -1,5 +1,6 @@
 //! What is set of a study, and the questions that need no type of mechanism.
 
+use super::value::Value;
 use std::borrow::Cow;
 
 use crate::algebra::{Matrix, Vector};
@@ -76,46 +77,65 @@ impl Settings {
         }
     }
 
-    pub(super) fn set_input(&mut self, input: Input, value: f64) {
-        match self.inputs.get_mut(input.index()) {
-            Some(place) => *place = value,
-            None => self.refuse("input", input.index(), self.inputs.len()),
+    pub(super) fn set_input(&mut self, input: Input, value: Value) {
+        let value = self.input_si(input, value);
+        let place = self.inputs.get_mut(input.index());
+        set(place, value, &mut self.fault);
+    }
+
+    pub(super) fn set_design(&mut self, variable: DesignVariable, value: Value) {
+        let value = self.design_si(variable, value);
+        let place = self.design.get_mut(variable.index());
+        set(place, value, &mut self.fault);
+    }
+
+    pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, held: bool) {
+        let all = self.description.coordinates.get(coordinate.index());
+        let value = match all {
+            Some(info) => Ok(value.si(&info.unit)),
+            None => Err(self.unknown("coordinate", coordinate.index(), self.start.len())),
+        };
+        let place = self.start.get_mut(coordinate.index());
+        set(place, value, &mut self.fault);
+        if let Some(place) = self.held.get_mut(coordinate.index()) {
+            *place = held;
         }
     }
 
-    pub(super) fn set_design(&mut self, variable: DesignVariable, value: f64) {
-        match self.design.get_mut(variable.index()) {
-            Some(place) => *place = value,
-            None => self.refuse("design variable", variable.index(), self.design.len()),
+    pub(super) fn set_tolerance(&mut self, variable: DesignVariable, half_width: Value) {
+        let half_width = self.design_si(variable, half_width).map(Width::Absolute);
+        let place = self.half_widths.get_mut(variable.index());
+        set(place, half_width, &mut self.fault);
+    }
+
+    pub(super) fn set_relative_tolerance(&mut self, variable: DesignVariable, fraction: f64) {
+        let width = self.design_si(variable, Value::Si(fraction));
+        let place = self.half_widths.get_mut(variable.index());
+        set(place, width.map(Width::Relative), &mut self.fault);
+    }
+
+    /// A value of an input, SI.
+    pub(super) fn input_si(&self, input: Input, value: Value) -> Result<f64, Error> {
+        match self.description.inputs.get(input.index()) {
+            Some(info) => Ok(value.si(&info.unit)),
+            None => Err(self.unknown("input", input.index(), self.inputs.len())),
         }
     }
 
-    pub(super) fn set_start(&mut self, coordinate: Coordinate, value: f64, held: bool) {
-        let index = coordinate.index();
-        match self.start.get_mut(index) {
-            Some(place) => {
-                *place = value;
-                self.held[index] = held;
-            }
-            None => self.refuse("coordinate", index, self.start.len()),
+    fn design_si(&self, variable: DesignVariable, value: Value) -> Result<f64, Error> {
+        match self.description.design.get(variable.index()) {
+            Some(info) => Ok(value.si(&info.unit)),
+            None => Err(self.unknown("design variable", variable.index(), self.design.len())),
         }
     }
 
-    pub(super) fn set_width(&mut self, variable: DesignVariable, width: Width) {
-        match self.half_widths.get_mut(variable.index()) {
-            Some(place) => *place = width,
-            None => self.refuse("design variable", variable.index(), self.half_widths.len()),
-        }
-    }
-
-    fn refuse(&mut self, kind: &'static str, index: usize, count: usize) {
-        let mechanism = self.description.name.clone();
-        self.fault.get_or_insert(Error::UnknownHandle {
+    fn unknown(&self, kind: &'static str, index: usize, count: usize) -> Error {
+        Error::UnknownHandle {
             kind,
             index,
-            mechanism,
+            mechanism: self.description.name.clone(),
             count,
-        });
+        }
     }
 
     fn ready(&self) -> Result<(), Error> {
@@ -144,13 +164,19 @@ impl Settings {
         }
     }
 
-    pub(super) fn range(&self, input: Input, low: f64, high: f64) -> Range {
-        Range {
-            input,
-            low,
-            high,
-            steps: self.steps,
-        }
+    pub(super) fn range(&self, input: Input, low: Value, high: Value) -> Result<Range, Error> {
+        let (low, high) = (self.input_si(input, low)?, self.input_si(input, high)?);
+        Ok(Range::new(input, low, high).steps(self.steps))
+    }
+
+    /// Values of an input, SI.
+    pub(super) fn values_si(
+        &self,
+        input: Input,
+        values: &[impl Into<Value> + Copy],
+    ) -> Result<Vec<f64>, Error> {
+        let si = |&value: &_| self.input_si(input, Into::into(value));
+        values.iter().map(si).collect()
     }
 
     pub(super) fn sampling<'a>(
@@ -202,5 +228,16 @@ impl Settings {
         let family = self.family.unwrap_or(Family::of(&self.description));
         let found = modes::modes_at(&state, family)?;
         Ok((state, found))
+    }
+}
+
+/// Puts a value in its place, or keeps the first reason why not.
+fn set<T>(place: Option<&mut T>, value: Result<T, Error>, fault: &mut Option<Error>) {
+    match (place, value) {
+        (Some(place), Ok(value)) => *place = value,
+        (_, Err(error)) => {
+            fault.get_or_insert(error);
+        }
+        (None, Ok(_)) => {}
     }
 }

@@ -1,4 +1,4 @@
-//! A study with its equilibrium and modes: what follows from them is not solved again for every question.
+//! A study with its equilibrium and modes, which are solved once for all questions.
 
 use super::Study;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
@@ -11,9 +11,10 @@ use crate::summary::{self, Summary};
 use crate::tolerance::{self, OutputTolerances};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
-/// The equilibrium and the modes of a study, and what else can be asked of them. Each method is that of [`Study`] of the same
-/// name.
+/// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
+/// the same name.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Solved<'a, M> {
     pub(super) study: &'a Study<M>,
     /// The equilibrium.
@@ -23,26 +24,44 @@ pub struct Solved<'a, M> {
 }
 
 impl<M: Kernels> Solved<'_, M> {
-    /// How the equilibrium moves ([`sensitivity::equilibrium_shift`]).
+    /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.equilibrium_shift()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn equilibrium_shift(&self) -> Result<EquilibriumShift, Error> {
         sensitivity::equilibrium_shift(&self.study.mechanism, &self.equilibrium)
     }
 
     /// Values and total derivatives of the outputs ([`sensitivity::output_sensitivities`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.outputs()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Solved::equilibrium_shift`].
     pub fn outputs(&self) -> Result<OutputSensitivities, Error> {
         sensitivity::output_sensitivities(&self.study.mechanism, &self.equilibrium)
     }
 
     /// First-order spread of the outputs ([`tolerance::output_tolerances`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.output_tolerances()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of output sensitivities and tolerances.
+    /// As [`Solved::equilibrium_shift`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
         let tolerances = self.study.tolerances()?;
         tolerance::output_tolerances(&self.outputs()?, &tolerances)
@@ -50,34 +69,62 @@ impl<M: Kernels> Solved<'_, M> {
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.sensitivities()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Solved::equilibrium_shift`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
         sensitivity::sensitivities(&self.study.mechanism, &self.equilibrium, &self.modes)
     }
 
     /// First-order spread of the frequencies ([`tolerance::first_order`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.first_order()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of sensitivities and tolerances.
+    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
         let tolerances = self.study.tolerances()?;
         let slopes = self.sensitivities()?;
         tolerance::first_order(&self.modes, &slopes, &tolerances)
     }
 
-    /// How each mode whirls ([`modes::whirls`]).
+    /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// for whirl in study.solve()?.whirls().into_iter().flatten() {
+    ///     println!("{whirl}");
+    /// }
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
     pub fn whirls(&self) -> Vec<Option<Whirl>> {
         modes::whirls(&self.study.mechanism, &self.equilibrium, &self.modes)
     }
 }
 
 impl<M: DirectionalKernels> Solved<'_, M> {
-    /// Derivatives of the eigenvalues of one mode, counted from 0, and of those equal to it, along a change of inputs and
-    /// design variables ([`clusters::directional_derivatives`]).
+    /// Derivatives of the eigenvalue of one mode, counted from 0, and of all eigenvalues equal to it, along a direction in the inputs
+    /// and design variables ([`clusters::directional_derivatives`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let slopes = study.solve()?.directional_derivatives(0, (&[1.0], &[0.0, 0.0]))?;
+    /// println!("{:?} rad/s per rad/s", slopes.frequencies);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Solved::sensitivities`]; [`Error::WrongLength`], [`Error::NoSuchMode`], [`Error::Defective`].
     pub fn directional_derivatives(
         &self,
         mode: usize,
@@ -93,8 +140,15 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 
     /// Derivatives of the shapes of one mode, counted from 0 ([`shapes::shape_sensitivity`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let slopes = study.solve()?.shape_sensitivity(0)?;
+    /// println!("{}", slopes.right_by_design[Pendulum::l.index()][Pendulum::theta.index()]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Solved::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn shape_sensitivity(&self, mode: usize) -> Result<ShapeSensitivity, Error> {
         let Self {
             study,
@@ -106,8 +160,15 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 
     /// First and second derivatives of one mode, counted from 0 ([`second_order::mode_curvature`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let second = study.solve()?.mode_curvature(0)?.lambda.by_design;
+    /// println!("{second:?}");
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of the function.
+    /// As [`Solved::sensitivities`]; [`Error::NoSuchMode`], [`Error::ClusteredMode`].
     pub fn mode_curvature(&self, mode: usize) -> Result<ModeCurvature, Error> {
         let Self {
             study,
@@ -119,8 +180,14 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 
     /// Spread of every mode to second order ([`second_order::second_order`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.second_order()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of tolerances; a mode without second derivatives says so itself.
+    /// As [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
         let Self {
             study,
@@ -138,8 +205,14 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 
     /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.solve()?.clusters()?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of tolerances and the function.
+    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
         let Self {
             study,
@@ -149,11 +222,17 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
     }
 
-    /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
+    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
     /// ([`summary::summary`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.summary()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of tolerances and the function.
+    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
         let Self {
             study,
@@ -166,14 +245,34 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
     /// ([`second_order::mode_margin`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::tolerance::Band;
+    ///
+    /// let band = Band::around(Pendulum::omega.any(), 0.1);
+    /// println!("{}", study.solve()?.margin(0, band)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of tolerances and the function.
+    /// As [`Solved::mode_curvature`] and [`Study::tolerances`]; [`Error::NotOscillating`], and [`Error::Setting`] for a
+    /// band that makes no sense.
     pub fn margin(&self, mode: usize, band: Band) -> Result<ModeMargin, Error> {
         self.margin_of(mode, Quantity::Frequency, band)
     }
 
     /// As [`Solved::margin`] for any quantity of the mode: [`Quantity::Growth`] between zero and infinity is the
     /// probability that it is unstable.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::tolerance::Band;
+    ///
+    /// let band = Band::around(Pendulum::omega.any(), 0.1);
+    /// println!("{}", study.solve()?.margin_of(0, Quantity::NaturalFrequency, band)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Solved::margin`].
@@ -204,13 +303,28 @@ impl<M: DirectionalKernels> Solved<'_, M> {
 impl<M: BatchKernels> Solved<'_, M> {
     /// Monte Carlo with re-solved equilibria ([`tolerance::monte_carlo`]).
     ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let study = study.samples(500);
+    /// println!("{}", study.solve()?.monte_carlo()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// Those of tolerances and the function.
+    /// As [`Study::tolerances`]; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
         self.sample(None)
     }
 
-    /// As [`Solved::monte_carlo`]; `progress` is called with a number of samples whenever that many more are done.
+    /// As [`Solved::monte_carlo`]; `progress` is called with the number of samples done since its last call.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let study = study.samples(500);
+    /// let dots = |_| print!(".");
+    /// println!("{}", study.solve()?.monte_carlo_with_progress(&dots)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Solved::monte_carlo`].

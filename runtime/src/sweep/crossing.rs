@@ -27,6 +27,7 @@ impl From<f64> for Line {
 
 /// What a mode meets at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Condition {
     /// Its frequency equals a line: `Im s = ratio u + offset`.
     Line(Line),
@@ -36,6 +37,7 @@ pub enum Condition {
 
 /// A state where a mode meets a condition.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Crossing {
     /// The input that was varied.
     pub input: Input,
@@ -157,7 +159,7 @@ fn meetings(
     let mut tracker = Tracker::new(mechanism, values, start, following, range.input);
     tracker.advance(range.low)?.1?;
     let mut found = Vec::new();
-    for value in range.steps() {
+    for value in range.values() {
         let before = tracker.last.clone();
         if !matches!(tracker.advance(value), Ok((_, Ok(_)))) {
             continue;

@@ -5,6 +5,7 @@ use super::points::CriticalState;
 use crate::algebra::{Matrix, Values, Vector, all_finite, dot, largest, times};
 use crate::branches::{Bordered, SpecialKind};
 use crate::constraints::Structure;
+use crate::error::NoDerivative;
 use crate::kernels::{DirectionalKernels, Gradient, Kernels};
 use crate::sensitivity::{check_state, outside_domain, sensitivities};
 use crate::{Equilibrium, Error};
@@ -30,7 +31,7 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
     }
     if crossing.condition == Condition::FlutterOnset && there.condition > MERGED {
         return Err(Error::NoSensitivity {
-            reason: "two frequencies merge there: the least damping moves the onset by a finite amount",
+            reason: NoDerivative::Merge,
         });
     }
     let (quantity, other) = crossing.condition.sides();
@@ -40,13 +41,13 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
     };
     let Some(&by_input) = slopes.by_input.get(crossing.input.index()) else {
         return Err(Error::NoSensitivity {
-            reason: "there is no such input",
+            reason: NoDerivative::UnknownInput,
         });
     };
     let rate = by_input - other;
     if rate.abs() <= 1e-12 * other.abs().max(by_input.abs()) || rate == 0.0 {
         return Err(Error::NoSensitivity {
-            reason: "the two sides touch without crossing",
+            reason: NoDerivative::Touch,
         });
     }
     let slopes = slopes.by_design.map(|value| -value / rate);
@@ -86,7 +87,7 @@ pub fn critical_sensitivity(
     check_state(kernels, at)?;
     if input >= at.inputs.len() {
         return Err(Error::NoSensitivity {
-            reason: "there is no such input",
+            reason: NoDerivative::UnknownInput,
         });
     }
     let (by_input, by_design) = kernels.residual_partials(&at.coordinates, &at.inputs, &at.design);
@@ -160,7 +161,7 @@ impl Crossed {
         let det = a * d - b * c;
         if det.is_nan() || det.abs() <= 1e-12 * b * b {
             return Err(Error::NoSensitivity {
-                reason: "the stiffness does not depend on the input",
+                reason: NoDerivative::IndependentOfInput,
             });
         }
         let motions = Structure::of(&at.description).motions();
@@ -176,7 +177,7 @@ impl Crossed {
             let scale = rates[0].abs() + b.abs() * if share.is_finite() { share } else { 0.0 };
             if dot(&critical.w, force).abs() > UNFORCED * scale * motion {
                 return Err(Error::NoSensitivity {
-                    reason: "a design variable pushes along the critical mode and destroys the bifurcation",
+                    reason: NoDerivative::Imperfection,
                 });
             }
             result[j] = (c * rates[0] - a * rates[1]) / det;

@@ -11,6 +11,7 @@ use crate::{Complex, Description, Error, Input, Shared};
 
 /// What happens at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Event {
     /// The lowest mode loses its stiffness.
     Critical,
@@ -29,6 +30,7 @@ pub enum Event {
 
 /// A value of an input at which something happens, and how tolerances move it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EventTolerance {
     /// What happens.
     pub event: Event,
@@ -42,6 +44,8 @@ pub struct EventTolerance {
     pub sigma_level: f64,
     /// Which modes it was found with.
     pub family: Family,
+    /// The inputs there, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -56,6 +60,7 @@ impl EventTolerance {
     }
 
     /// Standard deviation of the value, SI; `None` where it has no derivative.
+    #[must_use]
     pub fn sigma(&self) -> Option<f64> {
         self.spread.as_ref().ok().map(|spread| spread.sigma)
     }
@@ -75,6 +80,7 @@ pub fn critical_tolerance(
             .and_then(|slopes| spread(critical.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: Family::General,
+        inputs: critical.equilibrium.inputs.clone(),
         description: critical.equilibrium.description.clone(),
     }
 }
@@ -105,6 +111,7 @@ pub fn crossing_tolerance(
             .and_then(|slopes| spread(crossing.value, slopes, tolerances)),
         sigma_level: tolerances.sigma_level(),
         family: crossing.modes.family,
+        inputs: crossing.equilibrium.inputs.clone(),
         description: crossing.equilibrium.description.clone(),
     }
 }

@@ -85,7 +85,13 @@ impl Station {
                 equilibrium: Ok(last.equilibrium.clone()),
                 modes: Ok(last.modes.clone()),
             },
-            slopes: slopes.then(|| Ok(Sensitivities::blank(&last.modes, Method::Adjoint))),
+            slopes: slopes.then(|| {
+                Ok(Sensitivities::blank(
+                    &last.equilibrium,
+                    &last.modes,
+                    Method::Adjoint,
+                ))
+            }),
             smooth: true,
         }
     }
@@ -99,12 +105,15 @@ impl Station {
         } = &mut self.point;
         *value = block.values.0[lane];
         if let (Ok(state), Ok(modes)) = (equilibrium, modes) {
-            state.inputs[tracker.input.index()] = *value;
+            let input = tracker.input.index();
+            state.inputs[input] = *value;
+            modes.inputs[input] = *value;
             block.read_state(lane, tracker.mechanism, state);
             let before = modes.least_lambda();
             block.read_modes(lane, modes);
             self.smooth = even(before, modes.least_lambda());
             if let Some(Ok(slopes)) = &mut self.slopes {
+                slopes.inputs[input] = *value;
                 block.read_slopes(lane, modes, slopes);
             }
         }

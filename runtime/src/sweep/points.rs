@@ -8,6 +8,7 @@ use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
 /// A sweep: its points read as a slice.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sweep {
     /// The swept input.
     pub input: Input,
@@ -17,6 +18,8 @@ pub struct Sweep {
     /// rounding, each on the branch before it. Looked for when a stable equilibrium is wanted and the values ascend or
     /// descend.
     pub critical: Vec<CriticalState>,
+    /// The inputs, SI; all but the swept one keep their value.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -49,6 +52,7 @@ impl<'a> IntoIterator for &'a Sweep {
 
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SweepPoint {
     /// Value of the swept input, SI.
     pub value: f64,
@@ -60,6 +64,7 @@ pub struct SweepPoint {
 
 /// A state where `Khat` is singular.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CriticalState {
     /// The input that was varied.
     pub input: Input,

@@ -1,10 +1,12 @@
 //! A range of one input in which something is looked for.
 
 use crate::arguments::check_input;
+use crate::setters::setters;
 use crate::{Any, Description, Error, Input};
 
 /// Where to look: `steps` equal steps of one input from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Range<M = Any> {
     /// The input that varies.
     pub input: Input<M>,
@@ -12,12 +14,26 @@ pub struct Range<M = Any> {
     pub low: f64,
     /// Where it ends, SI; below `low` to search downwards.
     pub high: f64,
-    /// Number of steps; two events within one step are not told apart.
+    /// Number of steps; two events within one step are not told apart. 200 unless set.
     pub steps: usize,
 }
 
 impl<M> Range<M> {
+    setters!(steps: usize);
+
+    /// From `low` to `high`, SI.
+    #[must_use]
+    pub fn new(input: Input<M>, low: f64, high: f64) -> Self {
+        Self {
+            input,
+            low,
+            high,
+            steps: 200,
+        }
+    }
+
     /// The same, of any mechanism.
+    #[must_use]
     pub fn any(&self) -> Range {
         Range {
             input: self.input.any(),
@@ -30,7 +46,7 @@ impl<M> Range<M> {
 
 impl Range {
     /// The ends of the steps, `low` excluded.
-    pub(super) fn steps(&self) -> impl Iterator<Item = f64> + use<> {
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> + use<> {
         let (low, high, count) = (self.low, self.high, self.steps);
         (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
     }

@@ -42,6 +42,7 @@ pub fn sweep(
         input,
         points,
         critical,
+        inputs: u.into(),
         description,
     })
 }

@@ -8,6 +8,7 @@ use crate::equilibrium::{Path, Policy, Problem, settle, settle_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another};
 use crate::scalar::{Instructions, WIDTH};
+use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
 
 /// Assurance below which a mode counts as not recognised, so that a smaller step is tried.
@@ -17,6 +18,7 @@ const HALVINGS: usize = 6;
 
 /// What is followed, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Following {
     /// Which equilibrium.
     pub policy: Policy,
@@ -25,6 +27,10 @@ pub struct Following {
     /// The vector instructions with which neighbouring values of a sweep are solved side by side where the mechanism allows
     /// it; `None` solves each alone. Results are the same up to rounding.
     pub vectors: Option<Instructions>,
+}
+
+impl Following {
+    setters!(policy: Policy, family: Option<Family>, vectors: Option<Instructions>);
 }
 
 impl Default for Following {

@@ -7,6 +7,7 @@ use crate::{Description, Error};
 
 /// Tolerances of the design variables.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Tolerances {
     half_widths: Vector,
     sigma_level: f64,
@@ -90,21 +91,25 @@ impl Tolerances {
     }
 
     /// Half-widths, SI.
+    #[must_use]
     pub fn half_widths(&self) -> &[f64] {
         &self.half_widths
     }
 
     /// How many standard deviations a half-width holds.
+    #[must_use]
     pub fn sigma_level(&self) -> f64 {
         self.sigma_level
     }
 
     /// The correlation matrix, when variables are not independent.
+    #[must_use]
     pub fn correlation(&self) -> Option<&Matrix> {
         self.correlation.as_ref()
     }
 
     /// Standard deviations, SI.
+    #[must_use]
     pub fn sigmas(&self) -> &[f64] {
         &self.sigmas
     }
@@ -131,6 +136,7 @@ impl Tolerances {
     /// `sqrt(S Sigma S^T)` (eq. 27 for several variables), in the unit of the quantity when the slopes are by SI units.
     ///
     /// Infinite where it exceeds the range of a double, NaN where a slope is not finite or there is not one for each variable.
+    #[must_use]
     #[inline]
     pub fn sigma(&self, slopes: &[f64]) -> f64 {
         let variance = sum(&self.contributions(&self.parts(slopes, 1.0)));
@@ -142,6 +148,7 @@ impl Tolerances {
     }
 
     /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`; NaN as [`Self::sigma`].
+    #[must_use]
     pub fn covariance(&self, a: &[f64], b: &[f64]) -> f64 {
         let (a, b) = (self.parts(a, 1.0), self.parts(b, 1.0));
         dot(&a, &self.correlated(&b))

@@ -1,4 +1,4 @@
-//! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to believe it.
+//! First-order spread: `sigma^2 = S Sigma S^T` (eq. 27 for several variables), with a measure of when to trust it.
 
 use super::{Spread, Tolerances};
 use crate::algebra::{Vector, greater};
@@ -17,6 +17,7 @@ pub const TRUSTED_DISTANCE: f64 = 4.5;
 
 /// First-order spread of one mode.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ModeTolerance {
     /// What it does, with the nominal frequency of a mode that oscillates.
     pub behaviour: Behaviour,
@@ -50,12 +51,14 @@ pub struct ModeTolerance {
 
 impl ModeTolerance {
     /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without one.
+    #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
         let own = self.frequency.as_ref().unwrap_or(&self.lambda);
         &own.variance_shares
     }
 
     /// Whether no other mode is so near that tolerances bring the two together.
+    #[must_use]
     pub fn alone(&self) -> bool {
         !self.clustered && self.distance_to_neighbour >= TRUSTED_DISTANCE
     }
@@ -63,6 +66,7 @@ impl ModeTolerance {
 
 /// First-order spread of all modes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FirstOrder {
     /// One entry for each mode.
     pub modes: Vec<ModeTolerance>,
@@ -73,6 +77,8 @@ pub struct FirstOrder {
     pub distance_to_critical: f64,
     /// Which modes they belong to.
     pub family: Family,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
 }
@@ -116,6 +122,7 @@ pub fn first_order(
         modes: found,
         sigma_level: tolerances.sigma_level(),
         family: modes.family,
+        inputs: sensitivities.inputs.clone(),
         description: modes.description.clone(),
     })
 }

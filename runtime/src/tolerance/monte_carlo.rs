@@ -12,6 +12,7 @@ use crate::algebra::Vector;
 use crate::kernels::BatchKernels;
 use crate::modes::{CLUSTER_GAP, Family, clusters};
 use crate::scalar::{Batch, Instructions, WIDTH};
+use crate::setters::setters;
 use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 
 /// Samples worked on by one thread at a time, whole batches; fixed, so that sums are formed in the same order on any machine.
@@ -19,6 +20,7 @@ const CHUNK: usize = 256;
 
 /// How to sample.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Sampling<'a> {
     /// Number of samples.
     pub samples: usize,
@@ -40,6 +42,18 @@ pub struct Sampling<'a> {
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
 }
 
+impl<'a> Sampling<'a> {
+    setters!(
+        samples: usize,
+        seed: u64,
+        stream: u64,
+        threads: usize,
+        keep_samples: bool,
+        vectors: Option<Instructions>,
+        progress: Option<&'a (dyn Fn(usize) + Sync)>,
+    );
+}
+
 impl Default for Sampling<'_> {
     fn default() -> Self {
         Self {
@@ -56,6 +70,7 @@ impl Default for Sampling<'_> {
 
 /// Result of a Monte Carlo run.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MonteCarlo {
     /// Number of samples.
     pub samples: usize,
@@ -78,6 +93,8 @@ pub struct MonteCarlo {
     pub all: Option<Vec<Sample>>,
     /// Which modes they belong to.
     pub family: Family,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
@@ -137,6 +154,7 @@ pub fn monte_carlo(
         clustered: clusters(modes, CLUSTER_GAP).contains(&true),
         all: sampling.keep_samples.then_some(sum.samples),
         family: modes.family,
+        inputs: nominal.inputs.clone(),
         description: nominal.description.clone(),
     })
 }

@@ -5,6 +5,7 @@ use crate::equilibrium::Failure;
 
 /// What became of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// It has a stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
     Stable,
@@ -48,6 +49,7 @@ impl From<Stability> for Outcome {
 
 /// How many samples had each outcome; the numbers sum to the number of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counts {
     /// [`Outcome::Stable`].
     pub stable: usize,
@@ -69,6 +71,7 @@ pub struct Counts {
 
 impl Counts {
     /// Sum over all outcomes.
+    #[must_use]
     pub fn total(&self) -> usize {
         self.stable
             + self.divergent

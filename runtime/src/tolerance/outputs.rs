@@ -7,6 +7,7 @@ use crate::{Description, Error, Shared};
 
 /// First-order spread of every output.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OutputTolerances {
     /// Nominal values in the order of the declaration, SI.
     pub values: Vector,
@@ -14,6 +15,8 @@ pub struct OutputTolerances {
     pub spreads: Vec<Option<Spread>>,
     /// Standard deviations that a tolerance holds.
     pub sigma_level: f64,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
 }
@@ -37,6 +40,7 @@ pub fn output_tolerances(
         values: outputs.values.clone(),
         spreads: each.map(spread).collect(),
         sigma_level: tolerances.sigma_level(),
+        inputs: outputs.inputs.clone(),
         description: outputs.description.clone(),
     })
 }

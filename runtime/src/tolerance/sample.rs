@@ -9,6 +9,7 @@ use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 
 /// One sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Its design variables, SI.
     pub design: Vector,

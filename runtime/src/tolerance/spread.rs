@@ -5,6 +5,7 @@ use crate::algebra::Vector;
 
 /// First-order spread of one quantity.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Spread {
     /// Nominal value, SI, which at first order is the mean.
     pub mean: f64,
@@ -21,6 +22,7 @@ pub struct Spread {
 
 impl Spread {
     /// The spread of a quantity from its value and its derivatives by the design variables.
+    #[must_use]
     pub fn new(mean: f64, by_design: Vector, tolerances: &Tolerances) -> Self {
         let (sigma, variance_shares) = tolerances.spread(&by_design);
         Self {

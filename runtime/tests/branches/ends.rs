@@ -10,12 +10,7 @@ fn an_isolated_branch_needs_more_starts() {
         assert_eq!(alone.branches.len(), 1, "{e}");
         assert!(alone.special().is_empty());
         assert_eq!(alone.stable().count(), 1);
-        let search = Search {
-            lower: [-2.0].into(),
-            upper: [2.0].into(),
-            starts: 12,
-            seed: 1,
-        };
+        let search = Search::new([-2.0], [2.0]).starts(12).seed(1);
         let both = of(
             &imperfect,
             &[e, 0.0],
@@ -112,12 +107,7 @@ fn no_equilibrium_of_a_random_field_is_missed() {
             .wrapping_add(1);
         ((state >> 33) as f64 / (1_u64 << 31) as f64) * 2.0 - 1.0
     };
-    let search = Search {
-        lower: [-3.0; 2].into(),
-        upper: [3.0; 2].into(),
-        starts: 40,
-        seed: 5,
-    };
+    let search = Search::new([-3.0; 2], [3.0; 2]).starts(40).seed(5);
     let (mut folds, mut crossings) = (0, 0);
     for trial in 0..40 {
         let mut b: [f64; 7] = std::array::from_fn(|_| random());

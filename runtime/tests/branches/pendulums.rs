@@ -72,12 +72,7 @@ fn the_bent_branch_leads_to_the_hanging_one() {
 
 #[test]
 fn full_turns_are_the_same_branch() {
-    let search = Search {
-        lower: [-20.0].into(),
-        upper: [20.0].into(),
-        starts: 60,
-        seed: 3,
-    };
+    let search = Search::new([-20.0], [20.0]).starts(60).seed(3);
     let found = of(&Pendulum, &BAR, &[0.3], range(0.0, 6.0), Some(&search));
     // Hanging, two bent, upside down.
     assert_eq!(found.branches.len(), 4);

@@ -4,17 +4,11 @@ use super::*;
 
 #[test]
 fn limits_are_kept_and_told() {
-    let few = Continuation {
-        max_points: 5,
-        ..range(0.0, 6.0)
-    };
+    let few = range(0.0, 6.0).max_points(5);
     let short = branch(&Pendulum, &[0.0], &BAR, &[0.3], &few).unwrap();
     assert_eq!(short.ends, [BranchEnd::Low, BranchEnd::PointLimit]);
     assert_eq!(short.points.len(), 6);
-    let few = Continuation {
-        max_branches: 2,
-        ..range(0.0, 6.0)
-    };
+    let few = range(0.0, 6.0).max_branches(2);
     let some = branches(&Pendulum, &[0.0], &BAR, &[0.3], &few, None).unwrap();
     assert!(some.truncated);
     assert_eq!(some.branches.len(), 2);
@@ -57,18 +51,9 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
         for settings in [
             range(bad, 1.0),
             range(0.0, bad),
-            Continuation {
-                max_step: bad,
-                ..range(0.0, 1.0)
-            },
-            Continuation {
-                min_step: bad,
-                ..range(0.0, 1.0)
-            },
-            Continuation {
-                size: bad,
-                ..range(0.0, 1.0)
-            },
+            range(0.0, 1.0).max_step(bad),
+            range(0.0, 1.0).min_step(bad),
+            range(0.0, 1.0).size(bad),
         ] {
             let refused = ask(settings, 0.1, BAR);
             assert!(matches!(refused, Err(Error::Setting { .. })), "{refused:?}");
@@ -85,18 +70,9 @@ fn nasty_settings_are_refused_and_nasty_values_end_in_answers() {
     for settings in [
         range(1.0, 1.0),
         range(-1e308, 1e308),
-        Continuation {
-            max_points: 0,
-            ..range(0.0, 1.0)
-        },
-        Continuation {
-            max_branches: 0,
-            ..range(0.0, 1.0)
-        },
-        Continuation {
-            escape: 0.5,
-            ..range(0.0, 1.0)
-        },
+        range(0.0, 1.0).max_points(0),
+        range(0.0, 1.0).max_branches(0),
+        range(0.0, 1.0).escape(0.5),
     ] {
         assert!(matches!(
             ask(settings, 0.1, BAR),

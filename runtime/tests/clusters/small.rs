@@ -9,13 +9,7 @@ use eigentol::{Complex, Error, Family, Tolerances};
 use super::{close, independent, refused, within};
 
 fn couplings(family: Family, values: &[Complex], slopes: &[Vec<Complex>]) -> ModalCouplings {
-    ModalCouplings {
-        modes: (0..values.len()).collect(),
-        family,
-        eigenvalues: values.to_vec(),
-        by_input: Vec::new(),
-        by_design: slopes.to_vec(),
-    }
+    ModalCouplings::new(family, values.to_vec(), slopes.to_vec())
 }
 
 fn undamped(
@@ -158,11 +152,10 @@ fn one_seed_gives_one_result() {
     let couplings = couplings(Family::General, &[5.0 * one, 5.0 * one], &slopes);
     let tolerances = independent([0.1, 0.2]);
     let of = |seed, stream| {
-        let sampling = ClusterSampling {
-            samples: 500,
-            seed,
-            stream,
-        };
+        let sampling = ClusterSampling::default()
+            .samples(500)
+            .seed(seed)
+            .stream(stream);
         sample_cluster(&couplings, &tolerances, &sampling).unwrap()
     };
     assert_eq!(of(1, 0), of(1, 0));
@@ -187,10 +180,7 @@ fn nonsense_is_refused() {
     refused(sample_cluster(&missing, &tolerances, &sampling));
     let empty = undamped(&[], &[vec![]], &tolerances).unwrap();
     assert!(empty.frequency.lowest().is_none() && empty.frequency.highest().is_none());
-    let none = ClusterSampling {
-        samples: 0,
-        ..sampling
-    };
+    let none = sampling.samples(0);
     let fine = couplings(Family::General, &[one], &[vec![one]]);
     let found = sample_cluster(&fine, &tolerances, &none).unwrap();
     assert!(found.frequency.lowest().unwrap().value.is_none());

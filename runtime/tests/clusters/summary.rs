@@ -57,7 +57,7 @@ fn far_from_everything_a_mode_is_trusted() {
 }
 
 #[test]
-fn near_the_critical_speed_nothing_is_believed() {
+fn near_the_critical_speed_nothing_is_trusted() {
     let summary = pendulum(3.87, 0.03);
     let [Doubt::NearCritical { distance }, ..] = summary.trust[0].doubts[..] else {
         panic!("{summary:?}")
@@ -73,7 +73,7 @@ fn near_the_critical_speed_nothing_is_believed() {
 /// At 1.000004 of the critical speed no term of the series says anything: against the exact distribution, by quadrature over
 /// both branches, `lambda = w - u^2` below `u^2 = w = 3 g / (2 L)` and `u^2 - w^2 / u^2` beyond.
 #[test]
-fn at_the_critical_speed_sampling_is_what_to_believe() {
+fn at_the_critical_speed_sampling_is_what_to_use() {
     let speed = 3.836;
     let frequency = |length: f64| {
         let (w, square) = (1.5 * GRAVITY / length, speed * speed);
@@ -106,8 +106,8 @@ fn at_the_critical_speed_sampling_is_what_to_believe() {
         panic!("{:?}", summary.trust)
     };
     let text = summary.to_string();
-    says(&text, &["believe Monte Carlo", " no\n"]);
-    assert!(!text.contains("believe second"), "{text}");
+    says(&text, &["use Monte Carlo", " no\n"]);
+    assert!(!text.contains("use second"), "{text}");
     let row = text
         .lines()
         .find(|line| line.trim_start().starts_with("1 "))
@@ -133,11 +133,7 @@ fn wide_tolerances_bend() {
     );
     says(
         &summary.to_string(),
-        &[
-            "% below that of second order",
-            "believe Monte Carlo",
-            " no\n",
-        ],
+        &["% below that of second order", "use Monte Carlo", " no\n"],
     );
 }
 

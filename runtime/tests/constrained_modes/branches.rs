@@ -14,12 +14,7 @@ use crate::holonomic::{
 const OMEGA: Input = Input::new(0);
 
 fn through(low: f64, high: f64) -> Range {
-    Range {
-        input: OMEGA,
-        low,
-        high,
-        steps: 20,
-    }
+    Range::new(OMEGA, low, high).steps(20)
 }
 
 /// `sqrt(3 g / (2 L))`, and how it moves with `m`, `L`, `g`.

@@ -215,12 +215,7 @@ fn a_caster_shimmies_beyond_its_speed() {
         assert_eq!(found.stable(), v < onset);
         assert_eq!(at.stability.holds(), found.stable());
     }
-    let range = Range {
-        input: Input::new(0),
-        low: 0.3 * onset,
-        high: 2.0 * onset,
-        steps: 20,
-    };
+    let range = Range::new(Input::new(0), 0.3 * onset, 2.0 * onset).steps(20);
     let mechanism = Derived(Caster);
     let found = flutter_onsets(&mechanism, &[1.0], &b, &[0.0; 3], Policy::Nearest, range).unwrap();
     assert_eq!(found.len(), 1);

@@ -172,12 +172,11 @@ fn dot(x: &[Complex], y: &[Complex]) -> Complex {
 }
 
 fn conjugate(mode: &Mode) -> Mode {
-    Mode {
-        s: mode.s.conj(),
-        shape: mode.shape.map(|x| x.conj()),
-        left: mode.left.map(|x| x.conj()),
-        ..mode.clone()
-    }
+    let mut conjugate = mode.clone();
+    conjugate.s = mode.s.conj();
+    conjugate.shape = mode.shape.map(|x| x.conj());
+    conjugate.left = mode.left.map(|x| x.conj());
+    conjugate
 }
 
 fn check(sizes: Sizes, random: &mut Random, rescaled: bool) {

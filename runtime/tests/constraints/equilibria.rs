@@ -315,12 +315,9 @@ fn derivatives_of_states_and_reactions() {
 
 #[test]
 fn several_starts_find_both_ends() {
-    let search = Search {
-        lower: [-2.0, -2.0, -1e6].into(),
-        upper: [2.0, 2.0, 1e6].into(),
-        starts: 20,
-        seed: 3,
-    };
+    let search = Search::new([-2.0, -2.0, -1e6], [2.0, 2.0, 1e6])
+        .starts(20)
+        .seed(3);
     let found = find_equilibria(&bordered(Point), &[6.0], &[2.0, 0.7], &[0.1; 3], &search)
         .expect("valid values");
     // Two stable ones outside, the bottom and the top.

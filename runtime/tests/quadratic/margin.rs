@@ -186,15 +186,8 @@ fn margins_print_themselves() {
     };
     let tolerances = Tolerances::new([0.0, 0.75], 3.0, None).unwrap();
     let margin = of(&model, &tolerances, (11.0, 12.0));
-    let print = |margin| {
-        MarginTable {
-            margin,
-            quantity: "frequency 1",
-            unit: SPEED,
-            description: &Pendulum::DESCRIPTION,
-        }
-        .to_string()
-    };
+    let print =
+        |margin| MarginTable::new(margin, "frequency 1", SPEED, &Pendulum::DESCRIPTION).to_string();
     let text = print(&margin);
     println!("{text}");
     for part in [

@@ -143,10 +143,7 @@ fn follow(
     vectors: Option<Instructions>,
     each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
 ) {
-    let following = Following {
-        vectors,
-        ..Policy::Stable.into()
-    };
+    let following = Following::from(Policy::Stable).vectors(vectors);
     let along = (DoublePendulum::omega.any(), &sweep.speeds[..]);
     let values = (&[0.0][..], &sweep.design[..]);
     let done = sensitivity_sweep(&DoublePendulum, values, &START, following, along, each);
@@ -277,14 +274,12 @@ fn draw(
     vectors: Option<Instructions>,
     keep_samples: bool,
 ) -> Result<MonteCarlo, Error> {
-    let sampling = Sampling {
-        samples: SAMPLES,
-        seed: samples.seed,
-        threads: 1,
-        keep_samples,
-        vectors,
-        ..Sampling::default()
-    };
+    let sampling = Sampling::default()
+        .samples(SAMPLES)
+        .seed(samples.seed)
+        .threads(1)
+        .keep_samples(keep_samples)
+        .vectors(vectors);
     let Samples {
         state,
         modes,

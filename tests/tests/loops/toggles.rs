@@ -168,12 +168,7 @@ fn search(starts: usize, seed: u64) -> Search {
         (lower[i], upper[i]) = (-3.0, 3.0);
     }
     (lower[4], upper[4]) = (-0.45, 0.45);
-    Search {
-        lower: lower.into(),
-        upper: upper.into(),
-        starts,
-        seed,
-    }
+    Search::new(lower, upper).starts(starts).seed(seed)
 }
 
 /// Turned to the side of `other`.

@@ -1,5 +1,5 @@
 //! Closing the loops: coordinates that meet the constraints, from values that do not. Gauss-Newton steps of least motion
-//! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to lose their independence.
+//! (the least kinetic energy, coordinates taken alone), damped (Levenberg, Marquardt) where constraints are about to become dependent.
 
 mod gaps;
 mod step;
@@ -8,6 +8,7 @@ use super::convergence::{TOLERANCE, largest_of, relative_gap};
 use super::problem::{Failure, Problem};
 use crate::algebra::{Matrix, Vector, add_to, dot};
 use crate::constraints::{Rows, Structure, inertias};
+use crate::error::NotClosed;
 pub(super) use gaps::{free, gaps};
 
 use gaps::Gaps;
@@ -110,7 +111,7 @@ fn close_from(
             }
         }
     }
-    let reason = "the gaps do not close within the number of iterations";
+    let reason = NotClosed::IterationLimit;
     Err(not_assembled(structure, &x, &at, reason, MAX_ITERATIONS))
 }
 
@@ -121,16 +122,16 @@ fn metric(problem: &Problem<'_>, x: &[f64]) -> Vector {
 }
 
 /// Why the gaps have a minimum.
-fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> &'static str {
+fn reason(at: &Gaps, dependent_at_start: usize, held: &[bool]) -> NotClosed {
     let all = Rows::balanced(at.rows.clone());
     let slope = all.descent(&scaled(&at.gaps, &all));
     let gaps = scaled(&at.gaps, &all);
     if held.contains(&true) && dot(&slope, &slope) > 1e-8 * dot(&gaps, &gaps) {
-        "the coordinates that are held do not let it close: hold fewer, or at other values"
+        NotClosed::Held
     } else if dependent_at_start > 0 {
-        "constraints that depend on each other contradict each other"
+        NotClosed::Contradiction
     } else {
-        "the gaps have a minimum that is not zero: lengths that do not reach, or start values on the wrong side"
+        NotClosed::Minimum
     }
 }
 
@@ -138,7 +139,7 @@ fn not_assembled(
     structure: Structure,
     x: &[f64],
     at: &Gaps,
-    reason: &'static str,
+    reason: NotClosed,
     iterations: usize,
 ) -> Failure {
     let first = structure.position_rows().start;

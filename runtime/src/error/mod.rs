@@ -1,5 +1,9 @@
 //! What can go wrong when a mechanism is solved, in the user's terms.
 
+mod reason;
+
+pub use reason::{NoDerivative, NotClosed, NotFound};
+
 use thiserror::Error as ThisError;
 
 use crate::Text;
@@ -58,7 +62,7 @@ pub enum Error {
     )]
     NoEquilibrium {
         /// Why the search ended.
-        reason: &'static str,
+        reason: NotFound,
         /// Iterations spent.
         iterations: usize,
         /// Last state.
@@ -73,7 +77,7 @@ pub enum Error {
     )]
     NotAssembled {
         /// Why.
-        reason: &'static str,
+        reason: NotClosed,
         /// The row that stays open most, in relation to the motions that could close it.
         constraint: Text,
         /// By how much, SI.
@@ -87,21 +91,21 @@ pub enum Error {
         /// Iterations spent.
         iterations: usize,
     },
-    /// Constraints lose their independence in this configuration alone: motions begin or end here that the linearised
-    /// mechanism cannot tell.
+    /// Constraints become dependent at exactly this configuration: how the mechanism can move from here, its linearisation
+    /// does not say.
     #[error(
-        "singular configuration: {} lose their independence here and nowhere near, so the linearised mechanism does \
-         not say how it can move",
+        "singular configuration: {} become dependent at exactly this configuration, so the linearised \
+         mechanism does not say how it can move",
         names(.constraints)
     )]
     SingularConfiguration {
         /// The rows.
         constraints: Vec<Text>,
     },
-    /// The search ended beside a singular configuration of the constraints in which the forces do not balance: towards it
-    /// they do by reactions that grow without bound.
+    /// The search ended beside a singular configuration in which the forces do not balance. On the way there they seem to,
+    /// by reactions that grow without bound.
     #[error(
-        "no equilibrium: {} lose their independence at q = {coordinates:?}, where no finite reactions balance the forces: \
+        "no equilibrium: {} become dependent at q = {coordinates:?}, where no finite reactions balance the forces: \
          start farther away, on the side to which the mechanism is to move",
         names(.constraints)
     )]
@@ -221,7 +225,7 @@ pub enum Error {
     #[error("the sensitivity does not exist: {reason}")]
     NoSensitivity {
         /// Why.
-        reason: &'static str,
+        reason: NoDerivative,
     },
     /// A setting makes no sense.
     #[error("{setting}: {reason}")]
@@ -243,12 +247,27 @@ pub enum Error {
         /// How many there are.
         count: usize,
     },
+    /// Nothing has this name.
+    #[error("`{mechanism}` has no {kind} `{name}`: it has {}", names(.known))]
+    UnknownName {
+        /// `coordinate`, `input`, `design variable` or `output`.
+        kind: &'static str,
+        /// The name that was looked for.
+        name: String,
+        /// Name of the mechanism.
+        mechanism: Text,
+        /// The names that exist.
+        known: Vec<Text>,
+    },
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),
 }
 
 fn names(names: &[Text]) -> String {
+    if names.is_empty() {
+        return "none".to_owned();
+    }
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }

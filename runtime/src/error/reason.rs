@@ -1,0 +1,71 @@
+//! Why a question has no answer: each reason is a value to match on, and prints as a sentence.
+
+use core::fmt;
+
+macro_rules! reasons {
+    ($(#[$doc:meta])* $name:ident { $($variant:ident = $sentence:literal,)+ }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum $name {
+            $(#[doc = $sentence] $variant,)+
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self {
+                    $(Self::$variant => $sentence,)+
+                })
+            }
+        }
+    };
+}
+
+reasons! {
+    /// Why no equilibrium was found.
+    NotFound {
+        Minimum = "the residual has a minimum that is not zero",
+        OnlyUnstable = "only unstable equilibria",
+        NoDescent = "no descent from the last state",
+        Escape = "the coordinates escape to infinity",
+        IterationLimit = "too many iterations",
+        Inaccurate = "the residual stays larger than rounding explains",
+        Diverges = "Newton's method does not converge",
+        NotIsolated = "the branch is not isolated",
+        BendsAway = "the branch bends away",
+        BendsSharply = "the branch bends sharply",
+        TurnsBack = "the end of the range is not straight ahead",
+        TooManyEvents = "too many events between two points",
+        NothingBetween = "no point between two points",
+        Coincide = "the points coincide",
+        UnusualLimitPoint = "no limit point of the ordinary kind",
+        LimitPointOutside = "the limit point is not between the points",
+        LimitPointLost = "the limit point was not located",
+        BranchPointOutside = "the branch point is not between the points",
+        BranchPointLost = "the branch point was not located",
+        BranchPointNotSimple = "the branch point is not simple",
+        DependentVectors = "the critical vectors are not independent",
+        SingularStiffness = "the stiffness is singular to rounding",
+    }
+}
+
+reasons! {
+    /// Why a mechanism with constraints cannot be assembled.
+    NotClosed {
+        Held = "the coordinates that are held do not let it close: hold fewer, or at other values",
+        Contradiction = "constraints that depend on each other contradict each other",
+        Minimum = "the gaps have a minimum that is not zero: lengths that do not reach, or start values on the wrong side",
+        IterationLimit = "the gaps do not close within the number of iterations",
+    }
+}
+
+reasons! {
+    /// Why a critical value or a crossing has no sensitivity.
+    NoDerivative {
+        Merge = "two frequencies merge there: the least damping moves the onset by a finite amount",
+        UnknownInput = "there is no such input",
+        Touch = "the two sides touch without crossing",
+        IndependentOfInput = "the stiffness does not depend on the input",
+        Imperfection = "a design variable pushes along the critical mode and destroys the bifurcation",
+    }
+}

@@ -1,0 +1,29 @@
+//! What a report is about: a mechanism at an operating point.
+
+use super::table::in_unit;
+use crate::{Description, Input};
+
+/// `Rotor at speed = 3000.00 rpm, load = 2.00000 N`.
+pub(super) fn title(description: &Description, inputs: &[f64]) -> String {
+    named(description, inputs, None)
+}
+
+/// The same of what happens along one input: only the others have a value.
+pub(super) fn title_along(description: &Description, inputs: &[f64], varied: Input) -> String {
+    named(description, inputs, Some(varied.index()))
+}
+
+fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
+    let each = d.inputs.iter().zip(inputs).enumerate();
+    let fixed = each.filter(|(k, _)| Some(*k) != varied);
+    let values = fixed.map(|(_, (info, &value))| {
+        let (value, symbol) = (in_unit(value, &info.unit), &*info.unit.symbol);
+        let space = if symbol.is_empty() { "" } else { " " };
+        format!("{} = {value}{space}{symbol}", info.name)
+    });
+    let values: Vec<String> = values.collect();
+    match values.is_empty() {
+        true => d.name.to_string(),
+        false => format!("{} at {}", d.name, values.join(", ")),
+    }
+}
