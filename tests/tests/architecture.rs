@@ -41,9 +41,10 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 2] = ["functions", "kernel_name"];
 
-/// The rooms of the runtime, in order: each may import those before it. The first fifteen are the core: contract, equilibrium,
+/// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 25] = [
+const RUNTIME: [&str; 26] = [
+    "setters",
     "algebra",
     "scalar",
     "mechanism",

@@ -1,7 +1,7 @@
 //! How design variables couple modes: the derivatives of the matrices in modal coordinates. Where eigenvalues are (nearly)
 //! equal, the eigenvalues of these small matrices are the derivatives that exist (Prells and Friswell 1997, Dailey 1989).
 
-use crate::algebra::{dot_complex, times_complex};
+use crate::algebra::{Matrix, dot_complex, times_complex};
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::modes::{Family, pencil_times};
 use crate::sensitivity::{check_modes, directions, normaliser};
@@ -18,17 +18,17 @@ pub struct ModalCouplings {
     pub family: Family,
     /// Their eigenvalues.
     pub eigenvalues: Vec<Complex>,
-    /// For each input one square matrix, row by row: in its diagonal the derivatives of the eigenvalues as if each mode
+    /// For each input one square matrix: in its diagonal the derivatives of the eigenvalues as if each mode
     /// stood alone, beside it how the variable mixes the modes. Per SI unit.
-    pub by_input: Vec<Vec<Complex>>,
+    pub by_input: Vec<Matrix<Complex>>,
     /// For each design variable one such matrix.
-    pub by_design: Vec<Vec<Complex>>,
+    pub by_design: Vec<Matrix<Complex>>,
 }
 
 impl ModalCouplings {
     /// Couplings by design variables alone, of modes in the order of their eigenvalues.
     #[must_use]
-    pub fn new(family: Family, eigenvalues: Vec<Complex>, by_design: Vec<Vec<Complex>>) -> Self {
+    pub fn new(family: Family, eigenvalues: Vec<Complex>, by_design: Vec<Matrix<Complex>>) -> Self {
         Self {
             modes: (0..eigenvalues.len()).collect(),
             family,
@@ -57,25 +57,22 @@ impl ModalCouplings {
     }
 
     /// Trace of a matrix over its size.
-    fn trace(&self, matrix: &[Complex]) -> Complex {
+    fn trace(&self, matrix: &Matrix<Complex>) -> Complex {
         let count = self.modes.len();
-        let diagonal = (0..count).map(|i| matrix[i * count + i]);
+        let diagonal = (0..count).map(|i| matrix[i][i]);
         diagonal.sum::<Complex>() / count.max(1) as f64
     }
 
     /// Element (`i`, `j`) of the matrix of each design variable.
     pub(crate) fn element(&self, i: usize, j: usize) -> impl Iterator<Item = Complex> {
-        let place = i * self.modes.len() + j;
-        self.by_design.iter().map(move |matrix| matrix[place])
+        self.by_design.iter().map(move |matrix| matrix[i][j])
     }
 
     /// The couplings among some of these modes, given by their places here.
     pub(crate) fn among(&self, places: &[usize]) -> Self {
-        let count = self.modes.len();
-        let minor = |matrix: &Vec<Complex>| {
-            let rows = places.iter();
-            rows.flat_map(|i| places.iter().map(move |j| matrix[i * count + j]))
-                .collect()
+        let size = places.len();
+        let minor = |matrix: &Matrix<Complex>| {
+            Matrix::from_fn(size, size, |i, j| matrix[places[i]][places[j]])
         };
         Self {
             modes: places.iter().map(|&i| self.modes[i]).collect(),
@@ -128,7 +125,7 @@ pub fn modal_couplings(
 }
 
 /// `phi_i^T (dK - lambda dM) phi_j` with the mean of the two eigenvalues, which keeps it symmetric.
-fn undamped(members: &[&Mode], change: &Linear) -> Vec<Complex> {
+fn undamped(members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     matrix(members, |b| {
         let k = times_complex(&change.stiffness, &b.shape);
         let m = times_complex(&change.mass, &b.shape);
@@ -141,24 +138,24 @@ fn undamped(members: &[&Mode], change: &Linear) -> Vec<Complex> {
 
 /// `-psi_i^T (s_j^2 dM + s_j dC + dK) phi_j / psi_i^T (2 s_i M + C) phi_i`: the change of the first-order system between
 /// its left and right vectors.
-fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Vec<Complex> {
+fn general(at: &Equilibrium, members: &[&Mode], change: &Linear) -> Matrix<Complex> {
     matrix(members, |b| {
         let moved = pencil_times(change, b.s, &b.shape);
         move |a| -dot_complex(&a.left, &moved) / normaliser(at, a)
     })
 }
 
-/// Row by row; `column` prepares for one right vector what every left vector meets.
+/// `column` prepares for one right vector what every left vector meets.
 fn matrix<'a, F: Fn(&Mode) -> Complex>(
     members: &[&'a Mode],
     column: impl Fn(&'a Mode) -> F,
-) -> Vec<Complex> {
+) -> Matrix<Complex> {
     let count = members.len();
-    let mut matrix = vec![Complex::default(); count * count];
+    let mut matrix = Matrix::zeros(count, count);
     for (j, b) in members.iter().enumerate() {
         let element = column(b);
         for (i, a) in members.iter().enumerate() {
-            matrix[i * count + j] = element(a);
+            matrix[i][j] = element(a);
         }
     }
     matrix

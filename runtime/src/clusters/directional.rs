@@ -52,7 +52,7 @@ pub fn directional_derivatives(
     let mut matrix = vec![Complex::ZERO; m * m];
     let changes = couplings.by_input.iter().zip(du);
     for (slopes, &change) in changes.chain(couplings.by_design.iter().zip(db)) {
-        for (sum, slope) in matrix.iter_mut().zip(slopes) {
+        for (sum, slope) in matrix.iter_mut().zip(slopes.as_flattened()) {
             *sum += slope * change;
         }
     }

@@ -2,7 +2,7 @@
 //! them has.
 
 use super::couplings::ModalCouplings;
-use crate::algebra::Vector;
+use crate::algebra::{Matrix, Vector};
 use crate::eigenproblem::diagonalise;
 use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
@@ -188,18 +188,17 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
         )));
     }
     for (k, matrix) in couplings.by_design.iter().enumerate() {
-        if matrix.len() != m * m {
-            let size = matrix.len();
-            let wanted = m * m;
+        let (rows, columns) = (matrix.row_count(), matrix.column_count());
+        if (rows, columns) != (m, m) {
             return Err(refuse(format!(
-                "matrix {k} has {size} elements and must have {wanted}"
+                "matrix {k} is {rows} by {columns} and must be {m} by {m}"
             )));
         }
     }
     let mut numbers = couplings
         .eigenvalues
         .iter()
-        .chain(couplings.by_design.iter().flatten());
+        .chain(couplings.by_design.iter().flat_map(Matrix::as_flattened));
     if let Some(value) = numbers.find(|value| !value.is_finite()) {
         return Err(refuse(format!("an element is {value}")));
     }
@@ -210,10 +209,11 @@ fn check(couplings: &ModalCouplings, tolerances: &Tolerances) -> Result<(), Erro
         return Err(refuse("eigenvalues of undamped modes are real".to_owned()));
     }
     for (k, matrix) in couplings.by_design.iter().enumerate() {
-        let size = matrix.iter().fold(0.0_f64, |most, x| most.max(x.l1_norm()));
-        let mirrored = |e: usize| (matrix[e] - matrix[e % m * m + e / m].conj()).l1_norm();
-        let real = |e: usize| matrix[e].im.abs();
-        if (0..m * m).any(|e| mirrored(e).max(real(e)) > SYMMETRIC * size) {
+        let elements = matrix.as_flattened().iter();
+        let size = elements.fold(0.0_f64, |most, x| most.max(x.l1_norm()));
+        let mirrored = |i: usize, j: usize| (matrix[i][j] - matrix[j][i].conj()).l1_norm();
+        let wrong = |i: usize, j: usize| mirrored(i, j).max(matrix[i][j].im.abs());
+        if (0..m).any(|i| (0..m).any(|j| wrong(i, j) > SYMMETRIC * size)) {
             return Err(refuse(format!("matrix {k} is not real and symmetric")));
         }
     }
@@ -257,7 +257,7 @@ impl Work {
             if x == 0.0 {
                 continue;
             }
-            for (sum, slope) in self.matrix.iter_mut().zip(slopes) {
+            for (sum, slope) in self.matrix.iter_mut().zip(slopes.as_flattened()) {
                 *sum += slope * x;
             }
         }

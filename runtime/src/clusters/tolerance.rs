@@ -3,7 +3,7 @@
 
 use super::couplings::{ModalCouplings, modal_couplings};
 use super::sampling::{ClusterSampling, ClusterSpread, frequency_of, sample_cluster};
-use crate::algebra::Vector;
+use crate::algebra::{Matrix, Vector};
 use crate::kernels::DirectionalKernels;
 use crate::modes::{CLUSTER_GAP, Family, merged};
 use crate::sensitivity::Quantity;
@@ -194,7 +194,10 @@ fn tolerance(
         }
     }
     let finite = couplings.by_design.iter().chain(&couplings.by_input);
-    defective = defective || !finite.flatten().all(|value| value.is_finite());
+    defective = defective
+        || !finite
+            .flat_map(Matrix::as_flattened)
+            .all(|value| value.is_finite());
     let spread = if defective {
         let modes = couplings.modes.clone();
         Err(Error::Defective { modes })

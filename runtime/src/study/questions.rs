@@ -326,7 +326,7 @@ impl<M: DirectionalKernels> Study<M> {
     /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Quantity;
-    /// use eigentol::tolerance::Band;
+    /// use eigentol::second_order::Band;
     ///
     /// let band = Band::around(Pendulum::omega.any(), 0.1);
     /// println!("{}", study.margin_of(0, Quantity::NaturalFrequency, band)?);

@@ -247,7 +247,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     ///
     /// ```
     #[doc = include_str!("example.txt")]
-    /// use eigentol::tolerance::Band;
+    /// use eigentol::second_order::Band;
     ///
     /// let band = Band::around(Pendulum::omega.any(), 0.1);
     /// println!("{}", study.solve()?.margin(0, band)?);
@@ -267,7 +267,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// ```
     #[doc = include_str!("example.txt")]
     /// use eigentol::Quantity;
-    /// use eigentol::tolerance::Band;
+    /// use eigentol::second_order::Band;
     ///
     /// let band = Band::around(Pendulum::omega.any(), 0.1);
     /// println!("{}", study.solve()?.margin_of(0, Quantity::NaturalFrequency, band)?);

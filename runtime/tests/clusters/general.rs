@@ -37,7 +37,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     let (state, found) = (study.equilibrium().unwrap(), study.modes().unwrap());
     let couplings = modal_couplings(study.mechanism(), &state, &found, &[0, 1]).unwrap();
     // Eigenvalues of the matrix by the speed: +-i, so trace 0 and determinant 1.
-    let [a, b, c, d] = couplings.by_input[0][..] else {
+    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else {
         panic!("two modes")
     };
     within((a + d).norm(), 0.0, 1e-13);

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use eigentol::clusters::ModalCouplings;
 use eigentol::clusters::{ClusterSampling, ClusterSpread, sample_cluster};
-use eigentol::{Complex, Error, Family, Tolerances};
+use eigentol::{Complex, Error, Family, Matrix, Tolerances};
 
 use super::{close, independent, refused, within};
 
 fn couplings(family: Family, values: &[Complex], slopes: &[Vec<Complex>]) -> ModalCouplings {
-    ModalCouplings::new(family, values.to_vec(), slopes.to_vec())
+    let matrix = |own: &Vec<Complex>| Matrix::from_rows(values.len(), own.clone());
+    ModalCouplings::new(family, values.to_vec(), slopes.iter().map(matrix).collect())
 }
 
 fn undamped(

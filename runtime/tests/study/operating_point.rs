@@ -1,6 +1,6 @@
 //! Values in declared units, on the way in and in reports: every report begins with the operating point it belongs to.
 
-use eigentol::tolerance::Band;
+use eigentol::second_order::Band;
 use eigentol::{Error, InDeclaredUnit, Input, Study, mechanism};
 
 mechanism! {

@@ -57,7 +57,7 @@ fn turning_splits_a_double_frequency() {
     ));
     let couplings =
         modal_couplings(&SphericalPendulum, &state, &found, &[0, 1]).expect("couplings");
-    let [a, b, c, d] = couplings.by_input[0][..] else {
+    let [a, b, c, d] = *couplings.by_input[0].as_flattened() else {
         panic!("two modes")
     };
     // Eigenvalues of the 2 x 2 matrix: s' = +-i.
