@@ -12,9 +12,9 @@ use crate::{Behaviour, Description, Equilibrium, Error, Mode, Modes, Shared};
 
 /// A first-order standard deviation that misses that of the second-order model by more than this is not to be trusted.
 ///
-/// Nor is the second-order one then: it tells that a quantity bends, not by how much. For the rotating bar at 5 rad/s with a
+/// Nor is the second-order one then: it shows that a quantity is nonlinear, not by how much. For the rotating bar at 5 rad/s with a
 /// tolerance of 45 %, against quadrature of the exact distribution, first order misses the standard deviation by -29 % and second
-/// order, 6 % above it, by -24 %. Sampling tells.
+/// order, 6 % above it, by -24 %. Only sampling gives the answer.
 pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 
 /// What tolerances do to the modes, with a verdict for each.
@@ -100,12 +100,12 @@ pub enum Doubt {
         /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
         distance: f64,
     },
-    /// First order misses the standard deviation of the second-order model. Looked at where the series may converge only: not
-    /// near to a critical state or to critical damping.
+    /// First order misses the standard deviation of the second-order model. Checked only where the series may converge: not
+    /// near a critical state or critical damping.
     Nonlinear {
         /// Of what.
         quantity: Quantity,
-        /// By this fraction of that of the second-order model.
+        /// By how much, as a fraction of the second-order one.
         sigma_error: f64,
     },
     /// The second-order model that should check it does not exist.

@@ -33,10 +33,10 @@ enum Lead {
 /// Follows the branch through the stable equilibrium at `settings.low` that is found from `start`, in both directions.
 ///
 /// `u` inputs (of which `settings.input` is replaced), `b` design variables, `start` coordinates, all SI. Branches that
-/// cross it are told by its special points, but not followed: [`branches`] does.
+/// cross it show as special points, but are not followed: [`branches`] follows them.
 ///
 /// # Errors
-/// [`Error::Setting`], [`Error::UnknownHandle`], and those of [`equilibrium`] at the low end.
+/// [`Error::Setting`], [`Error::UnknownHandle`], and those of [`equilibrium`] at the low end of the range.
 pub fn branch(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],

@@ -135,13 +135,13 @@ impl Branch {
     }
 }
 
-/// Branches that were found.
+/// The branches that were found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Branches {
     /// The branches, in the order in which they were found; each once.
     pub branches: Vec<Branch>,
-    /// No more were looked for although some were left: [`Continuation::max_branches`].
+    /// The search stopped at [`Continuation::max_branches`] although there are more.
     pub truncated: bool,
 }
 

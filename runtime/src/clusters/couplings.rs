@@ -18,10 +18,10 @@ pub struct ModalCouplings {
     pub family: Family,
     /// Their eigenvalues.
     pub eigenvalues: Vec<Complex>,
-    /// For each input one square matrix: in its diagonal the derivatives of the eigenvalues as if each mode
-    /// stood alone, beside it how the variable mixes the modes. Per SI unit.
+    /// One square matrix for each input: its diagonal holds the derivatives of the eigenvalues as if each mode stood alone, the other
+    /// elements say how the input mixes the modes. Per SI unit.
     pub by_input: Vec<Matrix<Complex>>,
-    /// For each design variable one such matrix.
+    /// One such matrix for each design variable.
     pub by_design: Vec<Matrix<Complex>>,
 }
 
@@ -50,7 +50,7 @@ impl ModalCouplings {
         self.by_input.iter().map(|own| self.trace(own)).collect()
     }
 
-    /// Total derivatives of the mean of the eigenvalues by the design variables: it has them whatever the modes do.
+    /// Total derivatives of the mean of the eigenvalues by the design variables; they exist whatever the modes do.
     #[must_use]
     pub fn mean_by_design(&self) -> Vec<Complex> {
         self.by_design.iter().map(|own| self.trace(own)).collect()

@@ -1,4 +1,4 @@
-//! Derivatives of equal eigenvalues along one direction: there alone they have any (Prells and Friswell 1997, Dailey 1989).
+//! Derivatives of equal eigenvalues, which exist only along one direction at a time (Prells and Friswell 1997, Dailey 1989).
 
 use super::couplings::modal_couplings;
 use crate::arguments::check_count;
@@ -11,7 +11,7 @@ use crate::{Complex, Equilibrium, Error, Modes};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DirectionalDerivatives {
-    /// Positions of its modes, from 0; which of them moves how is not a question that has an answer.
+    /// Positions of its modes, from 0. Which derivative belongs to which mode is not defined.
     pub modes: Vec<usize>,
     /// Which eigenvalue moves: `lambda` (1/s^2) of undamped modes, `s` (1/s) of general ones.
     pub family: Family,
@@ -21,7 +21,7 @@ pub struct DirectionalDerivatives {
     pub frequencies: Option<Vec<f64>>,
 }
 
-/// Derivatives of the eigenvalues of the cluster of number `mode` along the change `du` of the inputs and `db` of the design
+/// Derivatives of the eigenvalues of the cluster of mode number `mode` along the change `du` of the inputs and `db` of the design
 /// variables (SI), the shift of the equilibrium included: the eigenvalues of `Phi^T (dKhat - lambda dMhat) Phi`, of general modes
 /// those of the couplings `-psi_i^T (s^2 dMhat + s dChat + dKhat) phi_j / psi_i^T (2 s Mhat + Chat) phi_i`. The opposite
 /// direction has the opposite derivatives; other directions do not add up, because each splits the cluster in its own way. For

@@ -19,7 +19,7 @@ pub struct ClusterSampling {
     pub samples: usize,
     /// The same seed gives bit-identical results.
     pub seed: u64,
-    /// Which of the independent sequences of the seed.
+    /// Which of the seed's independent sequences.
     pub stream: u64,
 }
 

@@ -65,7 +65,7 @@ pub struct MeanEigenvalue {
     pub damping_ratio: Option<Spread>,
 }
 
-/// The clusters of a set of modes under tolerances, none twice, by their first mode.
+/// The clusters of a set of modes under tolerances, each once, in the order of their first modes.
 ///
 /// Along a change `x` of the design variables two modes have the difference `sqrt((gap + d)^2 + 4 o_ij o_ji)` with
 /// `d = x.(S_ii - S_jj)` and `o = x.S`, `S` the couplings of [`modal_couplings`]. It lies within `|d| + 2 sqrt|o_ij o_ji|`

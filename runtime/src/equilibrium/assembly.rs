@@ -10,8 +10,8 @@ use crate::{Coordinate, Description, Error, Shared, Text};
 
 /// On which side of the dead centres a mechanism is assembled: the sign of the determinant of `Phi_q` by the coordinates
 /// that are not held, constraints and coordinates in the order of their declaration (of constraints that depend on each other
-/// the first). A motion from one side to the other, the held coordinates free to move, passes a dead centre: states on
-/// different sides are different assembly modes. States on the same side may be, too.
+/// the first). Any motion from one side to the other, with the held coordinates free to move, passes through a dead centre:
+/// states on different sides are in different assembly modes. States on the same side may be, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AssemblyMode {
     /// The determinant is positive.
@@ -24,25 +24,27 @@ pub enum AssemblyMode {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Assembly {
-    /// Coordinates that meet the constraints, rad or m; speeds that do as far as speeds can; reactions that balance the
-    /// forces there as well as reactions can. SI.
+    /// Coordinates that meet the constraints, rad or m; speeds that meet those on velocities as far as speeds can; reactions
+    /// that balance the forces as far as reactions can. SI.
     pub coordinates: Vector,
     /// Which coordinates were held.
     pub held: Vec<bool>,
-    /// How far each coordinate and speed moved from its start value; zero in the places of reactions.
+    /// How far each coordinate and speed moved from its start value; zero for reactions.
     pub moved: Vector,
-    /// What each constraint stays open by, in the direction of its reaction and in its place, m or rad (on velocities m/s or
-    /// rad/s): rounding.
+    /// The gap left in each constraint, listed where its reaction is and counted in its direction, m or rad (on velocities
+    /// m/s or rad/s): rounding.
     pub gaps: Vector,
     /// Iterations spent.
     pub iterations: usize,
-    /// What the constraints leave free, and which say the same.
+    /// How many degrees of freedom the constraints leave, and which of them are redundant.
     pub constraints: ConstraintState,
-    /// The assembly mode, when as many coordinates are held as are free, and the state is no dead centre.
+    /// The assembly mode; known when as many coordinates are held as there are degrees of freedom and the state is not a
+    /// dead centre.
     pub mode: Option<AssemblyMode>,
-    /// How independent the constraints are by the coordinates that are not held: one at best, zero at a dead centre.
+    /// How well the constraints determine the coordinates that are not held: one at best, zero at a dead centre.
     pub margin: f64,
-    /// A dead centre, or a singular configuration: coordinates that are not held can move, or cannot follow, to first order.
+    /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move by
+    /// themselves, or cannot follow those that are.
     pub singular: bool,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
@@ -66,15 +68,14 @@ impl Assembly {
 /// leaves at half of the digits.
 const DEAD_CENTRE: f64 = 1e-6;
 
-/// Assembles a mechanism: moves the coordinates that are not in `held` from `start` the shortest way to where the
-/// constraints are met.
+/// Assembles a mechanism: moves the coordinates that are not in `held` from `start` to the nearest place
+/// where the constraints are met.
 ///
-/// `u` inputs, `b` design variables, `start` coordinates (speeds after them; what stands in the places of reactions does not
-/// matter), all SI. Start values of the coordinates that are not held choose the assembly mode. An open mechanism is assembled
-/// as it is.
+/// `u` inputs, `b` design variables, `start` coordinates (then speeds; values for reactions are ignored), all SI. Start values of the coordinates that are not held choose the assembly mode. A mechanism
+/// without constraints stays where it is.
 ///
 /// # Errors
-/// [`Error::NotAssembled`] with the gaps that remain: too many coordinates held, lengths that do not reach, constraints that
+/// [`Error::NotAssembled`] with the gaps that remain: too many coordinates held, links too short, constraints that
 /// contradict each other. [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::OutsideDomain`], [`Error::UnknownHandle`].
 pub fn assemble(
     mechanism: &dyn Kernels,

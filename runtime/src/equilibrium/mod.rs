@@ -1,4 +1,4 @@
-//! Dynamic equilibria: where a mechanism stays at rest relative to its drives, and whether it would.
+//! Dynamic equilibria: where a mechanism can rest relative to its drives, and whether it would stay there.
 
 mod assembly;
 mod closing;
@@ -56,8 +56,8 @@ pub enum Policy {
 /// `u` inputs, `b` design variables, `start` coordinates, all SI. With [`Policy::Stable`] a start exactly on an
 /// unstable equilibrium is left along its most unstable mode, towards positive values of the mode's largest component.
 ///
-/// A mechanism with constraints is first moved from `start` the shortest way to where it closes ([`assemble`] does that with
-/// coordinates held); the reactions in `start` do not matter.
+/// A mechanism with constraints is first moved from `start` to the nearest place where it closes ([`assemble`] does that with
+/// some coordinates held); the reactions in `start` are ignored.
 ///
 /// # Errors
 /// [`Error::WrongLength`], [`Error::NotFinite`], [`Error::Unphysical`], [`Error::SingularMass`], [`Error::OutsideDomain`],

@@ -14,12 +14,12 @@ use crate::{Equilibrium, Error, Stability};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Search {
-    /// Least start value of each coordinate, rad or m.
+    /// Least start value of each coordinate, rad or m; then of speeds and reactions, of which the latter are ignored.
     pub lower: Vector,
     /// Greatest start value of each coordinate, rad or m.
     pub upper: Vector,
-    /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until what was
-    /// found says that no other is to be expected. 32 unless set.
+    /// Least number of random starts; each is followed to a stable and to the nearest equilibrium. More follow until, by what
+    /// was found, no other is to be expected. 32 unless set.
     pub starts: usize,
     /// The same seed gives the same starts. 0 unless set.
     pub seed: u64,
@@ -44,11 +44,11 @@ const MOST_STARTS: usize = 2000;
 
 /// Finds distinct equilibria from random starts in a box and from `start`, in the order of discovery.
 ///
-/// After [`Search::starts`] the search goes on until fewer than half an equilibrium more is to be expected: `w` met `n`
-/// times let expect `w (w + 1) / (n - w - 2)` others, if none is much harder to meet (Boender and Rinnooy Kan 1987); but no
-/// more than 2000 further starts. None at all follow on zero starts.
+/// After [`Search::starts`] the search goes on until less than half a further equilibrium is to be expected. Having met `w`
+/// equilibria `n` times in all, one expects `w (w + 1) / (n - w - 2)` others, unless some are much harder to meet (Boender and
+/// Rinnooy Kan 1987). It ends after 2000 further starts at the latest; zero starts stay zero.
 ///
-/// States that differ by full turns of an angle count as one where forces and stiffnesses are the same after them: not where
+/// States that differ by full turns of an angle count as one where a full turn leaves forces and stiffnesses the same, not where
 /// a spring or a screw counts the turns. An empty list means that no
 /// start led to an equilibrium; completeness is not promised.
 ///

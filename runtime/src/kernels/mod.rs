@@ -1,12 +1,12 @@
-//! The kernels of a mechanism as a table over slices: what the solvers see of it. A compiled mechanism has it by its
-//! contract, one that was read at run time by interpretation.
+//! The kernels of a mechanism as a table over slices: what the solvers see of it. A compiled mechanism has it through its
+//! contract, one read at run time through the interpreter.
 //!
 //! Arguments are those of [`Mechanism`](crate::Mechanism): `q` the unknowns, `u` the inputs, `b` the design variables, SI.
 //! A method named `.._into` writes over every entry of buffers that have the sizes of the mechanism; the one without the suffix
 //! makes them.
 //!
 //! # Panics
-//! A slice whose length is not the mechanism's is a bug of the caller: kernels may panic. What users pass is checked before.
+//! A slice whose length is not the mechanism's is a bug of the caller: kernels may panic. What users pass is checked first.
 
 mod batch;
 mod compiled;
@@ -33,7 +33,7 @@ pub type LinearPartials<T = f64> = mechanism::LinearPartials<Vec<Linear<T>>>;
 /// Derivatives of the residual by every input and every design variable, a row for each unknown.
 pub type ResidualPartials<T = f64> = (Matrix<T>, Matrix<T>);
 
-/// How many of everything there are.
+/// How many unknowns, inputs, design variables and outputs there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Unknowns.
@@ -109,7 +109,7 @@ pub trait Kernels: Sync {
     /// Names, units, nominal values and what the compiler proved.
     fn description(&self) -> Shared<Description>;
 
-    /// How many of everything there are.
+    /// How many unknowns, inputs, design variables and outputs there are.
     fn sizes(&self) -> Sizes;
 
     /// [`Mechanism::residual`](crate::Mechanism::residual).

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-/// The mechanism of a handle that has forgotten which one it belongs to.
+/// In place of a mechanism: a handle that no longer says which one it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Any {}
 
@@ -11,24 +11,24 @@ macro_rules! handle {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
         ///
-        /// It belongs to mechanism `M`: no other takes it.
+        /// It belongs to mechanism `M`; no other accepts it.
         pub struct $name<M = Any> {
             index: usize,
             mechanism: PhantomData<fn() -> M>,
         }
 
         impl<M> $name<M> {
-            /// The one in this place.
+            /// The one at this position.
             pub const fn new(index: usize) -> Self {
                 Self { index, mechanism: PhantomData }
             }
 
-            /// Its place.
+            /// Its position: where its value stands in lists.
             pub const fn index(self) -> usize {
                 self.index
             }
 
-            /// The same, of any mechanism.
+            /// The same handle without its mechanism.
             pub const fn any(self) -> $name {
                 $name::new(self.index)
             }

@@ -5,7 +5,7 @@ use core::ops::Deref;
 #[cfg(feature = "std")]
 use std::sync::Arc;
 
-/// A value that lives as long as the program or as long as its last owner; a copy of it costs nothing. Reads as the value.
+/// A value that lives as long as the program, or as long as its last owner; cheap to clone. Derefs to the value.
 pub enum Shared<T: ?Sized + 'static> {
     /// A constant.
     Static(&'static T),

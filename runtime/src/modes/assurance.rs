@@ -75,8 +75,8 @@ fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
 
 /// For each mode of `from` the position of the mode of `to` that is the same motion; `None` where `to` has fewer.
 ///
-/// Pairs are taken in descending order of assurance, ties by position, so that no position occurs twice and the answer is
-/// the same every time.
+/// Pairs are taken in descending order of assurance, ties in order of position: no position occurs twice, and the answer is always
+/// the same.
 #[must_use]
 pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
     let found = match_with_assurance(from, to, linear).into_iter();

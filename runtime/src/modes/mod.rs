@@ -42,7 +42,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// The family that leaves nothing out: undamped where the compiler proved `Chat` zero and `Khat` symmetric.
+    /// The family that neglects nothing: undamped where the compiler proved `Chat` zero and `Khat` symmetric.
     #[must_use]
     pub fn of(description: &Description) -> Self {
         if description.damping == DampingKind::Zero && description.symmetric_stiffness {
@@ -62,9 +62,9 @@ pub struct Modes {
     pub modes: Vec<Mode>,
     /// Which equation they solve.
     pub family: Family,
-    /// `Chat` is not zero here and was left out: these are the modes of `Mhat` and `Khat` alone.
+    /// `Chat` is not zero here and was neglected: these are the modes of `Mhat` and `Khat` alone.
     pub damping_ignored: bool,
-    /// The inputs they belong to, SI; none of modes of given matrices.
+    /// The inputs they belong to, SI; empty for modes of given matrices.
     pub inputs: Vector,
     /// The mechanism they belong to.
     pub description: Shared<Description>,
@@ -153,7 +153,7 @@ impl Modes {
     }
 }
 
-/// The modes about an equilibrium, of the family that leaves nothing out ([`Family::of`]).
+/// The modes about an equilibrium, of the family that neglects nothing ([`Family::of`]).
 ///
 /// # Errors
 /// [`Error::SingularMass`] when a coordinate moves no mass, [`Error::ModesNotFound`] when a pair fails its residual
@@ -163,7 +163,7 @@ pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     modes_at(equilibrium, Family::of(&equilibrium.description))
 }
 
-/// Undamped modes about an equilibrium: `Chat` is left out, which the result says where it is not zero.
+/// Undamped modes about an equilibrium: `Chat` is neglected, and the result says so where it is not zero.
 ///
 /// # Errors
 /// As [`modes`], [`Error::NonsymmetricStiffness`] when `Khat` is not symmetric, and [`Error::NoUndampedModes`] with speeds
@@ -181,8 +181,8 @@ pub(crate) fn modes_at(at: &Equilibrium, family: Family) -> Result<Modes, Error>
     Ok(found)
 }
 
-/// Modes of given matrices, which belong to the mechanism that `description` describes. The elements count as rounded, no
-/// more: that one is the small rest of great terms, as at a critical speed, only an [`Equilibrium`] knows.
+/// Modes of given matrices, which belong to the mechanism that `description` describes. Elements are taken to
+/// be accurate to rounding: only an [`Equilibrium`] knows where one is the small difference of large terms, as at a critical speed.
 ///
 /// # Errors
 /// As [`undamped_modes`], and [`Error::WrongLength`] when the matrices are not as large as `description` says.

@@ -126,7 +126,7 @@ impl fmt::Display for FirstOrder {
         if self.modes.len() > 1 {
             writeln!(
                 f,
-                "  Each mode is taken alone: `summary` also sees what mixes modes and how frequencies bend."
+                "  Each mode is taken alone: `summary` also checks which modes mix and how nonlinear frequencies are."
             )?;
         }
         Ok(())
@@ -200,7 +200,7 @@ impl fmt::Display for MonteCarlo {
         if self.side_by_side {
             writeln!(
                 f,
-                "  Samples were solved side by side in vectors: one by one the last bits differ."
+                "  Samples were solved side by side in vectors: solved one by one, the last bits would differ."
             )?;
         }
         if self.clustered {

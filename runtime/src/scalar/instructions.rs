@@ -1,4 +1,4 @@
-//! Which vector instructions there are, asked of the processor at run time.
+//! Which vector instructions the processor has, detected at run time.
 
 use super::lanes::Task;
 #[cfg(target_arch = "x86_64")]
@@ -6,7 +6,7 @@ use super::x86::{Avx2, Avx512};
 
 /// A set of vector instructions that this processor has.
 ///
-/// Results do not depend on which is taken.
+/// Results do not depend on the choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instructions(Set);
 

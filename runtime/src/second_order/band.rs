@@ -10,7 +10,7 @@ use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
-/// A band of values to keep clear of.
+/// A band of values to avoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Band {
@@ -104,13 +104,13 @@ impl Band {
 pub struct ModeMargin {
     /// Position of the mode, from 0.
     pub mode: usize,
-    /// What is looked at.
+    /// The quantity.
     pub quantity: Quantity,
-    /// What it keeps clear of.
+    /// The band that it is to avoid.
     pub band: Band,
     /// Probabilities, distance, derivatives by design variables and half-widths; SI.
     pub margin: Margin,
-    /// Total derivatives of the first-order probability by each input, by SI unit: the quantity, its standard deviation
+    /// Total derivatives of the first-order probability by each input, per SI unit: the quantity, its standard deviation
     /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
     pub by_input: Option<Vector>,
     /// The inputs it belongs to, SI.
@@ -124,7 +124,7 @@ pub struct ModeMargin {
 ///
 /// # Errors
 /// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
-/// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for a band without sense.
+/// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for a band that makes no sense.
 pub fn mode_margin(
     mechanism: &dyn DirectionalKernels,
     at: &Equilibrium,

@@ -1,4 +1,4 @@
-//! Second order: how frequencies curve with the tolerances, and the exact distribution of what curves like that.
+//! Second order: how frequencies depend on tolerances quadratically, and the exact distribution of such a quadratic model.
 
 mod band;
 mod curvature;

@@ -41,20 +41,20 @@ impl<T: Copy + Default> Slopes<T> {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ModeSensitivity {
-    /// `dlambda/du`, 1/s^2 by SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
+    /// `dlambda/du`, 1/s^2 per SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
     /// derivative because it has merged with another eigenvalue.
     pub lambda_by_input: Vector,
-    /// `dlambda/db`, 1/s^2 by SI unit of the design variable.
+    /// `dlambda/db`, 1/s^2 per SI unit of the design variable.
     pub lambda_by_design: Vector,
-    /// `ds`, 1/s by SI unit; `None` where the eigenvalue has no derivative: an undamped neutral mode, a general one that
+    /// `ds`, 1/s per SI unit; `None` where the eigenvalue has no derivative: an undamped neutral mode, a general one that
     /// has merged with another.
     pub s: Option<Slopes<Complex>>,
-    /// `domega/du`, rad/s by SI unit (eq. 21), `omega = Im s`; `None` for a mode that does not oscillate.
+    /// `domega/du`, rad/s per SI unit (eq. 21), `omega = Im s`; `None` for a mode that does not oscillate.
     pub omega_by_input: Option<Vector>,
-    /// `domega/db`, rad/s by SI unit (eq. 21); `None` for a mode that does not oscillate.
+    /// `domega/db`, rad/s per SI unit (eq. 21); `None` for a mode that does not oscillate.
     pub omega_by_design: Option<Vector>,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`](crate::Modes::cluster_of)): these numbers belong to the
-    /// computed basis of the cluster, any other one has others. What exists are [`directional_derivatives`](crate::clusters::directional_derivatives).
+    /// computed basis of the cluster and would differ in another. What does exist are [`directional_derivatives`](crate::clusters::directional_derivatives).
     pub clustered: bool,
     /// The eigenvalue they belong to.
     value: Complex,

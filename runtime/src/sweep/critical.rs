@@ -22,8 +22,8 @@ const MOST_POINTS: usize = 50_000;
 /// where its determinant changes sign.
 ///
 /// # Errors
-/// [`Error::NotInRange`] when the branch keeps its stiffness; where it cannot be followed so far, the reason;
-/// otherwise as [`equilibrium`].
+/// [`Error::NotInRange`] when the branch keeps its stiffness; the reason where the branch cannot be followed to the end of the
+/// range; otherwise as [`equilibrium`].
 pub fn critical_state(
     mechanism: &dyn DirectionalKernels,
     u: &[f64],

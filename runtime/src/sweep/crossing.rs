@@ -12,7 +12,7 @@ use crate::{Equilibrium, Error, Input, Mode, Modes};
 /// A line `ratio u + offset` that a frequency is compared with: an engine order, or a fixed excitation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Multiple of the input; rad/s by SI unit of the input.
+    /// Multiple of the input; rad/s per SI unit of the input.
     pub ratio: f64,
     /// Part that does not depend on the input, rad/s.
     pub offset: f64,
@@ -112,7 +112,7 @@ impl Condition {
 /// without modes are passed over, and a frequency that jumps across the line with the equilibrium does not meet it.
 ///
 /// # Errors
-/// [`Error::UnknownHandle`], [`Error::Setting`], and those of the first point.
+/// [`Error::UnknownHandle`], [`Error::Setting`], and the error of the first point.
 pub fn crossings(
     mechanism: &dyn Kernels,
     u: &[f64],

@@ -14,8 +14,8 @@ pub struct Sweep {
     pub input: Input,
     /// One point for each value.
     pub points: Vec<SweepPoint>,
-    /// Where the stable equilibrium that the sweep follows loses its stiffness: critical values of the input, located to
-    /// rounding, each on the branch before it. Looked for when a stable equilibrium is wanted and the values ascend or
+    /// Critical values of the input, where the stable equilibrium that the sweep follows loses its stiffness; located to
+    /// rounding, each on the branch before it. Found only where stable equilibria are wanted and the values ascend or
     /// descend.
     pub critical: Vec<CriticalState>,
     /// The inputs, SI; all but the swept one keep their value.

@@ -1,4 +1,4 @@
-//! Half-widths, the number of standard deviations they hold, and how variables vary together.
+//! Half-widths, the number of standard deviations they stand for, and how variables vary together.
 
 use std::borrow::Cow;
 
@@ -28,8 +28,7 @@ impl Tolerances {
         Self::new(half_widths, 3.0, None)
     }
 
-    /// Half-widths in SI units that hold `sigma_level` standard deviations; `correlation` couples the variables,
-    /// `None` leaves them independent.
+    /// Half-widths, SI, of `sigma_level` standard deviations each; `None` for `correlation` leaves the variables independent.
     ///
     /// # Errors
     /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
@@ -96,7 +95,7 @@ impl Tolerances {
         &self.half_widths
     }
 
-    /// How many standard deviations a half-width holds.
+    /// How many standard deviations a half-width stands for.
     #[must_use]
     pub fn sigma_level(&self) -> f64 {
         self.sigma_level

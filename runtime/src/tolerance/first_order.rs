@@ -11,8 +11,8 @@ use crate::{Behaviour, Complex, Description, Error, Mode, Modes, Sensitivities, 
 ///
 /// It is a warning, not a bound on the error beyond. For the rotating bar, against quadrature of the exact
 /// distribution, first order misses the standard deviation at this distance by -3.4, -4.5 and -7.4 % for tolerances of
-/// 3, 6 and 12 %; for 12 % an error of a few percent needs about 6 standard deviations. Large tolerances bend the
-/// frequency itself, which a distance to the critical state does not show.
+/// 3, 6 and 12 %; for 12 % an error of a few percent needs about 6 standard deviations. Under large tolerances the
+/// frequency itself is nonlinear, which a distance to the critical state does not show.
 pub const TRUSTED_DISTANCE: f64 = 4.5;
 
 /// First-order spread of one mode.
@@ -34,7 +34,7 @@ pub struct ModeTolerance {
     pub growth: Option<Spread>,
     /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda` over its own, with
     /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
-    /// it has no derivative that would tell.
+    /// it has no derivative.
     pub distance_to_critical: f64,
     /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it neither grows nor
     /// decays within rounding though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
@@ -44,8 +44,8 @@ pub struct ModeTolerance {
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
     pub distance_to_neighbour: f64,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
-    /// and the numbers here belong to the computed basis of the cluster. That tolerances mix modes
-    /// farther apart is told by [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary).
+    /// and the numbers here belong to the computed basis of the cluster. Whether tolerances mix modes
+    /// farther apart, [`clusters`](crate::clusters::clusters) and [`summary`](crate::summary::summary) tell.
     pub clustered: bool,
 }
 
@@ -73,7 +73,7 @@ pub struct FirstOrder {
     /// How many standard deviations a tolerance and a band hold.
     pub sigma_level: f64,
     /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
-    /// branch, which bends every mode, so the nearest mode limits the trust in all.
+    /// branch, which changes every mode, so the nearest mode limits the trust in all.
     pub distance_to_critical: f64,
     /// Which modes they belong to.
     pub family: Family,
@@ -85,7 +85,7 @@ pub struct FirstOrder {
 
 impl FirstOrder {
     /// Whether the critical state and the neighbouring modes are far enough away ([`TRUSTED_DISTANCE`]). It looks at each
-    /// mode alone; [`summary`](crate::summary::summary) also sees what mixes modes and how frequencies bend.
+    /// mode alone; [`summary`](crate::summary::summary) also sees which modes mix and how nonlinear frequencies are.
     pub fn trusted(&self) -> bool {
         self.distance_to_critical >= TRUSTED_DISTANCE && self.modes.iter().all(ModeTolerance::alone)
     }

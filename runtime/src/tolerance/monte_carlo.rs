@@ -1,4 +1,4 @@
-//! Monte Carlo: every sample re-solves its own equilibrium and its own eigenproblem, and none is dropped in silence.
+//! Monte Carlo: every sample solves its own equilibrium and its own eigenproblem, and every failure is counted.
 
 use rayon::prelude::*;
 
@@ -26,10 +26,10 @@ pub struct Sampling<'a> {
     pub samples: usize,
     /// The same seed gives the same samples and bit-identical results for any number of threads.
     pub seed: u64,
-    /// Which of the independent sequences of the seed: points of a sweep that must not share samples take one each.
+    /// Which of the seed's independent sequences: points of a sweep that must not share samples take one each.
     pub stream: u64,
-    /// Number of threads; 0 takes what the machine has. More than 256 count as 256, or as what the machine has if that is more.
-    /// Threads that were started wait for the next run.
+    /// Number of threads; 0 takes as many as the machine has. The limit is 256, or as many as the machine has if that is more.
+    /// Started threads wait for the next run.
     pub threads: usize,
     /// Return every sample, not only the statistics.
     pub keep_samples: bool,
@@ -38,7 +38,7 @@ pub struct Sampling<'a> {
     /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one. The result says
     /// which it was ([`MonteCarlo::side_by_side`]).
     pub vectors: Option<Instructions>,
-    /// Called with a number of samples whenever that many more are done, from any thread.
+    /// Called with the number of samples done since the last call, from any thread.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
 }
 
@@ -83,10 +83,10 @@ pub struct MonteCarlo {
     pub modes: Vec<Option<Statistics>>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: Vec<Option<Statistics>>,
-    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), but for those that need a solver of their own. One by
-    /// one the statistics differ in the last bits.
+    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), except those that had to be solved alone. Solved one by
+    /// one, the statistics differ in the last bits.
     pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues: which of them a mode of a sample is taken for is arbitrary, and only
+    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode is matched to is arbitrary, and only
     /// statistics of all of them together mean something ([`clusters`](crate::clusters::clusters)).
     pub clustered: bool,
     /// Every sample in order, when asked for.
@@ -101,7 +101,7 @@ pub struct MonteCarlo {
 
 /// Samples the design variables about those of `nominal` (normal, by `tolerances`), re-solves each sample from the
 /// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape. Samples
-/// settle on a stable equilibrium whichever was wanted of the nominal one.
+/// settle on a stable equilibrium, whatever policy found the nominal one.
 ///
 /// # Errors
 /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Threads`] when worker threads cannot be started. Samples

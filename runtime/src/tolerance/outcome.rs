@@ -1,4 +1,4 @@
-//! What becomes of samples.
+//! What became of samples.
 
 use crate::Stability;
 use crate::equilibrium::Failure;
@@ -17,7 +17,7 @@ pub enum Outcome {
     Undecided,
     /// No equilibrium was found.
     NoEquilibrium,
-    /// Its constraints cannot be met together: its lengths do not close the loops.
+    /// Its constraints cannot be met: its loops do not close.
     NotAssembled,
     /// Its design describes bodies that cannot exist, or lies outside the domain of an expression.
     Unphysical,
