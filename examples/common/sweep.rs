@@ -82,7 +82,7 @@ impl Sweep {
         speeds: &[f64],
         sampling: Option<&Sampling<'_>>,
     ) -> Result<Self, Error> {
-        let points = study.sweep(question.input(), speeds)?;
+        let points = study.sweep(question.input(), speeds)?.points;
         let rows = points
             .iter()
             .zip(0..)

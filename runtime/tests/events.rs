@@ -28,7 +28,8 @@ fn sweep_goes_on_past_failures_and_along_the_stable_branch() {
         Input::new(0),
         &values,
     )
-    .unwrap();
+    .unwrap()
+    .points;
     assert_eq!(points.len(), values.len());
     assert!(matches!(
         points[2].equilibrium,
@@ -211,7 +212,8 @@ fn a_mode_that_has_ended_does_not_lend_its_label_to_another() {
         Input::new(0),
         &values,
     )
-    .unwrap();
+    .unwrap()
+    .points;
     let mut seen = [false; 2];
     let mut owners = [None; 8];
     for mode in points

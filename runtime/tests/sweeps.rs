@@ -109,13 +109,13 @@ fn compare<M>(
         let other = format!("{:?}", run(Some(set)));
         assert!(other == format!("{first:?}"), "{set:?}");
     }
-    assert_eq!(first.len(), values.len());
+    assert_eq!(first.points.len(), values.len());
     assert_eq!(first.critical.len(), alone.critical.len());
     for (own, other) in first.critical.iter().zip(&alone.critical) {
         near(own.value, other.value, 1.0);
     }
     let mut side_by_side = 0;
-    for ((own, other), &value) in first.iter().zip(alone.iter()).zip(values) {
+    for ((own, other), &value) in first.points.iter().zip(&alone).zip(values) {
         assert!(own.value == value || value.is_nan());
         let (state, expected) = match (&own.equilibrium, &other.equilibrium) {
             (Ok(state), Ok(expected)) => (state, expected),
@@ -177,7 +177,7 @@ fn derivatives(
     let run = |set| {
         let following = Following::from(Policy::Stable).vectors(Some(set));
         let mut all: Vec<Result<Sensitivities, Error>> = Vec::new();
-        let mut points = along.iter();
+        let mut points = along.points.iter();
         let each = |point: &_, slopes: &Result<Sensitivities, Error>| {
             let kept = points.next().map(|point| format!("{point:?}"));
             assert_eq!(Some(format!("{point:?}")), kept);
@@ -192,7 +192,7 @@ fn derivatives(
         assert!(format!("{:?}", run(set)) == format!("{first:?}"), "{set:?}");
     }
     assert_eq!(first.len(), values.len());
-    for (slopes, point) in first.iter().zip(along.iter()) {
+    for (slopes, point) in first.iter().zip(along) {
         let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) else {
             assert!(slopes.is_err());
             continue;
@@ -381,8 +381,9 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
             Double::omega.any(),
             &values,
         );
-        let points = found.expect("an input of the mechanism");
-        let modes = points
+        let found = found.expect("an input of the mechanism");
+        let modes = found
+            .points
             .iter()
             .map(|point| point.modes.as_ref().expect("modes"));
         modes

@@ -82,7 +82,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets a design variable.
+    /// Sets a design variable. A declared tolerance keeps its half-width, also one in percent
+    /// ([`Study::relative_tolerance`] follows the value).
     ///
     /// ```
     #[doc = include_str!("example.txt")]

@@ -31,7 +31,7 @@ use crate::Unit;
 /// assert_eq!(study.design_values(), [0.25]);
 ///
 /// let sweep = study.sweep(Governor::speed, &[60.0, 90.0, 120.0].map(InDeclaredUnit))?;
-/// assert_eq!(sweep.len(), 3);
+/// assert_eq!(sweep.points.len(), 3);
 /// let critical = study.critical_state(Governor::speed, 0.0, InDeclaredUnit(300.0))?;
 /// let unit = &study.description().inputs[Governor::speed.index()].unit;
 /// println!("critical at {} {}", unit.from_si(critical.value), unit.symbol);

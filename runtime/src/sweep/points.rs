@@ -1,12 +1,10 @@
 //! What is found along an input.
 
-use core::ops::Deref;
-
 use crate::algebra::Vector;
 use crate::branches::SpecialKind;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 
-/// A sweep: its points read as a slice.
+/// A sweep; iterating over it yields its points.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sweep {
@@ -22,14 +20,6 @@ pub struct Sweep {
     pub inputs: Vector,
     /// The mechanism it belongs to.
     pub description: Shared<Description>,
-}
-
-impl Deref for Sweep {
-    type Target = [SweepPoint];
-
-    fn deref(&self) -> &Self::Target {
-        &self.points
-    }
 }
 
 impl IntoIterator for Sweep {

@@ -214,7 +214,8 @@ fn a_sweep_through_the_critical_speed_stays_on_stable_states() {
         let study = Study::new(RotatingDoublePendulum);
         let points = study
             .sweep(RotatingDoublePendulum::omega, &speeds)
-            .expect("a sweep");
+            .expect("a sweep")
+            .points;
         assert_eq!(points.len(), speeds.len());
         let tolerances = study.tolerances().expect("declared");
         for point in points {

@@ -112,7 +112,8 @@ fn the_bent_branch_is_followed() {
     let study = Study::new(RotatingDoublePendulum).start(RotatingDoublePendulum::theta1, 1.4);
     let points = study
         .sweep(RotatingDoublePendulum::omega, &speeds)
-        .expect("a sweep");
+        .expect("a sweep")
+        .points;
     assert_eq!(points.len(), 54);
     for (point, row) in points.iter().zip(&rows) {
         let what = format!("{} rad/s", row[0]);

@@ -29,6 +29,7 @@ fn pair(coupling: f64) -> Pair {
 fn branch(study: &Pair, values: &[f64], label: usize) -> Vec<(f64, f64)> {
     let swept = study.sweep(TunedPair::tuning, values).expect("a sweep");
     swept
+        .points
         .iter()
         .map(|point| {
             let modes = point.modes.as_ref().expect("modes");
