@@ -279,7 +279,7 @@ fn impossible_values_repeated_ones_and_leaps_keep_their_own_answer() {
     let mut masses = steps(1.0, -0.5, 30);
     masses.extend(steps(0.3, 0.9, 30));
     let (found, _) = compare(&Triple, &[5.0, 0.5], &[1.0, 0.1, 0.0], Triple::m, &masses);
-    assert!(found.iter().any(|point| point.equilibrium.is_err()));
+    assert!(found.points.iter().any(|point| point.equilibrium.is_err()));
     let mut values = steps(5.0, 6.0, 20);
     values.extend([6.0, 6.0, 6.0, f64::NAN, f64::INFINITY, 9.0, 2.0, 2.1, 2.2]);
     values.extend(steps(2.3, 9.0, 31));
@@ -295,10 +295,10 @@ fn modes_keep_their_labels_where_frequencies_cross() {
         let start = &[0.01, 0.01, 0.2, 0.1, 0.0];
         let (found, _) = compare(&Crossing, &[20.0], start, Crossing::k, &values);
         let labels = |point: usize| -> Vec<usize> {
-            let modes = found[point].modes.as_ref().expect("modes");
+            let modes = found.points[point].modes.as_ref().expect("modes");
             modes.modes.iter().map(|mode| mode.label).collect()
         };
-        assert_eq!(labels(0), labels(found.len() - 1));
+        assert_eq!(labels(0), labels(found.points.len() - 1));
     }
 }
 
