@@ -6,6 +6,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
+mod buffer;
 mod cholesky;
 mod lu;
 mod matrix;
