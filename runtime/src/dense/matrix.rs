@@ -155,8 +155,7 @@ impl<T: Copy + Default, const R: usize, const C: usize> From<[[T; C]; R]> for Ma
 
 impl<T: PartialEq> PartialEq for Matrix<T> {
     fn eq(&self, other: &Self) -> bool {
-        (self.rows, self.columns) == (other.rows, other.columns)
-            && *self.entries == *other.entries
+        (self.rows, self.columns) == (other.rows, other.columns) && *self.entries == *other.entries
     }
 }
 

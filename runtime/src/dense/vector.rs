@@ -146,7 +146,10 @@ impl<T: Copy> IntoIterator for Vector<T> {
 
     #[inline]
     fn into_iter(self) -> IntoIter<T> {
-        IntoIter { left: 0..self.len(), vector: self }
+        IntoIter {
+            left: 0..self.len(),
+            vector: self,
+        }
     }
 }
 

@@ -44,7 +44,7 @@ pub use track::Following;
 pub(crate) use track::Tracker;
 
 pub(crate) use problem::{Failure, Problem, check_count, name};
-pub(crate) use settle::settle;
+pub(crate) use settle::{settle, settle_into};
 
 pub use crate::constraints::ConstraintState;
 
@@ -101,6 +101,27 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// What a state of a problem is written over.
+    #[inline]
+    pub(crate) fn blank(problem: &Problem<'_>) -> Self {
+        let n = problem.size();
+        Self {
+            coordinates: Vector::zeros(n),
+            inputs: problem.inputs.into(),
+            design: problem.design.into(),
+            stability: Stability::Undecided,
+            rounding: 0.0,
+            linear: Linear::zeros(n),
+            residual: Vector::zeros(n),
+            relative_residual: f64::INFINITY,
+            iterations: 0,
+            pose: None,
+            constraints: ConstraintState::open(n),
+            left_unstable_region: false,
+            description: problem.description.clone(),
+        }
+    }
+
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)
@@ -145,5 +166,8 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     let problem = Problem::new(mechanism, u, b)?;
     problem.check_start(start)?;
-    settle(&problem, start, policy).map_err(|failure| failure.explain(&problem.description))
+    let mut state = Equilibrium::blank(&problem);
+    settle_into(&problem, start, policy, &mut state)
+        .map_err(|failure| failure.explain(&problem.description))?;
+    Ok(state)
 }

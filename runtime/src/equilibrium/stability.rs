@@ -2,7 +2,7 @@
 
 use super::problem::Failure;
 use crate::constraints::{Structure, Tangent};
-use crate::dense::{Cholesky, Lu, Matrix, asymmetry, largest_element};
+use crate::dense::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
 use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes, symmetric};
 use crate::rounding::{self, Place, Sign, of_form, sign};
@@ -59,6 +59,21 @@ pub(super) type Verdict = (Stability, f64);
 #[inline]
 pub(super) fn clearly_definite(linear: &Linear) -> bool {
     Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
+}
+
+/// Whether `Mhat` and `Khat` are positive definite, `Khat` beyond any doubt.
+#[inline]
+pub(super) fn clearly_stable(linear: &Linear) -> bool {
+    for_size(
+        linear.mass.row_count(),
+        #[inline(always)]
+        |n| {
+            let mut factors = Cholesky::zeros(n);
+            factors.factor_of(n, &linear.mass).is_ok()
+                && factors.factor_of(n, &linear.stiffness).is_ok()
+                && rounding::clear(&factors.pivots()[..n], linear)
+        },
+    )
 }
 
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
