@@ -8,7 +8,7 @@ use crate::batched::{Block, Workspace};
 use crate::dense::Vector;
 use crate::kernels::{BatchKernels, Kernels};
 use crate::lanes::{Instructions, WIDTH};
-use crate::modes::{Family, match_with_assurance, merged, modes_at, near_another};
+use crate::modes::{Family, match_with_assurance, merged, modes_at, near_another, position};
 use crate::sensitivity::CLUSTER_GAP;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
 
@@ -264,10 +264,7 @@ impl<'a> Tracker<'a> {
             if doubtful && halvings > 0 && between {
                 return Ok(Step::TooFar(middle));
             }
-            let positions = order.iter();
-            let order: Vec<_> = positions
-                .map(|pair| pair.map(|(position, _)| position))
-                .collect();
+            let order = order.map(position);
             found.arrange(&last.modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);

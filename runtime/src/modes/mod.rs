@@ -17,7 +17,7 @@ pub(crate) mod symmetric;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
+pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub use whirl::{Sense, Whirl, whirls};
