@@ -1,5 +1,6 @@
 //! Factors of a symmetric positive definite matrix.
 
+use super::for_size;
 use super::matrix::Matrix;
 use super::vector::Vector;
 
@@ -31,14 +32,24 @@ impl Cholesky {
     }
 
     /// Writes the factors of `matrix`, of the same size, over those there are; `Err` as in [`Self::new`].
-    #[inline(always)]
+    #[inline]
     pub(crate) fn factor(&mut self, matrix: &Matrix) -> Result<(), usize> {
-        let n = matrix.row_count();
+        for_size(
+            matrix.row_count(),
+            #[inline(always)]
+            |n| self.factor_of(n, matrix),
+        )
+    }
+
+    /// The same of a matrix of size `n`; see [`for_size`].
+    #[inline(always)]
+    pub(crate) fn factor_of(&mut self, n: usize, matrix: &Matrix) -> Result<(), usize> {
         let threshold = 8.0 * n as f64 * f64::EPSILON;
-        let lower = self.lower.as_flattened_mut();
+        let matrix = &matrix.as_flattened()[..n * n];
+        let lower = &mut self.lower.as_flattened_mut()[..n * n];
         let pivots = &mut self.pivots[..n];
         for i in 0..n {
-            let row = &matrix[i];
+            let row = &matrix[i * n..(i + 1) * n];
             let (above, own) = lower.split_at_mut(i * n);
             let own = &mut own[..n];
             let mut pivot = row[i];
@@ -97,19 +108,29 @@ impl Cholesky {
     }
 
     /// Writes the solution over the right-hand side.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn solve_in_place(&self, x: &mut [f64]) {
-        let n = x.len();
+        for_size(
+            x.len(),
+            #[inline(always)]
+            |n| self.solve_of(n, x),
+        );
+    }
+
+    /// The same for `n` unknowns; see [`for_size`].
+    #[inline(always)]
+    pub(crate) fn solve_of(&self, n: usize, x: &mut [f64]) {
+        let (lower, pivots) = (&self.lower.as_flattened()[..n * n], &self.pivots[..n]);
+        let x = &mut x[..n];
         for i in 0..n {
-            let row = &self.lower[i];
             for k in 0..i {
-                x[i] -= row[k] * x[k];
+                x[i] -= lower[i * n + k] * x[k];
             }
         }
         for i in (0..n).rev() {
-            x[i] /= self.pivots[i];
+            x[i] /= pivots[i];
             for k in i + 1..n {
-                x[i] -= self.lower[k][i] * x[k];
+                x[i] -= lower[k * n + i] * x[k];
             }
         }
     }

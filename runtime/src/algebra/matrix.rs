@@ -4,9 +4,8 @@ use core::fmt;
 use core::ops::{Index, IndexMut};
 use core::slice;
 
+use super::buffer::Buffer;
 use super::vector::{Vector, dot, greater, largest, unless_finite};
-use smallvec::{SmallVec, smallvec};
-
 use crate::Complex;
 
 /// Entries that stand in the matrix itself.
@@ -31,11 +30,18 @@ const FEW: usize = 16;
 /// let force = other * DVector::from(Vector::from([1.0, 0.0]));
 /// assert_eq!(Vector::from(force), [0.0, -2.0]);
 /// ```
-#[derive(Clone, Default, PartialEq)]
+#[derive(Clone)]
 pub struct Matrix<T = f64> {
     rows: usize,
     columns: usize,
-    entries: SmallVec<[T; FEW]>,
+    entries: Buffer<T, FEW>,
+}
+
+impl<T: Copy + Default> Default for Matrix<T> {
+    #[inline]
+    fn default() -> Self {
+        Self::zeros(0, 0)
+    }
 }
 
 impl<T: Copy + Default> Matrix<T> {
@@ -46,24 +52,22 @@ impl<T: Copy + Default> Matrix<T> {
         Self {
             rows,
             columns,
-            entries: smallvec![T::default(); rows * columns],
+            entries: Buffer::filled(rows * columns, T::default()),
         }
     }
 }
 
-impl<T: Copy> Matrix<T> {
+impl<T: Copy + Default> Matrix<T> {
     /// `value(i, j)` in row `i` and column `j`.
     #[inline]
     pub fn from_fn(rows: usize, columns: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {
-        let mut entries = SmallVec::with_capacity(rows * columns);
-        for i in 0..rows {
-            entries.extend((0..columns).map(|j| value(i, j)));
+        let mut matrix = Self::zeros(rows, columns);
+        for (i, row) in matrix.iter_mut().enumerate() {
+            for (j, place) in row.iter_mut().enumerate() {
+                *place = value(i, j);
+            }
         }
-        Self {
-            rows,
-            columns,
-            entries,
-        }
+        matrix
     }
 
     /// The matrix whose entries are `entries`, row by row; as many as fit.
@@ -72,12 +76,12 @@ impl<T: Copy> Matrix<T> {
         Self {
             rows: entries.len().checked_div(columns).unwrap_or(0),
             columns,
-            entries: SmallVec::from_vec(entries),
+            entries: entries.into(),
         }
     }
 
     /// `f` of every entry.
-    pub fn map<R: Copy>(&self, f: impl FnMut(T) -> R) -> Matrix<R> {
+    pub fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Matrix<R> {
         Matrix {
             rows: self.rows,
             columns: self.columns,
@@ -160,13 +164,19 @@ impl<T> IndexMut<usize> for Matrix<T> {
     }
 }
 
-impl<T: Copy, const R: usize, const C: usize> From<[[T; C]; R]> for Matrix<T> {
+impl<T: Copy + Default, const R: usize, const C: usize> From<[[T; C]; R]> for Matrix<T> {
     fn from(rows: [[T; C]; R]) -> Self {
         Self {
             rows: R,
             columns: C,
-            entries: SmallVec::from_slice(rows.as_flattened()),
+            entries: Buffer::from_slice(rows.as_flattened()),
         }
+    }
+}
+
+impl<T: PartialEq> PartialEq for Matrix<T> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.rows, self.columns) == (other.rows, other.columns) && *self.entries == *other.entries
     }
 }
 

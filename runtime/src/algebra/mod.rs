@@ -6,6 +6,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
+mod buffer;
 mod cholesky;
 mod lu;
 mod matrix;
@@ -23,3 +24,16 @@ pub(crate) use matrix::{
 pub(crate) use vector::{
     Values, add_scaled, add_to, all_finite, dot, dot_complex, greater, largest, unless_finite,
 };
+
+/// Calls `work` with the size; as a constant where that is small, so that what is inlined into it is compiled for that size:
+/// loops without a count, no checks of bounds.
+#[inline(always)]
+pub(crate) fn for_size<R>(n: usize, work: impl FnOnce(usize) -> R) -> R {
+    match n {
+        1 => work(1),
+        2 => work(2),
+        3 => work(3),
+        4 => work(4),
+        n => work(n),
+    }
+}

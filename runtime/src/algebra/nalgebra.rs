@@ -18,14 +18,14 @@ impl<T: Scalar> From<Matrix<T>> for DMatrix<T> {
     }
 }
 
-impl<T: Scalar + Copy> From<&DMatrix<T>> for Matrix<T> {
+impl<T: Scalar + Copy + Default> From<&DMatrix<T>> for Matrix<T> {
     /// Element `[i][j]` is `matrix[(i, j)]`.
     fn from(matrix: &DMatrix<T>) -> Self {
         Self::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
     }
 }
 
-impl<T: Scalar + Copy> From<DMatrix<T>> for Matrix<T> {
+impl<T: Scalar + Copy + Default> From<DMatrix<T>> for Matrix<T> {
     fn from(matrix: DMatrix<T>) -> Self {
         Self::from(&matrix)
     }
@@ -37,19 +37,19 @@ impl<T: Scalar> From<&Vector<T>> for DVector<T> {
     }
 }
 
-impl<T: Scalar> From<Vector<T>> for DVector<T> {
+impl<T: Scalar + Copy> From<Vector<T>> for DVector<T> {
     fn from(vector: Vector<T>) -> Self {
         Self::from_vec(vector.into())
     }
 }
 
-impl<T: Scalar + Copy> From<&DVector<T>> for Vector<T> {
+impl<T: Scalar + Copy + Default> From<&DVector<T>> for Vector<T> {
     fn from(vector: &DVector<T>) -> Self {
         Self::from(vector.as_slice())
     }
 }
 
-impl<T: Scalar + Copy> From<DVector<T>> for Vector<T> {
+impl<T: Scalar + Copy + Default> From<DVector<T>> for Vector<T> {
     fn from(vector: DVector<T>) -> Self {
         Self::from(&vector)
     }

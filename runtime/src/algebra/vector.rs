@@ -1,20 +1,26 @@
 //! Lists of numbers whose length is known at run time; short ones do not need the heap.
 
-use core::ops::{Deref, DerefMut, Index, IndexMut};
+use core::ops::{Deref, DerefMut, Index, IndexMut, Range};
 use core::slice::SliceIndex;
 use core::{fmt, slice};
 
-use smallvec::{SmallVec, smallvec};
-
+use super::buffer::Buffer;
 use crate::Complex;
 
 /// Entries that stand in the vector itself.
 const FEW: usize = 8;
 
 /// A list of numbers; reads as a slice. Converts to nalgebra and back as a [`Matrix`](crate::Matrix) does.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Vector<T = f64> {
-    entries: SmallVec<[T; FEW]>,
+    entries: Buffer<T, FEW>,
+}
+
+impl<T: Copy + Default> Default for Vector<T> {
+    #[inline]
+    fn default() -> Self {
+        Self::zeros(0)
+    }
 }
 
 impl<T: Copy + Default> Vector<T> {
@@ -23,23 +29,25 @@ impl<T: Copy + Default> Vector<T> {
     #[inline]
     pub fn zeros(n: usize) -> Self {
         Self {
-            entries: smallvec![T::default(); n],
+            entries: Buffer::filled(n, T::default()),
         }
     }
 }
 
-impl<T> Vector<T> {
+impl<T: Copy + Default> Vector<T> {
     /// `value(k)` in place `k`.
     #[inline]
     pub fn from_fn(n: usize, value: impl FnMut(usize) -> T) -> Self {
-        (0..n).map(value).collect()
+        Self {
+            entries: Buffer::from_fn(n, value),
+        }
     }
 }
 
-impl<T: Copy> Vector<T> {
+impl<T: Copy + Default> Vector<T> {
     /// `f` of every entry.
     #[inline]
-    pub fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
+    pub fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
         self.entries.iter().copied().map(f).collect()
     }
 
@@ -47,17 +55,16 @@ impl<T: Copy> Vector<T> {
     #[inline]
     pub fn filled(n: usize, value: T) -> Self {
         Self {
-            entries: smallvec![value; n],
+            entries: Buffer::filled(n, value),
         }
     }
 }
 
-impl<T> Vector<T> {
+impl<T: Copy + Default> Vector<T> {
     /// Writes other values over these, in the same room.
     #[inline]
     pub(crate) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        self.entries.clear();
-        self.entries.extend(values);
+        self.entries.assign(values);
     }
 }
 
@@ -93,7 +100,7 @@ impl<T, I: SliceIndex<[T]>> IndexMut<I> for Vector<T> {
     }
 }
 
-impl<T> FromIterator<T> for Vector<T> {
+impl<T: Copy + Default> FromIterator<T> for Vector<T> {
     #[inline]
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
         Self {
@@ -102,16 +109,16 @@ impl<T> FromIterator<T> for Vector<T> {
     }
 }
 
-impl<T: Copy> From<&[T]> for Vector<T> {
+impl<T: Copy + Default> From<&[T]> for Vector<T> {
     #[inline]
     fn from(values: &[T]) -> Self {
         Self {
-            entries: SmallVec::from_slice(values),
+            entries: Buffer::from_slice(values),
         }
     }
 }
 
-impl<T: Copy, const N: usize> From<[T; N]> for Vector<T> {
+impl<T: Copy + Default, const N: usize> From<[T; N]> for Vector<T> {
     #[inline]
     fn from(values: [T; N]) -> Self {
         Self::from(&values[..])
@@ -122,27 +129,53 @@ impl<T> From<Vec<T>> for Vector<T> {
     #[inline]
     fn from(entries: Vec<T>) -> Self {
         Self {
-            entries: SmallVec::from_vec(entries),
+            entries: entries.into(),
         }
     }
 }
 
-impl<T> From<Vector<T>> for Vec<T> {
+impl<T: Copy> From<Vector<T>> for Vec<T> {
     #[inline]
     fn from(vector: Vector<T>) -> Self {
-        vector.entries.into_vec()
+        vector.entries.into()
     }
 }
 
-impl<T> IntoIterator for Vector<T> {
+impl<T: Copy> IntoIterator for Vector<T> {
     type Item = T;
-    type IntoIter = smallvec::IntoIter<[T; FEW]>;
+    type IntoIter = IntoIter<T>;
 
     #[inline]
-    fn into_iter(self) -> Self::IntoIter {
-        self.entries.into_iter()
+    fn into_iter(self) -> IntoIter<T> {
+        IntoIter {
+            left: 0..self.len(),
+            vector: self,
+        }
     }
 }
+
+/// The numbers of a vector, one after the other.
+#[derive(Clone, Debug)]
+pub struct IntoIter<T> {
+    vector: Vector<T>,
+    left: Range<usize>,
+}
+
+impl<T: Copy> Iterator for IntoIter<T> {
+    type Item = T;
+
+    #[inline]
+    fn next(&mut self) -> Option<T> {
+        self.left.next().map(|k| self.vector[k])
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.left.size_hint()
+    }
+}
+
+impl<T: Copy> ExactSizeIterator for IntoIter<T> {}
 
 impl<'a, T> IntoIterator for &'a Vector<T> {
     type Item = &'a T;
@@ -166,7 +199,7 @@ impl<'a, T> IntoIterator for &'a mut Vector<T> {
 
 impl<T: fmt::Debug> fmt::Debug for Vector<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.entries.fmt(f)
+        f.debug_list().entries(self).finish()
     }
 }
 
@@ -185,12 +218,12 @@ impl<T> AsRef<[T]> for Vector<T> {
 /// What slices of numbers can do here.
 pub(crate) trait Values<T> {
     /// `f` of every entry.
-    fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R>;
+    fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R>;
 }
 
 impl<T: Copy> Values<T> for [T] {
     #[inline]
-    fn map<R>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
+    fn map<R: Copy + Default>(&self, f: impl FnMut(T) -> R) -> Vector<R> {
         self.iter().copied().map(f).collect()
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
 use super::refine::refine;
-use crate::algebra::{Matrix, Vector, greater, largest};
+use crate::algebra::{Matrix, Vector, for_size, greater, largest};
 use crate::rounding::of_elements;
 
 /// Why the eigenproblem was not solved.
@@ -66,8 +66,17 @@ pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble>
         8 => small_8(k, m, lambda, shapes)?,
         _ => large(n, k, m, lambda, shapes)?,
     }
-    let sizes = (&mut pairs.residuals[..], &mut pairs.errors[..]);
-    finish(&Matrices { n, k, m }, lambda, shapes, sizes)?;
+    let (residuals, errors) = (&mut pairs.residuals[..], &mut pairs.errors[..]);
+    for_size(
+        n,
+        #[inline(always)]
+        |n| {
+            let (k, m) = (&k[..n * n], &m[..n * n]);
+            let sizes = (&mut residuals[..n], &mut errors[..n]);
+            let (lambda, shapes) = (&mut lambda[..n], &mut shapes[..n * n]);
+            finish(n, &Matrices { n, k, m }, lambda, shapes, sizes)
+        },
+    )?;
     Ok(pairs)
 }
 
@@ -216,24 +225,20 @@ pub(crate) struct Matrices<'a> {
 /// Sorts, refines where needed, fixes signs and checks each residual.
 #[inline(always)]
 fn finish(
+    n: usize,
     matrices: &Matrices,
     lambda: &mut [f64],
     shapes: &mut [f64],
     (residuals, errors): (&mut [f64], &mut [f64]),
 ) -> Result<(), Trouble> {
-    let n = matrices.n;
     sort(n, lambda, shapes, (residuals, errors));
     let mut refined = false;
     for r in 0..n {
         let own = r * n..(r + 1) * n;
-        let measured = |lambda: &[f64], shapes: &[f64]| {
-            let rest = matrices.rest(lambda[r], &shapes[own.clone()]);
-            (rest.relative(), rest.error(n))
-        };
-        (residuals[r], errors[r]) = measured(lambda, shapes);
+        (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
         if residuals[r] > INACCURATE {
             refine(matrices, lambda, shapes, r);
-            (residuals[r], errors[r]) = measured(lambda, shapes);
+            (residuals[r], errors[r]) = matrices.measured(n, lambda[r], &shapes[own.clone()]);
             refined = true;
         }
         if residuals[r].is_nan() || residuals[r] > ACCEPTED {
@@ -301,13 +306,13 @@ impl Matrices<'_> {
     /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
     #[inline(always)]
     pub(crate) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
-        self.rest(lambda, phi).relative()
+        self.rest(self.n, lambda, phi).relative()
     }
 
     /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
     /// that act, and their terms are no measure.
     fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
-        let most = self.rest(lambda, phi).most;
+        let most = self.rest(self.n, lambda, phi).most;
         let matrices = largest(self.k) + lambda.abs() * largest(self.m);
         most <= of_elements(self.n) * matrices * largest(phi)
     }
@@ -338,10 +343,16 @@ impl Matrices<'_> {
         2.0 * sum
     }
 
+    /// The relative residual of a pair of matrices of size `n`, and the error of its eigenvalue.
+    #[inline(always)]
+    fn measured(&self, n: usize, lambda: f64, phi: &[f64]) -> (f64, f64) {
+        let rest = self.rest(n, lambda, phi);
+        (rest.relative(), rest.error(n))
+    }
+
     /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
     #[inline(always)]
-    fn rest(&self, lambda: f64, phi: &[f64]) -> Rest {
-        let n = self.n;
+    fn rest(&self, n: usize, lambda: f64, phi: &[f64]) -> Rest {
         let mut rest = Rest::default();
         for i in 0..n {
             let (mut sum, mut terms) = (0.0, 0.0);

@@ -28,7 +28,7 @@ pub(crate) use prediction::{MISSED, Path, STILL};
 pub(crate) use problem::{Failure, Problem};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
-pub(crate) use settle::{settle, settle_from_prediction};
+pub(crate) use settle::{settle, settle_from_prediction, settle_into};
 pub(crate) use stability::judge;
 pub(crate) use turns::{coincide, turned_towards, turns_do_not_count};
 
@@ -71,5 +71,8 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Error> {
     let problem = Problem::new(mechanism, u, b)?;
     problem.check_start(start)?;
-    settle(&problem, start, policy).map_err(|failure| failure.explain(&problem.description))
+    let mut state = problem.blank_state();
+    settle_into(&problem, start, policy, &mut state)
+        .map_err(|failure| failure.explain(&problem.description))?;
+    Ok(state)
 }

@@ -2,12 +2,12 @@
 
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
 use crate::arguments::{check_count, check_finite};
-use crate::constraints::{Structure, fix_gauge, redundant_rows};
+use crate::constraints::{ConstraintState, Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
-use crate::{DampingKind, Description, Error, Role, Shared};
+use crate::{DampingKind, Description, Equilibrium, Error, Role, Shared, Stability};
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
@@ -91,6 +91,27 @@ impl<'a> Problem<'a> {
         Self {
             dropped: dropped.to_vec(),
             ..self.clone()
+        }
+    }
+
+    /// What its state is written over.
+    #[inline]
+    pub(crate) fn blank_state(&self) -> Equilibrium {
+        let n = self.size();
+        Equilibrium {
+            coordinates: Vector::zeros(n),
+            inputs: self.inputs.into(),
+            design: self.design.into(),
+            stability: Stability::Undecided,
+            rounding: 0.0,
+            linear: Linear::zeros(n),
+            residual: Vector::zeros(n),
+            relative_residual: f64::INFINITY,
+            iterations: 0,
+            pose: None,
+            constraints: ConstraintState::open(n),
+            left_unstable_region: false,
+            description: self.description.clone(),
         }
     }
 

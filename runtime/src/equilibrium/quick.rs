@@ -2,52 +2,76 @@
 //! steps that [`descent`](super::descent) takes, as long as each passes its tests at once; from where one does not, descent
 //! goes on with all that it has for hard cases.
 
-use super::convergence::{Last, last};
+use super::Equilibrium;
+use super::convergence::{Last, TOLERANCE, is_rounding, last, relative_to};
 use super::descent::{GROWTH, Place, Way};
-use super::end::{Found, last_step};
 use super::problem::Problem;
-use crate::algebra::{Cholesky, Matrix, Vector, dot, form, largest};
+use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, for_size, form, largest};
+use crate::kernels::RestParts;
 
 /// Newton's method doubles the digits: a start in the valley takes few steps.
 const MAX_ITERATIONS: usize = 8;
 
 /// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
-/// convex; otherwise where that ended: at the last such state, or at the start. For mechanisms without constraints.
-pub(super) fn quick(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Place> {
-    let n = problem.size();
-    let evaluate = |q: &[f64], residual: &mut Vector, stiffness: &mut Matrix| {
-        let (u, b) = (problem.inputs, problem.design);
-        problem
-            .mechanism
-            .residual_and_stiffness_into(q, u, b, residual, stiffness);
+/// convex, written over `state` but for its stability; otherwise where that ended: at the last such state, or at the start.
+/// For mechanisms without constraints.
+pub(super) fn quick(
+    problem: &Problem<'_>,
+    start: &[f64],
+    state: &mut Equilibrium,
+) -> Result<(), Place> {
+    for_size(
+        problem.size(),
+        #[inline(always)]
+        |n| newton(n, problem, start, state),
+    )
+}
+
+/// As [`quick`], for `n` unknowns.
+#[inline(always)]
+fn newton(
+    n: usize,
+    problem: &Problem<'_>,
+    start: &[f64],
+    state: &mut Equilibrium,
+) -> Result<(), Place> {
+    let (u, b) = (problem.inputs, problem.design);
+    let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut Matrix| {
+        let mechanism = problem.mechanism;
+        mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
     let mut place = Place::first(start);
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
     let mut factors = Cholesky::zeros(n);
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
-    evaluate(start, &mut residual, &mut stiffness);
+    let (residual, step, next) = (&mut residual[..n], &mut step[..n], &mut next[..n]);
+    evaluate(start, residual, &mut stiffness);
     while place.iterations < MAX_ITERATIONS {
-        if factors.factor(&stiffness).is_err() {
+        if factors.factor_of(n, &stiffness).is_err() {
             return Err(place);
         }
-        step.copy_from_slice(&residual);
-        factors.solve_in_place(&mut step);
+        let q = &mut place.q[..n];
+        step.copy_from_slice(residual);
+        factors.solve_of(n, step);
         step.iter_mut().for_each(|value| *value = -*value);
-        let left = last(&step, &place.q, n);
+        let left = last(step, q, n);
         if left != Last::More {
             // A step that changes nothing is not taken.
             let taken = left != Last::Reached;
             if !taken {
                 step.fill(0.0);
             }
-            let at = (&residual[..], &stiffness);
-            let displacement = |rest: &[f64]| factors.solve(rest);
-            return match last_step(problem, &place.q, at, &step, displacement) {
-                Some(end) => Ok(Found::new(end, place.iterations + usize::from(taken))),
-                None => Err(place),
+            state.iterations = place.iterations + usize::from(taken);
+            state.left_unstable_region = false;
+            for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
+                *end = q + step;
+            }
+            return match ends(n, problem, residual, &factors, state) {
+                true => Ok(()),
+                false => Err(place),
             };
         }
-        let size = largest(&step);
+        let size = largest(step);
         let limited = size > place.radius;
         let mut share = 1.0;
         if limited {
@@ -55,19 +79,19 @@ pub(super) fn quick(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Place
             step.iter_mut()
                 .for_each(|value| *value = *value * place.radius / size);
         }
-        let slope = dot(&step, &residual);
+        let slope = dot(step, residual);
         // A Newton step has as much curvature as it has slope.
         let way = Way {
             slope,
             curvature: -share * slope,
         };
-        for ((next, q), step) in next.iter_mut().zip(&place.q).zip(&step) {
+        for ((next, q), step) in next.iter_mut().zip(&*q).zip(&*step) {
             *next = q + step;
         }
-        evaluate(&next, &mut residual, &mut stiffness);
+        evaluate(next, residual, &mut stiffness);
         // NaN, infinite and overflowing values fail one of the two.
-        let slope = dot(&step, &residual);
-        let curvature = form(&step, &stiffness, &step);
+        let slope = dot(step, residual);
+        let curvature = form(step, &stiffness, step);
         let finite = slope.is_finite() && curvature.is_finite();
         if !(way.slope < 0.0 && finite && way.falls(1.0, slope, curvature)) {
             return Err(place);
@@ -75,10 +99,43 @@ pub(super) fn quick(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Place
         if limited && way.predicts(1.0, slope) {
             place.radius *= GROWTH;
         }
-        core::mem::swap(&mut place.q, &mut next);
+        q.copy_from_slice(next);
         place.iterations += 1;
     }
     Err(place)
+}
+
+/// Completes the state at the coordinates that the last step has reached. Whether it is solved: from `residual` before it, what
+/// remains fell to a small share or to rounding, as [`last_step`](super::end::last_step) wants it.
+#[inline(always)]
+fn ends(
+    n: usize,
+    problem: &Problem<'_>,
+    before: &[f64],
+    factors: &Cholesky,
+    state: &mut Equilibrium,
+) -> bool {
+    let (u, b) = (problem.inputs, problem.design);
+    let (q, linear) = (&state.coordinates[..n], &mut state.linear);
+    let mut parts = RestParts::zeros(n);
+    problem
+        .mechanism
+        .parts_and_linear_into(q, u, b, &mut parts, linear);
+    let residual = &mut state.residual[..n];
+    let both = parts.inertia[..n].iter().zip(&parts.applied[..n]);
+    for (rest, (inertia, applied)) in residual.iter_mut().zip(both) {
+        *rest = inertia + -1.0 * applied;
+    }
+    if !(all_finite(residual) && problem.check(q, linear).is_ok()) {
+        return false;
+    }
+    state.relative_residual = relative_to(problem, &parts, q, residual, &linear.stiffness);
+    let fell = largest(residual) <= 1e-3 * largest(before) || {
+        let mut displacement = Vector::from(&*residual);
+        factors.solve_of(n, &mut displacement[..n]);
+        is_rounding(&displacement[..n], q, n)
+    };
+    fell && state.relative_residual <= TOLERANCE
 }
 
 #[cfg(test)]
@@ -113,18 +170,22 @@ mod tests {
                 let Ok(expected) = stable::<Whole>(&problem, &start, &Place::first(&start)) else {
                     panic!("no state from {start:?}")
                 };
-                let found = match quick(&problem, &start) {
-                    Ok(found) => {
+                let mut state = problem.blank_state();
+                let found = match quick(&problem, &start, &mut state) {
+                    Ok(()) => {
                         alone += 1;
                         assert!(!expected.left_unstable_region, "{omega} {start:?}");
-                        Ok(found)
+                        Ok(state.coordinates)
                     }
-                    Err(place) => stable::<Whole>(&problem, &start, &place),
+                    Err(place) => {
+                        let found = stable::<Whole>(&problem, &start, &place);
+                        found.map(|found| found.coordinates)
+                    }
                 };
                 let Ok(found) = found else {
                     panic!("nothing from {start:?}")
                 };
-                let apart = add_scaled(&found.coordinates, -1.0, &expected.coordinates);
+                let apart = add_scaled(&found, -1.0, &expected.coordinates);
                 assert!(largest(&apart) < 1e-9, "{omega} {start:?}: {apart:?}");
             }
         }

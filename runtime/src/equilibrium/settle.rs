@@ -20,6 +20,40 @@ pub(crate) fn settle(
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Failure> {
+    let mut state = problem.blank_state();
+    settle_into(problem, start, policy, &mut state)?;
+    Ok(state)
+}
+
+/// As [`settle`]: writes over a state of the same mechanism at these inputs and design variables.
+pub(crate) fn settle_into(
+    problem: &Problem<'_>,
+    start: &[f64],
+    policy: Policy,
+    state: &mut Equilibrium,
+) -> Result<(), Failure> {
+    if policy == Policy::Stable && has_open_potential(problem) {
+        match quick::quick(problem, start, state) {
+            Ok(()) => return judge(problem, state),
+            Err(place) => *state = from_afar(problem, start, &place)?,
+        }
+    } else {
+        *state = settle_slowly(problem, start, policy)?;
+    }
+    Ok(())
+}
+
+/// Whether stable states are minima of a potential of coordinates that no constraint holds.
+fn has_open_potential(problem: &Problem<'_>) -> bool {
+    problem.description.symmetric_stiffness && problem.structure.open()
+}
+
+/// As [`settle`], for mechanisms with constraints and for those without a potential.
+fn settle_slowly(
+    problem: &Problem<'_>,
+    start: &[f64],
+    policy: Policy,
+) -> Result<Equilibrium, Failure> {
     let structure = problem.structure;
     let closed;
     let start = if structure.open() {
@@ -31,12 +65,6 @@ pub(crate) fn settle(
     let potential = problem.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
         return nearest(problem, start).and_then(|found| finish(problem, found));
-    }
-    if structure.open() {
-        return match quick::quick(problem, start) {
-            Ok(found) => finish(problem, found),
-            Err(place) => from_afar(problem, start, &place),
-        };
     }
     let mut found = from_afar(problem, start, &descent::Place::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
@@ -72,14 +100,16 @@ pub(crate) fn settle_from_prediction(
     last: &[f64],
     predicted: &[f64],
 ) -> Option<Equilibrium> {
-    if !(problem.description.symmetric_stiffness && problem.structure.open()) {
+    if !has_open_potential(problem) {
         return None;
     }
-    let found = quick::quick(problem, predicted).ok()?;
-    if !confirmed(&found.coordinates, predicted, last) {
+    let mut state = problem.blank_state();
+    quick::quick(problem, predicted, &mut state).ok()?;
+    if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
-    finish(problem, found).ok()
+    judge(problem, &mut state).ok()?;
+    Some(state)
 }
 
 /// As [`settle`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
@@ -177,40 +207,39 @@ fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failur
         });
     }
     let constraints = constraint_state(problem, &found.coordinates, &found.residual, &linear)?;
-    let (stability, rounding) = if constraints.singular {
-        (Stability::Undecided, 0.0)
-    } else if at_rest_by_stiffness(problem)
-        && Cholesky::new(&linear.mass).is_ok()
-        && stability::clearly_definite(&linear)
-    {
-        (Stability::Stable, 0.0)
-    } else {
-        let place = Place {
-            coordinates: &found.coordinates,
-            inputs: problem.inputs,
-            design: problem.design,
-            residual: &found.residual,
-        };
-        stability::judge(problem.mechanism, &place, &linear)?
-    };
-    let pose = problem
-        .mechanism
-        .pose_margin(&found.coordinates, problem.inputs, problem.design);
-    Ok(Equilibrium {
+    let mut state = Equilibrium {
         coordinates: found.coordinates,
-        inputs: problem.inputs.into(),
-        design: problem.design.into(),
-        stability,
-        rounding,
         linear,
         constraints,
         residual: found.residual,
         relative_residual: relative,
-        pose,
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
-        description: problem.description.clone(),
-    })
+        ..problem.blank_state()
+    };
+    judge(problem, &mut state)?;
+    Ok(state)
+}
+
+/// What a solved state is: its stability, and how far joints are from singular poses.
+fn judge(problem: &Problem<'_>, state: &mut Equilibrium) -> Result<(), Failure> {
+    (state.stability, state.rounding) = if state.constraints.singular {
+        (Stability::Undecided, 0.0)
+    } else if at_rest_by_stiffness(problem) && stability::clearly_stable(&state.linear) {
+        (Stability::Stable, 0.0)
+    } else {
+        let place = Place {
+            coordinates: &state.coordinates,
+            inputs: problem.inputs,
+            design: problem.design,
+            residual: &state.residual,
+        };
+        stability::judge(problem.mechanism, &place, &state.linear)?
+    };
+    state.pose = problem
+        .mechanism
+        .pose_margin(&state.coordinates, problem.inputs, problem.design);
+    Ok(())
 }
 
 /// Determines the reactions of a state and measures it.

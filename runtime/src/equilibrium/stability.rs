@@ -1,7 +1,7 @@
 //! What the linearised mechanism says about the stability of an equilibrium.
 
 use super::problem::Failure;
-use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, largest_element};
+use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::symmetric;
 use crate::kernels::{Kernels, Linear};
@@ -16,6 +16,21 @@ pub(crate) type Verdict = (Stability, f64);
 #[inline]
 pub(crate) fn clearly_definite(linear: &Linear) -> bool {
     Cholesky::new(&linear.stiffness).is_ok_and(|factors| rounding::clear(factors.pivots(), linear))
+}
+
+/// Whether `Mhat` and `Khat` are positive definite, `Khat` beyond any doubt.
+#[inline]
+pub(super) fn clearly_stable(linear: &Linear) -> bool {
+    for_size(
+        linear.mass.row_count(),
+        #[inline(always)]
+        |n| {
+            let mut factors = Cholesky::zeros(n);
+            factors.factor_of(n, &linear.mass).is_ok()
+                && factors.factor_of(n, &linear.stiffness).is_ok()
+                && rounding::clear(&factors.pivots()[..n], linear)
+        },
+    )
 }
 
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is

@@ -82,23 +82,26 @@ pub trait BatchKernels: DirectionalKernels {
 fn load<V: Lanes, A: Array<V>>(from: &[Batch], at: usize) -> A {
     // Loops, here and below: an adaptor of an iterator that is not inlined leaves the instructions behind.
     let mut vectors = A::filled(V::constant(0.0));
-    for (vector, from) in vectors.as_mut().iter_mut().zip(from) {
-        *vector = V::load(from, at);
+    let from = &from[..A::LEN];
+    for (k, vector) in vectors.as_mut().iter_mut().enumerate() {
+        *vector = V::load(&from[k], at);
     }
     vectors
 }
 
 #[inline(always)]
 fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
-    for (from, to) in from.iter().zip(to) {
-        from.store(to, at);
+    let to = &mut to[..from.len()];
+    for (k, from) in from.iter().enumerate() {
+        from.store(&mut to[k], at);
     }
 }
 
 #[inline(always)]
 fn store_matrix<V: Lanes, R: Array<V>>(from: &[R], to: &mut Matrix<Batch>, at: usize) {
-    for (from, to) in from.iter().zip(to.iter_mut()) {
-        store(from.as_ref(), to, at);
+    let to = &mut to.as_flattened_mut()[..R::LEN * from.len()];
+    for (i, from) in from.iter().enumerate() {
+        store(from.as_ref(), &mut to[R::LEN * i..], at);
     }
 }
 

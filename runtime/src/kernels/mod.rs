@@ -86,7 +86,11 @@ impl<T: Copy + Default> LinearPartials<T> {
     /// Zeros.
     #[must_use]
     pub fn zeros(sizes: Sizes) -> Self {
-        let list = |count: usize| vec![Linear::zeros(sizes.coordinates); count];
+        let list = |count: usize| {
+            (0..count)
+                .map(|_| Linear::zeros(sizes.coordinates))
+                .collect()
+        };
         Self {
             by_coordinate: list(sizes.coordinates),
             by_input: list(sizes.inputs),

@@ -1,8 +1,12 @@
 //! Identity of modes: which mode here is which mode there (modal assurance criterion), and which cannot be told apart.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
 
 use super::kinetic::{kinetic, product};
 use super::{Family, Mode};
-use crate::algebra::{Matrix, greater, times_complex};
+use crate::algebra::{Matrix, Vector, for_size, greater, times_complex};
 use crate::kernels::Linear;
 use crate::{Complex, Modes};
 
@@ -58,19 +62,35 @@ fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
 
 /// The assurance of two undamped modes.
 fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
-    let form = |x: &[Complex], y: &[Complex]| {
-        let weighted = |row: &[f64]| row.iter().zip(y).fold(-0.0, |sum, (m, y)| sum + m * y.re);
-        let rows = x.iter().zip(mass.iter());
-        rows.fold(-0.0, |sum, (x, row)| sum + x.re * weighted(row))
-    };
-    let (x, y) = (&from.shape, &to.shape);
-    let scale = form(x, x) * form(y, y);
-    let product = form(x, y);
-    if scale > 0.0 {
-        product * product / scale
-    } else {
-        0.0
+    let (x, y, mass) = (&from.shape[..], &to.shape[..], mass.as_flattened());
+    for_size(
+        x.len(),
+        #[inline(always)]
+        |n| {
+            let (x, y, mass) = (&x[..n], &y[..n], &mass[..n * n]);
+            let scale = real_form(n, x, mass, x) * real_form(n, y, mass, y);
+            let product = real_form(n, x, mass, y);
+            if scale > 0.0 {
+                product * product / scale
+            } else {
+                0.0
+            }
+        },
+    )
+}
+
+/// `x^T mass y` of the real parts.
+#[inline(always)]
+fn real_form(n: usize, x: &[Complex], mass: &[f64], y: &[Complex]) -> f64 {
+    let mut sum = -0.0;
+    for i in 0..n {
+        let mut weighted = -0.0;
+        for j in 0..n {
+            weighted += mass[i * n + j] * y[j].re;
+        }
+        sum += x[i].re * weighted;
     }
+    sum
 }
 
 /// For each mode of `from` the position of the mode of `to` that is the same motion; `None` where `to` has fewer.
@@ -80,9 +100,13 @@ fn real_assurance(from: &Mode, to: &Mode, mass: &Matrix) -> f64 {
 #[must_use]
 pub fn match_modes(from: &Modes, to: &Modes, linear: &Linear) -> Vec<Option<usize>> {
     let found = match_with_assurance(from, to, linear).into_iter();
-    found
-        .map(|found| found.map(|(position, _)| position))
-        .collect()
+    found.map(position).collect()
+}
+
+/// The position in what [`match_with_assurance`] finds of a mode.
+#[inline]
+pub(crate) fn position(found: Option<(usize, f64)>) -> Option<usize> {
+    found.map(|(position, _)| position)
 }
 
 /// As [`match_modes`], with the assurance of each pair.
@@ -90,23 +114,23 @@ pub(crate) fn match_with_assurance(
     from: &Modes,
     to: &Modes,
     linear: &Linear,
-) -> Vec<Option<(usize, f64)>> {
+) -> Vector<Option<(usize, f64)>> {
     let (here, there) = (from.modes.len(), to.modes.len());
     if here == 1 && there == 1 {
-        return vec![Some((0, 1.0))];
+        return [Some((0, 1.0))].into();
     }
     // Shapes of one undamped set are orthogonal, so each has at most one above one half in another set.
     let undamped = from.family == Family::Undamped && to.family == Family::Undamped;
     if undamped && here <= there {
         let pairs = from.modes.iter().zip(&to.modes);
         let own = pairs.map(|(own, other)| real_assurance(own, other, &linear.mass));
-        let own: Vec<_> = own.enumerate().map(Some).collect();
+        let own: Vector<_> = own.enumerate().map(Some).collect();
         if own.iter().flatten().all(|&(_, same)| same > CERTAIN) {
             return own;
         }
     }
     let table = assurance(from, to, linear);
-    let mut found = vec![None; here];
+    let mut found = Vector::filled(here, None);
     let mut used = vec![false; there];
     for _ in 0..here.min(there) {
         let mut best = None;

@@ -15,7 +15,7 @@ mod pencil;
 mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged, near, near_another};
+pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};

@@ -58,7 +58,7 @@ impl ModeCurvature {
 
 impl<T: Copy> SecondDerivatives<T> {
     /// Element by element with the two first derivatives it belongs to.
-    fn combine<F: Copy, R: Copy>(
+    fn combine<F: Copy, R: Copy + Default>(
         &self,
         first: &Slopes<F>,
         f: impl Fn(F, F, T) -> R,

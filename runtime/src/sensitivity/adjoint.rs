@@ -22,7 +22,7 @@ pub fn sensitivities(
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
-    let mut adjoint = Adjoint::new(mechanism, at, modes.family)?;
+    let mut adjoint = Adjoint::new(mechanism, at, modes.family, Factors::new(at)?);
     assemble(at, modes, Method::Adjoint, |own, mode| {
         adjoint.set(own, mode)
     })
@@ -47,8 +47,13 @@ struct Adjoint<'a> {
 }
 
 impl<'a> Adjoint<'a> {
-    fn new(mechanism: &'a dyn Kernels, at: &'a Equilibrium, family: Family) -> Result<Self, Error> {
-        let factors = Factors::new(at)?;
+    #[inline(always)]
+    fn new(
+        mechanism: &'a dyn Kernels,
+        at: &'a Equilibrium,
+        family: Family,
+        factors: Factors,
+    ) -> Self {
         let sizes = mechanism.sizes();
         let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
         let (matrices, residual) = match Source::cheapest(&at.description, family) {
@@ -63,7 +68,7 @@ impl<'a> Adjoint<'a> {
             Family::Undamped => Gradient::default(),
             Family::General => Gradient::zeros(sizes),
         };
-        Ok(Self {
+        Self {
             mechanism,
             at,
             family,
@@ -74,7 +79,7 @@ impl<'a> Adjoint<'a> {
             direct: [Gradient::zeros(sizes), imaginary],
             adjoint: Vector::zeros(sizes.coordinates),
             shift: Gradient::zeros(sizes),
-        })
+        }
     }
 
     fn set(&mut self, own: &mut ModeSensitivity, mode: &Mode) {
@@ -180,7 +185,8 @@ impl Factors {
 /// `sum = w^T partials`.
 fn combine(w: &[f64], partials: &Matrix, sum: &mut [f64]) {
     sum.fill(0.0);
-    for (w, row) in w.iter().zip(partials.iter()) {
+    let rows = partials.as_flattened().chunks_exact(sum.len().max(1));
+    for (w, row) in w.iter().zip(rows) {
         add_to(sum, *w, row);
     }
 }

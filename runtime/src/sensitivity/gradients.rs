@@ -2,7 +2,7 @@
 //! partial derivatives, which all modes share. A small mechanism has few partials, and they cost less.
 
 use super::pencil::ComplexGradient;
-use crate::algebra::Matrix;
+use crate::algebra::{Matrix, for_size};
 use crate::kernels::{Gradient, Linear, LinearPartials};
 use crate::modes::Family;
 use crate::{Complex, Description, Mode};
@@ -79,30 +79,39 @@ pub(crate) fn of_undamped(
     symmetric: bool,
     gradient: &mut Gradient,
 ) {
-    for (rates, changes) in [
-        (&mut gradient.coordinates, &partials.by_coordinate),
-        (&mut gradient.inputs, &partials.by_input),
-        (&mut gradient.design, &partials.by_design),
-    ] {
-        for (to, change) in rates.iter_mut().zip(changes) {
-            *to = rate(change, phi, lambda, symmetric);
-        }
-    }
+    for_size(
+        phi.len(),
+        #[inline(always)]
+        |n| {
+            for (rates, changes) in [
+                (&mut gradient.coordinates, &partials.by_coordinate),
+                (&mut gradient.inputs, &partials.by_input),
+                (&mut gradient.design, &partials.by_design),
+            ] {
+                for (to, change) in rates.iter_mut().zip(changes) {
+                    *to = rate(n, change, &phi[..n], lambda, symmetric);
+                }
+            }
+        },
+    );
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` of a change.
-fn rate(change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
+/// `phi^T (dKhat - lambda dMhat) phi` of a change of matrices of size `n`.
+#[inline(always)]
+fn rate(n: usize, change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
+    let stiffness = &change.stiffness.as_flattened()[..n * n];
+    let mass = &change.mass.as_flattened()[..n * n];
     let (mut own, mut mixed) = (-0.0, -0.0);
-    for i in 0..phi.len() {
-        let (stiffness, mass) = (&change.stiffness[i], &change.mass[i]);
-        own += phi[i] * phi[i] * (stiffness[i] - lambda * mass[i]);
+    for i in 0..n {
+        own += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
         for j in 0..i {
+            let below = stiffness[i * n + j];
             let stiffness = if symmetric {
-                stiffness[j]
+                below
             } else {
-                0.5 * (stiffness[j] + change.stiffness[j][i])
+                0.5 * (below + stiffness[j * n + i])
             };
-            mixed += phi[i] * phi[j] * (stiffness - lambda * mass[j]);
+            mixed += phi[i] * phi[j] * (stiffness - lambda * mass[i * n + j]);
         }
     }
     own + (mixed + mixed)

@@ -15,8 +15,8 @@ pub struct Slopes<T> {
     pub by_design: Vector<T>,
 }
 
-impl<T: Copy> Slopes<T> {
-    pub(crate) fn map<R>(&self, f: impl Fn(T) -> R) -> Slopes<R> {
+impl<T: Copy + Default> Slopes<T> {
+    pub(crate) fn map<R: Copy + Default>(&self, f: impl Fn(T) -> R) -> Slopes<R> {
         Slopes {
             by_input: self.by_input.map(&f),
             by_design: self.by_design.map(&f),

@@ -6,7 +6,9 @@ use crate::algebra::Vector;
 use crate::batched::{Block, Workspace};
 use crate::equilibrium::{Path, Policy, Problem, settle, settle_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
-use crate::modes::{CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another};
+use crate::modes::{
+    CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
+};
 use crate::scalar::{Instructions, WIDTH};
 use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
@@ -268,10 +270,7 @@ impl<'a> Tracker<'a> {
             if doubtful && halvings > 0 && between {
                 return Ok(Step::TooFar(middle));
             }
-            let positions = order.iter();
-            let order: Vec<_> = positions
-                .map(|pair| pair.map(|(position, _)| position))
-                .collect();
+            let order = order.map(position);
             found.arrange(&last.modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);

@@ -125,18 +125,18 @@ pub fn monte_carlo(
         sampling,
         prepared,
     };
-    let batches = || run.batches();
-    let chunk = |batches: &mut Vec<Solved>, index: usize| run.chunk(batches, index);
+    let room = || run.room();
+    let chunk = |room: &mut Room, index: usize| run.chunk(room, index);
     let chunks = 0..sampling.samples.div_ceil(CHUNK);
     let size = pool::stack(nominal.coordinates.len(), nominal.design.len());
     let pieces: Vec<Piece> = match (sampling.threads, size) {
         (1, _) => {
-            let mut batches = batches();
-            chunks.map(|index| chunk(&mut batches, index)).collect()
+            let mut room = room();
+            chunks.map(|index| chunk(&mut room, index)).collect()
         }
-        (0, None) => chunks.into_par_iter().map_init(batches, chunk).collect(),
+        (0, None) => chunks.into_par_iter().map_init(room, chunk).collect(),
         (threads, size) => pool::of(threads, size)?
-            .install(|| chunks.into_par_iter().map_init(batches, chunk).collect()),
+            .install(|| chunks.into_par_iter().map_init(room, chunk).collect()),
     };
     let mut sum = Piece::empty(modes.modes.len());
     sum.samples = Vec::with_capacity(run.kept(sampling.samples));
@@ -194,6 +194,13 @@ impl Piece {
     }
 }
 
+/// What one thread solves samples in.
+struct Room {
+    /// Those solved together; none where samples are solved one by one.
+    batches: Vec<Solved>,
+    alone: Solution,
+}
+
 /// Everything that a chunk of samples needs.
 struct Run<'a> {
     mechanism: &'a dyn BatchKernels,
@@ -214,14 +221,16 @@ impl Run<'_> {
         }
     }
 
-    /// Room for the batches that one thread solves together; none where samples are solved one by one.
-    fn batches(&self) -> Vec<Solved> {
+    fn room(&self) -> Room {
         let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
         let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
-        (0..count).map(|_| Solved::new(n, p)).collect()
+        Room {
+            batches: (0..count).map(|_| Solved::new(n, p)).collect(),
+            alone: Solution::about(self.nominal, self.modes),
+        }
     }
 
-    fn chunk(&self, batches: &mut [Solved], index: usize) -> Piece {
+    fn chunk(&self, room: &mut Room, index: usize) -> Piece {
         let first = index * CHUNK;
         let number = CHUNK.min(self.sampling.samples - first);
         let sequence = (self.sampling.seed, self.sampling.stream);
@@ -230,13 +239,13 @@ impl Run<'_> {
         match &self.prepared {
             Some(prepared) => {
                 let mut draw = Batches::from(sequence, first as u64, self.nominal.design.len());
-                self.side_by_side(prepared, batches, &mut draw, number, &mut piece);
+                self.side_by_side(prepared, room, &mut draw, number, &mut piece);
             }
             None => {
                 let nominal = &self.nominal.design;
                 let mut draw = Draw::from(sequence, first as u64, nominal, self.tolerances);
                 for _ in 0..number {
-                    self.alone(draw.next(), &mut piece);
+                    self.alone(&mut room.alone, draw.next(), &mut piece);
                 }
             }
         }
@@ -250,7 +259,7 @@ impl Run<'_> {
     fn side_by_side(
         &self,
         prepared: &Prepared<'_>,
-        batches: &mut [Solved],
+        room: &mut Room,
         draw: &mut Batches,
         number: usize,
         piece: &mut Piece,
@@ -259,7 +268,7 @@ impl Run<'_> {
         let mut left = number;
         while left > 0 {
             let used = TOGETHER.min(left.div_ceil(WIDTH));
-            let batches = &mut batches[..used];
+            let batches = &mut room.batches[..used];
             for batch in &mut *batches {
                 batch.members = WIDTH.min(left);
                 left -= batch.members;
@@ -267,7 +276,7 @@ impl Run<'_> {
             }
             prepared.solve(batches, &mut sums);
             for batch in &*batches {
-                self.decided(batch, piece);
+                self.decided(batch, &mut room.alone, piece);
             }
         }
         for (r, nominal) in prepared.frequencies.iter().enumerate() {
@@ -277,7 +286,7 @@ impl Run<'_> {
     }
 
     /// Counts what a batch accepted, and solves the others alone.
-    fn decided(&self, batch: &Solved, piece: &mut Piece) {
+    fn decided(&self, batch: &Solved, alone: &mut Solution, piece: &mut Piece) {
         let accepted = batch.accepted.count_ones() as usize;
         piece.counts.add(Outcome::Stable, accepted);
         if accepted == batch.members && !self.sampling.keep_samples {
@@ -285,7 +294,7 @@ impl Run<'_> {
         }
         for member in 0..batch.members {
             if batch.accepted >> member & 1 == 0 {
-                self.alone(&member_of(&batch.design, member), piece);
+                self.alone(alone, &member_of(&batch.design, member), piece);
             } else if self.sampling.keep_samples {
                 piece.samples.push(Self::accepted(batch, member));
             }
@@ -293,12 +302,11 @@ impl Run<'_> {
     }
 
     /// Solves a sample by itself.
-    fn alone(&self, design: &[f64], piece: &mut Piece) {
-        let solved = Solution::new(self.mechanism, self.nominal, self.modes, design);
+    fn alone(&self, solved: &mut Solution, design: &[f64], piece: &mut Piece) {
+        solved.solve(self.mechanism, self.nominal, self.modes, design);
         piece.counts.add(solved.outcome, 1);
         if solved.outcome == Outcome::Stable {
-            let left = |state: &Equilibrium| state.left_unstable_region;
-            piece.left_nominal_branch += usize::from(solved.state.as_ref().is_some_and(left));
+            piece.left_nominal_branch += usize::from(solved.state.left_unstable_region);
             for r in 0..self.modes.modes.len() {
                 let Some(mode) = solved.mode(r) else { continue };
                 if let Some(omega) = mode.frequency() {

@@ -2,9 +2,9 @@
 
 use super::Outcome;
 use crate::algebra::Vector;
-use crate::equilibrium::{Problem, settle};
+use crate::equilibrium::{Problem, settle_into};
 use crate::kernels::Kernels;
-use crate::modes::{match_modes, solve_modes};
+use crate::modes::{match_with_assurance, position};
 use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 
 /// One sample.
@@ -26,69 +26,80 @@ pub struct Sample {
     pub damping_ratios: Vec<Option<f64>>,
 }
 
-/// What was found of a sample.
+/// What was found of a sample, in room that the next one uses again.
 pub(super) struct Solution {
     pub(super) outcome: Outcome,
-    pub(super) state: Option<Equilibrium>,
-    modes: Vec<Mode>,
-    /// Where the nominal modes are among them.
-    places: Vec<Option<usize>>,
+    /// Means something where the outcome is that of an equilibrium.
+    pub(super) state: Equilibrium,
+    solved: bool,
+    modes: Modes,
+    /// Where the nominal modes are among them; empty where they were not found.
+    places: Vector<Option<usize>>,
 }
 
 impl Solution {
+    /// Room for samples about a nominal state.
+    pub(super) fn about(nominal: &Equilibrium, modes: &Modes) -> Self {
+        Self {
+            outcome: Outcome::Stable,
+            state: nominal.clone(),
+            solved: true,
+            modes: modes.clone(),
+            places: Vector::default(),
+        }
+    }
+
     /// Solves the sample of this design from the nominal state.
-    pub(super) fn new(
+    pub(super) fn solve(
+        &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
         modes: &Modes,
         design: &[f64],
-    ) -> Self {
-        let inputs = &nominal.inputs;
-        if mechanism.violation(inputs, design).is_some() {
-            return Self::without(Outcome::Unphysical, None);
-        }
-        let problem = Problem::unchecked(mechanism, inputs, design);
-        let state = match settle(&problem, &nominal.coordinates, Policy::Stable) {
-            Ok(state) => state,
-            Err(failure) => return Self::without(Outcome::from(&failure), None),
+    ) {
+        self.places = Vector::default();
+        let settled = self.settle(mechanism, nominal, design);
+        self.solved = settled.is_ok();
+        self.outcome = match settled {
+            Err(outcome) => outcome,
+            Ok(()) => Outcome::from(self.state.stability),
         };
-        let outcome = Outcome::from(state.stability);
-        if state.regular().is_err() {
-            return Self::without(outcome, Some(state));
+        if !self.solved || self.state.regular().is_err() {
+            return;
         }
-        let found = solve_modes(
-            &state.linear,
-            modes.family,
-            &state.description,
-            state.rounding,
-        );
-        let Ok(found) = found else {
-            return Self::without(Outcome::NoModes, Some(state));
-        };
-        Self {
-            outcome,
-            places: match_modes(modes, &found, &state.linear),
-            modes: found.modes,
-            state: Some(state),
+        let (found, state) = (&mut self.modes, &self.state);
+        match found.solve(&state.linear, state.rounding) {
+            Ok(()) => {
+                self.places = match_with_assurance(modes, found, &state.linear).map(position);
+            }
+            Err(_) => self.outcome = Outcome::NoModes,
         }
     }
 
-    fn without(outcome: Outcome, state: Option<Equilibrium>) -> Self {
-        Self {
-            outcome,
-            state,
-            modes: Vec::new(),
-            places: Vec::new(),
+    fn settle(
+        &mut self,
+        mechanism: &dyn Kernels,
+        nominal: &Equilibrium,
+        design: &[f64],
+    ) -> Result<(), Outcome> {
+        let inputs = &nominal.inputs;
+        if mechanism.violation(inputs, design).is_some() {
+            return Err(Outcome::Unphysical);
         }
+        let problem = Problem::unchecked(mechanism, inputs, design);
+        self.state.design.copy_from_slice(design);
+        let start = &nominal.coordinates;
+        settle_into(&problem, start, Policy::Stable, &mut self.state)
+            .map_err(|failure| Outcome::from(&failure))
     }
 
     /// The mode that nominal mode `r` has become.
     pub(super) fn mode(&self, r: usize) -> Option<&Mode> {
-        self.modes.get((*self.places.get(r)?)?)
+        self.modes.modes.get((*self.places.get(r)?)?)
     }
 
     /// As a sample of so many nominal modes.
-    pub(super) fn sample(self, design: &[f64], modes: usize) -> Sample {
+    pub(super) fn sample(&self, design: &[f64], modes: usize) -> Sample {
         let own = || (0..modes).map(|r| self.mode(r));
         Sample {
             design: design.into(),
@@ -96,7 +107,7 @@ impl Solution {
             eigenvalues: own().map(|mode| Some(mode?.s)).collect(),
             frequencies: own().map(|mode| mode?.frequency()).collect(),
             damping_ratios: own().map(|mode| mode?.damping_ratio()).collect(),
-            coordinates: self.state.map(|state| state.coordinates),
+            coordinates: self.solved.then(|| self.state.coordinates.clone()),
         }
     }
 }

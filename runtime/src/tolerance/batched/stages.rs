@@ -24,23 +24,24 @@ pub(super) const FAR: f64 = 6.0;
 /// `b = b_nominal + L z`, `z` standard normal.
 #[inline(always)]
 pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
-    for (pair, [radius, angle]) in batch.bits.iter().enumerate() {
-        if prepared.drawn[pair] {
+    let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
+    let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
+    for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
+        if *drawn {
             let (first, second) =
                 standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
-            first.store(&mut batch.standard[2 * pair], at);
-            second.store(&mut batch.standard[2 * pair + 1], at);
+            first.store(&mut normal[0], at);
+            second.store(&mut normal[1], at);
         }
     }
-    for (design, nominal) in batch.design.iter_mut().zip(&prepared.nominal.design) {
+    for (design, nominal) in design.iter_mut().zip(&prepared.nominal.design) {
         V::constant(*nominal).store(design, at);
     }
     for &(i, j, factor) in &prepared.shared {
-        let change = V::constant(factor) * V::load(&batch.standard[j], at);
-        (V::load(&batch.design[i], at) + change).store(&mut batch.design[i], at);
+        let change = V::constant(factor) * V::load(&standard[j], at);
+        (V::load(&design[i], at) + change).store(&mut design[i], at);
     }
-    let standard = batch.standard.iter().zip(&prepared.own);
-    for (design, (standard, factor)) in batch.design.iter_mut().zip(standard) {
+    for (design, (standard, factor)) in design.iter_mut().zip(standard.iter().zip(&prepared.own)) {
         let change = V::constant(*factor) * V::load(standard, at);
         (V::load(design, at) + change).store(design, at);
     }
@@ -64,15 +65,16 @@ pub(super) fn possible(prepared: &Prepared<'_>, design: &[Batch], members: usize
 /// The equilibrium as the derivatives of the nominal one predict it.
 #[inline(always)]
 pub(super) fn predict<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
-    let nominal = prepared.nominal;
+    let coordinates = &prepared.nominal.coordinates[..n];
+    let (design, nominal) = (&batch.design[..], &prepared.nominal.design[..]);
     let mut q = [V::constant(0.0); LARGEST];
     for i in 0..n {
-        q[i] = V::constant(nominal.coordinates[i]);
+        q[i] = V::constant(coordinates[i]);
     }
     let mut changes = [V::constant(0.0); FEW];
     let varied = prepared.varied.iter().zip(&prepared.first);
     for (k, (&variable, first)) in varied.enumerate() {
-        let change = V::load(&batch.design[variable], at) - V::constant(nominal.design[variable]);
+        let change = V::load(&design[variable], at) - V::constant(nominal[variable]);
         let mut slope = [V::constant(0.0); LARGEST];
         for i in 0..n {
             slope[i] = V::constant(first[i]);

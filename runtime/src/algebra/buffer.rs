@@ -1,0 +1,140 @@
+//! Numbers of a list or a matrix: few of them stand in place, many on the heap.
+
+use core::ops::{Deref, DerefMut};
+
+/// Reads as a slice.
+#[derive(Clone)]
+pub(super) enum Buffer<T, const FEW: usize> {
+    /// How many there are, and beyond them what is never read. Copied whole: a copy of known size is a few instructions.
+    Few(usize, [T; FEW]),
+    Many(Vec<T>),
+}
+
+impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
+    /// `count` times `value`.
+    #[inline]
+    pub(super) fn filled(count: usize, value: T) -> Self {
+        if count <= FEW {
+            Self::Few(count, [value; FEW])
+        } else {
+            Self::Many(vec![value; count])
+        }
+    }
+
+    #[inline]
+    pub(super) fn from_slice(values: &[T]) -> Self {
+        if values.len() <= FEW {
+            let mut few = [T::default(); FEW];
+            for (place, value) in few.iter_mut().zip(values) {
+                *place = *value;
+            }
+            Self::Few(values.len(), few)
+        } else {
+            Self::Many(values.to_vec())
+        }
+    }
+
+    /// `value(k)` in place `k`.
+    #[inline]
+    pub(super) fn from_fn(count: usize, mut value: impl FnMut(usize) -> T) -> Self {
+        if count <= FEW {
+            let mut few = [T::default(); FEW];
+            for (k, place) in few.iter_mut().enumerate().take(count) {
+                *place = value(k);
+            }
+            Self::Few(count, few)
+        } else {
+            Self::Many((0..count).map(value).collect())
+        }
+    }
+
+    /// Writes these values over what there is, in the same room where they fit.
+    #[inline]
+    pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
+        let mut values = values.into_iter();
+        match self {
+            Self::Few(count, few) => {
+                *count = write(few, &mut values);
+                if *count == FEW
+                    && let Some(next) = values.next()
+                {
+                    *self = Self::Many(few.iter().copied().chain([next]).chain(values).collect());
+                }
+            }
+            Self::Many(many) => {
+                many.clear();
+                many.extend(values);
+            }
+        }
+    }
+}
+
+/// Writes values into the places there are; how many it were.
+#[inline]
+fn write<T>(places: &mut [T], values: &mut impl Iterator<Item = T>) -> usize {
+    let mut count = 0;
+    for place in places {
+        let Some(value) = values.next() else { break };
+        *place = value;
+        count += 1;
+    }
+    count
+}
+
+impl<T: Copy + Default, const FEW: usize> FromIterator<T> for Buffer<T, FEW> {
+    #[inline]
+    fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
+        let values = values.into_iter();
+        if values.size_hint().0 > FEW {
+            return Self::Many(values.collect());
+        }
+        let mut buffer = Self::default();
+        buffer.assign(values);
+        buffer
+    }
+}
+
+impl<T, const FEW: usize> From<Vec<T>> for Buffer<T, FEW> {
+    #[inline]
+    fn from(values: Vec<T>) -> Self {
+        Self::Many(values)
+    }
+}
+
+impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
+    fn from(buffer: Buffer<T, FEW>) -> Self {
+        match buffer {
+            Buffer::Few(..) => buffer.to_vec(),
+            Buffer::Many(many) => many,
+        }
+    }
+}
+
+impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
+    #[inline]
+    fn default() -> Self {
+        Self::filled(0, T::default())
+    }
+}
+
+impl<T, const FEW: usize> Deref for Buffer<T, FEW> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        match self {
+            Self::Few(count, few) => &few[..*count],
+            Self::Many(many) => many,
+        }
+    }
+}
+
+impl<T, const FEW: usize> DerefMut for Buffer<T, FEW> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [T] {
+        match self {
+            Self::Few(count, few) => &mut few[..*count],
+            Self::Many(many) => many,
+        }
+    }
+}
