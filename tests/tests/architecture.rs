@@ -349,7 +349,8 @@ fn circle(imports: &BTreeMap<&str, BTreeSet<String>>) -> Option<Vec<String>> {
     loop {
         let rest: BTreeSet<String> = left.keys().map(|name| (*name).to_owned()).collect();
         let before = left.len();
-        left.retain(|_, names| names.intersection(&rest).next().is_some());
+        let named: BTreeSet<String> = left.values().flatten().cloned().collect();
+        left.retain(|name, names| named.contains(*name) && !names.is_disjoint(&rest));
         if left.is_empty() {
             return None;
         }
