@@ -3,7 +3,7 @@
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::Whirl;
 use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity;
@@ -189,6 +189,16 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.shape_sensitivity(mode)
     }
 
+    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
+    ///
+    /// # Errors
+    /// Those of equilibrium, modes, tolerances and the function.
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        self.solve()?.clusters()
+    }
+}
+
+impl<M: CurvatureKernels> Study<M> {
     /// First and second derivatives of one mode, counted from 0 ([`mode_curvature`](crate::second_order::mode_curvature)).
     ///
     /// ```
@@ -211,14 +221,6 @@ impl<M: DirectionalKernels> Study<M> {
     /// Those of equilibrium, modes and tolerances; a mode without second derivatives says so itself.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
         self.solve()?.second_order()
-    }
-
-    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
-    ///
-    /// # Errors
-    /// Those of equilibrium, modes, tolerances and the function.
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        self.solve()?.clusters()
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed

@@ -2,7 +2,7 @@
 
 use super::Study;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::{self, Whirl};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
@@ -104,6 +104,21 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         shapes::shape_sensitivity(&study.mechanism, equilibrium, modes, mode)
     }
 
+    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
+    ///
+    /// # Errors
+    /// Those of tolerances and the function.
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+    }
+}
+
+impl<M: CurvatureKernels> Solved<'_, M> {
     /// First and second derivatives of one mode, counted from 0 ([`second_order::mode_curvature`]).
     ///
     /// # Errors
@@ -134,19 +149,6 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             modes,
             &tolerances,
         ))
-    }
-
-    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
-    ///
-    /// # Errors
-    /// Those of tolerances and the function.
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation is to be believed
