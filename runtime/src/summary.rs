@@ -3,7 +3,7 @@
 
 use crate::algebra::Vector;
 use crate::clusters::{ClusterTolerance, clusters};
-use crate::kernels::DirectionalKernels;
+use crate::kernels::CurvatureKernels;
 use crate::modes::Family;
 use crate::second_order::{SecondOrder, second_order};
 use crate::sensitivity::{Quantity, sensitivities};
@@ -121,7 +121,7 @@ pub enum Doubt {
 /// [`Error::CriticalState`] when `Khat` is singular, [`Error::OutsideDomain`] when a derivative is not finite,
 /// [`Error::WrongLength`] for tolerances of another mechanism.
 pub fn summary(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     modes: &Modes,
     tolerances: &Tolerances,

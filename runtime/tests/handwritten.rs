@@ -9,7 +9,7 @@ use common::derived::Derived;
 use common::models::{Follower, Plate};
 use common::pendulum::Pendulum;
 use eigentol::Vector;
-use eigentol::kernels::{DirectionalKernels, Gradient, Kernels, Linear};
+use eigentol::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 
 /// Some numbers between 0.3 and 1.3.
 fn numbers(n: usize, seed: usize) -> Vector {
@@ -29,7 +29,7 @@ fn moved(values: &[f64], h: f64, along: &[f64]) -> Vector {
     values.iter().zip(along).map(|(x, dx)| x + h * dx).collect()
 }
 
-fn check(machine: &dyn DirectionalKernels) {
+fn check(machine: &dyn CurvatureKernels) {
     let kernels: &dyn Kernels = machine;
     let sizes = kernels.sizes();
     let n = sizes.coordinates;

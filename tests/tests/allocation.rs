@@ -11,7 +11,7 @@ use std::hint::black_box;
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{
-    Gradient, Kernels, Linear, LinearPartials, MotionKernels, RestParts, Sizes,
+    CurvatureKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, RestParts, Sizes,
 };
 use eigentol::modes::{match_modes, modes};
 use eigentol::scalar::Instructions;
@@ -142,7 +142,7 @@ impl Buffers {
     }
 
     /// Every kernel of the table once.
-    fn fill(&mut self, machine: &dyn MotionKernels, q: &[f64], u: &[f64], b: &[f64]) {
+    fn fill(&mut self, machine: &dyn EveryKernel, q: &[f64], u: &[f64], b: &[f64]) {
         let Self {
             numbers,
             outputs,
@@ -197,8 +197,13 @@ fn check<M: Mechanism>(machine: M, u: &[f64], start: &[f64]) {
     questions(&machine, u, &b, start);
 }
 
+/// The whole table.
+trait EveryKernel: MotionKernels + CurvatureKernels {}
+
+impl<M: MotionKernels + CurvatureKernels> EveryKernel for M {}
+
 /// Answers hold their numbers themselves; what they list is on the heap.
-fn questions(machine: &dyn MotionKernels, u: &[f64], b: &[f64], start: &[f64]) {
+fn questions(machine: &dyn EveryKernel, u: &[f64], b: &[f64], start: &[f64]) {
     let description = machine.description();
     let name = &description.name;
     let mut buffers = Buffers::new(machine.sizes());

@@ -1,14 +1,14 @@
 //! Every machine of the corpus, read from text at run time, gives every answer of its compiled twin, bit for bit: the same
 //! operations in another order, each on the same numbers.
 
-use eigentol::kernels::{BatchKernels, MotionKernels};
+use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels};
 use eigentol::{Coordinate, Input, Mechanism, Policy, Study};
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
 use eigentol_tests::resolved::{Operation, operating_points};
 
 /// What a study answers, in words that tell every bit.
-fn answers<M: BatchKernels + Clone>(
+fn answers<M: BatchKernels + CurvatureKernels + Clone>(
     machine: M,
     operation: &Operation,
 ) -> Vec<(&'static str, String)> {

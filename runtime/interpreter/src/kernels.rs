@@ -1,8 +1,8 @@
 //! The tables of kernels, by interpretation.
 
 use eigentol::kernels::{
-    BatchKernels, BatchPoint, DirectionalKernels, Gradient, Interval, Kernels, Linear,
-    LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
+    BatchKernels, BatchPoint, CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels,
+    Linear, LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
@@ -330,6 +330,25 @@ impl DirectionalKernels for Interpreted {
         run_along(tape, &[q, u, b], &direction, &mut linear_buffers(linear));
     }
 
+    fn residual_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        direction: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        run_along(
+            &self.shared.tapes.residual_gradient,
+            &[q, u, b, w],
+            &direction,
+            &mut gradient_buffers(gradient),
+        );
+    }
+}
+
+impl CurvatureKernels for Interpreted {
     fn mode_gradient_along_into(
         &self,
         q: &[f64],
@@ -367,23 +386,6 @@ impl DirectionalKernels for Interpreted {
             &self.shared.tapes.pencil_gradient,
             &[q, u, b, left, acceleration, velocity, position],
             &[dq, du, db, dleft, dacceleration, dvelocity, dposition],
-            &mut gradient_buffers(gradient),
-        );
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        run_along(
-            &self.shared.tapes.residual_gradient,
-            &[q, u, b, w],
-            &direction,
             &mut gradient_buffers(gradient),
         );
     }

@@ -2,8 +2,8 @@
 
 use super::interval::Interval;
 use super::{
-    DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, ResidualPartials,
-    RestParts, Sizes,
+    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels,
+    ResidualPartials, RestParts, Sizes,
 };
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
@@ -291,6 +291,25 @@ impl<M: Mechanism> DirectionalKernels for M {
         copy_linear::<M>(&Mechanism::linear_along(self, q, u, b, dq, du, db), linear);
     }
 
+    fn residual_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        w: &[f64],
+        direction: [&[f64]; 4],
+        gradient: &mut Gradient,
+    ) {
+        let (q, u, b) = point::<M>(q, u, b);
+        let [dq, du, db, dw] = direction;
+        let (dq, du, db) = point::<M>(dq, du, db);
+        let (w, dw) = (Array::view(w), Array::view(dw));
+        let found = Mechanism::residual_gradient_along(self, q, u, b, w, dq, du, db, dw);
+        copy_gradient::<M>(&found, gradient);
+    }
+}
+
+impl<M: Mechanism> CurvatureKernels for M {
     fn mode_gradient_along_into(
         &self,
         q: &[f64],
@@ -343,23 +362,6 @@ impl<M: Mechanism> DirectionalKernels for M {
             dvelocity,
             dposition,
         );
-        copy_gradient::<M>(&found, gradient);
-    }
-
-    fn residual_gradient_along_into(
-        &self,
-        q: &[f64],
-        u: &[f64],
-        b: &[f64],
-        w: &[f64],
-        direction: [&[f64]; 4],
-        gradient: &mut Gradient,
-    ) {
-        let (q, u, b) = point::<M>(q, u, b);
-        let [dq, du, db, dw] = direction;
-        let (dq, du, db) = point::<M>(dq, du, db);
-        let (w, dw) = (Array::view(w), Array::view(dw));
-        let found = Mechanism::residual_gradient_along(self, q, u, b, w, dq, du, db, dw);
         copy_gradient::<M>(&found, gradient);
     }
 }

@@ -10,11 +10,13 @@
 
 mod batch;
 mod compiled;
+mod curvature;
 mod directional;
 mod interval;
 mod motion;
 
 pub use batch::{BatchKernels, BatchPoint};
+pub use curvature::CurvatureKernels;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;
 pub use motion::MotionKernels;

@@ -5,7 +5,7 @@ use super::curvature::mode_curvature;
 use super::margin::{Margin, margin};
 use crate::algebra::Vector;
 use crate::arguments::check_input;
-use crate::kernels::DirectionalKernels;
+use crate::kernels::CurvatureKernels;
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
@@ -126,7 +126,7 @@ pub struct ModeMargin {
 /// [`Error::NotOscillating`] for a mode without that quantity, [`Error::ClusteredMode`], [`Error::CriticalState`], [`Error::OutsideDomain`],
 /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::WrongLength`], [`Error::Setting`] for a band that makes no sense.
 pub fn mode_margin(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     modes: &Modes,
     (mode, quantity): (usize, Quantity),

@@ -2,7 +2,7 @@
 //! of the shapes and of the eigenvalue with each variable: as many gradient evaluations as there are variables.
 
 use crate::algebra::{Lu, Matrix, Vector, dot_complex, times_complex};
-use crate::kernels::{DirectionalKernels, Gradient, Kernels, Linear};
+use crate::kernels::{CurvatureKernels, Gradient, Kernels, Linear};
 use crate::modes::{Family, pencil_slope_times};
 use crate::sensitivity::{
     ComplexGradient, Direction, Form, ModeSensitivity, Quantity, Slopes, directions,
@@ -88,7 +88,7 @@ impl<T: Copy> SecondDerivatives<T> {
 /// [`Error::ClusteredMode`] where the mode has (nearly) equal neighbours, [`Error::CriticalState`] when `Khat` is
 /// singular, [`Error::OutsideDomain`] when a derivative is not finite, [`Error::NoSuchMode`].
 pub fn mode_curvature(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     modes: &Modes,
     mode: usize,
@@ -141,7 +141,7 @@ pub fn mode_curvature(
 /// `a = phi^T (Khat - lambda Mhat) phi` at fixed vectors `dlambda = n` for an undamped mode; with that of
 /// `a = psi^T (s^2 Mhat + s Chat + Khat) phi` and `d = psi^T (2 s Mhat + Chat) phi` it is `ds = -n / d` for a general one.
 struct AdjointGradient<'a> {
-    mechanism: &'a dyn DirectionalKernels,
+    mechanism: &'a dyn CurvatureKernels,
     at: &'a Equilibrium,
     family: Family,
     mode: &'a Mode,
@@ -156,7 +156,7 @@ struct AdjointGradient<'a> {
 
 impl<'a> AdjointGradient<'a> {
     fn new(
-        mechanism: &'a dyn DirectionalKernels,
+        mechanism: &'a dyn CurvatureKernels,
         at: &'a Equilibrium,
         family: Family,
         mode: &'a Mode,

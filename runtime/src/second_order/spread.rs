@@ -4,7 +4,7 @@ use super::curvature::{ModeCurvature, mode_curvature};
 use super::nonlinearity::Nonlinearity;
 use super::quadratic::{ModelMoments, Quadratic};
 use crate::algebra::Vector;
-use crate::kernels::DirectionalKernels;
+use crate::kernels::CurvatureKernels;
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Modes, Shared};
@@ -62,7 +62,7 @@ impl ModeCurvature {
 /// Spread of every mode to second order: exact mean and variance of the second-order model of each
 /// quantity under normally distributed design variables.
 pub fn second_order(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     modes: &Modes,
     tolerances: &Tolerances,
@@ -77,7 +77,7 @@ pub fn second_order(
 }
 
 fn mode_second_order(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     modes: &Modes,
     mode: usize,

@@ -1,7 +1,7 @@
 //! The quadratic pencil `s^2 Mhat + s Chat + Khat` between complex vectors, by the real kernels.
 
 use crate::algebra::{Values, Vector};
-use crate::kernels::{DirectionalKernels, Gradient, Kernels, Linear};
+use crate::kernels::{CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear};
 use crate::{Complex, Equilibrium, Mode};
 
 /// The bilinear form `left^T (Mhat acceleration + Chat velocity + Khat position)`: real and imaginary parts of the four
@@ -124,7 +124,7 @@ pub(crate) fn form_gradient(
 
 /// Derivative of [`form_gradient`] along a direction in which the vectors of the form move by `change`.
 pub(crate) fn form_gradient_along(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     at: &Equilibrium,
     (form, change): (&Form, &Form),
     along: &Direction,

@@ -3,7 +3,7 @@
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::Whirl;
 use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity;
@@ -241,6 +241,23 @@ impl<M: DirectionalKernels> Study<M> {
         self.solve()?.shape_sensitivity(mode)
     }
 
+    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // One mode has no other to mix with.
+    /// assert!(study.clusters()?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        self.solve()?.clusters()
+    }
+}
+
+impl<M: CurvatureKernels> Study<M> {
     /// First and second derivatives of one mode, counted from 0 ([`mode_curvature`](crate::second_order::mode_curvature)).
     ///
     /// ```
@@ -269,21 +286,6 @@ impl<M: DirectionalKernels> Study<M> {
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
         self.solve()?.second_order()
-    }
-
-    /// The modes that tolerances bring together, and their spread ([`clusters`](crate::clusters::clusters)).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// // One mode has no other to mix with.
-    /// assert!(study.clusters()?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::sensitivities`] and [`Study::tolerances`].
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        self.solve()?.clusters()
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted

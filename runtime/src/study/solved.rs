@@ -2,7 +2,7 @@
 
 use super::Study;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
-use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::{self, Whirl};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
@@ -158,6 +158,27 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         shapes::shape_sensitivity(&study.mechanism, equilibrium, modes, mode)
     }
 
+    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.solve()?.clusters()?.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
+    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+    }
+}
+
+impl<M: CurvatureKernels> Solved<'_, M> {
     /// First and second derivatives of one mode, counted from 0 ([`second_order::mode_curvature`]).
     ///
     /// ```
@@ -201,25 +222,6 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             modes,
             &tolerances,
         ))
-    }
-
-    /// The modes that tolerances bring together, and their spread ([`clusters::clusters`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.solve()?.clusters()?.is_empty());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
-    pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
     }
 
     /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted

@@ -1,6 +1,6 @@
 //! One mechanism in two sets of unknowns: what has to be the same.
 
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::modes;
 use eigentol::second_order::mode_curvature;
 use eigentol::sensitivity::{
@@ -12,7 +12,7 @@ use crate::common::derived::{Derived, Model};
 
 /// An equilibrium with its modes.
 pub(crate) struct State {
-    pub(crate) mechanism: Box<dyn DirectionalKernels>,
+    pub(crate) mechanism: Box<dyn CurvatureKernels>,
     pub(crate) at: Equilibrium,
     pub(crate) modes: Modes,
 }

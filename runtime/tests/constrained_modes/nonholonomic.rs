@@ -1,7 +1,7 @@
 //! Speeds and constraints on velocities against closed forms.
 
 use eigentol::equilibrium::equilibrium;
-use eigentol::kernels::{DirectionalKernels, Kernels, Linear};
+use eigentol::kernels::{CurvatureKernels, Kernels, Linear};
 use eigentol::modes::{match_modes, modes, modes_of, undamped_modes};
 use eigentol::second_order::mode_curvature;
 use eigentol::sensitivity::{sensitivities, sensitivities_explicit};
@@ -89,7 +89,7 @@ fn near_complex(a: Complex, b: Complex, tolerance: f64, scale: f64) {
 
 /// Eigenvalues, first derivatives in two ways and second derivatives of all modes against the roots of a cubic.
 fn against_cubic<const P: usize>(
-    mechanism: &dyn DirectionalKernels,
+    mechanism: &dyn CurvatureKernels,
     b: [f64; P],
     v: f64,
     start: &[f64],

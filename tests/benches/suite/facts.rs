@@ -6,7 +6,7 @@ use std::thread;
 use std::time::Instant;
 
 use eigentol::equilibrium::equilibrium;
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::modes;
 use eigentol::scalar::Instructions;
 use eigentol::second_order::mode_curvature;
@@ -144,7 +144,7 @@ pub(crate) fn long_chain() -> Vec<Fact> {
 type Step = (String, Result<f64, String>);
 
 /// Time of every step; stops at the first that fails.
-fn analysis(chain: &dyn DirectionalKernels) -> Vec<Step> {
+fn analysis(chain: &dyn CurvatureKernels) -> Vec<Step> {
     let mut steps = Vec::new();
     if let Err(error) = measure(chain, &mut steps) {
         steps.push(("stopped".to_owned(), Err(error.to_string())));
@@ -152,7 +152,7 @@ fn analysis(chain: &dyn DirectionalKernels) -> Vec<Step> {
     steps
 }
 
-fn measure(chain: &dyn DirectionalKernels, steps: &mut Vec<Step>) -> Result<(), Error> {
+fn measure(chain: &dyn CurvatureKernels, steps: &mut Vec<Step>) -> Result<(), Error> {
     let description = chain.description();
     let n = description.coordinates.len();
     let u = [1.0];

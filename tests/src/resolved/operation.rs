@@ -1,7 +1,7 @@
 //! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
 
 use eigentol::equilibrium::{Equilibrium, equilibrium};
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::{Mechanism, Policy};
 
 use super::{Machine, State};
@@ -76,7 +76,7 @@ pub trait Comparison {
     fn compare(
         &mut self,
         what: &str,
-        machine: &dyn DirectionalKernels,
+        machine: &dyn CurvatureKernels,
         at: &Equilibrium,
         state: &State,
     );

@@ -1,6 +1,6 @@
 //! `P1`, `P2`, `P3`: every condition, every number of the undamped problem.
 
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::sensitivity::{
     Sensitivities, equilibrium_shift, sensitivities, sensitivities_explicit,
     sensitivities_with_frozen_equilibrium,
@@ -46,7 +46,7 @@ fn omega_by(all: &Sensitivities, mode: usize, by: By) -> f64 {
 
 /// Checks every condition of a file; `names` are those of the design variables there, in the machine's order. Returns
 /// how many derivatives a frozen equilibrium gets wrong.
-fn check<M: DirectionalKernels + Copy>(machine: M, file: &str, names: &[&str]) -> usize {
+fn check<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) -> usize {
     let mut wrong_when_frozen = 0;
     for condition in Truth::load(file).get("conditions").list() {
         let what = format!("{file} {}", condition.get("label").text());

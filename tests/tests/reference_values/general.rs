@@ -1,7 +1,7 @@
 //! `P1`, `P2`, `P3`: general modes with their first and second derivatives, Hessians of the frequencies, second-order
 //! moments.
 
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::second_order::{SecondDerivatives, mode_curvature};
 use eigentol::sensitivity::{Quantity, sensitivities, sensitivities_explicit};
 use eigentol::{Complex, Family, Study};
@@ -59,7 +59,7 @@ fn assert_hessian(found: &SecondDerivatives<f64>, expected: &Truth, order: &[By]
 
 /// Hessians and second-order moments of the undamped modes of every condition; the moments where the file's design holds
 /// no input.
-fn undamped<M: DirectionalKernels + Copy>(machine: M, file: &str, names: &[&str]) {
+fn undamped<M: CurvatureKernels + Copy>(machine: M, file: &str, names: &[&str]) {
     let mut moments = 0;
     for condition in Truth::load(file).get("conditions").list() {
         let label = condition.get("label").text();

@@ -1,7 +1,7 @@
 //! Mechanisms with constraints: the bordered equations solved again in hyper-dual numbers, reactions included.
 
 use eigentol::equilibrium::equilibrium;
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::{Family, modes_of};
 use eigentol::sensitivity::equilibrium_shift;
 use eigentol::{Mechanism, Policy, Vector};
@@ -76,7 +76,7 @@ impl Visitor for Every {
 }
 
 impl Every {
-    fn check(&mut self, name: &str, declaration: &str, machine: &dyn DirectionalKernels) {
+    fn check(&mut self, name: &str, declaration: &str, machine: &dyn CurvatureKernels) {
         let Some((inputs, near)) = operation(name) else {
             return;
         };

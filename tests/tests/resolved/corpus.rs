@@ -2,7 +2,7 @@
 
 use eigentol::Error;
 use eigentol::equilibrium::Equilibrium;
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::undamped_modes;
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol_tests::corpus::corpus;
@@ -43,7 +43,7 @@ impl Comparison for Gradients {
     fn compare(
         &mut self,
         what: &str,
-        machine: &dyn DirectionalKernels,
+        machine: &dyn CurvatureKernels,
         at: &Equilibrium,
         state: &State,
     ) {
@@ -133,7 +133,7 @@ struct Pencils {
 }
 
 impl Comparison for Pencils {
-    fn compare(&mut self, what: &str, _: &dyn DirectionalKernels, _: &Equilibrium, state: &State) {
+    fn compare(&mut self, what: &str, _: &dyn CurvatureKernels, _: &Equilibrium, state: &State) {
         let n = state.coordinates.len();
         let matrices = state
             .matrices()

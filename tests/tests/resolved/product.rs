@@ -2,7 +2,7 @@
 //! what is asked of it, first ones of both shapes.
 
 use eigentol::equilibrium::Equilibrium;
-use eigentol::kernels::DirectionalKernels;
+use eigentol::kernels::CurvatureKernels;
 use eigentol::modes::{Family, Mode, Modes, modes, undamped_modes};
 use eigentol::second_order::{SecondDerivatives, mode_curvature};
 use eigentol::sensitivity::{Quantity, sensitivities};
@@ -106,7 +106,7 @@ impl Product {
     fn mode(
         &mut self,
         what: &str,
-        machine: &dyn DirectionalKernels,
+        machine: &dyn CurvatureKernels,
         at: &Equilibrium,
         (modes, all): (&Modes, &Sensitivities),
         r: usize,
@@ -211,7 +211,7 @@ impl Comparison for Product {
     fn compare(
         &mut self,
         what: &str,
-        machine: &dyn DirectionalKernels,
+        machine: &dyn CurvatureKernels,
         at: &Equilibrium,
         state: &State,
     ) {
@@ -249,7 +249,7 @@ impl Product {
     pub(super) fn general(
         &mut self,
         what: &str,
-        machine: &dyn DirectionalKernels,
+        machine: &dyn CurvatureKernels,
         at: &Equilibrium,
         general: &Modes,
         state: &State,

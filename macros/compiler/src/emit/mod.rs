@@ -24,9 +24,11 @@ mod body;
 mod contract;
 mod description;
 mod expression;
+mod form;
 mod names;
 mod pose_margin;
 mod results;
+mod signature;
 mod sines;
 mod violation;
 
@@ -49,7 +51,7 @@ pub fn emit<E: Debug>(
     let mut methods = String::new();
     for kernel in &program.kernels {
         let name = KernelName::named(kernel.name).expect("mechanics names the kernels");
-        let method = match contract::form(name) {
+        let method = match form::form(name) {
             Some(form) => contract::method(kernel, form),
             None if name == KernelName::Violation => {
                 violation::method(kernel, &functions.requirements)

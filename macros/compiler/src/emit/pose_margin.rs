@@ -6,7 +6,7 @@ use crate::mechanics::Pose;
 use crate::program::Kernel;
 
 use super::body::Body;
-use super::contract::signature;
+use super::signature::signature;
 
 /// `fn pose_margin`: the joint whose three axes span the smallest volume.
 pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {

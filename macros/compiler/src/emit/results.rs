@@ -10,7 +10,8 @@ use std::fmt::Write;
 use crate::program::{Array, Kernel, Operand};
 
 use super::body::Body;
-use super::contract::{Form, call};
+use super::form::Form;
+use super::signature::call;
 
 /// The parts of a result.
 pub(super) struct Results<'a> {

@@ -6,7 +6,7 @@ use crate::mechanics::Requirement;
 use crate::program::Kernel;
 
 use super::body::Body;
-use super::contract::signature;
+use super::signature::signature;
 
 /// `fn violation`: the first requirement whose value is not positive.
 pub(super) fn method(kernel: &Kernel, requirements: &[Requirement]) -> String {

@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::expression::{Expr, Vector};
-use super::mechanism::Unit;
+use super::unit::Unit;
 use crate::base::ids::PointId;
 
 /// A constraint.

@@ -5,6 +5,7 @@ use proc_macro2::Ident;
 pub use super::constraint::{Constraint, ConstraintLaw};
 use super::expression::{Expr, Vector};
 pub use super::shape::Shape;
+pub use super::unit::Unit;
 use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
@@ -47,15 +48,6 @@ impl Mechanism {
             |step: &JointStep| self.coordinates[step.coordinate.index()].motion == Motion::Coasting;
         joint.closing == Some(Closing::Planar) && joint.steps.iter().all(coasts)
     }
-}
-
-/// A unit as declared: a value in SI is the value in this unit times `scale`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unit {
-    /// As declared, without spaces.
-    pub symbol: String,
-    /// SI value of one unit.
-    pub scale: f64,
 }
 
 /// An operating parameter chosen at run time.

@@ -9,6 +9,7 @@ pub mod resolve;
 mod rules;
 pub mod shape;
 mod simplify;
+pub mod unit;
 pub mod welded;
 
 pub(crate) use rules::tensor::is_inertia_of_a_body;

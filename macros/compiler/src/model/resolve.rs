@@ -7,38 +7,32 @@ mod constants;
 mod constraints;
 mod coordinates;
 mod directions;
+mod exerted;
 mod expected;
 mod forces;
 mod functions;
 mod gravity;
 mod joints;
+mod nominal;
 mod operators;
 mod outputs;
 mod parameters;
 mod placements;
 mod point_arguments;
 mod references;
+mod resolver;
 mod scope;
 mod tension;
 mod typed;
 mod units;
 mod values;
 
-use self::constraints::Exerted;
-use self::coordinates::{Declared, DeclaredMotion};
-use self::joints::kinds::Kind;
-use self::parameters::Nominal;
+use self::resolver::Resolver;
 use self::scope::Scope;
-use self::typed::Typed;
-use super::expression::Expr;
-use super::mechanism::{Constant, Coordinate, Mechanism, Part};
-use super::rules::composite::GivenInertia;
-use super::rules::physical::{self, Demand, Requirement};
-use super::rules::{attributes, presence};
-use crate::base::diagnostics::{Diagnostic, Diagnostics};
-use crate::base::dimension::Dimension;
-use crate::base::span::Extent;
-use crate::syntax::ast::{Ast, ItemKind, Joint, Unread};
+use super::mechanism::Mechanism;
+use super::rules::{attributes, physical, presence};
+use crate::base::diagnostics::Diagnostics;
+use crate::syntax::ast::{Ast, ItemKind, Unread};
 
 /// What became of a declaration.
 #[derive(Debug)]
@@ -141,85 +135,6 @@ fn is_connected(ast: &Ast, mechanism: &Mechanism) -> bool {
 
 fn count(ast: &Ast, is: fn(&ItemKind) -> bool) -> usize {
     ast.items.iter().filter(|item| is(&item.kind)).count()
-}
-
-/// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
-struct Resolver<'a> {
-    ast: &'a Ast,
-    diagnostics: Diagnostics,
-    scope: Scope,
-    inputs: Vec<Option<Dimension>>,
-    design: Vec<Option<Nominal>>,
-    used_design: Vec<bool>,
-    lets: Vec<Option<Typed>>,
-    constants: Vec<Constant>,
-    coordinates: Vec<Declared<'a>>,
-    declared_coordinates: Vec<Coordinate>,
-    exerted: Vec<Option<Exerted>>,
-    parts: Vec<Option<Vec<Part>>>,
-    given_inertias: Vec<GivenInertia>,
-    requirements: Vec<Requirement>,
-}
-
-impl<'a> Resolver<'a> {
-    fn new(
-        ast: &'a Ast,
-        coordinates: Vec<Declared<'a>>,
-        scope: Scope,
-        diagnostics: Diagnostics,
-    ) -> Self {
-        Self {
-            ast,
-            diagnostics,
-            scope,
-            inputs: Vec::new(),
-            design: Vec::new(),
-            used_design: Vec::new(),
-            lets: Vec::new(),
-            constants: Vec::new(),
-            coordinates,
-            declared_coordinates: Vec::new(),
-            exerted: Vec::new(),
-            parts: Vec::new(),
-            given_inertias: Vec::new(),
-            requirements: Vec::new(),
-        }
-    }
-
-    /// Records a mistake with help where there is any.
-    fn report(
-        &mut self,
-        span: impl Into<Extent>,
-        message: impl Into<String>,
-        help: Option<String>,
-    ) {
-        let mut diagnostic = Diagnostic::new(span, message);
-        diagnostic.help = help;
-        self.diagnostics.push(diagnostic);
-    }
-
-    /// A value must be finite at the nominal values; `what` names it, a vector once.
-    fn require_finite(&mut self, values: &[Expr], what: &str, extent: Extent) {
-        if !values.iter().all(|value| matches!(value, Expr::Number(_))) {
-            self.requirements.push(Requirement {
-                what: what.to_string(),
-                values: values.to_vec(),
-                demand: Demand::Finite,
-                extent,
-            });
-        }
-    }
-
-    /// Some coordinate is free or coasting. A joint of an unknown kind, or one that could not be read, gets the benefit of the
-    /// doubt.
-    fn can_move(&self) -> bool {
-        let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
-        let moves =
-            |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
-        self.coordinates.iter().any(moves)
-            || coordinates::joints(self.ast).any(unknown)
-            || self.ast.unread.iter().any(Unread::may_connect)
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Named arguments of shapes and force laws: each at most once, none unknown, none missing.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use crate::base::nearest::suggestion;
 use crate::syntax::ast::{NamedCall, Value};
 

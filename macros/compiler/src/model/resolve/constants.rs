@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::typed::{Place, Quantity, Typed};
 use crate::base::ids::ConstantId;

@@ -5,9 +5,10 @@ mod between_points;
 mod of_expressions;
 mod rolling;
 
-use super::Resolver;
 use super::arguments::{Arguments, Signature};
+use super::exerted::Exerted;
 use super::joints::kinds::{self, Kind};
+use super::resolver::Resolver;
 use super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};
@@ -112,17 +113,6 @@ const SYNONYMS: [(&str, &str); 33] = [
     ("contact", "rolling"),
     ("nonholonomic", "rolling"),
 ];
-
-/// What a constraint exerts, which decides what its reaction is called.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Exerted {
-    /// Three components in N.
-    Force,
-    /// Three components in N m.
-    Moment,
-    /// One number of this dimension.
-    Number(Dimension),
-}
 
 impl Resolver<'_> {
     pub(super) fn constraints(&mut self) -> Vec<Constraint> {

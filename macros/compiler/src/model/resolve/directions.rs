@@ -1,6 +1,6 @@
 //! Directions: axis names, or any vector, made unit vectors.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::typed::Place;
 use crate::model::expression::{Expr, Vector};
 use crate::model::rules::physical::{Demand, Requirement};

@@ -5,10 +5,10 @@ mod between_points;
 mod by_expression;
 mod on_coordinates;
 
-use super::Resolver;
 use super::arguments::{Arguments, Signature};
 use super::expected::Expected;
 use super::placements::zero;
+use super::resolver::Resolver;
 use super::typed::Place;
 use super::values::is_matrix;
 use crate::model::expression::{Expr, Vector};

@@ -5,7 +5,7 @@ mod reactions;
 
 use proc_macro2::Ident;
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::typed::{Place, Quantity, Typed};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::dimension::Dimension;

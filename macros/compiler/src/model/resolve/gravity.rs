@@ -1,6 +1,6 @@
 //! Gravity: one acceleration, the same everywhere.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::typed::{Place, Typed};
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};

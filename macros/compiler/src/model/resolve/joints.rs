@@ -8,9 +8,9 @@ pub(super) mod kinds;
 use proc_macro2::Ident;
 
 use self::kinds::{Kind, SYNONYMS};
-use super::Resolver;
 use super::coordinates;
 use super::placements::unplaced;
+use super::resolver::Resolver;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::suggestion;
 use crate::model::mechanism::{Coordinate, Frame, Joint, Placement};

@@ -1,6 +1,6 @@
 //! Operators: what each does to dimensions, and which operands it refuses.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::typed::{Place, Quantity, Typed};
 use super::values::bare_number;
 use crate::base::dimension::Dimension;

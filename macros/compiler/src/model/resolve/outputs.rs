@@ -1,6 +1,6 @@
 //! Points fixed in bodies, and the outputs that look at them.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Function};

@@ -1,6 +1,7 @@
 //! Inputs and design variables: units as the user gives them, nominal values and tolerances in SI.
 
-use super::Resolver;
+use super::nominal::Nominal;
+use super::resolver::Resolver;
 use super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -9,16 +10,6 @@ use crate::model::mechanism::{DesignVariable, Input, Unit};
 use crate::model::rules::physical::DesignPoint;
 use crate::syntax::ast::{self, ItemKind, ToleranceKind, Value, ValueKind};
 use crate::syntax::print;
-
-/// A design variable as resolved.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nominal {
-    pub(super) dimension: Dimension,
-    value: f64,
-    tolerance: f64,
-    /// The declared tolerance, where a message about its reach points.
-    tolerance_extent: Option<Extent>,
-}
 
 impl Resolver<'_> {
     pub(super) fn inputs(&mut self) -> Vec<Input> {

@@ -1,8 +1,8 @@
 //! Placements: where a frame is in another, for joints, points and the shapes of a body.
 
-use super::Resolver;
 use super::directions::axis;
 use super::expected::Expected;
+use super::resolver::Resolver;
 use super::typed::Place;
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::Placement;

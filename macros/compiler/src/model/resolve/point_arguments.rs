@@ -1,7 +1,7 @@
 //! Points as arguments of forces and constraints.
 
-use super::Resolver;
 use super::arguments::Arguments;
+use super::resolver::Resolver;
 use crate::base::ids::PointId;
 use crate::syntax::ast::ItemKind;
 

@@ -2,9 +2,10 @@
 
 use proc_macro2::Ident;
 
+use super::coordinates;
 use super::joints::kinds::Kind;
+use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::{Resolver, coordinates};
 use crate::base::ids::{CoordinateId, JointId, PointId};
 use crate::model::mechanism::{CoordinateQuantity, Frame};
 

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::typed::{Quantity, Typed};
 use crate::base::dimension::Dimension;

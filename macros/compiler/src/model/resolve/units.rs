@@ -1,6 +1,6 @@
 //! Units as written to dimension and scale, and the names that a unit has swallowed.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::typed::Typed;
 use crate::base::dimension::Dimension;

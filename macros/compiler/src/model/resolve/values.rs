@@ -2,9 +2,9 @@
 
 use proc_macro2::Ident;
 
-use super::Resolver;
 use super::coordinates::{self, DeclaredMotion};
 use super::expected::Expected;
+use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::tension;
 use super::typed::{Place, Quantity, Typed};

@@ -1,7 +1,7 @@
 //! The arguments of a shape as quantities: each of its dimension, and such that a real part can have it.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};

@@ -1,6 +1,6 @@
 //! Which of the axes of a point a constraint holds along.
 
-use super::super::Resolver;
+use super::super::resolver::Resolver;
 use crate::syntax::ast::{Value, ValueKind};
 
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -1,7 +1,7 @@
 //! Constraints between two points: places, axes, distances.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
+use super::super::resolver::Resolver;
 use crate::base::ids::PointId;
 use crate::model::mechanism::ConstraintLaw;
 use crate::syntax::ast;

@@ -1,11 +1,11 @@
 //! Constraints that are expressions: couplings of two coordinates, and equations of the user's own.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
 use super::super::coordinates::{self, DeclaredMotion};
+use super::super::exerted::Exerted;
 use super::super::expected::Expected;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
-use super::Exerted;
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::span::Extent;

@@ -1,7 +1,7 @@
 //! Rolling without slip.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
+use super::super::resolver::Resolver;
 use crate::model::expression::Expr;
 use crate::model::mechanism::ConstraintLaw;
 use crate::syntax::ast;

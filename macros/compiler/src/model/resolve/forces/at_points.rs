@@ -1,8 +1,8 @@
 //! Loads, and the resistance of a medium, at a point of a body.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
+use super::super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::PointId;
 use crate::model::mechanism::ForceLaw;

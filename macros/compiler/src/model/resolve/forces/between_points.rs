@@ -1,8 +1,8 @@
 //! Forces between two points.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::base::ids::PointId;

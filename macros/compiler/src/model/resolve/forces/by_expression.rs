@@ -1,9 +1,9 @@
 //! Forces that are expressions of the motion. They cannot be evaluated before it is known, so that only their
 //! dimensions are checked here.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
 use super::super::expected::Expected;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
 use crate::base::dimension::Dimension;
 use crate::model::expression::Expr;

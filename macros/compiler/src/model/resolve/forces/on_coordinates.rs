@@ -1,9 +1,9 @@
 //! Springs and dampers on a coordinate.
 
-use super::super::Resolver;
 use super::super::arguments::Arguments;
 use super::super::coordinates::DeclaredMotion;
 use super::super::expected::Expected;
+use super::super::resolver::Resolver;
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::model::mechanism::{CoordinateQuantity, ForceLaw};

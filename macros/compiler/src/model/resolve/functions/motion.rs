@@ -2,8 +2,8 @@
 
 use proc_macro2::Ident;
 
-use super::super::Resolver;
 use super::super::coordinates::{self, DeclaredMotion};
+use super::super::resolver::Resolver;
 use super::super::typed::{Place, Quantity, Typed};
 use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;

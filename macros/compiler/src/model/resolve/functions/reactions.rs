@@ -2,8 +2,8 @@
 
 use proc_macro2::Ident;
 
-use super::super::Resolver;
-use super::super::constraints::Exerted;
+use super::super::exerted::Exerted;
+use super::super::resolver::Resolver;
 use super::super::scope::Meaning;
 use super::super::typed::{Quantity, Typed};
 use crate::base::dimension::Dimension;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::Resolver;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
 use super::kinds::{Condition, Elementary, Kind};
 use crate::base::dimension::Dimension;

@@ -1,6 +1,6 @@
 //! Joints that are declared to close a loop.
 
-use super::super::Resolver;
+use super::super::resolver::Resolver;
 use super::kinds::Kind;
 use crate::syntax::ast::{Joint, JointClause};
 

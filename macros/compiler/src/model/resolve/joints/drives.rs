@@ -2,9 +2,10 @@
 
 use proc_macro2::Ident;
 
+use super::super::coordinates;
 use super::super::coordinates::DeclaredMotion;
+use super::super::resolver::Resolver;
 use super::super::typed::Place;
-use super::super::{Resolver, coordinates};
 use super::kinds::Kind;
 use crate::base::ids::{CoordinateId, JointId};
 use crate::base::nearest::nearest;

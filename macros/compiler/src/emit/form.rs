@@ -1,0 +1,37 @@
+//! The forms in which methods return their results.
+
+use crate::mechanics::KernelName;
+
+/// How a method returns its results.
+#[derive(Clone, Copy)]
+pub(super) enum Form {
+    /// One array.
+    Single,
+    /// Arrays side by side.
+    Tuple,
+    /// A struct of the runtime with one field per array, generic over the types of the first so many.
+    Record(&'static str, usize),
+    /// `LinearPartials`: three lists of three matrices.
+    Partials,
+}
+
+/// The form of a kernel of the contract; `None` for requirements and poses, which have methods of their own kind.
+pub(super) fn form(kernel: KernelName) -> Option<Form> {
+    Some(match kernel {
+        KernelName::Residual
+        | KernelName::MotionResidual
+        | KernelName::Outputs
+        | KernelName::Whirl => Form::Single,
+        KernelName::Motion
+        | KernelName::ResidualAndStiffness
+        | KernelName::ResidualPartials
+        | KernelName::OutputPartials => Form::Tuple,
+        KernelName::ResidualParts => Form::Record("RestParts", 1),
+        KernelName::Linear | KernelName::MotionLinear => Form::Record("Linear", 1),
+        KernelName::LinearPartials => Form::Partials,
+        KernelName::ModeGradient | KernelName::PencilGradient | KernelName::ResidualGradient => {
+            Form::Record("Gradient", 3)
+        }
+        KernelName::Violation | KernelName::PoseMargin => return None,
+    })
+}

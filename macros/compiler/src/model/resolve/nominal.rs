@@ -1,0 +1,14 @@
+//! What is kept of a design variable.
+
+use crate::base::dimension::Dimension;
+use crate::base::span::Extent;
+
+/// A design variable as resolved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nominal {
+    pub(super) dimension: Dimension,
+    pub(super) value: f64,
+    pub(super) tolerance: f64,
+    /// The declared tolerance, where a message about its reach points.
+    pub(super) tolerance_extent: Option<Extent>,
+}

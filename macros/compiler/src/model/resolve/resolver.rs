@@ -1,0 +1,95 @@
+//! What the steps of resolution share; each step is a file that adds its methods.
+
+use super::coordinates::{self, Declared, DeclaredMotion};
+use super::exerted::Exerted;
+use super::joints::kinds::Kind;
+use super::nominal::Nominal;
+use super::scope::Scope;
+use super::typed::Typed;
+use crate::base::diagnostics::{Diagnostic, Diagnostics};
+use crate::base::dimension::Dimension;
+use crate::base::span::Extent;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Constant, Coordinate, Part};
+use crate::model::rules::composite::GivenInertia;
+use crate::model::rules::physical::{Demand, Requirement};
+use crate::syntax::ast::{Ast, Joint, Unread};
+
+/// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
+pub(super) struct Resolver<'a> {
+    pub(super) ast: &'a Ast,
+    pub(super) diagnostics: Diagnostics,
+    pub(super) scope: Scope,
+    pub(super) inputs: Vec<Option<Dimension>>,
+    pub(super) design: Vec<Option<Nominal>>,
+    pub(super) used_design: Vec<bool>,
+    pub(super) lets: Vec<Option<Typed>>,
+    pub(super) constants: Vec<Constant>,
+    pub(super) coordinates: Vec<Declared<'a>>,
+    pub(super) declared_coordinates: Vec<Coordinate>,
+    pub(super) exerted: Vec<Option<Exerted>>,
+    pub(super) parts: Vec<Option<Vec<Part>>>,
+    pub(super) given_inertias: Vec<GivenInertia>,
+    pub(super) requirements: Vec<Requirement>,
+}
+
+impl<'a> Resolver<'a> {
+    pub(super) fn new(
+        ast: &'a Ast,
+        coordinates: Vec<Declared<'a>>,
+        scope: Scope,
+        diagnostics: Diagnostics,
+    ) -> Self {
+        Self {
+            ast,
+            diagnostics,
+            scope,
+            inputs: Vec::new(),
+            design: Vec::new(),
+            used_design: Vec::new(),
+            lets: Vec::new(),
+            constants: Vec::new(),
+            coordinates,
+            declared_coordinates: Vec::new(),
+            exerted: Vec::new(),
+            parts: Vec::new(),
+            given_inertias: Vec::new(),
+            requirements: Vec::new(),
+        }
+    }
+
+    /// Records a mistake with help where there is any.
+    pub(super) fn report(
+        &mut self,
+        span: impl Into<Extent>,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) {
+        let mut diagnostic = Diagnostic::new(span, message);
+        diagnostic.help = help;
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// A value must be finite at the nominal values; `what` names it, a vector once.
+    pub(super) fn require_finite(&mut self, values: &[Expr], what: &str, extent: Extent) {
+        if !values.iter().all(|value| matches!(value, Expr::Number(_))) {
+            self.requirements.push(Requirement {
+                what: what.to_string(),
+                values: values.to_vec(),
+                demand: Demand::Finite,
+                extent,
+            });
+        }
+    }
+
+    /// Some coordinate is free or coasting. A joint of an unknown kind, or one that could not be read, gets the benefit of the
+    /// doubt.
+    pub(super) fn can_move(&self) -> bool {
+        let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
+        let moves =
+            |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
+        self.coordinates.iter().any(moves)
+            || coordinates::joints(self.ast).any(unknown)
+            || self.ast.unread.iter().any(Unread::may_connect)
+    }
+}

@@ -1,0 +1,69 @@
+//! Derivatives of the gradients of modes along a direction: what the second derivatives of modes need. They are long, and few
+//! questions ask for them: only what does compiles them.
+
+use super::{DirectionalKernels, Gradient};
+
+/// Gradients of modes in dual numbers.
+pub trait CurvatureKernels: DirectionalKernels {
+    /// [`Mechanism::mode_gradient_along`](crate::Mechanism::mode_gradient_along); `direction` is `dq`, `du`, `db`, `dphi`.
+    #[allow(clippy::too_many_arguments)]
+    fn mode_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        direction: [&[f64]; 4],
+        dlambda: f64,
+        gradient: &mut Gradient,
+    );
+
+    /// [`Mechanism::pencil_gradient_along`](crate::Mechanism::pencil_gradient_along); `direction` is `dq`, `du`, `db`, and
+    /// `changes` that of `vectors`.
+    #[allow(clippy::too_many_arguments)]
+    fn pencil_gradient_along_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        direction: [&[f64]; 3],
+        changes: [&[f64]; 4],
+        gradient: &mut Gradient,
+    );
+}
+
+impl dyn CurvatureKernels + '_ {
+    /// Derivative of [`Kernels::mode_gradient_into`](crate::Kernels::mode_gradient_into) along `dq`, `du`, `db`, `dphi` and `dlambda`.
+    #[allow(clippy::too_many_arguments)]
+    pub fn mode_gradient_along(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        phi: &[f64],
+        lambda: f64,
+        direction: [&[f64]; 4],
+        dlambda: f64,
+    ) -> Gradient {
+        let mut gradient = Gradient::zeros(self.sizes());
+        self.mode_gradient_along_into(q, u, b, phi, lambda, direction, dlambda, &mut gradient);
+        gradient
+    }
+
+    /// Derivative of [`Kernels::pencil_gradient_into`](crate::Kernels::pencil_gradient_into) along `dq`, `du`, `db`, and `changes` of the vectors.
+    pub fn pencil_gradient_along(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        vectors: [&[f64]; 4],
+        direction: [&[f64]; 3],
+        changes: [&[f64]; 4],
+    ) -> Gradient {
+        let mut gradient = Gradient::zeros(self.sizes());
+        self.pencil_gradient_along_into(q, u, b, vectors, direction, changes, &mut gradient);
+        gradient
+    }
+}
