@@ -1,0 +1,179 @@
+//! Every question, in the order of `runtime/src/study`.
+
+use std::hint::black_box;
+
+use eigentol::equilibrium::{Continuation, Search};
+use eigentol::kernels::BatchKernels;
+use eigentol::sensitivity::Quantity;
+use eigentol::tolerance::Band;
+use eigentol::{Error, Input, Study};
+
+/// Where a machine has something to tell.
+#[derive(Clone, Copy)]
+pub struct Range {
+    /// Of values to sweep.
+    pub sweep: [f64; 3],
+    /// Of the branches.
+    pub branches: [f64; 2],
+    /// In which a critical state lies.
+    pub critical: [f64; 2],
+    /// In which frequencies cross a multiple of the input.
+    pub crossings: [f64; 2],
+    /// That multiple.
+    pub order: f64,
+}
+
+/// A question by its name: the one that overflows its thread is named in the message.
+pub type Question<M> = (&'static str, fn(&Study<M>, &Range));
+
+const BAND: Band = Band::Between {
+    low: 1.0,
+    high: 2.0,
+};
+
+fn answered<T>(answer: Result<T, Error>) {
+    black_box(answer.expect("an answer"));
+}
+
+fn input<M>() -> Input<M> {
+    Input::new(0)
+}
+
+/// Unit steps of everything.
+fn direction<M: BatchKernels>(study: &Study<M>) -> (Vec<f64>, Vec<f64>) {
+    let (u, b) = (study.input_values(), study.design_values());
+    (vec![1.0; u.len()], vec![1.0; b.len()])
+}
+
+fn search<M: BatchKernels>(study: &Study<M>) -> Search {
+    let start = study.start_values();
+    let shifted = |by: f64| start.iter().map(|value| value + by).collect::<Vec<f64>>();
+    Search {
+        lower: shifted(-0.01).into(),
+        upper: shifted(0.01).into(),
+        starts: 1,
+        seed: 0,
+    }
+}
+
+/// About one state.
+pub fn at_one_state<M: BatchKernels>() -> Vec<Question<M>> {
+    vec![
+        ("equilibrium", |s, _| answered(s.equilibrium())),
+        ("assembly", |s, _| answered(s.assembly())),
+        ("equilibria", |s, _| answered(s.equilibria(&search(s)))),
+        ("solve", |s, _| answered(s.solve())),
+        ("modes", |s, _| answered(s.modes())),
+        ("equilibrium_shift", |s, _| answered(s.equilibrium_shift())),
+        ("outputs", |s, _| answered(s.outputs())),
+        ("output_tolerances", |s, _| answered(s.output_tolerances())),
+        ("sensitivities", |s, _| answered(s.sensitivities())),
+        ("first_order", |s, _| answered(s.first_order())),
+        ("whirls", |s, _| answered(s.whirls())),
+        ("directional_derivatives", |s, _| {
+            let (u, b) = direction(s);
+            answered(s.directional_derivatives(0, (&u, &b)));
+        }),
+        ("shape_sensitivity", |s, _| {
+            answered(s.shape_sensitivity(0));
+        }),
+        ("mode_curvature", |s, _| answered(s.mode_curvature(0))),
+        ("second_order", |s, _| answered(s.second_order())),
+        ("clusters", |s, _| answered(s.clusters())),
+        ("summary", |s, _| answered(s.summary())),
+        ("margin", |s, _| answered(s.margin(0, BAND))),
+        ("margin_of", |s, _| {
+            answered(s.margin_of(0, Quantity::Growth, BAND));
+        }),
+        ("monte_carlo", |s, _| answered(s.monte_carlo())),
+        ("monte_carlo_with_progress", |s, _| {
+            answered(s.monte_carlo_with_progress(&|done| {
+                black_box(done);
+            }));
+        }),
+    ]
+}
+
+/// The same of what is solved.
+pub fn of_what_is_solved<M: BatchKernels>() -> Vec<Question<M>> {
+    macro_rules! solved {
+        ($($name:ident($($argument:expr),*);)*) => {
+            vec![$((stringify!($name), |study, _| {
+                answered(study.solve().expect("solved").$name($($argument),*));
+            })),*]
+        };
+    }
+    let mut questions: Vec<Question<M>> = solved! {
+        equilibrium_shift();
+        outputs();
+        output_tolerances();
+        sensitivities();
+        first_order();
+        shape_sensitivity(0);
+        mode_curvature(0);
+        second_order();
+        clusters();
+        summary();
+        margin(0, BAND);
+        margin_of(0, Quantity::Growth, BAND);
+        monte_carlo();
+        monte_carlo_with_progress(&|done| {
+            black_box(done);
+        });
+    };
+    questions.push(("whirls", |s, _| {
+        black_box(s.solve().expect("solved").whirls());
+    }));
+    questions.push(("directional_derivatives", |s, _| {
+        let (u, b) = direction(s);
+        let solved = s.solve().expect("solved");
+        answered(solved.directional_derivatives(0, (&u, &b)));
+    }));
+    questions
+}
+
+/// Along the first input.
+pub fn along_an_input<M: BatchKernels>() -> Vec<Question<M>> {
+    macro_rules! between {
+        ($name:ident, $range:ident) => {
+            (stringify!($name), |s, range| {
+                let [low, high] = range.$range;
+                answered(s.$name(input(), low, high));
+            })
+        };
+    }
+    macro_rules! crossings {
+        ($name:ident) => {
+            (stringify!($name), |s, range| {
+                let [low, high] = range.crossings;
+                answered(s.$name(input(), low, high, range.order));
+            })
+        };
+    }
+    vec![
+        ("sweep", |s, range| answered(s.sweep(input(), &range.sweep))),
+        ("sensitivity_sweep", |s, range| {
+            answered(
+                s.sensitivity_sweep(input(), &range.sweep, |_, slopes| assert!(slopes.is_ok())),
+            );
+        }),
+        ("first_order_sweep", |s, range| {
+            answered(s.first_order_sweep(input(), &range.sweep));
+        }),
+        ("campbell", |s, range| {
+            answered(s.campbell(input(), &range.sweep, &[range.order]));
+        }),
+        between!(branches, branches),
+        ("branches_with", |s, range| {
+            let [low, high] = range.branches;
+            let continuation = Continuation::new(input().any(), low, high);
+            answered(s.branches_with(&continuation, Some(&search(s))));
+        }),
+        between!(critical_state, critical),
+        between!(critical_tolerance, critical),
+        crossings!(crossings),
+        crossings!(crossing_tolerances),
+        between!(flutter_onsets, crossings),
+        between!(flutter_onset_tolerances, crossings),
+    ]
+}
