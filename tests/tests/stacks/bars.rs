@@ -32,7 +32,7 @@ macro_rules! chain {
         chain! {
             @@
             /// Hanging on a shaft that turns.
-            pub mechanism Bars {
+            pub(crate) mechanism Bars {
                 input omega: rad/s;
                 gravity 9.81 m/s^2 along -z;
                 body shaft: massless;
@@ -46,7 +46,7 @@ macro_rules! chain {
     (@@ $($declaration:tt)*) => {
         mechanism! { $($declaration)* }
         /// The declaration, one token after the other.
-        pub const DECLARATION: &str = stringify!($($declaration)*);
+        pub(crate) const DECLARATION: &str = stringify!($($declaration)*);
     };
 }
 

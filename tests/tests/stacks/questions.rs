@@ -10,21 +10,21 @@ use eigentol::{Error, Input, Study};
 
 /// Where a machine has something to tell.
 #[derive(Clone, Copy)]
-pub struct Range {
+pub(crate) struct Range {
     /// Of values to sweep.
-    pub sweep: [f64; 3],
+    pub(crate) sweep: [f64; 3],
     /// Of the branches.
-    pub branches: [f64; 2],
+    pub(crate) branches: [f64; 2],
     /// In which a critical state lies.
-    pub critical: [f64; 2],
+    pub(crate) critical: [f64; 2],
     /// In which frequencies cross a multiple of the input.
-    pub crossings: [f64; 2],
+    pub(crate) crossings: [f64; 2],
     /// That multiple.
-    pub order: f64,
+    pub(crate) order: f64,
 }
 
 /// A question by its name: the one that overflows its thread is named in the message.
-pub type Question<M> = (&'static str, fn(&Study<M>, &Range));
+pub(crate) type Question<M> = (&'static str, fn(&Study<M>, &Range));
 
 const BAND: Band = Band::Between {
     low: 1.0,
@@ -37,6 +37,13 @@ fn answered<T>(answer: Result<T, Error>) {
 
 fn input<M>() -> Input<M> {
     Input::new(0)
+}
+
+/// The first mode that oscillates.
+fn mode<M: BatchKernels>(study: &Study<M>) -> usize {
+    let frequencies = study.modes().expect("modes").frequencies();
+    let oscillates = frequencies.iter().position(Option::is_some);
+    oscillates.expect("one that oscillates")
 }
 
 /// Unit steps of everything.
@@ -57,7 +64,7 @@ fn search<M: BatchKernels>(study: &Study<M>) -> Search {
 }
 
 /// About one state.
-pub fn at_one_state<M: BatchKernels>() -> Vec<Question<M>> {
+pub(crate) fn at_one_state<M: BatchKernels>() -> Vec<Question<M>> {
     vec![
         ("equilibrium", |s, _| answered(s.equilibrium())),
         ("assembly", |s, _| answered(s.assembly())),
@@ -72,18 +79,18 @@ pub fn at_one_state<M: BatchKernels>() -> Vec<Question<M>> {
         ("whirls", |s, _| answered(s.whirls())),
         ("directional_derivatives", |s, _| {
             let (u, b) = direction(s);
-            answered(s.directional_derivatives(0, (&u, &b)));
+            answered(s.directional_derivatives(mode(s), (&u, &b)));
         }),
         ("shape_sensitivity", |s, _| {
-            answered(s.shape_sensitivity(0));
+            answered(s.shape_sensitivity(mode(s)));
         }),
-        ("mode_curvature", |s, _| answered(s.mode_curvature(0))),
+        ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
         ("second_order", |s, _| answered(s.second_order())),
         ("clusters", |s, _| answered(s.clusters())),
         ("summary", |s, _| answered(s.summary())),
-        ("margin", |s, _| answered(s.margin(0, BAND))),
+        ("margin", |s, _| answered(s.margin(mode(s), BAND))),
         ("margin_of", |s, _| {
-            answered(s.margin_of(0, Quantity::Growth, BAND));
+            answered(s.margin_of(mode(s), Quantity::Growth, BAND));
         }),
         ("monte_carlo", |s, _| answered(s.monte_carlo())),
         ("monte_carlo_with_progress", |s, _| {
@@ -95,27 +102,27 @@ pub fn at_one_state<M: BatchKernels>() -> Vec<Question<M>> {
 }
 
 /// The same of what is solved.
-pub fn of_what_is_solved<M: BatchKernels>() -> Vec<Question<M>> {
+pub(crate) fn of_what_is_solved<M: BatchKernels>() -> Vec<Question<M>> {
     macro_rules! solved {
-        ($($name:ident($($argument:expr),*);)*) => {
-            vec![$((stringify!($name), |study, _| {
-                answered(study.solve().expect("solved").$name($($argument),*));
+        ($study:ident: $($name:ident($($argument:expr),*);)*) => {
+            vec![$((stringify!($name), |$study, _| {
+                answered($study.solve().expect("solved").$name($($argument),*));
             })),*]
         };
     }
-    let mut questions: Vec<Question<M>> = solved! {
+    let mut questions: Vec<Question<M>> = solved! { study:
         equilibrium_shift();
         outputs();
         output_tolerances();
         sensitivities();
         first_order();
-        shape_sensitivity(0);
-        mode_curvature(0);
+        shape_sensitivity(mode(study));
+        mode_curvature(mode(study));
         second_order();
         clusters();
         summary();
-        margin(0, BAND);
-        margin_of(0, Quantity::Growth, BAND);
+        margin(mode(study), BAND);
+        margin_of(mode(study), Quantity::Growth, BAND);
         monte_carlo();
         monte_carlo_with_progress(&|done| {
             black_box(done);
@@ -127,13 +134,13 @@ pub fn of_what_is_solved<M: BatchKernels>() -> Vec<Question<M>> {
     questions.push(("directional_derivatives", |s, _| {
         let (u, b) = direction(s);
         let solved = s.solve().expect("solved");
-        answered(solved.directional_derivatives(0, (&u, &b)));
+        answered(solved.directional_derivatives(mode(s), (&u, &b)));
     }));
     questions
 }
 
 /// Along the first input.
-pub fn along_an_input<M: BatchKernels>() -> Vec<Question<M>> {
+pub(crate) fn along_an_input<M: BatchKernels>() -> Vec<Question<M>> {
     macro_rules! between {
         ($name:ident, $range:ident) => {
             (stringify!($name), |s, range| {
@@ -166,7 +173,7 @@ pub fn along_an_input<M: BatchKernels>() -> Vec<Question<M>> {
         between!(branches, branches),
         ("branches_with", |s, range| {
             let [low, high] = range.branches;
-            let continuation = Continuation::new(input().any(), low, high);
+            let continuation = Continuation::new(input::<M>().any(), low, high);
             answered(s.branches_with(&continuation, Some(&search(s))));
         }),
         between!(critical_state, critical),
