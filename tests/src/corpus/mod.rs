@@ -17,7 +17,7 @@ pub(crate) use machine;
 /// Does something to every machine of the corpus, whatever its size.
 pub trait Visitor {
     /// Called once for each machine with its name in `snake_case`, its declaration and the compiled type.
-    fn visit<M: Mechanism + Copy>(
+    fn visit<M: Mechanism + Copy + 'static>(
         &mut self,
         name: &'static str,
         declaration: &'static str,

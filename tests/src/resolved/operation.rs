@@ -1,12 +1,11 @@
 //! Machines in operation: inputs at which equilibria move with the design, and every machine shown to a comparison.
 
+use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};
 use eigentol::kernels::CurvatureKernels;
-use eigentol::{Mechanism, Policy};
 
 use super::{Machine, State};
-use crate::corpus::{self, Visitor};
-use crate::machines;
+use crate::tables;
 
 /// One way of running a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]
@@ -82,42 +81,44 @@ pub trait Comparison {
     );
 }
 
-struct Every<'a, C>(&'a mut C);
-
-impl<C: Comparison> Visitor for Every<'_, C> {
-    fn visit<M: Mechanism + Copy>(
-        &mut self,
-        name: &'static str,
-        declaration: &'static str,
-        machine: M,
-    ) {
-        let resolved = Machine::new(declaration);
-        let design = M::DESCRIPTION.design;
-        let b: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
-        assert_eq!(resolved.nominal(), b, "{name}");
-        for operation in operating_points(name) {
-            let Operation {
-                inputs: u,
-                start,
-                policy,
-            } = operation;
-            let what = format!("{name} at {u:?}");
-            let at = equilibrium(&machine, &u, &b, &start, policy)
-                .unwrap_or_else(|error| panic!("{what}: {error}"));
-            let state = resolved.at(&u, &b, &at.coordinates);
-            for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
-                assert!(
-                    (one - other).abs() <= 1e-9 * (1.0 + one.abs()),
-                    "{what}: {one}, {other}"
-                );
-            }
-            self.0.compare(&what, &machine, &at, &state);
+fn compare(
+    comparison: &mut impl Comparison,
+    name: &str,
+    declaration: &str,
+    machine: &dyn CurvatureKernels,
+) {
+    let resolved = Machine::new(declaration);
+    let design = &machine.description().design;
+    let b: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
+    assert_eq!(resolved.nominal(), b, "{name}");
+    for operation in operating_points(name) {
+        let Operation {
+            inputs: u,
+            start,
+            policy,
+        } = operation;
+        let what = format!("{name} at {u:?}");
+        let at = equilibrium(machine, &u, &b, &start, policy)
+            .unwrap_or_else(|error| panic!("{what}: {error}"));
+        let state = resolved.at(&u, &b, &at.coordinates);
+        for (one, other) in at.coordinates.iter().zip(&state.coordinates) {
+            assert!(
+                (one - other).abs() <= 1e-9 * (1.0 + one.abs()),
+                "{what}: {one}, {other}"
+            );
         }
+        comparison.compare(&what, machine, &at, &state);
     }
 }
 
 /// Compares every machine of the corpus and every one with a closed form at every operating point.
 pub fn every_machine(comparison: &mut impl Comparison) {
-    corpus::visit(&mut Every(comparison));
-    machines::visit(&mut Every(comparison));
+    for machine in tables::open() {
+        compare(
+            comparison,
+            machine.name,
+            machine.declaration,
+            &*machine.curvature,
+        );
+    }
 }

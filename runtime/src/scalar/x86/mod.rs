@@ -10,6 +10,8 @@ mod four;
 mod real;
 mod two;
 
+use core::mem::ManuallyDrop;
+
 use eight::Eight;
 use four::Four;
 pub(super) use two::sines_and_cosines;
@@ -60,19 +62,23 @@ set! {
 
 /// Runs a task on numbers with the instructions of AVX where the processor has them: these name the register of their
 /// result, which saves a copy where both operands are needed again. Code shrinks by a quarter, and thousands of operations
-/// fit into the cache of instructions.
+/// fit into the cache of instructions. Without optimisation nothing is gained, and half of the code would be compiled in vain.
 #[inline]
 pub(super) fn compact<R>(task: impl FnOnce() -> R) -> R {
-    #[cfg(feature = "std")]
-    let found = std::is_x86_feature_detected!("avx");
-    #[cfg(not(feature = "std"))]
-    let found = cfg!(target_feature = "avx");
-    if found {
-        // SAFETY: the processor has the feature.
-        unsafe { avx(task) }
-    } else {
-        task()
+    // A task that could be dropped here would be cleaned up after a panic: LLVM then splits a block for every call in a kernel
+    // that it inlines, which takes minutes for a large one.
+    let task = ManuallyDrop::new(task);
+    if !cfg!(debug_assertions) {
+        #[cfg(feature = "std")]
+        let found = std::is_x86_feature_detected!("avx");
+        #[cfg(not(feature = "std"))]
+        let found = cfg!(target_feature = "avx");
+        if found {
+            // SAFETY: the processor has the feature.
+            return unsafe { avx(ManuallyDrop::into_inner(task)) };
+        }
     }
+    ManuallyDrop::into_inner(task)()
 }
 
 #[target_feature(enable = "avx")]

@@ -1,0 +1,182 @@
+//! Every question, in the order of `runtime/src/study`.
+
+use std::hint::black_box;
+
+use eigentol::branches::Continuation;
+use eigentol::equilibrium::Search;
+use eigentol::kernels::{BatchKernels, CurvatureKernels};
+use eigentol::second_order::Band;
+use eigentol::sensitivity::Quantity;
+use eigentol::{Error, Input, Study};
+
+/// Where a machine has something to tell.
+#[derive(Clone, Copy)]
+pub(crate) struct Range {
+    /// Of values to sweep.
+    pub(crate) sweep: [f64; 3],
+    /// Of the branches.
+    pub(crate) branches: [f64; 2],
+    /// In which a critical state lies.
+    pub(crate) critical: [f64; 2],
+    /// In which frequencies cross a multiple of the input.
+    pub(crate) crossings: [f64; 2],
+    /// That multiple.
+    pub(crate) order: f64,
+}
+
+/// A question by its name: the one that overflows its thread is named in the message.
+pub(crate) type Question<M> = (&'static str, fn(&Study<M>, &Range));
+
+const BAND: Band = Band::Between {
+    low: 1.0,
+    high: 2.0,
+};
+
+fn answered<T>(answer: Result<T, Error>) {
+    black_box(answer.expect("an answer"));
+}
+
+fn input<M>() -> Input<M> {
+    Input::new(0)
+}
+
+/// The first mode that oscillates.
+fn mode<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> usize {
+    let frequencies = study.modes().expect("modes").frequencies();
+    let oscillates = frequencies.iter().position(Option::is_some);
+    oscillates.expect("one that oscillates")
+}
+
+/// Unit steps of everything.
+fn direction<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> (Vec<f64>, Vec<f64>) {
+    let (u, b) = (study.input_values(), study.design_values());
+    (vec![1.0; u.len()], vec![1.0; b.len()])
+}
+
+fn search<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> Search {
+    let start = study.start_values();
+    let shifted = |by: f64| start.iter().map(|value| value + by).collect::<Vec<f64>>();
+    Search::new(shifted(-0.01), shifted(0.01)).starts(1)
+}
+
+/// About one state.
+pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+    vec![
+        ("equilibrium", |s, _| answered(s.equilibrium())),
+        ("assembly", |s, _| answered(s.assembly())),
+        ("equilibria", |s, _| answered(s.equilibria(&search(s)))),
+        ("solve", |s, _| answered(s.solve())),
+        ("modes", |s, _| answered(s.modes())),
+        ("equilibrium_shift", |s, _| answered(s.equilibrium_shift())),
+        ("outputs", |s, _| answered(s.outputs())),
+        ("output_tolerances", |s, _| answered(s.output_tolerances())),
+        ("sensitivities", |s, _| answered(s.sensitivities())),
+        ("first_order", |s, _| answered(s.first_order())),
+        ("whirls", |s, _| answered(s.whirls())),
+        ("directional_derivatives", |s, _| {
+            let (u, b) = direction(s);
+            answered(s.directional_derivatives(mode(s), (&u, &b)));
+        }),
+        ("shape_sensitivity", |s, _| {
+            answered(s.shape_sensitivity(mode(s)));
+        }),
+        ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
+        ("second_order", |s, _| answered(s.second_order())),
+        ("clusters", |s, _| answered(s.clusters())),
+        ("summary", |s, _| answered(s.summary())),
+        ("margin", |s, _| answered(s.margin(mode(s), BAND))),
+        ("margin_of", |s, _| {
+            answered(s.margin_of(mode(s), Quantity::Growth, BAND));
+        }),
+        ("monte_carlo", |s, _| answered(s.monte_carlo())),
+        ("monte_carlo_with_progress", |s, _| {
+            answered(s.monte_carlo_with_progress(&|done| {
+                black_box(done);
+            }));
+        }),
+    ]
+}
+
+/// The same of what is solved.
+pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+    macro_rules! solved {
+        ($study:ident: $($name:ident($($argument:expr),*);)*) => {
+            vec![$((stringify!($name), |$study, _| {
+                answered($study.solve().expect("solved").$name($($argument),*));
+            })),*]
+        };
+    }
+    let mut questions: Vec<Question<M>> = solved! { study:
+        equilibrium_shift();
+        outputs();
+        output_tolerances();
+        sensitivities();
+        first_order();
+        shape_sensitivity(mode(study));
+        mode_curvature(mode(study));
+        second_order();
+        clusters();
+        summary();
+        margin(mode(study), BAND);
+        margin_of(mode(study), Quantity::Growth, BAND);
+        monte_carlo();
+        monte_carlo_with_progress(&|done| {
+            black_box(done);
+        });
+    };
+    questions.push(("whirls", |s, _| {
+        black_box(s.solve().expect("solved").whirls());
+    }));
+    questions.push(("directional_derivatives", |s, _| {
+        let (u, b) = direction(s);
+        let solved = s.solve().expect("solved");
+        answered(solved.directional_derivatives(mode(s), (&u, &b)));
+    }));
+    questions
+}
+
+/// Along the first input.
+pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+    macro_rules! between {
+        ($name:ident, $range:ident) => {
+            (stringify!($name), |s, range| {
+                let [low, high] = range.$range;
+                answered(s.$name(input(), low, high));
+            })
+        };
+    }
+    macro_rules! crossings {
+        ($name:ident) => {
+            (stringify!($name), |s, range| {
+                let [low, high] = range.crossings;
+                answered(s.$name(input(), low, high, range.order));
+            })
+        };
+    }
+    vec![
+        ("sweep", |s, range| answered(s.sweep(input(), &range.sweep))),
+        ("sensitivity_sweep", |s, range| {
+            answered(
+                s.sensitivity_sweep(input(), &range.sweep, |_, slopes| assert!(slopes.is_ok())),
+            );
+        }),
+        ("first_order_sweep", |s, range| {
+            answered(s.first_order_sweep(input(), &range.sweep));
+        }),
+        ("campbell", |s, range| {
+            answered(s.campbell(input(), &range.sweep, &[range.order]));
+        }),
+        between!(branches, branches),
+        ("branches_with", |s, range| {
+            let [low, high] = range.branches;
+            let continuation = Continuation::new(input::<M>().any(), low, high);
+            answered(s.branches_with(&continuation, Some(&search(s))));
+        }),
+        between!(critical_state, critical),
+        between!(critical_tolerance, critical),
+        crossings!(crossings),
+        crossings!(crossing_tolerances),
+        between!(flutter_onsets, crossings),
+        between!(flutter_onset_tolerances, crossings),
+    ]
+}
