@@ -178,18 +178,25 @@ fn no_two_subfolders_of_mechanics_import_each_other() {
 fn files_import_each_other_in_one_direction() {
     let compiler = root().join("macros/compiler/src");
     for (room, _) in ROOMS {
-        let modules: BTreeMap<String, PathBuf> = sources(&compiler.join(room))
-            .into_iter()
-            .filter(|file| !file.ends_with("tests.rs"))
-            .map(|file| (module(&compiler, &file), file))
-            .collect();
-        let imports: BTreeMap<&str, BTreeSet<String>> = modules
-            .iter()
-            .map(|(name, file)| (name.as_str(), uses(&read(file), name, &modules)))
-            .collect();
-        if let Some(circle) = circle(&imports) {
-            panic!("in {room} these import each other: {}", circle.join(", "));
-        }
+        assert_one_direction(&compiler, sources(&compiler.join(room)));
+    }
+    for files in runtime_rooms().into_values() {
+        assert_one_direction(&root().join("runtime/src"), files);
+    }
+}
+
+fn assert_one_direction(source: &Path, files: Vec<PathBuf>) {
+    let modules: BTreeMap<String, PathBuf> = files
+        .into_iter()
+        .filter(|file| !file.ends_with("tests.rs"))
+        .map(|file| (module(source, &file), file))
+        .collect();
+    let imports: BTreeMap<&str, BTreeSet<String>> = modules
+        .iter()
+        .map(|(name, file)| (name.as_str(), uses(&read(file), name, &modules)))
+        .collect();
+    if let Some(circle) = circle(&imports) {
+        panic!("these import each other: {}", circle.join(", "));
     }
 }
 
@@ -244,14 +251,18 @@ fn rooms_of_the_runtime_import_those_before_them() {
     }
 }
 
-/// What a file of the runtime names of the crate outside of its tests and its prose.
-fn runtime_imports(text: &str) -> BTreeSet<String> {
+/// A file without its prose and its tests.
+fn code(text: &str) -> String {
     let code = text.split("mod tests {").next().unwrap_or(text);
-    let code: String = code
-        .lines()
+    code.lines()
         .filter(|line| !line.trim_start().starts_with("//"))
         .flat_map(|line| [line, "\n"])
-        .collect();
+        .collect()
+}
+
+/// What a file of the runtime names of the crate outside of its tests and its prose.
+fn runtime_imports(text: &str) -> BTreeSet<String> {
+    let code = code(text);
     let declared = code.split("use crate::").skip(1).flat_map(|rest| {
         let tree = rest.split(';').next().unwrap_or_default();
         paths(tree)
@@ -266,8 +277,8 @@ fn runtime_imports(text: &str) -> BTreeSet<String> {
 }
 
 /// The path of a file as a module, for example `mechanics::motion::frame`.
-fn module(compiler: &Path, file: &Path) -> String {
-    let path = file.strip_prefix(compiler).expect("a file of the compiler");
+fn module(source: &Path, file: &Path) -> String {
+    let path = file.strip_prefix(source).expect("a file of the sources");
     let names: Vec<&str> = path
         .iter()
         .filter_map(|name| name.to_str())
@@ -279,7 +290,7 @@ fn module(compiler: &Path, file: &Path) -> String {
 
 /// The modules that a module names outside of its tests, but for its own children whose items it hands on with `pub use`.
 fn uses(text: &str, own: &str, modules: &BTreeMap<String, PathBuf>) -> BTreeSet<String> {
-    let code = text.split("mod tests {").next().unwrap_or(text);
+    let code = code(text);
     // a visibility is no import
     let code = &code.replace("pub(in crate::", "pub(");
     let declared = code.match_indices("use ").flat_map(|(at, word)| {

@@ -1,15 +1,11 @@
 //! Neighbouring values of an input, solved side by side.
 
 use super::algebra::LARGEST;
-use super::continuity::Continuity;
-use super::newton::newton;
-use super::slopes::{Slopes, slopes};
-use super::state::{Scratch, state};
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
-use crate::kernels::{BatchKernels, BatchPoint, Linear, Sizes};
-use crate::scalar::{Batch, Instructions, WIDTH};
-use crate::{DampingKind, Description, Input};
+use crate::kernels::{BatchPoint, Linear, Sizes};
+use crate::scalar::Batch;
+use crate::{DampingKind, Description};
 
 /// Least pivot of a matrix that is clearly positive definite, relative to its diagonal element.
 pub(crate) const POSITIVE: f64 = 1e-10;
@@ -17,7 +13,7 @@ pub(crate) const POSITIVE: f64 = 1e-10;
 /// The last three values of the input and the states there, the latest first.
 pub(crate) type Past = [(f64, Vector); 3];
 
-/// Equilibria, undamped modes and their total derivatives at [`WIDTH`] values of an input.
+/// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
 pub(crate) struct Block {
     pub(crate) values: Batch,
     pub(super) inputs: Vector<Batch>,
@@ -39,25 +35,7 @@ pub(crate) struct Block {
     pub(super) flags: Batch,
 }
 
-/// What is written on the way to a block, and over again.
-pub(crate) struct Workspace {
-    scratch: Scratch,
-    /// For derivatives of the modes, where they are wanted.
-    slopes: Option<Slopes>,
-}
-
-impl Workspace {
-    /// For blocks of a mechanism.
-    pub(crate) fn new(description: &Description, with_slopes: bool) -> Self {
-        let sizes = sizes(description);
-        Self {
-            scratch: Scratch::new(sizes.coordinates),
-            slopes: with_slopes.then(|| Slopes::new(description, sizes)),
-        }
-    }
-}
-
-fn sizes(description: &Description) -> Sizes {
+pub(super) fn sizes(description: &Description) -> Sizes {
     Sizes {
         coordinates: description.coordinates.len(),
         inputs: description.inputs.len(),
@@ -112,61 +90,11 @@ impl Block {
         }
     }
 
-    /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last
-    /// state, one in each row. Returns how many of the states in a row passed every check; if wanted, their modes have
-    /// derivatives.
-    pub(crate) fn solve(
-        &mut self,
-        workspace: &mut Workspace,
-        (kernels, instructions): (&dyn BatchKernels, Instructions),
-        (input, values): (Input, &[f64]),
-        past: &Past,
-        shapes: &Matrix,
-    ) -> usize {
-        let number = values.len().min(WIDTH);
-        let Some(&last) = values[..number].last() else {
-            return 0;
-        };
-        // Lanes without a value of their own repeat the last.
-        self.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
-        self.inputs[input.index()] = self.values;
-        self.predict(past);
-        let Workspace {
-            scratch,
-            slopes: derivatives,
-        } = workspace;
-        newton(kernels, instructions, self, scratch);
-        instructions.run(Continuity { past, block: self });
-        if self.flags.0[0] == 1.0 {
-            state(kernels, instructions, self, scratch, shapes);
-            if let Some(derivatives) = derivatives {
-                slopes(kernels, instructions, self, derivatives);
-            }
-        }
-        let passed = self.flags.0[..number]
-            .iter()
-            .take_while(|flag| **flag == 1.0);
-        passed.count()
-    }
-
     pub(super) fn point(&self) -> BatchPoint<'_> {
         BatchPoint {
             q: &self.coordinates,
             u: &self.inputs,
             b: &self.design,
-        }
-    }
-
-    /// The parabola through the last states.
-    fn predict(&mut self, past: &Past) {
-        let [(u0, q0), (u1, q1), (u2, q2)] = past;
-        let (step, before, both) = (1.0 / (u0 - u1), 1.0 / (u1 - u2), 1.0 / (u0 - u2));
-        for (i, place) in self.coordinates.iter_mut().enumerate() {
-            let slope = (q0[i] - q1[i]) * step;
-            let bend = (slope - (q1[i] - q2[i]) * before) * both;
-            for (q, u) in place.0.iter_mut().zip(&self.values.0) {
-                *q = q0[i] + (u - u0) * (slope + (u - u1) * bend);
-            }
         }
     }
 }

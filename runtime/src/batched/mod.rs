@@ -5,6 +5,7 @@
     reason = "rows and columns of several matrices"
 )]
 
+mod advance;
 pub(crate) mod algebra;
 mod block;
 pub(crate) mod closed;
@@ -14,4 +15,5 @@ mod reading;
 mod slopes;
 mod state;
 
-pub(crate) use block::{Block, KERNELS, POSITIVE, Workspace, possible};
+pub(crate) use advance::Workspace;
+pub(crate) use block::{Block, KERNELS, POSITIVE, possible};

@@ -3,6 +3,7 @@
 pub(crate) mod general;
 mod jacobi;
 mod refine;
+mod residual;
 pub(crate) mod symmetric;
 
 pub(crate) use general::{Eigenproblem, Root, roots_of};

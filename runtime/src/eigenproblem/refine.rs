@@ -5,7 +5,7 @@
     reason = "index loops read as the formulas they are"
 )]
 
-use super::symmetric::Matrices;
+use super::residual::Matrices;
 use crate::algebra::largest;
 
 const STEPS: usize = 4;

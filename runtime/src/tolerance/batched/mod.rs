@@ -11,10 +11,12 @@
 )]
 
 mod prepared;
+mod samples;
 mod solve;
 mod stages;
 mod sums;
 
 pub(super) use prepared::Prepared;
-pub(super) use solve::{Solved, TOGETHER};
+pub(super) use samples::Solved;
+pub(super) use solve::TOGETHER;
 pub(super) use sums::Sums;

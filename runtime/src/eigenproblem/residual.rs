@@ -1,0 +1,117 @@
+//! What a pair leaves of `K phi - lambda M phi`, and how far that puts its eigenvalue off.
+#![allow(
+    clippy::needless_range_loop,
+    reason = "index loops read as the formulas they are"
+)]
+
+use crate::algebra::{Vector, greater, largest};
+use crate::rounding::of_elements;
+
+/// Stiffness and mass, row by row.
+pub(crate) struct Matrices<'a> {
+    pub(crate) n: usize,
+    pub(crate) k: &'a [f64],
+    pub(crate) m: &'a [f64],
+}
+
+impl Matrices<'_> {
+    /// Greatest component of `K phi - lambda M phi` relative to the sums of absolute terms in the rows.
+    #[inline(always)]
+    pub(crate) fn relative_residual(&self, lambda: f64, phi: &[f64]) -> f64 {
+        self.rest(self.n, lambda, phi).relative()
+    }
+
+    /// Whether rounding of `phi` explains the residual: a shape that `K` takes to zero has nothing but rounding in the rows
+    /// that act, and their terms are no measure.
+    pub(super) fn is_rounding(&self, lambda: f64, phi: &[f64]) -> bool {
+        let most = self.rest(self.n, lambda, phi).most;
+        let matrices = largest(self.k) + lambda.abs() * largest(self.m);
+        most <= of_elements(self.n) * matrices * largest(phi)
+    }
+
+    /// What the parts of other modes in shape `r` make of its eigenvalue: of second order, twice the sum of
+    /// `(phi_s^T (K - lambda M) phi_r)^2 / |lambda_s - lambda_r|`.
+    #[cold]
+    pub(super) fn error_of_shape(&self, lambda: &[f64], shapes: &[f64], r: usize) -> f64 {
+        let n = self.n;
+        let phi = &shapes[r * n..(r + 1) * n];
+        let rest = Vector::from_fn(n, |i| {
+            let row = |matrix: &[f64]| -> f64 {
+                let row = &matrix[i * n..(i + 1) * n];
+                row.iter().zip(phi).map(|(a, b)| a * b).sum()
+            };
+            row(self.k) - lambda[r] * row(self.m)
+        });
+        let mut sum = 0.0;
+        for s in (0..n).filter(|&s| s != r) {
+            let own = &shapes[s * n..(s + 1) * n];
+            let part: f64 = own.iter().zip(&rest).map(|(a, b)| a * b).sum();
+            let part = part.abs();
+            if part > 0.0 {
+                // Of equal eigenvalues to first order.
+                sum += part * (part / greater(part, (lambda[s] - lambda[r]).abs()));
+            }
+        }
+        2.0 * sum
+    }
+
+    /// The relative residual of a pair of matrices of size `n`, and the error of its eigenvalue.
+    #[inline(always)]
+    pub(super) fn measured(&self, n: usize, lambda: f64, phi: &[f64]) -> (f64, f64) {
+        let rest = self.rest(n, lambda, phi);
+        (rest.relative(), rest.error(n))
+    }
+
+    /// What `lambda` and `phi` leave of `K phi - lambda M phi`.
+    #[inline(always)]
+    fn rest(&self, n: usize, lambda: f64, phi: &[f64]) -> Rest {
+        let mut rest = Rest::default();
+        for i in 0..n {
+            let (mut sum, mut terms) = (0.0, 0.0);
+            let (k, m) = (&self.k[i * n..(i + 1) * n], &self.m[i * n..(i + 1) * n]);
+            for ((k, m), phi) in k.iter().zip(m).zip(phi) {
+                let (k, m) = (k * phi, lambda * m * phi);
+                sum += k - m;
+                terms += k.abs() + m.abs();
+            }
+            if sum.is_nan() {
+                rest.most = f64::NAN;
+                return rest;
+            }
+            rest.most = greater(rest.most, sum.abs());
+            rest.size = greater(rest.size, terms);
+            rest.along += phi[i] * sum;
+            rest.terms += phi[i].abs() * terms;
+        }
+        rest
+    }
+}
+
+/// `K phi - lambda M phi`, summed up.
+#[derive(Default)]
+struct Rest {
+    /// Greatest component.
+    most: f64,
+    /// Greatest sum of absolute terms in a row.
+    size: f64,
+    /// `phi^T (K - lambda M) phi`, and its absolute terms.
+    along: f64,
+    terms: f64,
+}
+
+impl Rest {
+    #[inline(always)]
+    fn relative(&self) -> f64 {
+        if self.most == 0.0 {
+            0.0
+        } else {
+            self.most / self.size
+        }
+    }
+
+    /// Error of `lambda`: by rounding of the elements, and by twice what it is away from the quotient of `phi`.
+    #[inline(always)]
+    fn error(&self, n: usize) -> f64 {
+        of_elements(n) * self.terms + 2.0 * self.along.abs()
+    }
+}
