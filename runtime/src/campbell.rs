@@ -135,6 +135,17 @@ pub fn campbell(
     axes: &Axes<'_>,
     tolerances: &Tolerances,
 ) -> Result<Campbell, Error> {
+    diagram(mechanism, (u, b), start, following.into(), axes, tolerances)
+}
+
+fn diagram(
+    mechanism: &dyn DirectionalKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: Following,
+    axes: &Axes<'_>,
+    tolerances: &Tolerances,
+) -> Result<Campbell, Error> {
     let Axes {
         input,
         values,
@@ -142,7 +153,6 @@ pub fn campbell(
     } = *axes;
     let description = mechanism.description();
     check_input(input, &description)?;
-    let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let conditions = orders.iter().map(|&line| Condition::Line(line));
     let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();

@@ -69,7 +69,7 @@ fn point<'a, M: Mechanism>(
 }
 
 fn partials_by_direction(
-    mechanism: &impl DirectionalKernels,
+    mechanism: &dyn DirectionalKernels,
     q: &[f64],
     u: &[f64],
     b: &[f64],

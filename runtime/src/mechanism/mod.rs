@@ -516,11 +516,13 @@ const fn few_partials<M: Mechanism>() -> bool {
 
 #[inline(always)]
 fn zeros<T: Real, A: Array<T>>() -> A {
-    A::from_fn(|_| T::constant(0.0))
+    A::filled(T::constant(0.0))
 }
 
 fn unit<T: Real, A: Array<T>>(k: usize) -> A {
-    A::from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))
+    let mut unit: A = zeros();
+    unit.as_mut()[k] = T::constant(1.0);
+    unit
 }
 
 /// Values that stand still.
@@ -530,18 +532,32 @@ fn fixed<T: Real, D: Array<Dual<T>>>(values: &impl Array<T>) -> D {
 
 /// Values that move in a direction.
 fn along<T: Real, A: Array<T>, D: Array<Dual<T>>>(values: &A, direction: &A) -> D {
-    D::from_fn(|k| Dual {
-        value: values.as_ref()[k],
-        slope: direction.as_ref()[k],
-    })
+    let mut duals = D::filled(Dual::fixed(T::constant(0.0)));
+    for ((dual, value), slope) in duals
+        .as_mut()
+        .iter_mut()
+        .zip(values.as_ref())
+        .zip(direction.as_ref())
+    {
+        (dual.value, dual.slope) = (*value, *slope);
+    }
+    duals
 }
 
 fn values<T: Real, A: Array<T>>(duals: &impl Array<Dual<T>>) -> A {
-    A::from_fn(|k| duals.as_ref()[k].value)
+    let mut values = A::filled(T::constant(0.0));
+    for (value, dual) in values.as_mut().iter_mut().zip(duals.as_ref()) {
+        *value = dual.value;
+    }
+    values
 }
 
 fn slopes<T: Real, A: Array<T>>(duals: &impl Array<Dual<T>>) -> A {
-    A::from_fn(|k| duals.as_ref()[k].slope)
+    let mut slopes = A::filled(T::constant(0.0));
+    for (slope, dual) in slopes.as_mut().iter_mut().zip(duals.as_ref()) {
+        *slope = dual.slope;
+    }
+    slopes
 }
 
 fn gradient_slopes<M: Mechanism, T: Real>(gradient: &GradientOf<M, Dual<T>>) -> GradientOf<M, T> {

@@ -4,6 +4,15 @@
 //! them on.
 #![no_std]
 
+pub mod smallest;
+
+/// Declarations of this and other packages as a build script generates them: rustc judges that text as if the user had written
+/// it, and it has to be without warnings.
+#[deny(warnings, unused, clippy::all, clippy::pedantic)]
+pub mod generated {
+    include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
+}
+
 use eigentol::{Mechanism, mechanism};
 
 mechanism! {

@@ -95,7 +95,7 @@ pub fn emit<E: Debug>(
             #[allow(dead_code, non_snake_case)]
             fn #name() {}
 
-            #[allow(unused_variables, unused_parens, non_snake_case, clippy::all)]
+            #[allow(unused_variables, unused_parens, non_snake_case, clippy::all, clippy::pedantic)]
             impl ::eigentol::Mechanism for #name {
                 type Coordinates<T: ::core::marker::Copy> = [T; #coordinates];
                 type Inputs<T: ::core::marker::Copy> = [T; #inputs];

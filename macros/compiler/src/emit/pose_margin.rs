@@ -16,6 +16,10 @@ pub(super) fn method(kernel: &Kernel, poses: &[Pose]) -> String {
         "::core::option::Option<::eigentol::PoseMargin<T>>",
         " + ::core::cmp::PartialOrd",
     );
+    if poses.is_empty() {
+        text += "{ ::core::option::Option::None }\n";
+        return text;
+    }
     let _ = writeln!(text, "{{\n{}", body.statements());
     let _ = writeln!(
         text,
