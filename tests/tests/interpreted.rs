@@ -106,14 +106,13 @@ fn names_are_handles() {
         .find(|(name, _)| *name == "governor")
         .expect("it is there");
     let governor = Interpreted::from_text(governor.1).expect("a declaration");
-    let speed = governor.input("speed").expect("declared");
+    let study = Study::new(governor);
+    let speed = study.find_input("speed").expect("declared");
     assert_eq!(speed.index(), 0);
-    assert!(governor.input("no such input").is_none());
-    let first = &governor.description().design[0].name.clone();
-    assert_eq!(governor.design(first).expect("declared").index(), 0);
-    let study = Study::new(governor)
-        .input(speed, 11.0)
-        .policy(Policy::Nearest);
+    assert!(study.find_input("no such input").is_err());
+    let first = study.description().design[0].name.clone();
+    assert_eq!(study.find_design(&first).expect("declared").index(), 0);
+    let study = study.input(speed, 11.0).policy(Policy::Nearest);
     assert_eq!(study.input_values()[0], 11.0);
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use eigentol::{Coordinate, Description, DesignVariable, Input, Output, Shared, Text};
+use eigentol::{Description, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile};
@@ -128,34 +128,6 @@ impl Interpreted {
     /// Names, units, nominal values and what the compiler proved.
     pub fn description(&self) -> &Description {
         &self.shared.description
-    }
-
-    /// The input of a name.
-    pub fn input(&self, name: &str) -> Option<Input<Self>> {
-        let mut inputs = self.description().inputs.iter();
-        inputs.position(|info| info.name == *name).map(Input::new)
-    }
-
-    /// The design variable of a name.
-    pub fn design(&self, name: &str) -> Option<DesignVariable<Self>> {
-        let mut design = self.description().design.iter();
-        design
-            .position(|info| info.name == *name)
-            .map(DesignVariable::new)
-    }
-
-    /// The coordinate, speed or reaction of a name.
-    pub fn coordinate(&self, name: &str) -> Option<Coordinate<Self>> {
-        let mut coordinates = self.description().coordinates.iter();
-        coordinates
-            .position(|info| info.name == *name)
-            .map(Coordinate::new)
-    }
-
-    /// The output of a name.
-    pub fn output(&self, name: &str) -> Option<Output<Self>> {
-        let mut outputs = self.description().outputs.iter();
-        outputs.position(|info| info.name == *name).map(Output::new)
     }
 }
 
