@@ -1,4 +1,5 @@
-//! Results as text: every result type prints itself as an aligned table with names and units.
+//! Results as text: every result prints itself as an aligned table with names and units, under the name of the mechanism and
+//! the operating point it belongs to, in declared units.
 
 mod branches;
 mod campbell;

@@ -1,4 +1,4 @@
-//! Derivatives as text, by SI units of the variables as declared.
+//! Derivatives as text, per declared unit of each variable.
 
 use core::fmt;
 
