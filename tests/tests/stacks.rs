@@ -115,9 +115,9 @@ fn bicycle_compiled() {
 
 #[test]
 fn bicycle_interpreted() {
-    let machine = interpreted(whipple::DECLARATION);
-    let speed = machine.input("v").expect("declared");
-    let study = few(machine).input(speed, 5.0);
+    let study = few(interpreted(whipple::DECLARATION));
+    let speed = study.find_input("v").expect("declared");
+    let study = study.input(speed, 5.0);
     ask(&study, &BICYCLE, WINDOWS, &everything());
 }
 
