@@ -2,7 +2,6 @@
 
 use std::hint::black_box;
 
-use eigentol::branches::Continuation;
 use eigentol::equilibrium::Search;
 use eigentol::kernels::{BatchKernels, CurvatureKernels};
 use eigentol::second_order::Band;
@@ -169,9 +168,10 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels>() -> Vec<Questi
         between!(branches, branches),
         ("branches_with", |s, range| {
             let [low, high] = range.branches;
-            let continuation = Continuation::new(input::<M>().any(), low, high);
+            let continuation = s.continuation(input(), low, high).expect("an input");
             answered(s.branches_with(&continuation, Some(&search(s))));
         }),
+        between!(continuation, branches),
         between!(critical_state, critical),
         between!(critical_tolerance, critical),
         crossings!(crossings),
