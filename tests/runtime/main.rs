@@ -1,0 +1,24 @@
+//! The solvers of the runtime on mechanisms written by hand, independent of the compiler.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+mod branches;
+mod clusters;
+mod constrained_modes;
+mod constraints;
+mod dual;
+mod equilibrium;
+mod events;
+mod handwritten;
+mod lanes;
+mod modes;
+mod quadratic;
+mod range;
+mod rounding;
+mod sensitivity;
+mod side_by_side;
+mod study;
+mod sweeps;
+mod tolerance;
+mod trigonometry;
