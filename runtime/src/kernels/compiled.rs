@@ -192,6 +192,11 @@ impl<M: Mechanism> Kernels for M {
         matrices: &mut LinearPartials,
         residual: &mut ResidualPartials,
     ) {
+        if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
+            self.linear_partials_into(q, u, b, matrices);
+            self.residual_partials_into(q, u, b, residual);
+            return;
+        }
         let (q, u, b) = point::<M>(q, u, b);
         let found = Mechanism::partials(self, q, u, b);
         copy_partials::<M>(&found.0, matrices);
