@@ -21,3 +21,8 @@ pub mod robots;
 pub mod tables;
 pub mod unheld;
 pub mod wheels;
+
+/// The example of the language's reference.
+#[cfg(doctest)]
+#[doc = include_str!("../../macros/REFERENCE.md")]
+pub struct Reference;
