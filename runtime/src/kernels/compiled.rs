@@ -193,7 +193,7 @@ impl<M: Mechanism> Kernels for M {
         residual: &mut ResidualPartials,
     ) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
-            self.linear_partials_into(q, u, b, matrices);
+            Kernels::linear_partials_into(self, q, u, b, matrices);
             self.residual_partials_into(q, u, b, residual);
             return;
         }
