@@ -28,6 +28,7 @@ pub(crate) fn follow(
     mut each: impl FnMut(&Station),
 ) {
     let (mut room, mut rest) = (None, values);
+    let mut slopes = None;
     // Values to be solved one by one before a block is tried again; three tell a way.
     let mut alone = 3;
     let possible = batched::possible(&tracker.description, &batched::KERNELS);
@@ -36,13 +37,18 @@ pub(crate) fn follow(
             let room = room.get_or_insert_with(|| tracker.block(with_slopes));
             let number = tracker.ahead(kernels, room, rest);
             let (block, _) = room;
-            if let (Some(last), true) = (&tracker.last, number > 0) {
-                let mut station = Station::shared(last, with_slopes);
+            if number > 0
+                && let Some(last) = tracker.last.take()
+            {
+                let blank = || Ok(Sensitivities::blank(&last.equilibrium, &last.modes, Method::Adjoint));
+                let slopes_here = slopes.take().or_else(|| with_slopes.then(blank));
+                let mut station = Station::at(last, slopes_here);
                 for lane in 0..number {
                     station.go(tracker, block, lane);
                     each(&station);
                 }
-                tracker.arrive(&station.point, block, number);
+                slopes = station.slopes;
+                tracker.arrive(station.point, block, number);
             }
             rest = &rest[number..];
             // Where the way bends too much for a whole block, so it does a little farther on.
@@ -77,21 +83,15 @@ fn solve(tracker: &mut Tracker<'_>, value: f64, with_slopes: bool) -> Station {
 }
 
 impl Station {
-    /// What states side by side share with the one before them.
-    fn shared(last: &Tracked, slopes: bool) -> Self {
+    /// The last state, over which those that were solved side by side are written.
+    fn at(last: Tracked, slopes: Option<Result<Sensitivities, Error>>) -> Self {
         Self {
             point: SweepPoint {
                 value: last.value,
-                equilibrium: Ok(last.equilibrium.clone()),
-                modes: Ok(last.modes.clone()),
+                equilibrium: Ok(last.equilibrium),
+                modes: Ok(last.modes),
             },
-            slopes: slopes.then(|| {
-                Ok(Sensitivities::blank(
-                    &last.equilibrium,
-                    &last.modes,
-                    Method::Adjoint,
-                ))
-            }),
+            slopes,
             smooth: true,
         }
     }

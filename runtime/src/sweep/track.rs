@@ -178,8 +178,9 @@ impl<'a> Tracker<'a> {
         if !sound {
             return 0;
         }
+        let mut inputs = self.inputs.clone();
         let possible = |value: &&f64| {
-            let inputs = self.inputs_at(**value);
+            inputs[self.input.index()] = **value;
             self.mechanism.violation(&inputs, &self.design).is_none()
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
@@ -189,16 +190,16 @@ impl<'a> Tracker<'a> {
     }
 
     /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn arrive(&mut self, point: &SweepPoint, block: &Block, number: usize) {
+    pub(super) fn arrive(&mut self, point: SweepPoint, block: &Block, number: usize) {
         for lane in number.saturating_sub(3)..number {
             self.path.go(block.values.0[lane], &block.state_of(lane));
         }
-        if let (Ok(state), Ok(modes)) = (&point.equilibrium, &point.modes) {
-            self.from.clone_from(&state.coordinates);
+        if let (Ok(equilibrium), Ok(modes)) = (point.equilibrium, point.modes) {
+            self.from.copy_from_slice(&equilibrium.coordinates);
             self.last = Some(Tracked {
                 value: point.value,
-                equilibrium: state.clone(),
-                modes: modes.clone(),
+                equilibrium,
+                modes,
             });
         }
     }

@@ -112,10 +112,11 @@ fn through<V: Lanes>(n: usize, prepared: &Prepared<'_>, batches: &mut [Solved], 
         let members = (1_u32 << batch.members) - 1;
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let (lambda, flag) = stages::modes::<V>(n, prepared, batch, at);
+            let (frequencies, nominal) = (&mut batch.frequencies[..n], &prepared.frequencies[..n]);
             for r in 0..n {
                 let frequency = lambda[r].sqrt();
-                frequency.store(&mut batch.frequencies[r], at);
-                let nominal = V::constant(prepared.frequencies[r]);
+                frequency.store(&mut frequencies[r], at);
+                let nominal = V::constant(nominal[r]);
                 sums.add(r, at, frequency - nominal, flag);
             }
             let accepted = V::bits(one.at_most(flag));

@@ -34,16 +34,16 @@ pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: us
             second.store(&mut normal[1], at);
         }
     }
-    for (design, nominal) in design.iter_mut().zip(&prepared.nominal.design) {
-        V::constant(*nominal).store(design, at);
-    }
-    for &(i, j, factor) in &prepared.shared {
-        let change = V::constant(factor) * V::load(&standard[j], at);
-        (V::load(&design[i], at) + change).store(&mut design[i], at);
-    }
-    for (design, (standard, factor)) in design.iter_mut().zip(standard.iter().zip(&prepared.own)) {
-        let change = V::constant(*factor) * V::load(standard, at);
-        (V::load(design, at) + change).store(design, at);
+    let mut shared = &prepared.shared[..];
+    let nominal = prepared.nominal.design.iter().zip(&prepared.own);
+    for (i, (design, (nominal, own))) in design.iter_mut().zip(nominal).enumerate() {
+        let mut value = V::constant(*nominal);
+        while let Some((&(_, j, factor), behind)) = shared.split_first().filter(|(one, _)| one.0 == i) {
+            value = value + V::constant(factor) * V::load(&standard[j], at);
+            shared = behind;
+        }
+        value = value + V::constant(*own) * V::load(&standard[i], at);
+        value.store(design, at);
     }
 }
 
