@@ -51,46 +51,52 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     /// Writes these values over what there is, in the same room where they fit.
     #[inline]
     pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        let mut values = values.into_iter();
-        match self {
-            Self::Few(count, few) => {
-                *count = write(few, &mut values);
-                if *count == FEW
-                    && let Some(next) = values.next()
-                {
-                    *self = Self::Many(few.iter().copied().chain([next]).chain(values).collect());
+        let values = values.into_iter();
+        match (self, values.size_hint()) {
+            (Self::Few(count, few), (_, Some(most))) if most <= FEW => {
+                let mut written = 0;
+                for (place, value) in few[..most].iter_mut().zip(values) {
+                    *place = value;
+                    written += 1;
                 }
+                *count = written;
             }
-            Self::Many(many) => {
+            (Self::Many(many), _) => {
                 many.clear();
                 many.extend(values);
             }
+            (few, _) => {
+                let values: Vec<T> = values.collect();
+                *few = if values.len() <= FEW {
+                    Self::from_slice(&values)
+                } else {
+                    Self::Many(values)
+                };
+            }
         }
     }
-}
-
-/// Writes values into the places there are; how many it were.
-#[inline]
-fn write<T>(places: &mut [T], values: &mut impl Iterator<Item = T>) -> usize {
-    let mut count = 0;
-    for place in places {
-        let Some(value) = values.next() else { break };
-        *place = value;
-        count += 1;
-    }
-    count
 }
 
 impl<T: Copy + Default, const FEW: usize> FromIterator<T> for Buffer<T, FEW> {
     #[inline]
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
-        let values = values.into_iter();
+        let mut values = values.into_iter();
         if values.size_hint().0 > FEW {
             return Self::Many(values.collect());
         }
-        let mut buffer = Self::default();
-        buffer.assign(values);
-        buffer
+        let mut few = [T::default(); FEW];
+        let mut count = 0;
+        for place in &mut few {
+            let Some(value) = values.next() else {
+                return Self::Few(count, few);
+            };
+            *place = value;
+            count += 1;
+        }
+        match values.next() {
+            None => Self::Few(count, few),
+            Some(next) => Self::Many(few.into_iter().chain([next]).chain(values).collect()),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::block::Block;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::Kernels;
-use crate::scalar::Batch;
+use crate::scalar::{Batch, WIDTH};
 use crate::{Equilibrium, Modes, Sensitivities, Stability};
 
 impl Block {
@@ -31,7 +31,7 @@ impl Block {
     pub(crate) fn read_modes(&self, lane: usize, modes: &mut Modes) {
         for (r, mode) in modes.modes.iter_mut().enumerate() {
             let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
-            let shape = self.shapes[r].iter().map(|batch| batch.0[lane]);
+            let shape = self.shapes[r].iter().map(|batch| batch.0[lane % WIDTH]);
             let residual = self.mode_residuals[r].0[lane];
             mode.set_undamped(mode.label, lambda, shape, residual);
         }
@@ -40,14 +40,16 @@ impl Block {
     /// The derivatives of these modes.
     pub(crate) fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let by_input = self.by_input[r].iter().map(|batch| batch.0[lane]);
-            let by_design = self.by_design[r].iter().map(|batch| batch.0[lane]);
+            let by_input = self.by_input[r].iter().map(|batch| batch.0[lane % WIDTH]);
+            let by_design = self.by_design[r].iter().map(|batch| batch.0[lane % WIDTH]);
             own.set_undamped(mode, by_input, by_design);
         }
     }
 }
 
+#[inline]
 fn read(batches: &[Batch], lane: usize, to: &mut [f64]) {
+    let lane = lane % WIDTH;
     for (to, batch) in to.iter_mut().zip(batches) {
         *to = batch.0[lane];
     }

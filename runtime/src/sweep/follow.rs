@@ -56,15 +56,18 @@ pub(crate) fn follow(
             continue;
         }
         alone = alone.saturating_sub(1);
-        each(&solve(tracker, value, with_slopes));
+        let station = solve(tracker, value, with_slopes);
+        each(&station);
+        tracker.put_back(station.point);
         rest = behind;
     }
 }
 
 /// One value alone.
 fn solve(tracker: &mut Tracker<'_>, value: f64, with_slopes: bool) -> Station {
-    let (equilibrium, modes) = match tracker.advance(value) {
-        Ok((state, modes)) => (Ok(state), modes),
+    let (equilibrium, modes) = match tracker.go(value) {
+        Ok(Ok(last)) => (Ok(last.equilibrium), Ok(last.modes)),
+        Ok(Err((state, error))) => (Ok(*state), Err(error)),
         Err(error) => (Err(error.clone()), Err(error)),
     };
     let slopes = with_slopes.then(|| match (&equilibrium, &modes) {

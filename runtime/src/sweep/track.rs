@@ -194,8 +194,15 @@ impl<'a> Tracker<'a> {
         for lane in number.saturating_sub(3)..number {
             self.path.go(block.values.0[lane], &block.state_of(lane));
         }
+        if let Ok(state) = &point.equilibrium {
+            self.from.copy_from_slice(&state.coordinates);
+        }
+        self.put_back(point);
+    }
+
+    /// Makes a point that has modes the last one.
+    pub(super) fn put_back(&mut self, point: SweepPoint) {
         if let (Ok(equilibrium), Ok(modes)) = (point.equilibrium, point.modes) {
-            self.from.copy_from_slice(&equilibrium.coordinates);
             self.last = Some(Tracked {
                 value: point.value,
                 equilibrium,
@@ -210,6 +217,21 @@ impl<'a> Tracker<'a> {
         &mut self,
         value: f64,
     ) -> Result<(Equilibrium, Result<Modes, Error>), Error> {
+        Ok(match self.go(value)? {
+            Ok(last) => {
+                let copies = (last.equilibrium.clone(), Ok(last.modes.clone()));
+                self.last = Some(last);
+                copies
+            }
+            Err((state, error)) => (*state, Err(error)),
+        })
+    }
+
+    /// As [`Self::advance`]; the point is [`Self::last`], taken from there to be put back, or a state whose modes fail.
+    pub(super) fn go(
+        &mut self,
+        value: f64,
+    ) -> Result<Result<Tracked, (Box<Equilibrium>, Error)>, Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
@@ -226,11 +248,11 @@ impl<'a> Tracker<'a> {
                         next = middle;
                     }
                     (_, Some(place)) => (next, halvings) = place,
-                    (Step::WithoutModes(state, error), None) => return Ok((*state, Err(error))),
+                    (Step::WithoutModes(state, error), None) => return Ok(Err((state, error))),
                     (Step::Arrived, None) => {
                         self.smooth = smooth;
-                        if let Some(last) = &self.last {
-                            return Ok((last.equilibrium.clone(), Ok(last.modes.clone())));
+                        if let Some(last) = self.last.take() {
+                            return Ok(Ok(last));
                         }
                     }
                 },

@@ -38,7 +38,9 @@ pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: us
     let nominal = prepared.nominal.design.iter().zip(&prepared.own);
     for (i, (design, (nominal, own))) in design.iter_mut().zip(nominal).enumerate() {
         let mut value = V::constant(*nominal);
-        while let Some((&(_, j, factor), behind)) = shared.split_first().filter(|(one, _)| one.0 == i) {
+        while let Some((&(_, j, factor), behind)) =
+            shared.split_first().filter(|(one, _)| one.0 == i)
+        {
             value = value + V::constant(factor) * V::load(&standard[j], at);
             shared = behind;
         }
