@@ -40,7 +40,13 @@ pub(crate) fn follow(
             if number > 0
                 && let Some(last) = tracker.last.take()
             {
-                let blank = || Ok(Sensitivities::blank(&last.equilibrium, &last.modes, Method::Adjoint));
+                let blank = || {
+                    Ok(Sensitivities::blank(
+                        &last.equilibrium,
+                        &last.modes,
+                        Method::Adjoint,
+                    ))
+                };
                 let slopes_here = slopes.take().or_else(|| with_slopes.then(blank));
                 let mut station = Station::at(last, slopes_here);
                 for lane in 0..number {
