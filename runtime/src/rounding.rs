@@ -48,7 +48,7 @@ pub(crate) fn of_form(matrix: &Matrix, phi: &[f64]) -> f64 {
 const OF_DATA: f64 = 8.0 * f64::EPSILON;
 
 /// A state and what remains of its residual.
-pub(crate) struct Place<'a> {
+pub(crate) struct CheckedState<'a> {
     pub(crate) coordinates: &'a [f64],
     pub(crate) inputs: &'a [f64],
     pub(crate) design: &'a [f64],
@@ -62,7 +62,7 @@ pub(crate) struct Place<'a> {
 #[inline(never)]
 pub(crate) fn of_data(
     mechanism: &dyn Kernels,
-    at: &Place<'_>,
+    at: &CheckedState<'_>,
     linear: &Linear,
     (lambda, phi): (f64, &[f64]),
 ) -> f64 {

@@ -17,8 +17,8 @@ use crate::tape::Tape;
 
 /// A mechanism whose kernels are interpreted. A copy shares everything with the original.
 ///
-/// It has the tables of kernels that [`Study`](eigentol::Study) and the functions behind it ask for. Handles come from names:
-/// [`input`](Self::input) and the like; they fit every interpreted mechanism, and a study refuses one whose place it does not
+/// It has the tables of kernels that [`Study`](eigentol::Study) and the functions behind it ask for. Handles come from names,
+/// [`Study::find_input`](eigentol::Study::find_input) and the like; they fit every interpreted mechanism, and a study refuses one whose place it does not
 /// have.
 #[derive(Clone)]
 pub struct Interpreted {

@@ -7,10 +7,10 @@
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble, plane};
+use super::curve_point::CurvePoint;
 use super::fold::{LAST_STEP, ROUNDING, beside};
-use super::frame::{Frame, Place};
+use super::local_scaling::{CurvePosition, Frame};
 use super::special::{Junction, SpecialKind};
-use super::station::Station;
 use crate::algebra::{Vector, dot, form};
 use crate::equilibrium::ACCEPTED;
 use crate::error::NotFound;
@@ -28,10 +28,10 @@ const PROBE: f64 = 1e-3;
 /// `mu` and its derivatives at one place.
 struct Reduced {
     /// Newton step to `g + mu c = 0` and the value of `mu` after it.
-    correction: Place,
+    correction: CurvePosition,
     mu: f64,
     /// `dx/dxi`, `dx/deta`.
-    tangents: [Place; 2],
+    tangents: [CurvePosition; 2],
     w: Vector,
     gradient: [f64; 2],
     hessian: [[f64; 2]; 2],
@@ -39,13 +39,13 @@ struct Reduced {
 
 /// Directions that complete the equations, and the column that does.
 struct Borders {
-    normals: [Place; 2],
+    normals: [CurvePosition; 2],
     column: Vector,
 }
 
 impl Curve<'_> {
     /// The branch point between two stations.
-    pub(crate) fn branch_point(&self, a: &Station, b: &Station) -> Result<Junction, Trouble> {
+    pub(crate) fn branch_point(&self, a: &CurvePoint, b: &CurvePoint) -> Result<Junction, Trouble> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let (mut local, borders) = self.saddle(a, &end)?;
@@ -64,7 +64,7 @@ impl Curve<'_> {
             (second, first)
         };
         let own = own.scaled(if own.dot(&end) < 0.0 { -1.0 } else { 1.0 });
-        let stationary = |direction: &Place| direction.p.abs() <= STATIONARY;
+        let stationary = |direction: &CurvePosition| direction.p.abs() <= STATIONARY;
         let v = critical(&reduced.tangents).ok_or_else(not_simple)?;
         let kind = match (stationary(&own), stationary(&other)) {
             (true, true) => return Err(not_simple()),
@@ -93,7 +93,11 @@ impl Curve<'_> {
     }
 
     /// The saddle of `mu` between the origin of the frame and `end`, both on the branch.
-    fn saddle(&self, a: &Station, end: &Place) -> Result<(Place, Borders), Trouble> {
+    fn saddle(
+        &self,
+        a: &CurvePoint,
+        end: &CurvePosition,
+    ) -> Result<(CurvePosition, Borders), Trouble> {
         let frame = &a.frame;
         let mut borders = self.borders(a, end)?;
         let mut local = end.scaled(0.5);
@@ -136,19 +140,19 @@ impl Curve<'_> {
     }
 
     /// Singular vectors of `[Khat dg/du; n1^T]`, which is nearly singular, by inverse iteration.
-    fn borders(&self, a: &Station, end: &Place) -> Result<Borders, Trouble> {
+    fn borders(&self, a: &CurvePoint, end: &CurvePosition) -> Result<Borders, Trouble> {
         let first = end.unit().ok_or_else(not_simple)?;
         let factors = self.nearly_singular(&a.frame, end, &first)?;
         let mut left = (Vector::filled(end.q.len(), 1.0), [0.5]);
         for (i, value) in left.0.iter_mut().enumerate() {
             *value += 0.1 * i as f64;
         }
-        let mut right = Place::zero(end.q.len());
+        let mut right = CurvePosition::zero(end.q.len());
         for _ in 0..6 {
             let (q, [p]) = factors.solve(&left.0, left.1);
-            right = Place { q, p }.unit().ok_or_else(not_simple)?;
+            right = CurvePosition { q, p }.unit().ok_or_else(not_simple)?;
             let (q, [p]) = factors.solve_transposed(&right.q, [right.p]);
-            let image = Place { q, p }.unit().ok_or_else(not_simple)?;
+            let image = CurvePosition { q, p }.unit().ok_or_else(not_simple)?;
             left = (image.q, [image.p]);
         }
         let second = right
@@ -166,8 +170,8 @@ impl Curve<'_> {
     fn nearly_singular(
         &self,
         frame: &Frame,
-        end: &Place,
-        first: &Place,
+        end: &CurvePosition,
+        first: &CurvePosition,
     ) -> Result<Bordered, Trouble> {
         let at = |fraction: f64| {
             let system = self.system(&frame.place(&end.scaled(fraction)))?;
@@ -194,7 +198,7 @@ impl Curve<'_> {
     fn reduced(
         &self,
         frame: &Frame,
-        local: &Place,
+        local: &CurvePosition,
         mu: f64,
         borders: &Borders,
     ) -> Result<Reduced, Trouble> {
@@ -211,14 +215,14 @@ impl Curve<'_> {
         let n = local.q.len();
         let off = Vector::from_fn(n, |i| -(scaled.residual[i] + mu * borders.column[i]));
         let (q, [p, change]) = factors.solve(&off, [0.0; 2]);
-        let correction = Place { q, p };
+        let correction = CurvePosition { q, p };
         let tangents = [[1.0, 0.0], [0.0, 1.0]].map(|right| {
             let (q, [p, _]) = factors.solve(&Vector::zeros(n), right);
-            Place { q, p }
+            CurvePosition { q, p }
         });
         let (w, slopes) = factors.solve_transposed(&Vector::zeros(n), [0.0, 1.0]);
         let weights = frame.weights(&w);
-        let bend = |tangent: &Place| -> Result<Place, Trouble> {
+        let bend = |tangent: &CurvePosition| -> Result<CurvePosition, Trouble> {
             let curvature = self.curvature(&place, &weights, &frame.stretched(tangent))?;
             Ok(frame.stretched(&curvature))
         };
@@ -240,9 +244,9 @@ impl Curve<'_> {
     fn supercritical(
         &self,
         frame: &Frame,
-        at: &Place,
+        at: &CurvePosition,
         borders: &Borders,
-        v: &Place,
+        v: &CurvePosition,
     ) -> Result<Option<bool>, Trouble> {
         let place = frame.place(at);
         let mass = self.linear(&place)?.mass;
@@ -280,7 +284,7 @@ fn not_simple() -> Trouble {
 }
 
 /// Unit directions of the two branches: the roots of the quadratic form of second derivatives.
-fn directions(reduced: &Reduced) -> Result<[Place; 2], Trouble> {
+fn directions(reduced: &Reduced) -> Result<[CurvePosition; 2], Trouble> {
     let [[a, b], [_, c]] = reduced.hessian;
     let discriminant = b * b - a * c;
     let size = a.abs().max(b.abs()).max(c.abs());
@@ -294,13 +298,13 @@ fn directions(reduced: &Reduced) -> Result<[Place; 2], Trouble> {
 }
 
 /// The combination of the tangents along which the input stands still.
-fn critical([x, y]: &[Place; 2]) -> Option<Place> {
+fn critical([x, y]: &[CurvePosition; 2]) -> Option<CurvePosition> {
     let v = x.scaled(y.p).plus(-x.p, y);
-    Place { q: v.q, p: 0.0 }.unit()
+    CurvePosition { q: v.q, p: 0.0 }.unit()
 }
 
 fn unit(x: &[f64]) -> Option<Vector> {
-    let direction = Place {
+    let direction = CurvePosition {
         q: x.into(),
         p: 0.0,
     };

@@ -1,12 +1,12 @@
 //! The equations `g(q, u_k) = 0` of a branch, and Newton's method on a plane across it.
 
 use super::bordered::Bordered;
-use super::frame::{Frame, Place, System};
+use super::local_scaling::{CurvePosition, Frame, System};
 use super::settings::Continuation;
 use crate::algebra::{Vector, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
-    ACCEPTED, Failure, Problem, Stability, constraint_state, judge, relative_residual,
+    ACCEPTED, Failure, OperatingPoint, Stability, constraint_state, judge, relative_residual,
 };
 use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
@@ -52,8 +52,8 @@ impl Trouble {
 
 /// A point of the branch on a given plane.
 pub(crate) struct Corrected {
-    pub(crate) local: Place,
-    pub(crate) place: Place,
+    pub(crate) local: CurvePosition,
+    pub(crate) place: CurvePosition,
     pub(crate) system: System,
     pub(crate) iterations: usize,
 }
@@ -93,8 +93,8 @@ impl<'a> Curve<'a> {
     }
 
     /// The problem at these inputs, with all constraints.
-    pub(crate) fn problem<'b>(&'b self, inputs: &'b [f64]) -> Problem<'b> {
-        Problem::unchecked(self.mechanism, inputs, self.design)
+    pub(crate) fn operating_point<'b>(&'b self, inputs: &'b [f64]) -> OperatingPoint<'b> {
+        OperatingPoint::unchecked(self.mechanism, inputs, self.design)
     }
 
     /// The same for branches near a state.
@@ -114,19 +114,19 @@ impl<'a> Curve<'a> {
     }
 
     /// The linearised mechanism at a place.
-    pub(crate) fn linear(&self, at: &Place) -> Result<Linear, Trouble> {
-        self.problem(&self.inputs_at(at.p))
+    pub(crate) fn linear(&self, at: &CurvePosition) -> Result<Linear, Trouble> {
+        self.operating_point(&self.inputs_at(at.p))
             .linear(&at.q)
             .map_err(Trouble::Refused)
     }
 
-    pub(crate) fn system(&self, at: &Place) -> Result<System, Trouble> {
+    pub(crate) fn system(&self, at: &CurvePosition) -> Result<System, Trouble> {
         let inputs = self.inputs_at(at.p);
-        let problem = self.problem(&inputs).without(&self.dropped);
-        let (residual, stiffness) = problem
+        let point = self.operating_point(&inputs).without(&self.dropped);
+        let (residual, stiffness) = point
             .evaluate(&at.q)
             .ok_or_else(|| Trouble::OutsideDomain(at.q.clone()))?;
-        let (by_inputs, _) = problem
+        let (by_inputs, _) = point
             .mechanism
             .residual_partials(&at.q, &inputs, self.design);
         let mut by_input = by_inputs.column(self.settings.input.index());
@@ -149,10 +149,10 @@ impl<'a> Curve<'a> {
     /// Gradient by `(q, u_k)` of the derivative of `w^T g` along `direction`.
     pub(crate) fn curvature(
         &self,
-        at: &Place,
+        at: &CurvePosition,
         w: &[f64],
-        direction: &Place,
-    ) -> Result<Place, Trouble> {
+        direction: &CurvePosition,
+    ) -> Result<CurvePosition, Trouble> {
         let input = self.settings.input.index();
         let mut along = Vector::zeros(self.inputs.len());
         along[input] = direction.p;
@@ -168,7 +168,7 @@ impl<'a> Curve<'a> {
                 &Vector::zeros(self.size()),
             ],
         );
-        let found = Place {
+        let found = CurvePosition {
             q: gradient.coordinates,
             p: gradient.inputs[input],
         };
@@ -184,7 +184,7 @@ impl<'a> Curve<'a> {
     /// another measure of it.
     pub(crate) fn equilibrium(
         &self,
-        at: &Place,
+        at: &CurvePosition,
         system: &System,
         iterations: usize,
         also: Option<f64>,
@@ -197,14 +197,14 @@ impl<'a> Curve<'a> {
                 value: violation.value,
             }));
         }
-        let problem = self.problem(&inputs);
-        let linear = problem.linear(&at.q).map_err(Trouble::Refused)?;
+        let point = self.operating_point(&inputs);
+        let linear = point.linear(&at.q).map_err(Trouble::Refused)?;
         let residual = if self.dropped.contains(&true) {
-            problem.residual(&at.q)
+            point.residual(&at.q)
         } else {
             system.residual.clone()
         };
-        let mut relative = relative_residual(&problem, &at.q, &residual, &linear.stiffness);
+        let mut relative = relative_residual(&point, &at.q, &residual, &linear.stiffness);
         if relative.is_nan() || relative > ACCEPTED {
             relative = self
                 .with_input(&at.q, system)
@@ -219,11 +219,11 @@ impl<'a> Curve<'a> {
             }));
         }
         let constraints =
-            constraint_state(&problem, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
+            constraint_state(&point, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
         let (stability, rounding) = if constraints.singular {
             (Stability::Undecided, 0.0)
         } else {
-            let place = rounding::Place {
+            let place = rounding::CheckedState {
                 coordinates: &at.q,
                 inputs: &inputs,
                 design: self.design,
@@ -264,7 +264,7 @@ impl<'a> Curve<'a> {
         })
     }
 
-    pub(crate) fn frame(&self, at: &Place, system: &System) -> Frame {
+    pub(crate) fn frame(&self, at: &CurvePosition, system: &System) -> Frame {
         Frame::new(
             at.clone(),
             self.settings.size,
@@ -278,8 +278,8 @@ impl<'a> Curve<'a> {
     pub(crate) fn correct(
         &self,
         frame: &Frame,
-        from: &Place,
-        normal: &Place,
+        from: &CurvePosition,
+        normal: &CurvePosition,
         reach: f64,
     ) -> Result<Corrected, Trouble> {
         let mut local = from.clone();
@@ -300,8 +300,8 @@ impl<'a> Curve<'a> {
             let off = normal.dot(&local.plus(-1.0, from));
             let step = plane(&scaled, normal)
                 .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-off]))
-                .map(|(q, [p])| Place { q, p })
-                .filter(Place::finite)
+                .map(|(q, [p])| CurvePosition { q, p })
+                .filter(CurvePosition::finite)
                 .ok_or(Trouble::Missed(NotFound::NotIsolated))?;
             let size = step.norm();
             if size > CONTRACTION * last {
@@ -332,7 +332,7 @@ impl<'a> Curve<'a> {
 }
 
 /// `[Khat dg/du; normal^T]`.
-pub(crate) fn plane(scaled: &System, normal: &Place) -> Option<Bordered> {
+pub(crate) fn plane(scaled: &System, normal: &CurvePosition) -> Option<Bordered> {
     Bordered::new(
         &scaled.stiffness,
         [&scaled.by_input],

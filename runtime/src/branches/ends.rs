@@ -2,8 +2,8 @@
 
 use super::BranchEnd;
 use super::curve::{Corrected, Curve, Trouble};
-use super::frame::Place;
-use super::station::{Station, VERTICAL};
+use super::curve_point::{CurvePoint, VERTICAL};
+use super::local_scaling::CurvePosition;
 use crate::algebra::Vector;
 use crate::equilibrium::Failure;
 use crate::error::NotFound;
@@ -15,20 +15,20 @@ pub(super) const STRAY: f64 = 1e-9;
 const BESIDE: f64 = 1e-7;
 
 /// A last station, unless the walk already stands there, and how the branch ends.
-type LastStep = (Option<Station>, BranchEnd);
+type LastStep = (Option<CurvePoint>, BranchEnd);
 
 impl Curve<'_> {
     /// As [`Self::arrive`] at an end of the range that is a singular point: it looks like the station before.
     pub(super) fn arrive_singular(
         &self,
         corrected: &Corrected,
-        before: &Station,
-    ) -> Result<Station, Trouble> {
+        before: &CurvePoint,
+    ) -> Result<CurvePoint, Trouble> {
         let (place, system) = (&corrected.place, &corrected.system);
         let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
         let frame = self.frame(place, system);
         let tangent = frame.direction(&before.direction()).unit();
-        Ok(Station {
+        Ok(CurvePoint {
             place: place.clone(),
             equilibrium,
             frame,
@@ -46,7 +46,7 @@ impl Curve<'_> {
     }
 
     /// The end of the range at which a station is about to leave it.
-    pub(super) fn leaving(&self, at: &Station) -> Option<BranchEnd> {
+    pub(super) fn leaving(&self, at: &CurvePoint) -> Option<BranchEnd> {
         let (least, most) = self.settings.bounds();
         let rate = at.tangent.p;
         if at.place.p <= least && rate < -VERTICAL {
@@ -73,11 +73,11 @@ impl Curve<'_> {
     /// The point of the branch exactly at an end of the range.
     pub(super) fn land(
         &self,
-        at: &Station,
+        at: &CurvePoint,
         outside: &Corrected,
         bound: f64,
     ) -> Result<Corrected, Trouble> {
-        let target = at.frame.local(&Place {
+        let target = at.frame.local(&CurvePosition {
             p: bound,
             ..at.place.clone()
         });
@@ -87,7 +87,7 @@ impl Curve<'_> {
             return Err(Trouble::Missed(NotFound::TurnsBack));
         }
         let from = outside.local.scaled(share);
-        let input = Place {
+        let input = CurvePosition {
             q: Vector::zeros(self.size()),
             p: 1.0,
         };
@@ -99,7 +99,7 @@ impl Curve<'_> {
 
     /// The end of the range right beside a station, where the branch is singular: along the tangent, unless the station
     /// is there.
-    pub(super) fn last_step(&self, at: &Station) -> Option<LastStep> {
+    pub(super) fn last_step(&self, at: &CurvePoint) -> Option<LastStep> {
         let (least, most) = self.settings.bounds();
         let away = |bound: f64| (bound - at.place.p) / self.settings.range();
         let bound = if away(least).abs() < away(most).abs() {

@@ -3,14 +3,14 @@
 use std::collections::VecDeque;
 
 use super::curve::{Curve, Trouble};
-use super::frame::Place;
+use super::curve_point::CurvePoint;
+use super::local_scaling::CurvePosition;
 use super::settings::Continuation;
 use super::special::{Junction, SpecialKind};
-use super::station::Station;
 use super::walk::{SAME, Walk};
 use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
-use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, settle};
+use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, solve};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error};
 
@@ -23,11 +23,11 @@ type Followed = (Branch, Vec<(Junction, bool)>);
 /// What is still to be followed.
 enum Lead {
     /// Both ways from a regular point.
-    Start(Station),
+    Start(CurvePoint),
     /// Both ways through a junction.
-    Through(Junction, Place),
+    Through(Junction, CurvePosition),
     /// One arm of a pitchfork.
-    Arm(Junction, Place),
+    Arm(Junction, CurvePosition),
 }
 
 /// Follows the branch through the stable equilibrium at `settings.low` that is found from `start`, in both directions.
@@ -108,13 +108,17 @@ pub fn branches(
 
 impl Curve<'_> {
     /// The station at an equilibrium, or beside it where branches cross there.
-    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<Station, Trouble> {
+    pub(crate) fn begin(&self, state: &Equilibrium) -> Result<CurvePoint, Trouble> {
         self.first_station(state.clone()).or_else(|trouble| {
             let (low, high) = (self.settings.low, self.settings.high);
             let value = state.inputs[self.settings.input.index()];
             let target = if value == low { high } else { low };
             let inputs = self.inputs_at(value + NUDGE * (target - value));
-            match settle(&self.problem(&inputs), &state.coordinates, Policy::Nearest) {
+            match solve(
+                &self.operating_point(&inputs),
+                &state.coordinates,
+                Policy::Nearest,
+            ) {
                 Ok(beside) => self.first_station(beside),
                 Err(_) => Err(trouble),
             }
@@ -122,7 +126,7 @@ impl Curve<'_> {
     }
 
     /// The branch through a station, and the junctions on it.
-    fn both_ways(&self, station: &Station) -> Followed {
+    fn both_ways(&self, station: &CurvePoint) -> Followed {
         let front = self.walk(station, &station.place, |_, _| false);
         let back = if front.end == BranchEnd::Closed {
             nothing(BranchEnd::Closed)
@@ -182,7 +186,7 @@ impl Curve<'_> {
                 Err(trouble) => found.push(self.lone_point(state, trouble)),
             }
         }
-        let mut entered: Vec<Place> = Vec::new();
+        let mut entered: Vec<CurvePosition> = Vec::new();
         while let Some(lead) = leads.pop_front() {
             let Some((branch, junctions)) = self.follow(&lead, &found) else {
                 continue;
@@ -194,7 +198,7 @@ impl Curve<'_> {
                 };
             }
             for (junction, ends_arm) in junctions {
-                let near = |known: &Place| junction.frame.local(known).norm() <= SAME;
+                let near = |known: &CurvePosition| junction.frame.local(known).norm() <= SAME;
                 if entered.iter().any(near) {
                     continue;
                 }
@@ -221,13 +225,13 @@ impl Curve<'_> {
 
     /// The branch of a lead; `None` where there is none or it is known.
     fn follow(&self, lead: &Lead, known: &[Branch]) -> Option<Followed> {
-        let fresh = |station: &Station| !self.known(known, &station.place);
-        let from = |junction: &Junction, station: &Station| {
+        let fresh = |station: &CurvePoint| !self.known(known, &station.place);
+        let from = |junction: &Junction, station: &CurvePoint| {
             let mut walk = self.walk(station, &junction.frame.origin, |_, _| false);
             walk.points.insert(0, self.point(station));
             walk
         };
-        let at = |junction: &Junction, direction: &Place| {
+        let at = |junction: &Junction, direction: &CurvePosition| {
             let direction = junction.frame.stretched(direction);
             Some(self.special_point(&junction.special, &direction))
         };

@@ -3,9 +3,9 @@
 
 use super::bordered::Bordered;
 use super::curve::{Curve, Trouble};
-use super::frame::Place;
+use super::curve_point::CurvePoint;
+use super::local_scaling::CurvePosition;
 use super::special::{SpecialKind, SpecialPoint};
-use super::station::Station;
 use crate::algebra::{Values, Vector, dot, largest};
 use crate::error::NotFound;
 
@@ -17,7 +17,11 @@ pub(super) const ROUNDING: f64 = 1e-8;
 
 impl Curve<'_> {
     /// The limit point between two stations, and the direction of the branch there.
-    pub(crate) fn fold(&self, a: &Station, b: &Station) -> Result<(SpecialPoint, Place), Trouble> {
+    pub(crate) fn fold(
+        &self,
+        a: &CurvePoint,
+        b: &CurvePoint,
+    ) -> Result<(SpecialPoint, CurvePosition), Trouble> {
         let frame = &a.frame;
         let end = frame.local(&b.place);
         let end_tangent = frame.direction(&b.direction());
@@ -46,7 +50,7 @@ impl Curve<'_> {
             let (right, [h]) = bordered.solve(&zeros, [1.0]);
             let (left, _) = bordered.solve_transposed(&zeros, [1.0]);
             (v, w) = (right, left);
-            let along = frame.stretched(&Place {
+            let along = frame.stretched(&CurvePosition {
                 q: v.clone(),
                 p: 0.0,
             });
@@ -67,7 +71,7 @@ impl Curve<'_> {
             )
             .map(|lu| lu.solve(&scaled.residual.map(|value| -value), [-h]))
             .ok_or_else(singular)?;
-            let step = Place { q, p };
+            let step = CurvePosition { q, p };
             let size = step.norm();
             if !step.finite() {
                 return Err(singular());
@@ -94,7 +98,7 @@ fn unit(x: &[f64]) -> Option<Vector> {
 }
 
 /// Whether a local place lies between the origin and `end`, and not far from the line.
-pub(super) fn beside(local: &Place, end: &Place) -> bool {
+pub(super) fn beside(local: &CurvePosition, end: &CurvePosition) -> bool {
     let length = end.norm();
     let along = local.dot(end) / length;
     let across = local.plus(-along / length, end).norm();

@@ -1,8 +1,8 @@
 //! What happens between two neighbouring points of a branch.
 
 use super::curve::{Curve, Trouble};
+use super::curve_point::{CurvePoint, Signs};
 use super::special::{Located, SpecialKind};
-use super::station::{Signs, Station};
 use crate::equilibrium::{Bracket, refine};
 use crate::error::NotFound;
 use crate::modes::free_pairs;
@@ -45,8 +45,8 @@ impl Curve<'_> {
     /// Appends the special points between two stations in their order along the branch.
     pub(crate) fn locate(
         &self,
-        a: &Station,
-        b: &Station,
+        a: &CurvePoint,
+        b: &CurvePoint,
         found: &mut Vec<Located>,
     ) -> Result<(), Trouble> {
         self.divide(a, b, found, &mut 0)
@@ -54,8 +54,8 @@ impl Curve<'_> {
 
     fn divide(
         &self,
-        a: &Station,
-        b: &Station,
+        a: &CurvePoint,
+        b: &CurvePoint,
         found: &mut Vec<Located>,
         points: &mut usize,
     ) -> Result<(), Trouble> {
@@ -84,8 +84,8 @@ impl Curve<'_> {
     /// The one event that explains the changes, if one does.
     fn simple(
         &self,
-        a: &Station,
-        b: &Station,
+        a: &CurvePoint,
+        b: &CurvePoint,
         changes: Changes,
     ) -> Result<Option<Located>, Trouble> {
         if changes.crossed {
@@ -118,7 +118,7 @@ impl Curve<'_> {
     }
 
     /// A station between two.
-    fn middle(&self, a: &Station, b: &Station) -> Result<Station, Trouble> {
+    fn middle(&self, a: &CurvePoint, b: &CurvePoint) -> Result<CurvePoint, Trouble> {
         let mut trouble = Trouble::Missed(NotFound::NothingBetween);
         for fraction in [0.5, 0.41, 0.62] {
             match self.between(a, b, fraction) {
@@ -129,7 +129,12 @@ impl Curve<'_> {
         Err(trouble)
     }
 
-    fn between(&self, a: &Station, b: &Station, fraction: f64) -> Result<Station, Trouble> {
+    fn between(
+        &self,
+        a: &CurvePoint,
+        b: &CurvePoint,
+        fraction: f64,
+    ) -> Result<CurvePoint, Trouble> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
         let from = end.scaled(fraction);
@@ -138,7 +143,12 @@ impl Curve<'_> {
     }
 
     /// Several events in one place: where the mean of the eigenvalues that change sign is zero.
-    fn unresolved(&self, a: &Station, b: &Station, changes: Changes) -> Result<Located, Trouble> {
+    fn unresolved(
+        &self,
+        a: &CurvePoint,
+        b: &CurvePoint,
+        changes: Changes,
+    ) -> Result<Located, Trouble> {
         let end = a.frame.local(&b.place);
         let normal = end.unit().ok_or(Trouble::Missed(NotFound::Coincide))?;
         let first = a

@@ -7,23 +7,23 @@
 mod bordered;
 mod branch_point;
 mod curve;
+mod curve_point;
 mod ends;
 mod explore;
 mod fold;
-mod frame;
-mod known;
+mod local_scaling;
 mod locate;
 mod settings;
 mod special;
-mod station;
+mod visited;
 mod walk;
 
 pub(crate) use bordered::Bordered;
 pub(crate) use curve::Curve;
+pub(crate) use curve_point::CurvePoint;
 pub use explore::{branch, branches};
 pub use settings::Continuation;
 pub use special::{SpecialKind, SpecialPoint};
-pub(crate) use station::Station;
 
 use crate::algebra::Vector;
 use crate::equilibrium::{Equilibrium, Stability, coincide, turned_towards};

@@ -1,8 +1,8 @@
 //! Points of a branch at which `Khat` is singular.
 
 use super::curve::{Curve, Trouble};
-use super::frame::{Frame, Place};
-use super::station::symmetric_to_rounding;
+use super::curve_point::symmetric_to_rounding;
+use super::local_scaling::{CurvePosition, Frame};
 use crate::algebra::{Values, Vector, dot, form, largest, times};
 use crate::equilibrium::{Equilibrium, Stability};
 use crate::error::NotFound;
@@ -53,16 +53,16 @@ pub(crate) struct Junction {
     /// At the junction, with the units of a regular point nearby.
     pub(crate) frame: Frame,
     /// Local unit direction of the branch on which it was found, along the walk.
-    pub(crate) own: Place,
+    pub(crate) own: CurvePosition,
     /// Local unit direction of the other branch.
-    pub(crate) other: Place,
+    pub(crate) other: CurvePosition,
 }
 
 /// A special point on a walk.
 pub(crate) struct Located {
     pub(crate) special: SpecialPoint,
     /// Tangent of the walk, SI units.
-    pub(crate) direction: Place,
+    pub(crate) direction: CurvePosition,
     pub(crate) junction: Option<Junction>,
     /// The walk came along an arm of a pitchfork, which ends there.
     pub(crate) ends_arm: bool,
@@ -74,13 +74,13 @@ impl Curve<'_> {
     pub(crate) fn special(
         &self,
         kind: SpecialKind,
-        place: &Place,
+        place: &CurvePosition,
         (v, w): (&[f64], &[f64]),
         zero: usize,
         also: Option<f64>,
     ) -> Result<SpecialPoint, Trouble> {
         let (least, most) = self.settings.bounds();
-        let place = &Place {
+        let place = &CurvePosition {
             q: place.q.clone(),
             p: place.p.clamp(least, most),
         };
@@ -101,8 +101,8 @@ impl Curve<'_> {
     /// As [`Self::special`] for what is not resolved further: the softest mode, where there are modes.
     pub(crate) fn degenerate(
         &self,
-        place: &Place,
-        (frame, tangent): (&Frame, &Place),
+        place: &CurvePosition,
+        (frame, tangent): (&Frame, &CurvePosition),
         zero: usize,
     ) -> Result<SpecialPoint, Trouble> {
         let linear = self.linear(place)?;

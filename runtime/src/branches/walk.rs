@@ -1,10 +1,10 @@
 //! Pseudo-arclength continuation: from one point of a branch along its tangent, with a step that follows the curvature.
 
 use super::curve::{Corrected, Curve, Trouble};
+use super::curve_point::CurvePoint;
 use super::ends::STRAY;
-use super::frame::Place;
+use super::local_scaling::CurvePosition;
 use super::special::{Junction, Located, SpecialPoint, make_critical};
-use super::station::Station;
 use super::{BranchEnd, BranchPoint};
 use crate::error::NotFound;
 
@@ -28,7 +28,7 @@ pub(crate) struct Walk {
 
 /// One accepted step.
 struct Step {
-    station: Station,
+    station: CurvePoint,
     located: Vec<Located>,
     end: Option<BranchEnd>,
     /// Factor for the length of the next step.
@@ -40,9 +40,9 @@ impl Curve<'_> {
     /// special point and of the station before it.
     pub(crate) fn walk(
         &self,
-        start: &Station,
-        home: &Place,
-        mut stop: impl FnMut(&SpecialPoint, &Station) -> bool,
+        start: &CurvePoint,
+        home: &CurvePosition,
+        mut stop: impl FnMut(&SpecialPoint, &CurvePoint) -> bool,
     ) -> Walk {
         let settings = self.settings;
         let mut walk = Walk {
@@ -51,7 +51,7 @@ impl Curve<'_> {
             junctions: Vec::new(),
             end: BranchEnd::PointLimit,
         };
-        let largest = |place: &Place| {
+        let largest = |place: &CurvePosition| {
             let q = place.q[..self.structure.motions()].iter();
             q.fold(0.0, |most: f64, value| most.max(value.abs()))
         };
@@ -125,7 +125,7 @@ impl Curve<'_> {
         walk
     }
 
-    pub(crate) fn point(&self, station: &Station) -> BranchPoint {
+    pub(crate) fn point(&self, station: &CurvePoint) -> BranchPoint {
         let direction = station.direction();
         let mut equilibrium = station.equilibrium.clone();
         if station.signs.vertical {
@@ -141,8 +141,12 @@ impl Curve<'_> {
     }
 
     /// A special point as a point of the branch that passes it in this direction (SI units).
-    pub(crate) fn special_point(&self, special: &SpecialPoint, direction: &Place) -> BranchPoint {
-        let place = Place {
+    pub(crate) fn special_point(
+        &self,
+        special: &SpecialPoint,
+        direction: &CurvePosition,
+    ) -> BranchPoint {
+        let place = CurvePosition {
             q: special.equilibrium.coordinates.clone(),
             p: special.value,
         };
@@ -160,7 +164,11 @@ impl Curve<'_> {
 
     /// The first station of the branch that leaves a junction in a local direction; `None` where it leaves the range at
     /// once or cannot be followed.
-    pub(crate) fn depart(&self, junction: &Junction, direction: &Place) -> Option<Station> {
+    pub(crate) fn depart(
+        &self,
+        junction: &Junction,
+        direction: &CurvePosition,
+    ) -> Option<CurvePoint> {
         let frame = &junction.frame;
         DEPARTURES.iter().find_map(|share| {
             let length = share * self.settings.max_step;
@@ -176,9 +184,9 @@ impl Curve<'_> {
 
     fn advance(
         &self,
-        at: &Station,
+        at: &CurvePoint,
         length: f64,
-        home: &Place,
+        home: &CurvePosition,
         steps: usize,
     ) -> Result<Step, Trouble> {
         let (frame, tangent) = (&at.frame, &at.tangent);
@@ -227,9 +235,9 @@ impl Curve<'_> {
     pub(super) fn arrive(
         &self,
         corrected: &Corrected,
-        towards: &Place,
-        before: Option<&Station>,
-    ) -> Result<Station, Trouble> {
+        towards: &CurvePosition,
+        before: Option<&CurvePoint>,
+    ) -> Result<CurvePoint, Trouble> {
         let place = &corrected.place;
         let system = &corrected.system;
         let equilibrium = self.equilibrium(place, system, corrected.iterations, None)?;
@@ -238,7 +246,7 @@ impl Curve<'_> {
     }
 
     /// Whether the step from a station passes a place.
-    fn passes(&self, at: &Station, to: &Corrected, place: &Place) -> bool {
+    fn passes(&self, at: &CurvePoint, to: &Corrected, place: &CurvePosition) -> bool {
         let end = &to.local;
         let target = at.frame.local(place);
         let along = target.dot(end) / end.dot(end);
@@ -253,6 +261,6 @@ impl Curve<'_> {
     }
 }
 
-fn straight(direction: &Place, tangent: &Place) -> bool {
+fn straight(direction: &CurvePosition, tangent: &CurvePosition) -> bool {
     direction.dot(tangent) >= STRAIGHT * direction.norm() * tangent.norm()
 }

@@ -1,7 +1,7 @@
 //! Assembly: positions in which the loops of a mechanism close, from values that need not.
 
-use super::closing::{close, close_speeds, free, gaps};
-use super::problem::{Failure, Problem};
+use super::constraint_projection::{close, close_speeds, free, gaps};
+use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::{Lu, Matrix, Vector, add_scaled};
 use crate::constraints::{ConstraintState, Rows, Structure, Tangent, all_rows};
 use crate::kernels::Kernels;
@@ -84,9 +84,9 @@ pub fn assemble(
     start: &[f64],
     held: &[Coordinate],
 ) -> Result<Assembly, Error> {
-    let problem = Problem::new(mechanism, u, b)?;
-    problem.check_start(start)?;
-    let mut fixed = vec![false; problem.size()];
+    let point = OperatingPoint::new(mechanism, u, b)?;
+    point.check_start(start)?;
+    let mut fixed = vec![false; point.size()];
     for coordinate in held {
         match fixed.get_mut(coordinate.index()) {
             Some(place) => *place = true,
@@ -94,32 +94,36 @@ pub fn assemble(
                 return Err(Error::UnknownHandle {
                     kind: "coordinate",
                     index: coordinate.index(),
-                    mechanism: problem.description.name.clone(),
-                    count: problem.size(),
+                    mechanism: point.description.name.clone(),
+                    count: point.size(),
                 });
             }
         }
     }
-    assembled(&problem, start, &fixed).map_err(|failure| failure.explain(&problem.description))
+    assembled(&point, start, &fixed).map_err(|failure| failure.explain(&point.description))
 }
 
-fn assembled(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Result<Assembly, Failure> {
-    let structure = problem.structure;
-    let (x, iterations) = closed(problem, start, held)?;
-    let (residual, _) = problem.evaluate_start(&x)?;
-    let motions = problem.motions();
-    let at = gaps(problem, &x).ok_or_else(|| Failure::OutsideDomain {
+fn assembled(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Result<Assembly, Failure> {
+    let structure = point.structure;
+    let (x, iterations) = closed(point, start, held)?;
+    let (residual, _) = point.evaluate_start(&x)?;
+    let motions = point.motions();
+    let at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain {
         what: "the residual",
         coordinates: x.to_vec(),
     })?;
     let free_rows = Rows::balanced(free(&at.rows, held));
     let all = Rows::balanced(at.rows.clone());
-    let linear = problem.linear(&x)?;
-    let place = (&x[..], problem.inputs, problem.design);
+    let linear = point.linear(&x)?;
+    let place = (&x[..], point.inputs, point.design);
     let constraints = if structure.open() {
-        ConstraintState::open(problem.size())
+        ConstraintState::open(point.size())
     } else {
-        ConstraintState::new(problem.mechanism, place, &Tangent::new(&linear, structure))
+        ConstraintState::new(point.mechanism, place, &Tangent::new(&linear, structure))
     };
     let margin = if free_rows.rank < all.rank {
         0.0
@@ -146,27 +150,27 @@ fn assembled(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Result<Asse
         constraints,
         mode,
         margin,
-        inputs: problem.inputs.into(),
-        description: problem.description.clone(),
+        inputs: point.inputs.into(),
+        description: point.description.clone(),
     })
 }
 
 /// The state nearest to `start` that meets the constraints, with the reactions that balance best, and the iterations it
 /// took.
 pub(super) fn closed(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
     held: &[bool],
 ) -> Result<(Vector, usize), Failure> {
-    let structure = problem.structure;
-    let motions = problem.motions();
+    let structure = point.structure;
+    let motions = point.motions();
     let mut start = Vector::from(start);
     start[motions..].fill(0.0);
-    let (mut x, iterations) = close(problem, &start, held)?;
+    let (mut x, iterations) = close(point, &start, held)?;
     if structure.velocity_constraints > 0 {
-        x = close_speeds(problem, &x, held).unwrap_or(x);
+        x = close_speeds(point, &x, held).unwrap_or(x);
     }
-    let (residual, stiffness) = problem.evaluate_start(&x)?;
+    let (residual, stiffness) = point.evaluate_start(&x)?;
     let mut force = residual.map(|value| -value);
     force[motions..].fill(0.0);
     let reactions = all_rows(&stiffness, structure).multipliers(&force);

@@ -3,7 +3,7 @@
 //! step alone cannot tell where stiffnesses of very different size meet, so a finished state passes both. The gap of a
 //! constraint is measured by motions too, and a reaction by the largest.
 
-use super::problem::Problem;
+use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Values, Vector, greater, largest};
 use crate::kernels::RestParts;
 
@@ -25,7 +25,7 @@ pub(crate) const SMALL_MOTION: f64 = 1e-3;
 /// Share of a coordinate that counts as a displacement in the scale of a residual: times [`TOLERANCE`] it is some seven
 /// roundings of the coordinate, which is what a far-off coordinate can resolve.
 pub(crate) const ROUNDED: f64 = 1.5e-5;
-/// Way, relative to where the residual last fell, on which a residual that stays the same is not small but left behind.
+/// LineModel, relative to where the residual last fell, on which a residual that stays the same is not small but left behind.
 const DRIFT: f64 = 1e3;
 
 /// How far a solve has come.
@@ -59,7 +59,7 @@ impl Watch {
     #[inline]
     pub(crate) fn judge(
         &mut self,
-        problem: &Problem<'_>,
+        point: &OperatingPoint<'_>,
         q: &[f64],
         (residual, stiffness): (&[f64], &Matrix),
         step: Option<&[f64]>,
@@ -70,14 +70,14 @@ impl Watch {
         if !stalled {
             self.fell_at.copy_from_slice(q);
         }
-        let motions = problem.motions();
-        let last = step.map_or(Last::More, |step| last(step, q, motions));
-        let solved = |tolerance| settled(problem, q, residual, stiffness, tolerance);
-        if (last == Last::Reached && solved(ACCEPTED))
+        let motions = point.motions();
+        let last = step.map_or(StepsLeft::More, |step| last(step, q, motions));
+        let solved = |tolerance| residual_is_small(point, q, residual, stiffness, tolerance);
+        if (last == StepsLeft::Reached && solved(ACCEPTED))
             || (stalled && !self.drifts(&q[..motions]) && solved(TOLERANCE))
         {
             Progress::Finished
-        } else if last == Last::More {
+        } else if last == StepsLeft::More {
             Progress::Underway
         } else {
             Progress::LastStep
@@ -95,7 +95,7 @@ impl Watch {
 
 /// What a full Newton step says about the way that is left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Last {
+pub(crate) enum StepsLeft {
     /// More than one step.
     More,
     /// This step reaches rounding.
@@ -106,13 +106,13 @@ pub(crate) enum Last {
 
 /// How many steps are left, by the next one from `q`.
 #[inline]
-pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> Last {
+pub(crate) fn last(step: &[f64], q: &[f64], motions: usize) -> StepsLeft {
     if !within(LAST_STEP, step, q, motions) {
-        Last::More
+        StepsLeft::More
     } else if within(FLOOR, step, q, motions) {
-        Last::Reached
+        StepsLeft::Reached
     } else {
-        Last::OneMore
+        StepsLeft::OneMore
     }
 }
 
@@ -134,40 +134,40 @@ fn within(tolerance: f64, step: &[f64], q: &[f64], motions: usize) -> bool {
 }
 
 /// Whether the relative residual is within `tolerance`; asks for the forces only where stiffness does not show it.
-pub(crate) fn settled(
-    problem: &Problem<'_>,
+pub(crate) fn residual_is_small(
+    point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
     tolerance: f64,
 ) -> bool {
-    let motions = problem.motions();
+    let motions = point.motions();
     (0..q.len()).all(|i| relative(residual[i], 0.0, &q[..motions], &stiffness[i]) <= tolerance)
-        || relative_residual(problem, q, residual, stiffness) <= tolerance
+        || relative_residual(point, q, residual, stiffness) <= tolerance
 }
 
 /// Greatest residual, each relative to its own parts (inertia, applied forces) and to what a small motion of each
 /// coordinate, or the rounding of a large one, restores in the same equation. Reactions count as forces, one that is nothing
 /// but rounding as a small share of the greatest; the gap of a constraint is relative to what those motions open.
 pub(crate) fn relative_residual(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    relative_to(problem, &problem.parts(q), q, residual, stiffness)
+    relative_to(point, &point.parts(q), q, residual, stiffness)
 }
 
 /// As [`relative_residual`] with the parts of the residual at `q`.
 #[inline]
 pub(crate) fn relative_to(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     parts: &RestParts,
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let motions = problem.motions();
+    let motions = point.motions();
     let reaction = largest_of(&q[motions..]);
     let small: Vector = q.map(small_motion);
     let mut most = 0.0;

@@ -3,10 +3,10 @@
 //! its curvature made positive where it is not, and a step along the unstable mode away from a saddle. With constraints on
 //! positions the same along the directions they leave free.
 
+use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
-use super::end::{End, Found, last_step};
-use super::problem::{Failure, Problem};
-use super::space::{Base, Space, Trial};
+use super::operating_point::{Failure, OperatingPoint};
+use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{
     Cholesky, Matrix, Values, Vector, add_scaled, add_to, dot, form, largest, times,
 };
@@ -24,7 +24,7 @@ pub(super) const GROWTH: f64 = 4.0;
 pub(super) const DEPARTURE: f64 = 1e-3;
 
 /// Where a search has come to.
-pub(super) struct Place {
+pub(super) struct SearchState {
     pub(super) q: Vector,
     /// Greatest change of a coordinate in the next step, rad or m.
     pub(super) radius: f64,
@@ -32,7 +32,7 @@ pub(super) struct Place {
     pub(super) iterations: usize,
 }
 
-impl Place {
+impl SearchState {
     /// The start.
     #[inline]
     pub(super) fn first(q: &[f64]) -> Self {
@@ -46,15 +46,15 @@ impl Place {
 
 /// Descends to a minimum of the amended potential from `from`, a place on the way from `start`; both meet the constraints.
 pub(super) fn stable<S>(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
-    from: &Place,
+    from: &SearchState,
 ) -> Result<Found, Failure>
 where
-    S: Space,
+    S: SearchSpace,
 {
-    let motions = problem.motions();
-    let mut base: Base<S> = S::base(problem, &from.q)?;
+    let motions = point.motions();
+    let mut base: Base<S> = S::base(point, &from.q)?;
     let mut radius = from.radius;
     let mut departures = 0;
     let mut left_unstable_region = false;
@@ -68,22 +68,22 @@ where
         let (mut step, curved) = match &convex {
             Some(factors) => (factors.solve(&slopes).map(|value| -value), None),
             None => {
-                let curved = Curved::new(problem, &base, &stiffness)?;
+                let curved = Curved::new(point, &base, &stiffness)?;
                 left_unstable_region |= curved.unstable;
                 (curved_step(&curved.pairs, &slopes), Some(curved))
             }
         };
-        let found = |end: End, iterations| Found {
+        let found = |end: Candidate, iterations| Found {
             left_unstable_region,
             ..Found::new(end, iterations)
         };
-        let here = |base: Base<S>| End {
+        let here = |base: Base<S>| Candidate {
             coordinates: base.q,
             residual: base.residual,
             measured: None,
         };
         step = base.space.lift(&step);
-        let progress = watch.judge(problem, &base.q, at, Some(&step));
+        let progress = watch.judge(point, &base.q, at, Some(&step));
         if progress == Progress::Finished {
             let Some(curved) = curved.filter(|curved| curved.unstable) else {
                 return Ok(found(here(base), iterations));
@@ -91,20 +91,20 @@ where
             departures += 1;
             if departures > MAX_DEPARTURES {
                 let reason = NotFound::OnlyUnstable;
-                return Err(failure(problem, reason, &base.q, iterations));
+                return Err(failure(point, reason, &base.q, iterations));
             }
             let shape = base.space.lift(&curved.pairs.shapes[0]);
             let side = departure(&shape, &curved.mass, &base.q, start);
-            let Some(trial) = base.space.trial(problem, &base.q, &side, 1.0) else {
+            let Some(trial) = base.space.trial(point, &base.q, &side, 1.0) else {
                 return Err(outside(&base.q));
             };
-            base = S::arrive(problem, trial)?;
+            base = S::arrive(point, trial)?;
             watch = Watch::new(&base.q);
             continue;
         }
         if progress == Progress::LastStep
             && let Some(factors) = &convex
-            && let Some(end) = last_step(problem, &base.q, at, &step, |rest| {
+            && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
                 base.space.lift(&factors.solve(&base.space.slopes(rest)))
             })
         {
@@ -115,27 +115,27 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some(next) = search(problem, &base, &step) else {
-            let relative = relative_residual(problem, &base.q, at.0, at.1);
+        let Some(next) = search(point, &base, &step) else {
+            let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE && convex.is_some() {
                 return Ok(found(here(base), iterations));
             }
             let reason = NotFound::NoDescent;
-            return Err(failure(problem, reason, &base.q, iterations));
+            return Err(failure(point, reason, &base.q, iterations));
         };
         if next.length < 1.0 {
             radius = radius.min(2.0 * next.length * largest(&step));
         } else if limited && next.predicted {
             radius *= GROWTH;
         }
-        base = S::arrive(problem, next.trial)?;
+        base = S::arrive(point, next.trial)?;
         if largest_of(&base.q[..motions]) > escaped {
             let reason = NotFound::Escape;
-            return Err(failure(problem, reason, &base.q, iterations));
+            return Err(failure(point, reason, &base.q, iterations));
         }
     }
     let reason = NotFound::IterationLimit;
-    Err(failure(problem, reason, &base.q, MAX_ITERATIONS))
+    Err(failure(point, reason, &base.q, MAX_ITERATIONS))
 }
 
 /// The modes at a state where the potential is not convex.
@@ -148,11 +148,15 @@ struct Curved {
 
 impl Curved {
     #[cold]
-    fn new<S>(problem: &Problem<'_>, base: &Base<S>, stiffness: &Matrix) -> Result<Self, Failure>
+    fn new<S>(
+        point: &OperatingPoint<'_>,
+        base: &Base<S>,
+        stiffness: &Matrix,
+    ) -> Result<Self, Failure>
     where
-        S: Space,
+        S: SearchSpace,
     {
-        let mass = problem.linear(&base.q)?.mass;
+        let mass = point.linear(&base.q)?.mass;
         let pairs = symmetric::solve(stiffness, &base.space.mass(&mass))?;
         let unstable = sign(pairs.lambda[0], pairs.errors[0]) == Sign::Negative;
         Ok(Self {
@@ -209,12 +213,12 @@ struct Next {
 }
 
 /// The potential along a step, at its beginning: derivatives by the share of the step.
-pub(super) struct Way {
+pub(super) struct LineModel {
     pub(super) slope: f64,
     pub(super) curvature: f64,
 }
 
-impl Way {
+impl LineModel {
     /// Whether the potential is lower at a share `length` of the step, where it has these derivatives: its minimum along the
     /// step is near, or it fell by their integral (corrected trapezoidal rule), since the potential itself is not available.
     #[inline]
@@ -234,11 +238,11 @@ impl Way {
 }
 
 /// Line search on the change of the potential.
-fn search<S>(problem: &Problem<'_>, base: &Base<S>, step: &[f64]) -> Option<Next>
+fn search<S>(point: &OperatingPoint<'_>, base: &Base<S>, step: &[f64]) -> Option<Next>
 where
-    S: Space,
+    S: SearchSpace,
 {
-    let way = Way {
+    let way = LineModel {
         slope: dot(step, &base.residual),
         curvature: form(step, &base.stiffness, step),
     };
@@ -247,7 +251,7 @@ where
     }
     let mut length = 1.0;
     for _ in 0..60 {
-        let Some(trial) = base.space.trial(problem, &base.q, step, length) else {
+        let Some(trial) = base.space.trial(point, &base.q, step, length) else {
             length *= 0.25;
             continue;
         };
@@ -270,11 +274,11 @@ where
 }
 
 #[cold]
-fn failure(problem: &Problem<'_>, reason: NotFound, q: &[f64], iterations: usize) -> Failure {
-    let relative = problem
+fn failure(point: &OperatingPoint<'_>, reason: NotFound, q: &[f64], iterations: usize) -> Failure {
+    let relative = point
         .evaluate(q)
         .map_or(f64::INFINITY, |(residual, stiffness)| {
-            relative_residual(problem, q, &residual, &stiffness)
+            relative_residual(point, q, &residual, &stiffness)
         });
     Failure::NotFound {
         reason,

@@ -1,22 +1,22 @@
 //! Dynamic equilibria: where a mechanism can rest relative to its drives, and whether it would stay there.
 
+mod acceptance;
 mod assembly;
-mod closing;
+mod constraint_projection;
 mod convergence;
 mod descent;
-mod end;
 mod multistart;
 mod newton;
+mod newton_fast_path;
+mod operating_point;
 mod prediction;
-mod problem;
-mod quick;
 mod regularity;
 mod root;
-mod settle;
-mod space;
+mod row_scaling;
+mod search_space;
+mod solve;
 mod stability;
 mod turns;
-mod weights;
 
 pub use assembly::{Assembly, AssemblyMode, assemble};
 pub use multistart::{Search, find_equilibria};
@@ -24,11 +24,11 @@ pub use multistart::{Search, find_equilibria};
 pub(crate) use convergence::{
     ACCEPTED, LAST_STEP, ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE, relative_residual,
 };
+pub(crate) use operating_point::{Failure, OperatingPoint};
 pub(crate) use prediction::{MISSED, Path, STILL};
-pub(crate) use problem::{Failure, Problem};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
-pub(crate) use settle::{settle, settle_from_prediction, settle_into};
+pub(crate) use solve::{solve, solve_from_prediction, solve_into};
 pub(crate) use stability::judge;
 pub(crate) use turns::{coincide, turned_towards, turns_do_not_count};
 
@@ -69,10 +69,10 @@ pub fn equilibrium(
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
-    let problem = Problem::new(mechanism, u, b)?;
-    problem.check_start(start)?;
-    let mut state = problem.blank_state();
-    settle_into(&problem, start, policy, &mut state)
-        .map_err(|failure| failure.explain(&problem.description))?;
+    let point = OperatingPoint::new(mechanism, u, b)?;
+    point.check_start(start)?;
+    let mut state = point.blank_state();
+    solve_into(&point, start, policy, &mut state)
+        .map_err(|failure| failure.explain(&point.description))?;
     Ok(state)
 }

@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
-use super::{Policy, Problem, settle};
+use super::{OperatingPoint, Policy, solve};
 use crate::algebra::Vector;
 use crate::kernels::Kernels;
 use crate::setters::setters;
@@ -61,10 +61,10 @@ pub fn find_equilibria(
     start: &[f64],
     search: &Search,
 ) -> Result<Vec<Equilibrium>, Error> {
-    let problem = Problem::new(mechanism, u, b)?;
-    problem.check_start(start)?;
-    problem.check_start(&search.lower)?;
-    problem.check_start(&search.upper)?;
+    let point = OperatingPoint::new(mechanism, u, b)?;
+    point.check_start(start)?;
+    point.check_start(&search.lower)?;
+    point.check_start(&search.upper)?;
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut from = Vector::from(start);
@@ -75,11 +75,11 @@ pub fn find_equilibria(
             break;
         }
         for policy in [Policy::Stable, Policy::Nearest] {
-            let Ok(state) = settle(&problem, &from, policy) else {
+            let Ok(state) = solve(&point, &from, policy) else {
                 continue;
             };
             met += 1;
-            let known = |known| same(&problem, known, &state);
+            let known = |known| same(&point, known, &state);
             if !found.iter().any(known) {
                 isolated += usize::from(!matches!(state.stability, Stability::Neutral { .. }));
                 found.push(state);
@@ -99,11 +99,11 @@ fn more_expected(found: usize, met: usize) -> bool {
 }
 
 /// Whether two equilibria are one place.
-fn same(problem: &Problem<'_>, known: &Equilibrium, state: &Equilibrium) -> bool {
-    let description = &problem.description;
+fn same(point: &OperatingPoint<'_>, known: &Equilibrium, state: &Equilibrium) -> bool {
+    let description = &point.description;
     let (q, other) = (&known.coordinates, &state.coordinates);
     let turned = turned_towards(q, other, description);
     let singular = known.constraints.singular && state.constraints.singular;
     coincide(&turned, other, singular, description)
-        && (turned == *q || turns_do_not_count(problem, q, &turned))
+        && (turned == *q || turns_do_not_count(point, q, &turned))
 }

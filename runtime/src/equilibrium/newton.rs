@@ -1,9 +1,9 @@
 //! The equilibrium nearest to a start value, whatever its stability: Newton's method with a line search on the residual.
 
+use super::acceptance::{Candidate, Found, last_step};
 use super::convergence::{Progress, TOLERANCE, Watch, horizon, largest_of, relative_residual};
-use super::end::{End, Found, last_step};
-use super::problem::{Failure, Problem};
-use super::space::{Base, Space, Trial};
+use super::operating_point::{Failure, OperatingPoint};
+use super::search_space::{Base, SearchSpace, Trial};
 use crate::algebra::{Cholesky, Lu, Matrix, Vector, times};
 use crate::error::NotFound;
 
@@ -12,13 +12,13 @@ const MAX_ITERATIONS: usize = 300;
 const FIRST_RADIUS: f64 = 1.0;
 
 /// Solves `g = 0` from `start`, which lies in the space.
-pub(super) fn nearest<S>(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Failure>
+pub(super) fn nearest<S>(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure>
 where
-    S: Space,
+    S: SearchSpace,
 {
-    let motions = problem.motions();
-    let mut base: Base<S> = S::base(problem, start)?;
-    let weight = S::weights(problem, &base.q)?;
+    let motions = point.motions();
+    let mut base: Base<S> = S::base(point, start)?;
+    let weight = S::weights(point, &base.q)?;
     let mut radius = FIRST_RADIUS;
     let mut watch = Watch::new(&base.q);
     let escaped = horizon(&start[..motions]);
@@ -30,7 +30,7 @@ where
         let displacement =
             |lu: &Lu, slopes: &[f64]| base.space.lift(&lu.solve(slopes).map(|value| -value));
         let newton = factors.as_ref().map(|lu| displacement(lu, &slopes));
-        let progress = watch.judge(problem, &base.q, at, newton.as_deref());
+        let progress = watch.judge(point, &base.q, at, newton.as_deref());
         if progress == Progress::Finished {
             return Ok(found(base, iterations));
         }
@@ -38,7 +38,7 @@ where
             newton.unwrap_or_else(|| base.space.lift(&damped_step(&slopes, &stiffness, &weight)));
         if progress == Progress::LastStep
             && let Some(lu) = &factors
-            && let Some(end) = last_step(problem, &base.q, at, &step, |rest| {
+            && let Some(end) = last_step(point, &base.q, at, &step, |rest| {
                 displacement(lu, &base.space.slopes(rest))
             })
         {
@@ -49,8 +49,8 @@ where
         if limited {
             step = step.map(|value| value * radius / size);
         }
-        let Some((next, length)) = search(problem, &base, &slopes, &step, &weight) else {
-            let relative = relative_residual(problem, &base.q, at.0, at.1);
+        let Some((next, length)) = search(point, &base, &slopes, &step, &weight) else {
+            let relative = relative_residual(point, &base.q, at.0, at.1);
             if relative <= TOLERANCE {
                 return Ok(found(base, iterations));
             }
@@ -62,12 +62,12 @@ where
         } else if limited {
             radius *= 2.0;
         }
-        base = S::arrive(problem, next)?;
+        base = S::arrive(point, next)?;
         if largest_of(&base.q[..motions]) > escaped {
             break;
         }
     }
-    let relative = relative_residual(problem, &base.q, &base.residual, &base.stiffness);
+    let relative = relative_residual(point, &base.q, &base.residual, &base.stiffness);
     let reason = if largest_of(&base.q[..motions]) > escaped {
         NotFound::Escape
     } else {
@@ -78,7 +78,7 @@ where
 
 /// The state at a base as the result.
 fn found<S>(base: Base<S>, iterations: usize) -> Found {
-    let end = End {
+    let end = Candidate {
         coordinates: base.q,
         residual: base.residual,
         measured: None,
@@ -122,19 +122,19 @@ fn damped_step(residual: &[f64], stiffness: &Matrix, weight: &[f64]) -> Vector {
 }
 
 fn search<S>(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     base: &Base<S>,
     slopes: &[f64],
     step: &[f64],
     weight: &[f64],
 ) -> Option<(Trial, f64)>
 where
-    S: Space,
+    S: SearchSpace,
 {
     let before = merit(slopes, weight);
     let mut length = 1.0;
     for _ in 0..40 {
-        if let Some(trial) = base.space.trial(problem, &base.q, step, length)
+        if let Some(trial) = base.space.trial(point, &base.q, step, length)
             && merit(&base.space.slopes(&trial.residual), weight) <= before * (1.0 - 1e-4 * length)
         {
             return Some((trial, length));

@@ -8,7 +8,7 @@
 //! therefore not a residual, but how far rounding moves a state towards the singular configuration.
 
 use super::convergence::FLOOR;
-use super::problem::{Failure, Problem};
+use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::{Lu, Vector, dot, greater, largest};
 use crate::constraints::{ConstraintState, NEARLY, Tangent, placed};
 use crate::kernels::Linear;
@@ -27,23 +27,23 @@ const TAKES_PART: f64 = 1e-3;
 /// # Errors
 /// [`Failure::Unbalanced`] where they do not.
 pub(crate) fn constraint_state(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
     linear: &Linear,
 ) -> Result<ConstraintState, Failure> {
-    let structure = problem.structure;
+    let structure = point.structure;
     if structure.open() {
-        return Ok(ConstraintState::open(problem.size()));
+        return Ok(ConstraintState::open(point.size()));
     }
     let tangent = Tangent::new(linear, structure);
-    let place = (q, problem.inputs, problem.design);
-    let mut found = ConstraintState::new(problem.mechanism, place, &tangent);
+    let place = (q, point.inputs, point.design);
+    let mut found = ConstraintState::new(point.mechanism, place, &tangent);
     if found.singular || tangent.all.least > NEARLY {
         return Ok(found);
     }
-    let weakest = Weakest::new(problem, q, &tangent);
-    if weakest.moved(linear, &noise(problem, q, residual, linear)) <= KNOWN {
+    let weakest = Weakest::new(point, q, &tangent);
+    if weakest.moved(linear, &noise(point, q, residual, linear)) <= KNOWN {
         return Ok(found);
     }
     found.singular = true;
@@ -51,7 +51,7 @@ pub(crate) fn constraint_state(
         let share = (weakest.combination[place] * tangent.all.size[k]).abs() * tangent.all.least;
         found.dependent[place] |= share > TAKES_PART;
     }
-    let force = weakest.force(problem, q);
+    let force = weakest.force(point, q);
     if force == 0.0 {
         return Ok(found);
     }
@@ -65,10 +65,10 @@ pub(crate) fn constraint_state(
 
 /// Why a search that ended at `q` found nothing, if that is a singular configuration beside it in which forces do not balance.
 #[cold]
-pub(crate) fn unbalanced(problem: &Problem<'_>, q: &[f64]) -> Option<Failure> {
-    let linear = problem.linear(q).ok()?;
-    let residual = problem.residual(q);
-    let state = match constraint_state(problem, q, &residual, &linear) {
+pub(crate) fn unbalanced(point: &OperatingPoint<'_>, q: &[f64]) -> Option<Failure> {
+    let linear = point.linear(q).ok()?;
+    let residual = point.residual(q);
+    let state = match constraint_state(point, q, &residual, &linear) {
         Err(failure) => return Some(failure),
         Ok(state) => state,
     };
@@ -76,7 +76,7 @@ pub(crate) fn unbalanced(problem: &Problem<'_>, q: &[f64]) -> Option<Failure> {
         return None;
     }
     // In the singular configuration itself all its directions are free.
-    let tangent = Tangent::new(&linear, problem.structure);
+    let tangent = Tangent::new(&linear, point.structure);
     let uphill = tangent.lift(&tangent.project(&residual));
     let steepest = largest(&uphill);
     (steepest > 0.0).then(|| Failure::Unbalanced {
@@ -96,15 +96,15 @@ struct Weakest {
 }
 
 impl Weakest {
-    fn new(problem: &Problem<'_>, q: &[f64], tangent: &Tangent) -> Self {
+    fn new(point: &OperatingPoint<'_>, q: &[f64], tangent: &Tangent) -> Self {
         let (direction, combination) = tangent.all.weakest();
         let combination = placed(tangent.structure, &combination);
         // What they hold it by is `combination^T Khat direction`.
-        let none = Vector::zeros(problem.size());
-        let approach = problem.mechanism.pencil_gradient(
+        let none = Vector::zeros(point.size());
+        let approach = point.mechanism.pencil_gradient(
             q,
-            problem.inputs,
-            problem.design,
+            point.inputs,
+            point.design,
             [&combination, &none, &none, &direction],
         );
         Self {
@@ -124,11 +124,11 @@ impl Weakest {
 
     /// The force in the direction that is left to reactions; zero where it may be the stiffness over the distance from the singular
     /// configuration that makes it.
-    fn force(&self, problem: &Problem<'_>, q: &[f64]) -> f64 {
-        let motions = problem.motions();
+    fn force(&self, point: &OperatingPoint<'_>, q: &[f64]) -> f64 {
+        let motions = point.motions();
         let mut released = Vector::from(q);
         released[motions..].fill(0.0);
-        let Some((residual, stiffness)) = problem.evaluate_plain(&released) else {
+        let Some((residual, stiffness)) = point.evaluate_plain(&released) else {
             return f64::INFINITY;
         };
         let force = dot(&self.direction, &residual);
@@ -148,9 +148,9 @@ impl Weakest {
 }
 
 /// What a residual cannot tell from zero: what is left of it, or the rounding of what it is summed from.
-fn noise(problem: &Problem<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
-    let parts = problem.parts(q);
-    let unknowns = &problem.description.coordinates;
+fn noise(point: &OperatingPoint<'_>, q: &[f64], residual: &[f64], linear: &Linear) -> Vector {
+    let parts = point.parts(q);
+    let unknowns = &point.description.coordinates;
     Vector::from_fn(q.len(), |i| {
         let terms = (0..q.len()).fold(parts.inertia[i].abs() + parts.applied[i].abs(), |sum, j| {
             let angle = unknowns[j].unit.symbol == *"rad";

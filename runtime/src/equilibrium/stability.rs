@@ -1,12 +1,12 @@
 //! What the linearised mechanism says about the stability of an equilibrium.
 
-use super::problem::Failure;
+use super::operating_point::Failure;
 use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element};
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::symmetric;
 use crate::kernels::{Kernels, Linear};
 use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes};
-use crate::rounding::{self, Place, Sign, of_form, sign};
+use crate::rounding::{self, CheckedState, Sign, of_form, sign};
 use crate::{Behaviour, DampingKind, Description, Shared, Stability};
 
 /// What a state is, and which eigenvalues `lambda` cannot be told from zero.
@@ -39,7 +39,7 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
 /// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
 pub(crate) fn judge(
     mechanism: &dyn Kernels,
-    at: &Place<'_>,
+    at: &CheckedState<'_>,
     linear: &Linear,
 ) -> Result<Verdict, Failure> {
     let description = &mechanism.description();

@@ -1,6 +1,6 @@
 //! States that differ by full turns of angles: one place, if the mechanism is the same there.
 
-use super::problem::Problem;
+use super::operating_point::OperatingPoint;
 use crate::Description;
 use crate::algebra::{Vector, largest_element};
 use crate::constraints::Structure;
@@ -34,8 +34,8 @@ pub(crate) fn coincide(a: &[f64], b: &[f64], singular: bool, description: &Descr
 }
 
 /// Whether the mechanism is the same at two states that differ by full turns: no spring or screw counts the turns.
-pub(crate) fn turns_do_not_count(problem: &Problem<'_>, q: &[f64], turned: &[f64]) -> bool {
-    let (Some(a), Some(b)) = (problem.evaluate_plain(q), problem.evaluate_plain(turned)) else {
+pub(crate) fn turns_do_not_count(point: &OperatingPoint<'_>, q: &[f64], turned: &[f64]) -> bool {
+    let (Some(a), Some(b)) = (point.evaluate_plain(q), point.evaluate_plain(turned)) else {
         return false;
     };
     let same = |i: usize| {

@@ -4,7 +4,7 @@ use super::probability::{Probability, check_interval, normal_probability};
 use super::quadratic::Quadratic;
 use crate::Error;
 use crate::algebra::{Vector, all_finite, dot};
-use crate::second_order::distribution::normal::density;
+use crate::second_order::distribution::normal_cdf::density;
 use crate::tolerance::Tolerances;
 
 /// Margin of a quantity against a forbidden band, in the units of the quantity.

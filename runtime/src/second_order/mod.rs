@@ -1,8 +1,8 @@
 //! Second order: how frequencies depend on tolerances quadratically, and the exact distribution of such a quadratic model.
 
-mod band;
 mod curvature;
 mod distribution;
+mod forbidden_band;
 mod margin;
 mod moments;
 mod nonlinearity;
@@ -10,8 +10,8 @@ mod probability;
 mod quadratic;
 mod spread;
 
-pub use band::{Band, ModeMargin, mode_margin};
 pub use curvature::{ModeCurvature, SecondDerivatives, mode_curvature};
+pub use forbidden_band::{Band, ModeMargin, mode_margin};
 pub use margin::{Margin, MarginDerivatives, margin};
 pub use nonlinearity::Nonlinearity;
 pub use probability::Probability;

@@ -3,7 +3,7 @@
 use super::distribution::{Standard, Terms};
 use super::quadratic::Quadratic;
 use crate::Error;
-use crate::second_order::distribution::normal;
+use crate::second_order::distribution::normal_cdf;
 use crate::tolerance::Tolerances;
 
 /// A probability and how far it may be wrong.
@@ -81,7 +81,7 @@ impl Quadratic {
 /// `P(low < X < high)` of a normal `X`; without spread, whether the mean lies there.
 pub(super) fn normal_probability(mean: f64, sigma: f64, (low, high): (f64, f64)) -> f64 {
     if sigma > 0.0 {
-        let value = normal::between((low - mean) / sigma, (high - mean) / sigma);
+        let value = normal_cdf::between((low - mean) / sigma, (high - mean) / sigma);
         value.clamp(0.0, 1.0)
     } else {
         f64::from(u8::from(low <= mean && mean <= high))

@@ -1,9 +1,9 @@
 //! The front door: a mechanism, the values to study it at, and what to ask of it.
 
 // The documentation of `Study` shows its methods in the order of these modules: `Study::new` first.
+mod at_point;
 mod builder;
-mod questions;
-mod ranges;
+mod over_input;
 mod settings;
 mod solved;
 mod value;

@@ -3,7 +3,7 @@
 use super::points::CriticalState;
 use super::range::Range;
 use super::track::Following;
-use crate::branches::{BranchEnd, Continuation, Curve, SpecialPoint, Station};
+use crate::branches::{BranchEnd, Continuation, Curve, CurvePoint, SpecialPoint};
 use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
 use crate::{Equilibrium, Error, Input, Text};
@@ -44,7 +44,7 @@ pub fn critical_state(
     let mut found = None;
     let end = match curve.begin(&state) {
         Ok(station) => {
-            let stop = |special: &SpecialPoint, before: &Station| {
+            let stop = |special: &SpecialPoint, before: &CurvePoint| {
                 if before.stiff() {
                     found = Some(special.clone());
                 }

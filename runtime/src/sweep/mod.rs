@@ -2,9 +2,9 @@
 
 mod critical;
 mod crossing;
+mod driver;
 mod event_sensitivity;
 mod event_tolerance;
-mod follow;
 mod points;
 mod range;
 mod sensitivity_sweep;

@@ -1,6 +1,6 @@
 //! Derivatives along an input.
 
-use super::follow::follow;
+use super::driver::follow;
 use super::points::SweepPoint;
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;

@@ -1,7 +1,7 @@
 //! Sweeps of one input: each point starts from the equilibrium before it, and modes keep their identity.
 
 use super::critical::critical_states_on;
-use super::follow::follow;
+use super::driver::follow;
 use super::points::Sweep;
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;

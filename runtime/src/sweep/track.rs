@@ -4,7 +4,7 @@
 use super::points::SweepPoint;
 use crate::algebra::Vector;
 use crate::batched::{Block, Workspace};
-use crate::equilibrium::{Path, Policy, Problem, settle, settle_from_prediction};
+use crate::equilibrium::{OperatingPoint, Path, Policy, solve, solve_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{
     CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
@@ -130,15 +130,17 @@ impl<'a> Tracker<'a> {
         predicted: Option<&[f64]>,
     ) -> Result<(Equilibrium, bool), Error> {
         let inputs = self.inputs_at(value);
-        let problem = Problem::new(self.mechanism, &inputs, &self.design)?;
-        problem.check_start(from)?;
+        let operating_point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
+        operating_point.check_start(from)?;
         let predicted = predicted.filter(|_| self.policy == Policy::Stable);
-        if let Some(state) = predicted.and_then(|to| settle_from_prediction(&problem, from, to)) {
+        if let Some(state) =
+            predicted.and_then(|to| solve_from_prediction(&operating_point, from, to))
+        {
             return Ok((state, true));
         }
-        settle(&problem, from, self.policy)
+        solve(&operating_point, from, self.policy)
             .map(|state| (state, false))
-            .map_err(|failure| failure.explain(&problem.description))
+            .map_err(|failure| failure.explain(&operating_point.description))
     }
 
     /// Equilibrium and modes near a point, in the order and with the labels of its modes.
@@ -160,7 +162,7 @@ impl<'a> Tracker<'a> {
 
     /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
     /// them one by one would find.
-    pub(super) fn ahead(
+    pub(super) fn solve_block(
         &self,
         kernels: &dyn BatchKernels,
         (block, workspace): &mut (Block, Workspace),
@@ -190,7 +192,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn arrive(&mut self, point: SweepPoint, block: &Block, number: usize) {
+    pub(super) fn commit(&mut self, point: SweepPoint, block: &Block, number: usize) {
         for lane in number.saturating_sub(3)..number {
             self.path.go(block.values.0[lane], &block.state_of(lane));
         }

@@ -1,10 +1,9 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
 
 mod batched;
-mod declared;
 mod first_order;
 mod monte_carlo;
-mod normal;
+mod normal_sampling;
 mod outcome;
 mod outputs;
 mod pool;
@@ -12,8 +11,8 @@ mod sample;
 mod sampling;
 mod spread;
 mod statistics;
+mod tolerances;
 
-pub use declared::Tolerances;
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
 pub use monte_carlo::{MonteCarlo, Sampling, monte_carlo};
 pub use outcome::{Counts, Outcome};
@@ -21,6 +20,7 @@ pub use outputs::{OutputTolerances, output_tolerances};
 pub use sample::Sample;
 pub use spread::Spread;
 pub use statistics::Statistics;
+pub use tolerances::Tolerances;
 
 pub(crate) use sampling::Draw;
 pub(crate) use statistics::Moments;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::batched::{Prepared, Solved, Sums, TOGETHER};
+use super::batched::{Solved, Sums, TOGETHER, TaylorModel};
 use super::pool;
 use super::sample::Solution;
 use super::sampling::{Batches, Draw};
@@ -115,7 +115,7 @@ pub fn monte_carlo(
 ) -> Result<MonteCarlo, Error> {
     tolerances.check_count(nominal.design.len())?;
     let prepared = (sampling.vectors)
-        .and_then(|vectors| Prepared::new(mechanism, nominal, modes, tolerances, vectors));
+        .and_then(|vectors| TaylorModel::new(mechanism, nominal, modes, tolerances, vectors));
     let side_by_side = prepared.is_some();
     let run = Run {
         mechanism,
@@ -208,7 +208,7 @@ struct Run<'a> {
     modes: &'a Modes,
     tolerances: &'a Tolerances,
     sampling: &'a Sampling<'a>,
-    prepared: Option<Prepared<'a>>,
+    prepared: Option<TaylorModel<'a>>,
 }
 
 impl Run<'_> {
@@ -258,7 +258,7 @@ impl Run<'_> {
     /// Solves samples in batches, and alone those that no batch can vouch for.
     fn side_by_side(
         &self,
-        prepared: &Prepared<'_>,
+        prepared: &TaylorModel<'_>,
         room: &mut Room,
         draw: &mut Batches,
         number: usize,

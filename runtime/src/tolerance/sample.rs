@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use crate::algebra::Vector;
-use crate::equilibrium::{Problem, settle_into};
+use crate::equilibrium::{OperatingPoint, solve_into};
 use crate::kernels::Kernels;
 use crate::modes::{match_with_assurance, position};
 use crate::{Complex, Equilibrium, Mode, Modes, Policy};
@@ -58,9 +58,9 @@ impl Solution {
         design: &[f64],
     ) {
         self.places = Vector::default();
-        let settled = self.settle(mechanism, nominal, design);
-        self.solved = settled.is_ok();
-        self.outcome = match settled {
+        let found_state = self.solve_state(mechanism, nominal, design);
+        self.solved = found_state.is_ok();
+        self.outcome = match found_state {
             Err(outcome) => outcome,
             Ok(()) => Outcome::from(self.state.stability),
         };
@@ -76,7 +76,7 @@ impl Solution {
         }
     }
 
-    fn settle(
+    fn solve_state(
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
@@ -86,10 +86,10 @@ impl Solution {
         if mechanism.violation(inputs, design).is_some() {
             return Err(Outcome::Unphysical);
         }
-        let problem = Problem::unchecked(mechanism, inputs, design);
+        let point = OperatingPoint::unchecked(mechanism, inputs, design);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
-        settle_into(&problem, start, Policy::Stable, &mut self.state)
+        solve_into(&point, start, Policy::Stable, &mut self.state)
             .map_err(|failure| Outcome::from(&failure))
     }
 

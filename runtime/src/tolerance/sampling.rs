@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::Tolerances;
-use super::normal::standard_normal_pair;
+use super::normal_sampling::standard_normal_pair;
 use crate::algebra::Vector;
 use crate::scalar::{Lanes, WIDTH};
 

@@ -18,7 +18,7 @@ pub struct Operation {
     pub policy: Policy,
 }
 
-/// How the machines of the corpus and those of [`machines`] are run: away from critical states and, where a machine can bend, bent.
+/// How the machines of the corpus and those of [`machines`](crate::machines) are run: away from critical states and, where a machine can bend, bent.
 ///
 /// # Panics
 /// For an unknown name.

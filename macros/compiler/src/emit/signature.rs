@@ -56,7 +56,7 @@ fn documentation(kernel: &Kernel) -> String {
     {
         let _ = write!(
             text,
-            "\n\n`{}` = [{}]",
+            "\n\n`{} = [{}]`",
             parameter.name,
             parameter.entries.join(", ")
         );

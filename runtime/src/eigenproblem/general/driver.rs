@@ -7,7 +7,7 @@ use super::linearisation::Linearisation;
 use super::measure::Pair;
 use super::order::{finish, sort};
 use super::pencil::{Pencil, Products};
-use super::problem::{Eigenproblem, Scaled, not_found, scaled};
+use super::scaled_pencil::{Eigenproblem, Scaled, not_found, scaled};
 use super::scratch::{Work, take};
 use super::solver::Solver;
 use super::{Root, aberth, accuracy, cluster, hessenberg, schur};

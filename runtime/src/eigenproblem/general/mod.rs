@@ -25,7 +25,7 @@ mod order;
 mod pair;
 mod pencil;
 mod powers;
-mod problem;
+mod scaled_pencil;
 mod scaling;
 mod schur;
 mod scratch;
@@ -36,7 +36,7 @@ mod tests;
 use num_complex::Complex64;
 
 pub(crate) use driver::solve as roots_of;
-pub(crate) use problem::Eigenproblem;
+pub(crate) use scaled_pencil::Eigenproblem;
 
 use super::symmetric::Trouble;
 use crate::algebra::Vector;

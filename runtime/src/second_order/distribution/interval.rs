@@ -1,7 +1,7 @@
 //! The probability of an interval, by the method that suits the terms.
 
 use super::terms::Terms;
-use super::{Estimate, contour, davies, normal, single};
+use super::{Estimate, contour, davies, normal_cdf, single};
 
 /// Error beyond which a second method is asked.
 const ACCEPTED: f64 = 1e-11;
@@ -26,8 +26,8 @@ impl Terms {
     fn straight(&self, from: f64, to: f64) -> Estimate {
         let (from, to) = (from / self.normal, to / self.normal);
         Estimate {
-            value: normal::between(from, to).clamp(0.0, 1.0),
-            error: normal::end_error(from, 0.0) + normal::end_error(to, 0.0),
+            value: normal_cdf::between(from, to).clamp(0.0, 1.0),
+            error: normal_cdf::end_error(from, 0.0) + normal_cdf::end_error(to, 0.0),
         }
     }
 

@@ -3,7 +3,7 @@
 mod contour;
 mod davies;
 mod interval;
-pub(super) mod normal;
+pub(super) mod normal_cdf;
 mod single;
 mod standard;
 mod terms;

@@ -1,7 +1,7 @@
 //! One variable: the event is at most two intervals of it.
 
 use super::terms::Square;
-use super::{Estimate, normal};
+use super::{Estimate, normal_cdf};
 
 /// `P(from < c z + nu z^2 / 2 < to)` with `nu` not zero.
 pub(super) fn between(square: Square, from: f64, to: f64) -> Estimate {
@@ -17,9 +17,10 @@ pub(super) fn between(square: Square, from: f64, to: f64) -> Estimate {
     let inner = Pair::of(square, from);
     let value = match (&outer, &inner) {
         (None, _) => 0.0,
-        (Some(outer), None) => normal::between(outer.left, outer.right),
+        (Some(outer), None) => normal_cdf::between(outer.left, outer.right),
         (Some(outer), Some(inner)) => {
-            normal::between(outer.left, inner.left) + normal::between(inner.right, outer.right)
+            normal_cdf::between(outer.left, inner.left)
+                + normal_cdf::between(inner.right, outer.right)
         }
     };
     let error: f64 = [outer, inner].iter().flatten().map(Pair::error).sum();
@@ -69,7 +70,7 @@ impl Pair {
 
     fn error(&self) -> f64 {
         let ends = [self.left, self.right];
-        let errors = ends.map(|z| normal::end_error(z, z.abs() * self.slack));
+        let errors = ends.map(|z| normal_cdf::end_error(z, z.abs() * self.slack));
         errors[0] + errors[1]
     }
 }
@@ -98,9 +99,12 @@ mod tests {
         );
         near(
             chance(square, 25.0, f64::INFINITY),
-            2.0 * normal::upper(5.0),
+            2.0 * normal_cdf::upper(5.0),
         );
-        near(chance(square, 1.0, 4.0), 2.0 * normal::between(1.0, 2.0));
+        near(
+            chance(square, 1.0, 4.0),
+            2.0 * normal_cdf::between(1.0, 2.0),
+        );
         assert_eq!(chance(square, -3.0, -1.0), 0.0);
         assert_eq!(chance(square, -3.0, 0.0), 0.0);
         let mirrored = Square { c: 0.0, nu: -2.0 };
@@ -113,12 +117,12 @@ mod tests {
     #[test]
     fn slight_curvature_leaves_the_normal_tail() {
         let square = Square { c: 1.0, nu: 1e-17 };
-        near(chance(square, 8.0, f64::INFINITY), normal::upper(8.0));
+        near(chance(square, 8.0, f64::INFINITY), normal_cdf::upper(8.0));
         let square = Square {
             c: -1.0,
             nu: -1e-17,
         };
-        near(chance(square, 8.0, f64::INFINITY), normal::upper(8.0));
+        near(chance(square, 8.0, f64::INFINITY), normal_cdf::upper(8.0));
     }
 
     #[test]
@@ -127,11 +131,11 @@ mod tests {
         let square = Square { c: 3.0, nu: 1.0 };
         near(
             chance(square, f64::NEG_INFINITY, 8.0),
-            normal::between(-8.0, 2.0),
+            normal_cdf::between(-8.0, 2.0),
         );
         near(
             chance(square, -4.0, 8.0),
-            normal::between(-8.0, -4.0) + normal::between(-2.0, 2.0),
+            normal_cdf::between(-8.0, -4.0) + normal_cdf::between(-2.0, 2.0),
         );
         assert_eq!(chance(square, f64::NEG_INFINITY, -4.6), 0.0);
     }

@@ -10,13 +10,13 @@
     reason = "rows and columns of several matrices"
 )]
 
-mod prepared;
 mod samples;
 mod solve;
 mod stages;
 mod sums;
+mod taylor_model;
 
-pub(super) use prepared::Prepared;
 pub(super) use samples::Solved;
 pub(super) use solve::TOGETHER;
 pub(super) use sums::Sums;
+pub(super) use taylor_model::TaylorModel;

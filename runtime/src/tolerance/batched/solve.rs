@@ -2,7 +2,7 @@
 
 use super::samples::Solved;
 use super::stages;
-use super::{Prepared, Sums};
+use super::{Sums, TaylorModel};
 use crate::batched::algebra::for_size;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
@@ -13,7 +13,7 @@ const STEPS: usize = 6;
 /// processor can work on the next batch.
 pub(in crate::tolerance) const TOGETHER: usize = 4;
 
-impl Prepared<'_> {
+impl TaylorModel<'_> {
     /// Solves the members of some batches from their random bits, and adds them to `sums`.
     pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved], sums: &mut Sums) {
         self.instructions.run(Work {
@@ -33,7 +33,7 @@ impl Prepared<'_> {
 }
 
 struct Work<'a> {
-    prepared: &'a Prepared<'a>,
+    prepared: &'a TaylorModel<'a>,
     batches: &'a mut [Solved],
     sums: &'a mut Sums,
 }
@@ -57,7 +57,12 @@ impl Task for Work<'_> {
 }
 
 #[inline(always)]
-fn through<V: Lanes>(n: usize, prepared: &Prepared<'_>, batches: &mut [Solved], sums: &mut Sums) {
+fn through<V: Lanes>(
+    n: usize,
+    prepared: &TaylorModel<'_>,
+    batches: &mut [Solved],
+    sums: &mut Sums,
+) {
     let one = V::constant(1.0);
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {

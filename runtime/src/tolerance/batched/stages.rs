@@ -1,14 +1,14 @@
 //! The stages of a sample: design, prediction, steps to the equilibrium, matrices, modes.
 
-use super::prepared::FEW;
-use super::{Prepared, Solved};
+use super::taylor_model::FEW;
+use super::{Solved, TaylorModel};
 use crate::batched::POSITIVE;
 use crate::batched::algebra::{self, LARGEST, Row, Square, congruent, keep, load_matrix};
 use crate::batched::closed::{self, Solver};
 use crate::equilibrium::SMALL_MOTION;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, Lanes, WIDTH};
-use crate::tolerance::normal::standard_normal_pair;
+use crate::tolerance::normal_sampling::standard_normal_pair;
 
 /// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change
 /// of the stiffness, so that what remains is a share of it like that of the tolerances.
@@ -23,7 +23,7 @@ pub(super) const FAR: f64 = 6.0;
 
 /// `b = b_nominal + L z`, `z` standard normal.
 #[inline(always)]
-pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved, at: usize) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
     let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
     for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
@@ -50,7 +50,7 @@ pub(super) fn draw<V: Lanes>(prepared: &Prepared<'_>, batch: &mut Solved, at: us
 }
 
 /// Ones for the members whose bodies can exist.
-pub(super) fn possible(prepared: &Prepared<'_>, design: &[Batch], members: usize) -> Batch {
+pub(super) fn possible(prepared: &TaylorModel<'_>, design: &[Batch], members: usize) -> Batch {
     let mut flags = Batch([0.0; WIDTH]);
     let mut own = prepared.nominal.design.clone();
     for sample in 0..members {
@@ -66,7 +66,12 @@ pub(super) fn possible(prepared: &Prepared<'_>, design: &[Batch], members: usize
 
 /// The equilibrium as the derivatives of the nominal one predict it.
 #[inline(always)]
-pub(super) fn predict<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+pub(super) fn predict<V: Lanes>(
+    n: usize,
+    prepared: &TaylorModel<'_>,
+    batch: &mut Solved,
+    at: usize,
+) {
     let coordinates = &prepared.nominal.coordinates[..n];
     let (design, nominal) = (&batch.design[..], &prepared.nominal.design[..]);
     let mut q = [V::constant(0.0); LARGEST];
@@ -98,7 +103,12 @@ pub(super) fn predict<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut S
 
 /// A step of Newton's method; a sample fails where the stiffness is not positive definite on the way.
 #[inline(always)]
-pub(super) fn improve<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut Solved, at: usize) {
+pub(super) fn improve<V: Lanes>(
+    n: usize,
+    prepared: &TaylorModel<'_>,
+    batch: &mut Solved,
+    at: usize,
+) {
     let one = V::constant(1.0);
     let mut q: Row<V> = algebra::load(n, &batch.coordinates, at);
     let stiffness = load_matrix(n, &batch.stiffness, at);
@@ -125,7 +135,7 @@ pub(super) fn improve<V: Lanes>(n: usize, prepared: &Prepared<'_>, batch: &mut S
 #[inline(always)]
 pub(super) fn between_modes<V: Lanes>(
     n: usize,
-    prepared: &Prepared<'_>,
+    prepared: &TaylorModel<'_>,
     batch: &mut Solved,
     at: usize,
 ) {
@@ -150,7 +160,7 @@ pub(super) fn between_modes<V: Lanes>(
 #[inline(always)]
 pub(super) fn modes<V: Lanes>(
     n: usize,
-    prepared: &Prepared<'_>,
+    prepared: &TaylorModel<'_>,
     batch: &Solved,
     at: usize,
 ) -> (Row<V>, V) {

@@ -1,7 +1,7 @@
 //! How far the loops are open.
 
 use super::super::convergence::relative_gap;
-use super::super::problem::Problem;
+use super::super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector};
 
 /// Constraints on positions at a state, numbered from zero.
@@ -15,12 +15,12 @@ pub(in crate::equilibrium) struct Gaps {
 }
 
 /// The constraints on positions; `None` where they are not finite.
-pub(in crate::equilibrium) fn gaps(problem: &Problem<'_>, x: &[f64]) -> Option<Gaps> {
-    let structure = problem.structure;
+pub(in crate::equilibrium) fn gaps(point: &OperatingPoint<'_>, x: &[f64]) -> Option<Gaps> {
+    let structure = point.structure;
     let (residual, stiffness) =
-        problem
+        point
             .mechanism
-            .residual_and_stiffness(x, problem.inputs, problem.design);
+            .residual_and_stiffness(x, point.inputs, point.design);
     let mut found = Gaps {
         gaps: residual[structure.position_rows()].into(),
         rows: Matrix::zeros(structure.position_constraints, x.len()),

@@ -1,7 +1,7 @@
 //! A point on a branch with what is needed to go on from it, and the signs that tell that something lies between two.
 
 use super::curve::{Curve, Trouble, plane};
-use super::frame::{Frame, Place, System};
+use super::local_scaling::{CurvePosition, Frame, System};
 use crate::Description;
 use crate::algebra::{Cholesky, Vector, asymmetry};
 use crate::constraints::Structure;
@@ -12,12 +12,12 @@ use crate::modes::free_pairs;
 
 /// A regular point of a branch.
 #[derive(Clone, Debug)]
-pub(crate) struct Station {
-    pub(crate) place: Place,
+pub(crate) struct CurvePoint {
+    pub(crate) place: CurvePosition,
     pub(crate) equilibrium: Equilibrium,
     pub(crate) frame: Frame,
     /// Local unit tangent.
-    pub(crate) tangent: Place,
+    pub(crate) tangent: CurvePosition,
     pub(crate) signs: Signs,
 }
 
@@ -41,12 +41,12 @@ impl Curve<'_> {
     /// The station at a place on the branch, its tangent on the side of `towards` (SI units).
     pub(crate) fn station(
         &self,
-        place: &Place,
+        place: &CurvePosition,
         system: &System,
         equilibrium: Equilibrium,
-        towards: &Place,
+        towards: &CurvePosition,
         before: Option<&Signs>,
-    ) -> Result<Station, Trouble> {
+    ) -> Result<CurvePoint, Trouble> {
         let frame = self.frame(place, system);
         let scaled = frame.scaled(system);
         let singular = Trouble::Missed(NotFound::NotIsolated);
@@ -56,7 +56,7 @@ impl Curve<'_> {
             return Err(singular);
         };
         let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
-        let tangent = Place { q, p }.unit().ok_or(singular)?;
+        let tangent = CurvePosition { q, p }.unit().ok_or(singular)?;
         let vertical = tangent.p.abs() <= VERTICAL;
         let constraints = self.structure.constraints();
         let signs = Signs {
@@ -78,7 +78,7 @@ impl Curve<'_> {
         if signs.negative.is_some_and(|count| (count % 2 == 1) != odd) {
             return Err(Trouble::Missed(NotFound::SingularStiffness));
         }
-        Ok(Station {
+        Ok(CurvePoint {
             place: place.clone(),
             equilibrium,
             frame,
@@ -88,26 +88,26 @@ impl Curve<'_> {
     }
 
     /// The first station of a branch, its tangent towards the end of the range.
-    pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<Station, Trouble> {
-        let place = Place {
+    pub(crate) fn first_station(&self, equilibrium: Equilibrium) -> Result<CurvePoint, Trouble> {
+        let place = CurvePosition {
             q: equilibrium.coordinates.clone(),
             p: equilibrium.inputs[self.settings.input.index()],
         };
         let system = self.system(&place)?;
         let frame = self.frame(&place, &system);
         let scaled = frame.scaled(&system);
-        let axis = |k: Option<usize>| Place {
+        let axis = |k: Option<usize>| CurvePosition {
             q: Vector::from_fn(self.size(), |i| if k == Some(i) { 1.0 } else { 0.0 }),
             p: if k.is_none() { 1.0 } else { 0.0 },
         };
-        let mut best: Option<Place> = None;
+        let mut best: Option<CurvePosition> = None;
         let mut share = 0.0;
         for k in core::iter::once(None).chain((0..self.size()).map(Some)) {
             let Some(factors) = plane(&scaled, &axis(k)) else {
                 continue;
             };
             let (q, [p]) = factors.solve(&Vector::zeros(self.size()), [1.0]);
-            let found = Place { q, p };
+            let found = CurvePosition { q, p };
             if found.finite() && 1.0 / found.norm() > share {
                 share = 1.0 / found.norm();
                 best = found.unit();
@@ -121,7 +121,7 @@ impl Curve<'_> {
     }
 }
 
-impl Station {
+impl CurvePoint {
     /// The same point, looking back.
     pub(crate) fn reversed(&self) -> Self {
         Self {
@@ -142,7 +142,7 @@ impl Station {
     }
 
     /// Tangent in SI units.
-    pub(crate) fn direction(&self) -> Place {
+    pub(crate) fn direction(&self) -> CurvePosition {
         self.frame.stretched(&self.tangent)
     }
 }

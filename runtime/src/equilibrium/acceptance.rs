@@ -1,7 +1,7 @@
 //! The candidate solution: the last Newton step, and the acceptance tests of the state it leads to.
 
-use super::convergence::{TOLERANCE, is_rounding, relative_to, settled};
-use super::problem::Problem;
+use super::convergence::{TOLERANCE, is_rounding, relative_to, residual_is_small};
+use super::operating_point::OperatingPoint;
 use crate::algebra::{Matrix, Vector, add_scaled, all_finite, largest};
 use crate::kernels::Linear;
 
@@ -17,7 +17,7 @@ pub(crate) struct Found {
 
 impl Found {
     /// A state to which no unstable region was on the way.
-    pub(crate) fn new(end: End, iterations: usize) -> Self {
+    pub(crate) fn new(end: Candidate, iterations: usize) -> Self {
         Self {
             coordinates: end.coordinates,
             residual: end.residual,
@@ -36,29 +36,29 @@ pub(crate) struct Measured {
 }
 
 /// A state that may be the result.
-pub(crate) struct End {
+pub(crate) struct Candidate {
     pub(crate) coordinates: Vector,
     pub(crate) residual: Vector,
     /// Without constraints.
     pub(crate) measured: Option<Measured>,
 }
 
-impl End {
+impl Candidate {
     /// The state at `q`. Without constraints the parts of the residual, with which a result is measured, are the residual as well.
     #[inline]
-    pub(crate) fn at(problem: &Problem<'_>, q: Vector) -> Self {
-        if !problem.structure.open() {
+    pub(crate) fn at(point: &OperatingPoint<'_>, q: Vector) -> Self {
+        if !point.structure.open() {
             return Self {
-                residual: problem.residual(&q),
+                residual: point.residual(&q),
                 coordinates: q,
                 measured: None,
             };
         }
-        let (parts, linear) = problem.parts_and_linear(&q);
+        let (parts, linear) = point.parts_and_linear(&q);
         let residual = add_scaled(&parts.inertia, -1.0, &parts.applied);
-        let finite = all_finite(&residual) && problem.check(&q, &linear).is_ok();
+        let finite = all_finite(&residual) && point.check(&q, &linear).is_ok();
         let relative_residual = if finite {
-            relative_to(problem, &parts, &q, &residual, &linear.stiffness)
+            relative_to(point, &parts, &q, &residual, &linear.stiffness)
         } else {
             f64::INFINITY
         };
@@ -76,7 +76,7 @@ impl End {
     #[inline]
     pub(crate) fn is_solved(
         &self,
-        problem: &Problem<'_>,
+        point: &OperatingPoint<'_>,
         stiffness: &Matrix,
         tolerance: f64,
     ) -> bool {
@@ -84,7 +84,7 @@ impl End {
             Some(measured) => measured.relative_residual <= tolerance,
             None => {
                 let (q, residual) = (&self.coordinates, &self.residual);
-                all_finite(residual) && settled(problem, q, residual, stiffness, tolerance)
+                all_finite(residual) && residual_is_small(point, q, residual, stiffness, tolerance)
             }
         }
     }
@@ -94,15 +94,15 @@ impl End {
 /// what `displacement`, from a residual to the Newton step it asks for, says is nothing.
 #[inline]
 pub(crate) fn last_step(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     q: &[f64],
     (residual, stiffness): (&[f64], &Matrix),
     step: &[f64],
     displacement: impl FnOnce(&[f64]) -> Vector,
-) -> Option<End> {
-    let motions = problem.motions();
-    let end = End::at(problem, add_scaled(q, 1.0, step));
+) -> Option<Candidate> {
+    let motions = point.motions();
+    let end = Candidate::at(point, add_scaled(q, 1.0, step));
     let fell = largest(&end.residual) <= 1e-3 * largest(residual)
         || is_rounding(&displacement(&end.residual), &end.coordinates, motions);
-    (fell && end.is_solved(problem, stiffness, TOLERANCE)).then_some(end)
+    (fell && end.is_solved(point, stiffness, TOLERANCE)).then_some(end)
 }

@@ -7,7 +7,7 @@ use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::Family;
 use crate::scalar::{Batch, Instructions};
 use crate::tolerance::Tolerances;
-use crate::tolerance::normal::GREATEST_NORMAL;
+use crate::tolerance::normal_sampling::GREATEST_NORMAL;
 use crate::{Equilibrium, Modes, Stability};
 
 /// Design variables up to which second derivatives of the equilibrium shorten Newton's method.
@@ -23,7 +23,7 @@ const STRAIGHT: f64 = 0.007;
 const KERNELS: [&str; 2] = ["residual_and_stiffness", "linear"];
 
 /// The nominal state in the form that samples need.
-pub(in crate::tolerance) struct Prepared<'a> {
+pub(in crate::tolerance) struct TaylorModel<'a> {
     pub(super) kernels: &'a dyn BatchKernels,
     pub(in crate::tolerance) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium,
@@ -57,7 +57,7 @@ pub(in crate::tolerance) struct Prepared<'a> {
     pub(super) stiffening: Vec<Square<f64>>,
 }
 
-impl<'a> Prepared<'a> {
+impl<'a> TaylorModel<'a> {
     /// `None` where the mechanism is not of the kind that is solved in vectors, the nominal state is not a clear minimum with
     /// all of its modes, or nothing varies.
     pub(in crate::tolerance) fn new(

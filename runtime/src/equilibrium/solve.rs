@@ -1,72 +1,72 @@
 //! From a start value to an equilibrium that is finished: solved to rounding, judged, its reactions determined.
 
+use super::acceptance::{Found, Measured};
 use super::convergence::{ACCEPTED, relative_residual};
 use super::descent;
-use super::end::{Found, Measured};
+use super::operating_point::{Failure, OperatingPoint};
 use super::prediction::confirmed;
-use super::problem::{Failure, Problem};
 use super::regularity::{constraint_state, unbalanced};
-use super::{Equilibrium, Policy, assembly, newton, quick, space, stability};
+use super::{Equilibrium, Policy, assembly, newton, newton_fast_path, search_space, stability};
 use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
 use crate::error::NotFound;
 use crate::kernels::Linear;
-use crate::rounding::Place;
+use crate::rounding::CheckedState;
 use crate::{DampingKind, Stability};
 
 /// As [`equilibrium`](super::equilibrium), for values already checked.
-pub(crate) fn settle(
-    problem: &Problem<'_>,
+pub(crate) fn solve(
+    point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Failure> {
-    let mut state = problem.blank_state();
-    settle_into(problem, start, policy, &mut state)?;
+    let mut state = point.blank_state();
+    solve_into(point, start, policy, &mut state)?;
     Ok(state)
 }
 
-/// As [`settle`]: writes over a state of the same mechanism at these inputs and design variables.
-pub(crate) fn settle_into(
-    problem: &Problem<'_>,
+/// As [`solve`]: writes over a state of the same mechanism at these inputs and design variables.
+pub(crate) fn solve_into(
+    point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
     state: &mut Equilibrium,
 ) -> Result<(), Failure> {
-    if policy == Policy::Stable && has_open_potential(problem) {
-        match quick::quick(problem, start, state) {
-            Ok(()) => return judge(problem, state),
-            Err(place) => *state = from_afar(problem, start, &place)?,
+    if policy == Policy::Stable && has_open_potential(point) {
+        match newton_fast_path::newton_fast_path(point, start, state) {
+            Ok(()) => return judge(point, state),
+            Err(place) => *state = from_afar(point, start, &place)?,
         }
     } else {
-        *state = settle_slowly(problem, start, policy)?;
+        *state = solve_slowly(point, start, policy)?;
     }
     Ok(())
 }
 
 /// Whether stable states are minima of a potential of coordinates that no constraint holds.
-fn has_open_potential(problem: &Problem<'_>) -> bool {
-    problem.description.symmetric_stiffness && problem.structure.open()
+fn has_open_potential(point: &OperatingPoint<'_>) -> bool {
+    point.description.symmetric_stiffness && point.structure.open()
 }
 
-/// As [`settle`], for mechanisms with constraints and for those without a potential.
-fn settle_slowly(
-    problem: &Problem<'_>,
+/// As [`solve`], for mechanisms with constraints and for those without a potential.
+fn solve_slowly(
+    point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Failure> {
-    let structure = problem.structure;
+    let structure = point.structure;
     let closed;
     let start = if structure.open() {
         start
     } else {
-        closed = assembly::closed(problem, start, &vec![false; problem.size()])?.0;
+        closed = assembly::closed(point, start, &vec![false; point.size()])?.0;
         &closed
     };
-    let potential = problem.description.symmetric_stiffness && structure.holonomic();
+    let potential = point.description.symmetric_stiffness && structure.holonomic();
     if policy == Policy::Nearest || !potential {
-        return nearest(problem, start).and_then(|found| finish(problem, found));
+        return nearest(point, start).and_then(|found| finish(point, found));
     }
-    let mut found = from_afar(problem, start, &descent::Place::first(start));
+    let mut found = from_afar(point, start, &descent::SearchState::first(start));
     for _ in 0..descent::MAX_DEPARTURES {
         let Err(Failure::Unbalanced {
             coordinates,
@@ -76,93 +76,94 @@ fn settle_slowly(
         else {
             return found;
         };
-        let start = departed(problem, &coordinates, &downhill)?;
-        found =
-            from_afar(problem, &start, &descent::Place::first(&start)).map(|state| Equilibrium {
+        let start = departed(point, &coordinates, &downhill)?;
+        found = from_afar(point, &start, &descent::SearchState::first(&start)).map(|state| {
+            Equilibrium {
                 left_unstable_region: true,
                 ..state
-            });
+            }
+        });
     }
     found
 }
 
 /// Beside a singular configuration, on the way that the forces take there.
 #[cold]
-fn departed(problem: &Problem<'_>, from: &[f64], downhill: &[f64]) -> Result<Vector, Failure> {
+fn departed(point: &OperatingPoint<'_>, from: &[f64], downhill: &[f64]) -> Result<Vector, Failure> {
     let beside = add_scaled(from, descent::DEPARTURE, downhill);
-    assembly::closed(problem, &beside, &vec![false; problem.size()]).map(|(start, _)| start)
+    assembly::closed(point, &beside, &vec![false; point.size()]).map(|(start, _)| start)
 }
 
 /// The stable equilibrium next to a predicted state, `last` the one before it; `None` unless a straight way leads there and
 /// it is what was predicted. For mechanisms with a potential and without constraints.
-pub(crate) fn settle_from_prediction(
-    problem: &Problem<'_>,
+pub(crate) fn solve_from_prediction(
+    point: &OperatingPoint<'_>,
     last: &[f64],
     predicted: &[f64],
 ) -> Option<Equilibrium> {
-    if !has_open_potential(problem) {
+    if !has_open_potential(point) {
         return None;
     }
-    let mut state = problem.blank_state();
-    quick::quick(problem, predicted, &mut state).ok()?;
+    let mut state = point.blank_state();
+    newton_fast_path::newton_fast_path(point, predicted, &mut state).ok()?;
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
-    judge(problem, &mut state).ok()?;
+    judge(point, &mut state).ok()?;
     Some(state)
 }
 
-/// As [`settle`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
+/// As [`solve`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
 #[cold]
 fn from_afar(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
-    place: &descent::Place,
+    place: &descent::SearchState,
 ) -> Result<Equilibrium, Failure> {
-    let structure = problem.structure;
-    if let Some(state) = held(problem, start) {
+    let structure = point.structure;
+    if let Some(state) = gyroscopically_stabilised(point, start) {
         return Ok(state);
     }
     let found = if structure.open() {
-        descent::stable::<space::Whole>(problem, start, place)
+        descent::stable::<search_space::Unconstrained>(point, start, place)
     } else {
-        descent::stable::<space::Constrained>(problem, start, place)
-            .and_then(|found| polished(problem, found))
+        descent::stable::<search_space::ConstraintManifold>(point, start, place)
+            .and_then(|found| polished(point, found))
     };
     found
         .or_else(|failure| match failure {
             Failure::SingularMass(_) | Failure::Mode { .. } => Err(failure),
-            _ => nearest(problem, start).map_err(|_| failure),
+            _ => nearest(point, start).map_err(|_| failure),
         })
-        .and_then(|found| finish(problem, found))
+        .and_then(|found| finish(point, found))
         .map_err(|failure| match failure {
             Failure::NotFound {
                 ref coordinates, ..
-            } if !structure.open() => unbalanced(problem, coordinates).unwrap_or(failure),
+            } if !structure.open() => unbalanced(point, coordinates).unwrap_or(failure),
             _ => failure,
         })
 }
 
 /// The equilibrium nearest to `start`, which meets the constraints: along the positions that do where these are all there is
 /// to it, else on all unknowns together.
-fn nearest(problem: &Problem<'_>, start: &[f64]) -> Result<Found, Failure> {
-    let structure = problem.structure;
+fn nearest(point: &OperatingPoint<'_>, start: &[f64]) -> Result<Found, Failure> {
+    let structure = point.structure;
     let whole = || {
-        let independent = problem.without_redundant(start);
-        newton::nearest::<space::Whole>(&independent, start)
+        let independent = point.without_redundant(start);
+        newton::nearest::<search_space::Unconstrained>(&independent, start)
     };
     if structure.open() || !structure.holonomic() {
         return whole();
     }
-    newton::nearest::<space::Constrained>(problem, start)
-        .and_then(|found| polished(problem, found))
+    newton::nearest::<search_space::ConstraintManifold>(point, start)
+        .and_then(|found| polished(point, found))
         .or_else(|failure| whole().map_err(|_| failure))
 }
 
 /// The last steps on coordinates and reactions together.
-fn polished(problem: &Problem<'_>, found: Found) -> Result<Found, Failure> {
-    let independent = problem.without_redundant(&found.coordinates);
-    let last = newton::nearest::<space::Whole>(&independent, &found.coordinates)?;
+fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> {
+    let independent = point.without_redundant(&found.coordinates);
+    let last = newton::nearest::<search_space::Unconstrained>(&independent, &found.coordinates)?;
     Ok(Found {
         iterations: found.iterations + last.iterations,
         left_unstable_region: found.left_unstable_region,
@@ -171,32 +172,32 @@ fn polished(problem: &Problem<'_>, found: Found) -> Result<Found, Failure> {
 }
 
 /// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
-fn held(problem: &Problem<'_>, start: &[f64]) -> Option<Equilibrium> {
-    if problem.description.damping == DampingKind::Zero {
+fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Equilibrium> {
+    if point.description.damping == DampingKind::Zero {
         return None;
     }
-    let structure = problem.structure;
+    let structure = point.structure;
     let stiffness = if structure.open() {
-        problem.evaluate(start)?.1
+        point.evaluate(start)?.1
     } else {
-        let linear = problem.linear(start).ok()?;
+        let linear = point.linear(start).ok()?;
         Tangent::new(&linear, structure).reduce(&linear.stiffness)
     };
     if Cholesky::new(&stiffness).is_ok() {
         return None;
     }
-    let found = nearest(problem, start).ok()?;
-    let state = finish(problem, found).ok()?;
+    let found = nearest(point, start).ok()?;
+    let state = finish(point, found).ok()?;
     matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
 }
 
-fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failure> {
+fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Equilibrium, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
     } = match found.measured.take() {
         Some(measured) => measured,
-        None => measure(problem, &mut found)?,
+        None => measure(point, &mut found)?,
     };
     if relative.is_nan() || relative > ACCEPTED {
         return Err(Failure::NotFound {
@@ -206,7 +207,7 @@ fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failur
             relative,
         });
     }
-    let constraints = constraint_state(problem, &found.coordinates, &found.residual, &linear)?;
+    let constraints = constraint_state(point, &found.coordinates, &found.residual, &linear)?;
     let mut state = Equilibrium {
         coordinates: found.coordinates,
         linear,
@@ -215,55 +216,55 @@ fn finish(problem: &Problem<'_>, mut found: Found) -> Result<Equilibrium, Failur
         relative_residual: relative,
         iterations: found.iterations,
         left_unstable_region: found.left_unstable_region,
-        ..problem.blank_state()
+        ..point.blank_state()
     };
-    judge(problem, &mut state)?;
+    judge(point, &mut state)?;
     Ok(state)
 }
 
 /// What a solved state is: its stability, and how far joints are from singular poses.
-fn judge(problem: &Problem<'_>, state: &mut Equilibrium) -> Result<(), Failure> {
+fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<(), Failure> {
     (state.stability, state.rounding) = if state.constraints.singular {
         (Stability::Undecided, 0.0)
-    } else if at_rest_by_stiffness(problem) && stability::clearly_stable(&state.linear) {
+    } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
         (Stability::Stable, 0.0)
     } else {
-        let place = Place {
+        let place = CheckedState {
             coordinates: &state.coordinates,
-            inputs: problem.inputs,
-            design: problem.design,
+            inputs: point.inputs,
+            design: point.design,
             residual: &state.residual,
         };
-        stability::judge(problem.mechanism, &place, &state.linear)?
+        stability::judge(point.mechanism, &place, &state.linear)?
     };
-    state.pose = problem
+    state.pose = point
         .mechanism
-        .pose_margin(&state.coordinates, problem.inputs, problem.design);
+        .pose_margin(&state.coordinates, point.inputs, point.design);
     Ok(())
 }
 
 /// Determines the reactions of a state and measures it.
-fn measure(problem: &Problem<'_>, found: &mut Found) -> Result<Measured, Failure> {
-    let mut linear = problem.linear(&found.coordinates)?;
-    if problem.structure.constraints() > 1 {
-        if let Some(least) = least_reactions(&found.coordinates, &linear, problem.structure) {
-            linear = problem.linear(&least)?;
+fn measure(point: &OperatingPoint<'_>, found: &mut Found) -> Result<Measured, Failure> {
+    let mut linear = point.linear(&found.coordinates)?;
+    if point.structure.constraints() > 1 {
+        if let Some(least) = least_reactions(&found.coordinates, &linear, point.structure) {
+            linear = point.linear(&least)?;
             found.coordinates = least;
         }
         // With the gaps of constraints that were left out.
-        found.residual = problem.residual(&found.coordinates);
+        found.residual = point.residual(&found.coordinates);
     }
     let (q, residual) = (&found.coordinates, &found.residual);
     Ok(Measured {
-        relative_residual: relative_residual(problem, q, residual, &linear.stiffness),
+        relative_residual: relative_residual(point, q, residual, &linear.stiffness),
         linear,
     })
 }
 
 /// Whether positive masses and stiffnesses alone make a state stable.
-fn at_rest_by_stiffness(problem: &Problem<'_>) -> bool {
-    let undamped = problem.description.damping == DampingKind::Zero;
-    undamped && problem.description.symmetric_stiffness && problem.structure.open()
+fn at_rest_by_stiffness(point: &OperatingPoint<'_>) -> bool {
+    let undamped = point.description.damping == DampingKind::Zero;
+    undamped && point.description.symmetric_stiffness && point.structure.open()
 }
 
 /// The state with the least of the reactions that redundant constraints leave undetermined; `None` where they leave nothing.

@@ -11,8 +11,8 @@
 //! The first holds without a potential too. Nothing else of the solvers differs from those of an open mechanism.
 
 use super::convergence::{TOLERANCE, relative_gap};
-use super::problem::{Failure, Problem};
-use super::weights::weights;
+use super::operating_point::{Failure, OperatingPoint};
+use super::row_scaling::weights;
 use crate::algebra::{Lu, Matrix, Vector, add_scaled, add_to, all_finite_matrix, dot, times};
 use crate::constraints::Tangent;
 
@@ -35,12 +35,12 @@ pub(super) struct Trial {
 }
 
 /// The positions in the neighbourhood of a base.
-pub(super) trait Space: Sized {
+pub(super) trait SearchSpace: Sized {
     /// The base at a state that meets the constraints.
-    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure>;
+    fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure>;
 
     /// The base at the end of a step.
-    fn arrive(problem: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure>;
+    fn arrive(point: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure>;
 
     /// Slopes of the potential by free direction.
     fn slopes(&self, residual: &[f64]) -> Vector;
@@ -52,21 +52,27 @@ pub(super) trait Space: Sized {
     fn mass(&self, mass: &Matrix) -> Matrix;
 
     /// Weights that make the squares of the slopes comparable.
-    fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure>;
+    fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure>;
 
     /// Displacement of all unknowns for a displacement along free directions.
     fn lift(&self, y: &[f64]) -> Vector;
 
     /// The state at a share `length` of `step`; `None` where there is none.
-    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial>;
+    fn trial(
+        &self,
+        point: &OperatingPoint<'_>,
+        q: &[f64],
+        step: &[f64],
+        length: f64,
+    ) -> Option<Trial>;
 }
 
 /// All unknowns, constraints equations like the others.
-pub(super) struct Whole;
+pub(super) struct Unconstrained;
 
-impl Space for Whole {
-    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
-        let (residual, stiffness) = problem.evaluate_start(q)?;
+impl SearchSpace for Unconstrained {
+    fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
+        let (residual, stiffness) = point.evaluate_start(q)?;
         Ok(Base {
             q: q.into(),
             residual,
@@ -75,7 +81,7 @@ impl Space for Whole {
         })
     }
 
-    fn arrive(_: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
+    fn arrive(_: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
         Ok(Base {
             q: trial.q,
             residual: trial.residual,
@@ -96,17 +102,23 @@ impl Space for Whole {
         mass.clone()
     }
 
-    fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
-        weights(problem, q)
+    fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
+        weights(point, q)
     }
 
     fn lift(&self, y: &[f64]) -> Vector {
         y.into()
     }
 
-    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial> {
+    fn trial(
+        &self,
+        point: &OperatingPoint<'_>,
+        q: &[f64],
+        step: &[f64],
+        length: f64,
+    ) -> Option<Trial> {
         let q = add_scaled(q, length, step);
-        let (residual, stiffness) = problem.evaluate(&q)?;
+        let (residual, stiffness) = point.evaluate(&q)?;
         Some(Trial {
             q,
             residual,
@@ -117,7 +129,7 @@ impl Space for Whole {
 }
 
 /// With constraints on positions.
-pub(super) struct Constrained {
+pub(super) struct ConstraintManifold {
     tangent: Tangent,
     /// `n_k`.
     normals: Vec<Vector>,
@@ -128,7 +140,7 @@ const MAX_RETURNS: usize = 12;
 /// A step back must leave less than this share of the gaps, or rounding.
 const CONTRACTION: f64 = 0.5;
 
-impl Constrained {
+impl ConstraintManifold {
     /// The place among the unknowns of independent constraint `i`.
     fn row(&self, i: usize) -> usize {
         self.tangent.structure.motions() + self.tangent.positions.order[i]
@@ -160,7 +172,7 @@ impl Constrained {
     /// the metric. Also the residual and the stiffness there.
     fn back(
         &self,
-        problem: &Problem<'_>,
+        point: &OperatingPoint<'_>,
         from: &[f64],
         reach: f64,
     ) -> Option<(Vector, Vector, Matrix)> {
@@ -168,8 +180,8 @@ impl Constrained {
         let mut last = f64::INFINITY;
         for _ in 0..MAX_RETURNS {
             let q = add_scaled(from, 1.0, &self.along_normals(&c));
-            let (residual, stiffness) = problem.evaluate_plain(&q)?;
-            let gap = greatest_gap(problem, &q, &residual, &stiffness);
+            let (residual, stiffness) = point.evaluate_plain(&q)?;
+            let gap = greatest_gap(point, &q, &residual, &stiffness);
             if gap >= CONTRACTION * last && gap <= TOLERANCE {
                 return Some((q, residual, stiffness));
             }
@@ -189,23 +201,23 @@ impl Constrained {
 
 /// Greatest gap of the constraints on positions, relative to what small motions open.
 pub(super) fn greatest_gap(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     q: &[f64],
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let structure = problem.structure;
+    let structure = point.structure;
     structure.position_rows().fold(0.0, |most: f64, row| {
         let motions = &q[..structure.coordinates];
         most.max(relative_gap(residual[row], motions, &stiffness[row]))
     })
 }
 
-impl Space for Constrained {
-    fn base(problem: &Problem<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
-        let (residual, _) = problem.evaluate_start(q)?;
-        let linear = problem.linear(q)?;
-        let tangent = Tangent::new(&linear, problem.structure);
+impl SearchSpace for ConstraintManifold {
+    fn base(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Base<Self>, Failure> {
+        let (residual, _) = point.evaluate_start(q)?;
+        let linear = point.linear(q)?;
+        let tangent = Tangent::new(&linear, point.structure);
         let normals = (0..tangent.normal.rank).map(|k| tangent.normal.normal(k));
         let space = Self {
             normals: normals.collect(),
@@ -216,7 +228,7 @@ impl Space for Constrained {
         for (i, change) in change.iter().enumerate() {
             q[space.row(i)] -= change;
         }
-        let (residual, stiffness) = problem.evaluate_start(&q)?;
+        let (residual, stiffness) = point.evaluate_start(&q)?;
         Ok(Base {
             q,
             residual,
@@ -225,8 +237,8 @@ impl Space for Constrained {
         })
     }
 
-    fn arrive(problem: &Problem<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
-        Self::base(problem, &trial.q)
+    fn arrive(point: &OperatingPoint<'_>, trial: Trial) -> Result<Base<Self>, Failure> {
+        Self::base(point, &trial.q)
     }
 
     fn slopes(&self, residual: &[f64]) -> Vector {
@@ -242,7 +254,7 @@ impl Space for Constrained {
     }
 
     /// The basis is orthonormal in the metric of masses.
-    fn weights(_: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
+    fn weights(_: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
         Ok(Vector::filled(q.len(), 1.0))
     }
 
@@ -250,11 +262,17 @@ impl Space for Constrained {
         self.tangent.lift(y)
     }
 
-    fn trial(&self, problem: &Problem<'_>, q: &[f64], step: &[f64], length: f64) -> Option<Trial> {
+    fn trial(
+        &self,
+        point: &OperatingPoint<'_>,
+        q: &[f64],
+        step: &[f64],
+        length: f64,
+    ) -> Option<Trial> {
         let scaled = self.tangent.normal.scaled(step);
         let reach = length * dot(&scaled, &scaled).sqrt();
         let from = add_scaled(q, length, step);
-        let (mut q, residual, stiffness) = self.back(problem, &from, reach)?;
+        let (mut q, residual, stiffness) = self.back(point, &from, reach)?;
         let crossed = self.crossed(&stiffness);
         // Multipliers that balance the forces along the normals at the base.
         let forces: Vector = self
@@ -266,7 +284,7 @@ impl Space for Constrained {
         for (i, change) in change.iter().enumerate() {
             q[self.row(i)] -= change;
         }
-        let (residual, stiffness) = problem.evaluate_plain(&q)?;
+        let (residual, stiffness) = point.evaluate_plain(&q)?;
         let off = self.independent(&times(&stiffness, step));
         let bend = Lu::new(&crossed)?.solve(&off);
         let direction = add_scaled(step, -1.0, &self.along_normals(&bend));

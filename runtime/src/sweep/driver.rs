@@ -35,7 +35,7 @@ pub(crate) fn follow(
     while let Some((&value, behind)) = rest.split_first() {
         if possible && alone == 0 && !behind.is_empty() {
             let room = room.get_or_insert_with(|| tracker.block(with_slopes));
-            let number = tracker.ahead(kernels, room, rest);
+            let number = tracker.solve_block(kernels, room, rest);
             let (block, _) = room;
             if number > 0
                 && let Some(last) = tracker.last.take()
@@ -54,7 +54,7 @@ pub(crate) fn follow(
                     each(&station);
                 }
                 slopes = station.slopes;
-                tracker.arrive(station.point, block, number);
+                tracker.commit(station.point, block, number);
             }
             rest = &rest[number..];
             // Where the way bends too much for a whole block, so it does a little farther on.

@@ -1,15 +1,15 @@
 //! What makes the equations of Newton's method on all unknowns comparable.
 
-use super::problem::{Failure, Problem};
+use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::Vector;
 use crate::constraints::inertias;
 
 /// Inverse generalised masses: they make the squares of forces and of moments comparable. The gap of a constraint counts
 /// as the force with which the greatest stiffness of the mechanism would resist the motion that closes it; a reaction is the
 /// stiffness against a motion of one unit, for mechanisms that have no other.
-pub(super) fn weights(problem: &Problem<'_>, q: &[f64]) -> Result<Vector, Failure> {
-    let structure = problem.structure;
-    let linear = &problem.linear(q)?;
+pub(super) fn weights(point: &OperatingPoint<'_>, q: &[f64]) -> Result<Vector, Failure> {
+    let structure = point.structure;
+    let linear = &point.linear(q)?;
     let mut weight = Vector::zeros(q.len());
     if structure.open() {
         for (i, weight) in weight.iter_mut().enumerate() {

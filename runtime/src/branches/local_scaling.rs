@@ -4,12 +4,12 @@ use crate::algebra::{Matrix, Vector, add_scaled, all_finite, dot, greater};
 
 /// A point `(q, u_k)`, a displacement or a direction.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Place {
+pub(crate) struct CurvePosition {
     pub(crate) q: Vector,
     pub(crate) p: f64,
 }
 
-impl Place {
+impl CurvePosition {
     pub(crate) fn zero(n: usize) -> Self {
         Self {
             q: Vector::zeros(n),
@@ -77,15 +77,15 @@ pub(crate) struct System {
 /// Local coordinates about an origin: every unknown and every equation of order one.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
-    pub(crate) origin: Place,
-    units: Place,
+    pub(crate) origin: CurvePosition,
+    units: CurvePosition,
     rows: Vector,
 }
 
 impl Frame {
     /// The first `motions` unknowns are coordinates and speeds, the others reactions.
     pub(crate) fn new(
-        origin: Place,
+        origin: CurvePosition,
         size: f64,
         range: f64,
         system: &System,
@@ -106,32 +106,32 @@ impl Frame {
     }
 
     /// Length of a direction in SI units.
-    pub(crate) fn length(&self, direction: &Place) -> f64 {
+    pub(crate) fn length(&self, direction: &CurvePosition) -> f64 {
         direction.per(&self.units).norm()
     }
 
-    pub(crate) fn at(&self, origin: Place) -> Self {
+    pub(crate) fn at(&self, origin: CurvePosition) -> Self {
         Self {
             origin,
             ..self.clone()
         }
     }
 
-    pub(crate) fn place(&self, local: &Place) -> Place {
+    pub(crate) fn place(&self, local: &CurvePosition) -> CurvePosition {
         self.origin.plus(1.0, &local.by(&self.units))
     }
 
-    pub(crate) fn local(&self, place: &Place) -> Place {
+    pub(crate) fn local(&self, place: &CurvePosition) -> CurvePosition {
         self.direction(&place.plus(-1.0, &self.origin))
     }
 
     /// A direction in local coordinates.
-    pub(crate) fn direction(&self, direction: &Place) -> Place {
+    pub(crate) fn direction(&self, direction: &CurvePosition) -> CurvePosition {
         direction.per(&self.units)
     }
 
     /// A local direction in SI units; a gradient in SI units by local coordinates.
-    pub(crate) fn stretched(&self, local: &Place) -> Place {
+    pub(crate) fn stretched(&self, local: &CurvePosition) -> CurvePosition {
         local.by(&self.units)
     }
 
@@ -154,8 +154,14 @@ impl Frame {
 
 /// Units of unknowns and input. A reaction is measured by the work that it does on a unit of the coordinates it holds, with
 /// the work of the other forces on units of all as the unit: it weighs as much as what it balances.
-fn units(place: &Place, size: f64, range: f64, system: &System, motions: usize) -> Place {
-    let mut units = Place {
+fn units(
+    place: &CurvePosition,
+    size: f64,
+    range: f64,
+    system: &System,
+    motions: usize,
+) -> CurvePosition {
+    let mut units = CurvePosition {
         q: place.q.map(|value| size + value.abs()),
         p: range,
     };

@@ -11,7 +11,7 @@ use crate::{DampingKind, Description, Equilibrium, Error, Role, Shared, Stabilit
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
-pub(crate) struct Problem<'a> {
+pub(crate) struct OperatingPoint<'a> {
     pub(crate) mechanism: &'a dyn Kernels,
     pub(crate) description: Shared<Description>,
     pub(crate) structure: Structure,
@@ -23,15 +23,15 @@ pub(crate) struct Problem<'a> {
     dropped: Vec<bool>,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> OperatingPoint<'a> {
     /// Checks that the values are as many as they have to be, finite, and describe bodies that can exist.
     pub(crate) fn new(
         mechanism: &'a dyn Kernels,
         inputs: &'a [f64],
         design: &'a [f64],
     ) -> Result<Self, Error> {
-        let problem = Self::unchecked(mechanism, inputs, design);
-        let names = &problem.description;
+        let point = Self::unchecked(mechanism, inputs, design);
+        let names = &point.description;
         check_count("inputs", inputs, names.inputs.len())?;
         check_count("design variables", design, names.design.len())?;
         check_finite("input", |k| &names.inputs[k].name, inputs)?;
@@ -43,7 +43,7 @@ impl<'a> Problem<'a> {
                 value: violation.value,
             });
         }
-        Ok(problem)
+        Ok(point)
     }
 
     /// For values that a caller has checked itself.

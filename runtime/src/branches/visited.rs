@@ -2,7 +2,7 @@
 
 use super::Branch;
 use super::curve::Curve;
-use super::frame::{Frame, Place};
+use super::local_scaling::{CurvePosition, Frame};
 use crate::equilibrium::{turned_towards, turns_do_not_count};
 
 /// Local distance from a branch below which a place is on it.
@@ -10,18 +10,18 @@ const CLOSE: f64 = 1e-6;
 
 impl Curve<'_> {
     /// Whether a place, or one that differs from it by full turns and is the same state, lies on one of the branches.
-    pub(super) fn known(&self, branches: &[Branch], place: &Place) -> bool {
+    pub(super) fn known(&self, branches: &[Branch], place: &CurvePosition) -> bool {
         branches.iter().any(|branch| self.on(branch, place))
     }
 
-    fn on(&self, branch: &Branch, place: &Place) -> bool {
-        let at = |k: usize| Place {
+    fn on(&self, branch: &Branch, place: &CurvePosition) -> bool {
+        let at = |k: usize| CurvePosition {
             q: branch.points[k].equilibrium.coordinates.clone(),
             p: branch.points[k].value,
         };
         (1..branch.points.len()).any(|k| {
             let (from, to) = (at(k - 1), at(k));
-            let turned = Place {
+            let turned = CurvePosition {
                 q: turned_towards(&place.q, &from.q, &self.description),
                 p: place.p,
             };
@@ -30,7 +30,7 @@ impl Curve<'_> {
     }
 
     /// Whether a place on some branch lies on the piece of branch between two neighbouring points.
-    fn near(&self, from: &Place, to: &Place, place: &Place) -> bool {
+    fn near(&self, from: &CurvePosition, to: &CurvePosition, place: &CurvePosition) -> bool {
         let Ok(system) = self.system(from) else {
             return false;
         };
@@ -53,8 +53,8 @@ impl Curve<'_> {
     }
 
     /// Whether two places that differ by full turns are the same state.
-    fn same(&self, place: &Place, turned: &Place) -> bool {
+    fn same(&self, place: &CurvePosition, turned: &CurvePosition) -> bool {
         let inputs = self.inputs_at(place.p);
-        turns_do_not_count(&self.problem(&inputs), &place.q, &turned.q)
+        turns_do_not_count(&self.operating_point(&inputs), &place.q, &turned.q)
     }
 }

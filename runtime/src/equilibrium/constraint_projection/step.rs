@@ -1,7 +1,7 @@
 //! One step towards closed loops.
 
 use super::super::convergence::largest_of;
-use super::super::problem::Problem;
+use super::super::operating_point::OperatingPoint;
 use super::gaps::{Gaps, free, gaps};
 use crate::algebra::{Vector, add_scaled, dot};
 use crate::constraints::Rows;
@@ -59,7 +59,7 @@ pub(super) fn scaled(gaps: &[f64], rows: &Rows) -> Vector {
 /// depend on each other only where they are met: away from there their differences, which close by themselves as the
 /// squares of what is left, would slow the steps down to halves and leave half of the digits.
 pub(super) fn without_dependent(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     x: &[f64],
     at: &Gaps,
     held: &[bool],
@@ -71,14 +71,14 @@ pub(super) fn without_dependent(
     }
     let step = rows.shortest_of_independent(&at.gaps);
     let trial = add_scaled(x, -1.0, &step);
-    let there = gaps(problem, &trial)?;
+    let there = gaps(point, &trial)?;
     let falls = largest_of(&step) <= FIRST_RADIUS && there.relative <= FALLS * at.relative;
     falls.then_some((trial, there))
 }
 
 /// A Gauss-Newton step of least motion, halved a few times.
 pub(super) fn plain(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     x: &[f64],
     aim: &Aim<'_>,
     radius: &mut f64,
@@ -89,7 +89,7 @@ pub(super) fn plain(
     let mut length = limit;
     for _ in 0..4 {
         let trial = add_scaled(x, -length, &step);
-        if let Some(there) = gaps(problem, &trial)
+        if let Some(there) = gaps(point, &trial)
             && aim.improved(&there, 0.5 * length)
         {
             if length == limit && limit < 1.0 && aim.improved(&there, 1.5 * length) {
@@ -104,7 +104,7 @@ pub(super) fn plain(
 
 /// A step with as much damping as it takes.
 pub(super) fn damped(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     x: &[f64],
     aim: &Aim<'_>,
     (radius, damping): (&mut f64, &mut f64),
@@ -117,7 +117,7 @@ pub(super) fn damped(
             step = step.map(|value| value * *radius / size);
         }
         let trial = add_scaled(x, -1.0, &step);
-        if let Some(there) = gaps(problem, &trial)
+        if let Some(there) = gaps(point, &trial)
             && aim.improved(&there, 1e-12)
         {
             return Some((trial, there));

@@ -5,7 +5,7 @@ mod gaps;
 mod step;
 
 use super::convergence::{TOLERANCE, largest_of, relative_gap};
-use super::problem::{Failure, Problem};
+use super::operating_point::{Failure, OperatingPoint};
 use crate::algebra::{Matrix, Vector, add_to, dot};
 use crate::constraints::{Rows, Structure, inertias};
 use crate::error::NotClosed;
@@ -27,11 +27,11 @@ const BETTER: f64 = 0.9;
 /// iterations it took. A start in which no small motion closes the gaps, a mechanism laid out straight or in one point, is left
 /// by a kick.
 pub(super) fn close(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
     held: &[bool],
 ) -> Result<(Vector, usize), Failure> {
-    let first = match close_from(problem, start, held) {
+    let first = match close_from(point, start, held) {
         Err(failure @ (Failure::NotAssembled { .. } | Failure::OutsideDomain { .. })) => failure,
         other => return other,
     };
@@ -41,8 +41,8 @@ pub(super) fn close(
             Failure::NotAssembled { coordinates, .. } => coordinates,
             _ => start,
         };
-        let from = kicked(from, held, kick, problem.structure);
-        match close_from(problem, &from, held) {
+        let from = kicked(from, held, kick, point.structure);
+        match close_from(point, &from, held) {
             Ok(found) => return Ok(found),
             Err(next) if open_by(&next) < BETTER * open_by(&best) => best = next,
             Err(_) => {}
@@ -70,17 +70,17 @@ fn open_by(failure: &Failure) -> f64 {
 }
 
 fn close_from(
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
     held: &[bool],
 ) -> Result<(Vector, usize), Failure> {
-    let structure = problem.structure;
+    let structure = point.structure;
     let mut x = Vector::from(start);
-    let mut at = gaps(problem, &x).ok_or_else(|| Failure::OutsideDomain {
+    let mut at = gaps(point, &x).ok_or_else(|| Failure::OutsideDomain {
         what: "the constraints",
         coordinates: start.into(),
     })?;
-    let metric = metric(problem, &x);
+    let metric = metric(point, &x);
     let mut radius = FIRST_RADIUS;
     let mut damping = LEAST_DAMPING;
     let mut last = f64::INFINITY;
@@ -98,9 +98,9 @@ fn close_from(
         let next = if aim.minimal() {
             None
         } else {
-            without_dependent(problem, &x, &at, held, &metric)
-                .or_else(|| plain(problem, &x, &aim, &mut radius))
-                .or_else(|| damped(problem, &x, &aim, (&mut radius, &mut damping)))
+            without_dependent(point, &x, &at, held, &metric)
+                .or_else(|| plain(point, &x, &aim, &mut radius))
+                .or_else(|| damped(point, &x, &aim, (&mut radius, &mut damping)))
         };
         match next {
             Some((coordinates, there)) => (x, at) = (coordinates, there),
@@ -116,9 +116,9 @@ fn close_from(
 }
 
 /// What makes motions comparable: the roots of the masses that move.
-fn metric(problem: &Problem<'_>, x: &[f64]) -> Vector {
-    let linear = problem.mechanism.linear(x, problem.inputs, problem.design);
-    inertias(&linear, problem.structure).map(f64::sqrt)
+fn metric(point: &OperatingPoint<'_>, x: &[f64]) -> Vector {
+    let linear = point.mechanism.linear(x, point.inputs, point.design);
+    inertias(&linear, point.structure).map(f64::sqrt)
 }
 
 /// Why the gaps have a minimum.
@@ -160,13 +160,17 @@ fn not_assembled(
 }
 
 /// Speeds that meet the constraints on velocities as far as speeds can, those held fixed: the least change.
-pub(super) fn close_speeds(problem: &Problem<'_>, start: &[f64], held: &[bool]) -> Option<Vector> {
-    let structure = problem.structure;
+pub(super) fn close_speeds(
+    point: &OperatingPoint<'_>,
+    start: &[f64],
+    held: &[bool],
+) -> Option<Vector> {
+    let structure = point.structure;
     let places = structure.velocity_rows();
     let mut x = Vector::from(start);
     // The constraints are linear in the speeds: the second round removes rounding.
     for _ in 0..2 {
-        let (residual, stiffness) = problem.evaluate_plain(&x)?;
+        let (residual, stiffness) = point.evaluate_plain(&x)?;
         let rows = Rows::balanced(Matrix::from_fn(places.len(), x.len(), |k, j| {
             if structure.speed_range().contains(&j) && !held[j] {
                 stiffness[places.start + k][j]

@@ -3,9 +3,9 @@
 //! goes on with all that it has for hard cases.
 
 use super::Equilibrium;
-use super::convergence::{Last, TOLERANCE, is_rounding, last, relative_to};
-use super::descent::{GROWTH, Place, Way};
-use super::problem::Problem;
+use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_to};
+use super::descent::{GROWTH, LineModel, SearchState};
+use super::operating_point::OperatingPoint;
 use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, for_size, form, largest};
 use crate::kernels::RestParts;
 
@@ -15,15 +15,15 @@ const MAX_ITERATIONS: usize = 8;
 /// The minimum of the amended potential to which Newton steps lead from `start`, all of them through states where it is
 /// convex, written over `state` but for its stability; otherwise where that ended: at the last such state, or at the start.
 /// For mechanisms without constraints.
-pub(super) fn quick(
-    problem: &Problem<'_>,
+pub(super) fn newton_fast_path(
+    point: &OperatingPoint<'_>,
     start: &[f64],
     state: &mut Equilibrium,
-) -> Result<(), Place> {
+) -> Result<(), SearchState> {
     for_size(
-        problem.size(),
+        point.size(),
         #[inline(always)]
-        |n| newton(n, problem, start, state),
+        |n| newton(n, point, start, state),
     )
 }
 
@@ -31,16 +31,16 @@ pub(super) fn quick(
 #[inline(always)]
 fn newton(
     n: usize,
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     start: &[f64],
     state: &mut Equilibrium,
-) -> Result<(), Place> {
-    let (u, b) = (problem.inputs, problem.design);
+) -> Result<(), SearchState> {
+    let (u, b) = (point.inputs, point.design);
     let evaluate = |q: &[f64], residual: &mut [f64], stiffness: &mut Matrix| {
-        let mechanism = problem.mechanism;
+        let mechanism = point.mechanism;
         mechanism.residual_and_stiffness_into(q, u, b, residual, stiffness);
     };
-    let mut place = Place::first(start);
+    let mut place = SearchState::first(start);
     let (mut residual, mut stiffness) = (Vector::zeros(n), Matrix::zeros(n, n));
     let mut factors = Cholesky::zeros(n);
     let (mut step, mut next) = (Vector::zeros(n), Vector::zeros(n));
@@ -55,9 +55,9 @@ fn newton(
         factors.solve_of(n, step);
         step.iter_mut().for_each(|value| *value = -*value);
         let left = last(step, q, n);
-        if left != Last::More {
+        if left != StepsLeft::More {
             // A step that changes nothing is not taken.
-            let taken = left != Last::Reached;
+            let taken = left != StepsLeft::Reached;
             if !taken {
                 step.fill(0.0);
             }
@@ -66,7 +66,7 @@ fn newton(
             for ((end, q), step) in state.coordinates[..n].iter_mut().zip(&*q).zip(&*step) {
                 *end = q + step;
             }
-            return match ends(n, problem, residual, &factors, state) {
+            return match ends(n, point, residual, &factors, state) {
                 true => Ok(()),
                 false => Err(place),
             };
@@ -81,7 +81,7 @@ fn newton(
         }
         let slope = dot(step, residual);
         // A Newton step has as much curvature as it has slope.
-        let way = Way {
+        let way = LineModel {
             slope,
             curvature: -share * slope,
         };
@@ -106,19 +106,19 @@ fn newton(
 }
 
 /// Completes the state at the coordinates that the last step has reached. Whether it is solved: from `residual` before it, what
-/// remains fell to a small share or to rounding, as [`last_step`](super::end::last_step) wants it.
+/// remains fell to a small share or to rounding, as [`last_step`](super::acceptance::last_step) wants it.
 #[inline(always)]
 fn ends(
     n: usize,
-    problem: &Problem<'_>,
+    point: &OperatingPoint<'_>,
     before: &[f64],
     factors: &Cholesky,
     state: &mut Equilibrium,
 ) -> bool {
-    let (u, b) = (problem.inputs, problem.design);
+    let (u, b) = (point.inputs, point.design);
     let (q, linear) = (&state.coordinates[..n], &mut state.linear);
     let mut parts = RestParts::zeros(n);
-    problem
+    point
         .mechanism
         .parts_and_linear_into(q, u, b, &mut parts, linear);
     let residual = &mut state.residual[..n];
@@ -126,10 +126,10 @@ fn ends(
     for (rest, (inertia, applied)) in residual.iter_mut().zip(both) {
         *rest = inertia + -1.0 * applied;
     }
-    if !(all_finite(residual) && problem.check(q, linear).is_ok()) {
+    if !(all_finite(residual) && point.check(q, linear).is_ok()) {
         return false;
     }
-    state.relative_residual = relative_to(problem, &parts, q, residual, &linear.stiffness);
+    state.relative_residual = relative_to(point, &parts, q, residual, &linear.stiffness);
     let fell = largest(residual) <= 1e-3 * largest(before) || {
         let mut displacement = Vector::from(&*residual);
         factors.solve_of(n, &mut displacement[..n]);
@@ -143,7 +143,7 @@ mod tests {
     use super::*;
     use crate::algebra::add_scaled;
     use crate::equilibrium::descent::stable;
-    use crate::equilibrium::space::Whole;
+    use crate::equilibrium::search_space::Unconstrained;
     use crate::mechanism;
 
     mechanism! {
@@ -164,21 +164,23 @@ mod tests {
         let mut alone = 0;
         for omega in [0.0, 1.0, 3.0, 3.3, 5.0, 9.0] {
             let inputs = [omega];
-            let problem = Problem::unchecked(&DoublePendulum, &inputs, &[]);
+            let point = OperatingPoint::unchecked(&DoublePendulum, &inputs, &[]);
             for k in 0..400_i32 {
                 let start = [0.47 * f64::from(k % 20 - 10), 0.41 * f64::from(k / 20 - 10)];
-                let Ok(expected) = stable::<Whole>(&problem, &start, &Place::first(&start)) else {
+                let Ok(expected) =
+                    stable::<Unconstrained>(&point, &start, &SearchState::first(&start))
+                else {
                     panic!("no state from {start:?}")
                 };
-                let mut state = problem.blank_state();
-                let found = match quick(&problem, &start, &mut state) {
+                let mut state = point.blank_state();
+                let found = match newton_fast_path(&point, &start, &mut state) {
                     Ok(()) => {
                         alone += 1;
                         assert!(!expected.left_unstable_region, "{omega} {start:?}");
                         Ok(state.coordinates)
                     }
                     Err(place) => {
-                        let found = stable::<Whole>(&problem, &start, &place);
+                        let found = stable::<Unconstrained>(&point, &start, &place);
                         found.map(|found| found.coordinates)
                     }
                 };
