@@ -90,7 +90,7 @@ pub(crate) fn states<M: Mechanism>() -> Vec<State<M>> {
     (0..INPUTS).map(state).collect()
 }
 
-fn ours<M: Mechanism + 'static>(chain: M, function: &str) -> Box<dyn Work> {
+pub(crate) fn ours<M: Mechanism + 'static>(chain: M, function: &str) -> Box<dyn Work> {
     let inputs = states();
     let again = chain.clone();
     match function {

@@ -11,10 +11,10 @@ use crate::tools::Tools;
 use crate::work::{AGREEMENT, Task, Work};
 
 /// Functions that are timed, by the names of CasADi's side.
-const FUNCTIONS: [&str; 3] = ["residual_and_stiffness", "linear", "mode_gradient"];
+pub(crate) const FUNCTIONS: [&str; 3] = ["residual_and_stiffness", "linear", "mode_gradient"];
 
 /// Vectors with four and eight numbers, where this processor has them.
-fn vectors() -> impl Iterator<Item = (&'static str, Instructions)> {
+pub(crate) fn vectors() -> impl Iterator<Item = (&'static str, Instructions)> {
     let sets = Instructions::available().skip(1);
     ["lanes4", "lanes8"].into_iter().zip(sets)
 }
@@ -63,7 +63,7 @@ impl Visitor for Collector<'_> {
 }
 
 /// As many states as a batch holds.
-struct States {
+pub(crate) struct States {
     q: Vec<Batch>,
     u: Vec<Batch>,
     b: Vec<Batch>,
@@ -78,7 +78,7 @@ impl States {
     }
 }
 
-fn states<M: Mechanism>() -> Vec<States> {
+pub(crate) fn states<M: Mechanism>() -> Vec<States> {
     fn gather<M: Mechanism>(states: &[State<M>], field: fn(&State<M>) -> &[f64]) -> Vec<Batch> {
         let count = field(&states[0]).len();
         let batch = |k| Batch::from_fn(|lane| field(&states[lane])[k]);
@@ -128,7 +128,7 @@ where
     }
 }
 
-fn ours(
+pub(crate) fn ours(
     chain: Box<dyn BatchKernels>,
     inputs: Vec<States>,
     function: &str,

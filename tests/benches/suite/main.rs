@@ -8,6 +8,7 @@ mod counting;
 mod declaration;
 mod facts;
 mod growth;
+mod interpreted;
 mod lanes;
 mod operations;
 mod pendulum;
@@ -89,6 +90,7 @@ fn tasks(wanted: &dyn Fn(&str) -> bool, tools: &mut Tools) -> Result<Vec<Task>, 
     tasks.extend(arm::tasks(wanted, tools));
     tasks.extend(chains::tasks(wanted, tools));
     tasks.extend(lanes::tasks(wanted, tools));
+    tasks.extend(interpreted::tasks(wanted));
     Ok(tasks)
 }
 
