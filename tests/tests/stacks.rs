@@ -131,9 +131,9 @@ fn every_question_is_asked() {
             .collect()
     };
     for (file, asked) in [
-        ("questions", names(at_one_state())),
+        ("at_point", names(at_one_state())),
         ("solved", names(of_what_is_solved())),
-        ("ranges", names(along_an_input())),
+        ("over_input", names(along_an_input())),
     ] {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src/study");
         let source = fs::read_to_string(folder.join(file).with_extension("rs")).expect("a source");
