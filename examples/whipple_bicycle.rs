@@ -176,7 +176,7 @@ fn limit(out: &mut dyn Write, what: &str, event: &EventTolerance) -> Result<(), 
             "    {:<6} {:5.1} % of the variance, {:+.4} m/s for one tolerance more",
             info.name,
             100.0 * spread.variance_shares[k],
-            spread.by_design[k] * info.tolerance,
+            spread.by_design[k] * info.tolerance.upper,
         )?;
     }
     writeln!(out)?;

@@ -124,8 +124,8 @@ pub use eigentol_macros::mechanism;
 pub use mechanism::{Any, Coordinate, DesignVariable, Input, Output};
 pub use mechanism::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
-    Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared, Text,
-    Unit, Violation,
+    Law, Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared,
+    Text, ToleranceInfo, Unit, Violation,
 };
 pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
 pub use scalar::{Dual, Real};

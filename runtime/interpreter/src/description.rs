@@ -2,7 +2,7 @@
 
 use eigentol::{
     CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, OutputInfo, Role,
-    Text, Unit,
+    Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
@@ -49,6 +49,7 @@ pub(crate) fn description(compilation: &Compilation) -> Description {
         .map(|input| InputInfo {
             name: text(input.name.to_string()),
             unit: unit(&input.unit),
+            tolerance: ToleranceInfo::NONE,
         })
         .collect();
     let design: Vec<_> = mechanism
@@ -58,7 +59,7 @@ pub(crate) fn description(compilation: &Compilation) -> Description {
             name: text(variable.name.to_string()),
             unit: unit(&variable.unit),
             nominal: variable.nominal,
-            tolerance: variable.tolerance,
+            tolerance: ToleranceInfo::half_width(variable.tolerance),
         })
         .collect();
     let outputs: Vec<_> = mechanism

@@ -1,6 +1,7 @@
 //! What a mechanism is made of: names, units, what the compiler proved, what its kernels cost.
 
 use super::shared::{List, Text};
+use super::tolerance::ToleranceInfo;
 
 /// What a mechanism is made of, and what the compiler proved about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,6 +125,8 @@ pub struct InputInfo {
     pub name: Text,
     /// Declared unit; kernels take SI.
     pub unit: Unit,
+    /// The declared tolerance.
+    pub tolerance: ToleranceInfo,
 }
 
 /// A design variable.
@@ -135,8 +138,8 @@ pub struct DesignInfo {
     pub unit: Unit,
     /// Nominal value, SI.
     pub nominal: f64,
-    /// Half-width of the declared tolerance, SI; zero when none is declared.
-    pub tolerance: f64,
+    /// The declared tolerance.
+    pub tolerance: ToleranceInfo,
 }
 
 /// A declared output.

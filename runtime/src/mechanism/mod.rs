@@ -5,6 +5,7 @@ mod description;
 mod handles;
 mod results;
 mod shared;
+mod tolerance;
 
 pub use array::Array;
 pub use description::{
@@ -14,6 +15,7 @@ pub use description::{
 pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
 pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Violation};
 pub use shared::{List, Shared, Text};
+pub use tolerance::{Law, ToleranceInfo};
 
 use crate::Real;
 use crate::scalar::Dual;

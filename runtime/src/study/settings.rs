@@ -61,7 +61,7 @@ impl Settings {
             family: None,
             half_widths: design
                 .iter()
-                .map(|info| half_width(info.tolerance))
+                .map(|info| half_width(info.tolerance.upper))
                 .collect(),
             sigma_level: 3.0,
             correlation: None,

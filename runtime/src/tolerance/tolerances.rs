@@ -24,7 +24,7 @@ impl Tolerances {
     /// [`Error::Setting`] when a declared half-width is negative or not finite.
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = description.design.iter();
-        let half_widths: Vector = infos.map(|info| info.tolerance).collect();
+        let half_widths: Vector = infos.map(|info| info.tolerance.upper).collect();
         Self::new(half_widths, 3.0, None)
     }
 

@@ -24,7 +24,9 @@ pub mod dual;
 pub mod models;
 pub mod pendulum;
 
-use eigentol::{CoordinateInfo, DesignInfo, InputInfo, Role, Shared, Unit, Violation};
+use eigentol::{
+    CoordinateInfo, DesignInfo, InputInfo, Role, Shared, ToleranceInfo, Unit, Violation,
+};
 
 pub const RAD: Unit = Unit {
     symbol: Shared::Static("rad"),
@@ -66,6 +68,7 @@ pub const fn input(name: &'static str, unit: Unit) -> InputInfo {
     InputInfo {
         name: Shared::Static(name),
         unit,
+        tolerance: ToleranceInfo::NONE,
     }
 }
 
@@ -74,7 +77,7 @@ pub const fn design(name: &'static str, unit: Unit, nominal: f64, tolerance: f64
         name: Shared::Static(name),
         unit,
         nominal,
-        tolerance,
+        tolerance: ToleranceInfo::half_width(tolerance),
     }
 }
 

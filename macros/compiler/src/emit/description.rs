@@ -32,11 +32,15 @@ pub(super) fn description(
     });
     let inputs = mechanism.inputs.iter().map(|input| {
         let (name, unit) = (input.name.to_string(), unit(&input.unit));
-        quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit } }
+        quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, tolerance: ::eigentol::ToleranceInfo::NONE } }
     });
     let design = mechanism.design.iter().map(|variable| {
         let (name, unit) = (variable.name.to_string(), unit(&variable.unit));
-        let (nominal, tolerance) = (variable.nominal, variable.tolerance);
+        let nominal = variable.nominal;
+        let tolerance = match variable.tolerance {
+            0.0 => quote!(::eigentol::ToleranceInfo::NONE),
+            half_width => quote!(::eigentol::ToleranceInfo::half_width(#half_width)),
+        };
         quote! {
             ::eigentol::DesignInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, nominal: #nominal, tolerance: #tolerance }
         }

@@ -1,0 +1,25 @@
+//! Everything that can go wrong.
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An argument or a setting makes no sense.
+    #[error("{setting}: {reason}")]
+    Setting {
+        /// Which one.
+        setting: &'static str,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Two lists that belong together differ in length.
+    #[error("{found} {kind}, expected {expected}")]
+    WrongLength {
+        /// What they are.
+        kind: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+}
