@@ -22,4 +22,14 @@ pub enum Error {
         /// How many there should be.
         expected: usize,
     },
+    /// There is no element of this number.
+    #[error("there is no {kind} {index}: they are numbered from 0, and there are {number}")]
+    BeyondLast {
+        /// What is counted.
+        kind: &'static str,
+        /// The number that was asked for.
+        index: u64,
+        /// How many there are.
+        number: u64,
+    },
 }
