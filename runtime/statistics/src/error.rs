@@ -32,4 +32,10 @@ pub enum Error {
         /// How many there are.
         number: u64,
     },
+    /// A number is not finite, or has become so.
+    #[error("{kind} is not finite")]
+    NotFinite {
+        /// What it is.
+        kind: &'static str,
+    },
 }

@@ -4,6 +4,7 @@
 //! Functions take slices of numbers in any consistent units.
 
 mod error;
+pub mod quadrature;
 pub mod sequence;
 
 pub use error::Error;
