@@ -38,4 +38,26 @@ pub enum Error {
         /// What it is.
         kind: &'static str,
     },
+    /// There are not enough of something.
+    #[error("{found} {kind}, at least {needed} are needed")]
+    TooFew {
+        /// Of what.
+        kind: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// Something that should vary does not.
+    #[error("{what} never varies: leave it out, or sample it over a range")]
+    Constant {
+        /// What it is.
+        what: String,
+    },
+    /// An input is a linear function of those before it.
+    #[error("input {input} is a linear function of those before it: leave one of them out")]
+    Dependent {
+        /// Which one.
+        input: usize,
+    },
 }

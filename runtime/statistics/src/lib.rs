@@ -5,6 +5,7 @@
 
 mod error;
 pub mod quadrature;
+pub mod sensitivity;
 pub mod sequence;
 
 pub use error::Error;

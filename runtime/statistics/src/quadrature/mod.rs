@@ -4,6 +4,8 @@
 mod gauss_hermite;
 mod polynomial;
 mod sparse;
+#[cfg(test)]
+mod sparse_tests;
 mod sparse_walk;
 mod tensor;
 #[cfg(test)]

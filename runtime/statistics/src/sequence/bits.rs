@@ -18,7 +18,7 @@ pub(super) fn keys(seed: u64, stream: u64, number: usize) -> Vec<u64> {
 }
 
 /// The generator of a stream, at its beginning.
-pub(super) fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
+pub(crate) fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(stream);
     random

@@ -77,7 +77,7 @@ mod tests {
         let mut factors = Vec::new();
         let mut divisor = 2;
         while divisor * divisor <= number {
-            if number % divisor == 0 {
+            if number.is_multiple_of(divisor) {
                 factors.push(divisor);
                 number /= divisor;
             } else {

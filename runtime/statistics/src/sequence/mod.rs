@@ -14,6 +14,8 @@ mod bits;
 mod cursor;
 mod direction_numbers;
 mod latin_hypercube;
+#[cfg(test)]
+mod net_tests;
 mod permutation;
 mod random;
 mod scrambling;
@@ -28,6 +30,7 @@ use random::{Random, draw};
 use scrambling::DIGITS;
 use sobol::Sobol;
 
+pub(crate) use bits::generator;
 pub use cursor::Cursor;
 
 /// A set of points in the open unit cube of some dimension.

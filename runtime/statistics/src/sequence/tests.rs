@@ -1,8 +1,10 @@
 //! Point sets against what defines them, and against integrals of known value.
 
+use proptest::prelude::*;
+
 use super::*;
 
-fn points(sequence: &Sequence, from: u64, number: usize) -> Vec<Vec<f64>> {
+pub(super) fn points(sequence: &Sequence, from: u64, number: usize) -> Vec<Vec<f64>> {
     let mut walk = sequence.from(from);
     let mut points = Vec::new();
     while let Some(point) = walk.next_point().filter(|_| points.len() < number) {
@@ -118,64 +120,6 @@ fn first_points_are_the_published_ones() {
     }
 }
 
-/// Every elementary interval of volume `2^(t-m)` holds `2^t` of `2^m` points.
-fn is_net(points: &[Vec<f64>], m: u32, t: u32) -> bool {
-    let dimensions = points[0].len();
-    let balanced = |digits: &[u32]| {
-        let mut counts = vec![0_u64; 1 << (m - t)];
-        for point in points {
-            let cell = point.iter().zip(digits).fold(0, |cell, (x, digits)| {
-                let side = (1_u64 << digits) as f64;
-                cell << digits | (x * side) as usize
-            });
-            counts[cell] += 1;
-        }
-        counts.into_iter().all(|count| count == 1 << t)
-    };
-    shares(m - t, dimensions)
-        .iter()
-        .all(|digits| balanced(digits))
-}
-
-/// All ways to share a number of digits out among dimensions.
-fn shares(digits: u32, dimensions: usize) -> Vec<Vec<u32>> {
-    if dimensions == 1 {
-        return vec![vec![digits]];
-    }
-    let with = |first: u32| {
-        let rest = shares(digits - first, dimensions - 1);
-        rest.into_iter()
-            .map(move |rest| [vec![first], rest].concat())
-    };
-    (0..=digits).flat_map(with).collect()
-}
-
-/// The quality parameter of the Sobol' sequence is the sum of the degrees of the polynomials less one each (Sobol' 1967): the
-/// degrees are 0, 1, 2, 3, 3, and the first dimension counts as degree 1.
-#[test]
-fn points_form_nets() {
-    for (dimensions, t) in [(1, 0), (2, 0), (3, 1), (4, 3), (5, 5)] {
-        for m in [t, t + 1, t + 4, 10] {
-            for block in [0, 1, 5] {
-                let number = 1 << m;
-                let plain = Sequence::unscrambled_sobol(dimensions).unwrap();
-                assert!(is_net(
-                    &points(&plain, block * number, number as usize),
-                    m,
-                    t
-                ));
-                for stream in 0..3 {
-                    let sequence = Sequence::sobol(dimensions, 17, stream).unwrap();
-                    let points = points(&sequence, block * number, number as usize);
-                    assert!(is_net(&points, m, t), "{dimensions} {m} {block} {stream}");
-                }
-            }
-        }
-    }
-    let random = Sequence::random(2, 17, 0).unwrap();
-    assert!(!is_net(&points(&random, 0, 64), 6, 0));
-}
-
 /// The exponent with which the error falls, and the last error: root of the mean square over independent randomisations.
 fn order(sequence: impl Fn(u64, u64) -> Sequence, f: impl Fn(&[f64]) -> f64, exact: f64) -> f64 {
     let rmse = |n: u64| {
@@ -207,6 +151,32 @@ fn errors_fall_as_theory_says() {
     assert!((-1.6..-1.4).contains(&additive), "{additive}");
     let interaction = order(sample, |x| (x[0] - 0.5) * (x[1] - 0.5), 0.0);
     assert!((-0.6..-0.4).contains(&interaction), "{interaction}");
+}
+
+proptest! {
+    #[test]
+    fn any_latin_hypercube_is_stratified(n in 1..300_u64, seed: u64, stream: u64) {
+        let sequence = Sequence::latin_hypercube(2, n, seed, stream).unwrap();
+        let all = points(&sequence, 0, usize::MAX);
+        for j in 0..2 {
+            let mut strata: Vec<u64> = all.iter().map(|x| (x[j] * n as f64) as u64).collect();
+            strata.sort_unstable();
+            prop_assert!(strata.into_iter().eq(0..n));
+        }
+    }
+
+    #[test]
+    fn any_point_is_the_same_alone_and_on_a_walk(first in 0..1_u64 << 36, seed: u64, stream: u64) {
+        let latin = Sequence::latin_hypercube(3, 1 << 32, seed, stream).unwrap();
+        for sequence in [Sequence::random(3, seed, stream).unwrap(), latin, Sequence::sobol(3, seed, stream).unwrap()] {
+            let mut alone = [0.0; 3];
+            for (k, point) in (first..).zip(points(&sequence, first, 4)) {
+                sequence.point(k, &mut alone).unwrap();
+                prop_assert_eq!(&alone[..], &point[..]);
+                prop_assert!(alone.iter().all(|x| 0.0 < *x && *x < 1.0));
+            }
+        }
+    }
 }
 
 #[test]
