@@ -3,9 +3,15 @@
 //!
 //! Functions take slices of numbers in any consistent units.
 
+mod distribution;
 mod error;
+mod joint;
+mod legendre;
+pub mod normal;
 pub mod quadrature;
 pub mod sensitivity;
 pub mod sequence;
 
+pub use distribution::Distribution;
 pub use error::Error;
+pub use joint::{Joint, semidefinite_factor};
