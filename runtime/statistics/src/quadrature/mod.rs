@@ -7,6 +7,7 @@ mod sparse;
 #[cfg(test)]
 mod sparse_tests;
 mod sparse_walk;
+mod sum;
 mod tensor;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ use crate::Error;
 pub use gauss_hermite::{Rule, gauss_hermite};
 pub use sparse::{Integral, SparseGrid};
 pub use sparse_walk::{SparseNode, SparseWalk};
+pub use sum::CompensatedSum;
 pub use tensor::{TensorGrid, TensorWalk};
 
 /// A point of a grid.

@@ -11,7 +11,7 @@
 
 use super::polynomial::Truncated;
 use super::sparse_walk::SparseWalk;
-use super::{finite, gauss_hermite};
+use super::{CompensatedSum, finite, gauss_hermite};
 use crate::Error;
 
 /// A sparse grid for functions of independent standard normal variables (Smolyak 1963; Gerstner and Griebel, Numer. Algorithms
@@ -89,7 +89,7 @@ impl SparseGrid {
         self.points
     }
 
-    /// Walks along the points.
+    /// Walks along the points. Weights of both signs cancel: sum them up in a [`CompensatedSum`].
     pub fn walk(&self) -> SparseWalk<'_> {
         SparseWalk::new(self)
     }
@@ -99,16 +99,16 @@ impl SparseGrid {
     /// # Errors
     /// [`Error::NotFinite`] if the sum is not finite.
     pub fn integrate(&self, mut f: impl FnMut(&[f64]) -> f64) -> Result<Integral, Error> {
-        let (mut value, mut coarse) = (0.0, 0.0);
+        let (mut fine, mut coarse) = (CompensatedSum::default(), CompensatedSum::default());
         let mut walk = self.walk();
         while let Some(node) = walk.next_point() {
             let result = f(node.point);
-            value += node.weight * result;
-            coarse += node.coarse_weight * result;
+            fine.add(node.weight * result);
+            coarse.add(node.coarse_weight * result);
         }
         Ok(Integral {
-            value: finite(value)?,
-            difference: finite(value - coarse)?.abs(),
+            value: finite(fine.value())?,
+            difference: finite(fine.value() - coarse.value())?.abs(),
         })
     }
 }

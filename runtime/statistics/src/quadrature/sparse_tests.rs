@@ -115,6 +115,23 @@ fn sparse_grids_are_exact_up_to_their_total_degree() {
     }
 }
 
+/// The moduli of the weights have a sum of about ten thousand: added up one by one, they would leave an error above 1e-10.
+#[test]
+fn sums_stay_accurate_in_many_dimensions() {
+    let grid = SparseGrid::new(60, 3).unwrap();
+    assert_eq!(grid.points(), 281_201);
+    let one = grid.integrate(|_| 1.0).unwrap();
+    assert!((one.value - 1.0).abs() < 1e-11 && one.difference < 1e-11);
+    let mut walk = grid.walk();
+    let (mut moduli, mut sum) = (0.0, 0.0);
+    while let Some(node) = walk.next_point() {
+        moduli += node.weight.abs();
+        sum += node.weight;
+    }
+    assert!((5e3..2e4).contains(&moduli), "{moduli}");
+    assert!((sum - 1.0_f64).abs() > 1e-10, "{sum}");
+}
+
 /// The mean of `exp(a . z)` is `exp(a . a / 2)`; the difference to the level below exceeds the error.
 #[test]
 fn smooth_functions_converge() {

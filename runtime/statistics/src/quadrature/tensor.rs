@@ -1,6 +1,6 @@
 //! Tensor products of Gauss-Hermite rules.
 
-use super::{Node, Rule, finite, gauss_hermite};
+use super::{CompensatedSum, Node, Rule, finite, gauss_hermite};
 use crate::Error;
 
 /// Every combination of the nodes of one rule for each dimension: exact for polynomials of degree `2 nodes - 1` in each
@@ -83,11 +83,11 @@ impl TensorGrid {
     /// [`Error::NotFinite`] if the sum is not finite.
     pub fn integrate(&self, mut f: impl FnMut(&[f64]) -> f64) -> Result<f64, Error> {
         let mut walk = self.from(0);
-        let mut sum = 0.0;
+        let mut sum = CompensatedSum::default();
         while let Some(Node { point, weight }) = walk.next_point() {
-            sum += weight * f(point);
+            sum.add(weight * f(point));
         }
-        finite(sum)
+        finite(sum.value())
     }
 }
 
