@@ -8,6 +8,9 @@ mod error;
 mod joint;
 mod legendre;
 pub mod normal;
+pub mod quadrature;
+pub mod sensitivity;
+pub mod sequence;
 
 pub use distribution::Distribution;
 pub use error::Error;
