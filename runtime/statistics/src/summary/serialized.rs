@@ -1,0 +1,147 @@
+//! Reading and writing. Numbers are written as their bits: many readers of decimal text miss the last one.
+
+use super::chunk::{CHUNK, Chunk};
+use super::partial::Partial;
+use super::plan::Plan;
+use super::ranges;
+use super::sketch::Sketch;
+use super::tree::{Node, Tree};
+
+pub(super) mod bits {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::summary) fn serialize<S: Serializer>(
+        value: &f64,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.to_bits().serialize(to)
+    }
+
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
+    }
+}
+
+pub(super) mod bits_of_two {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::summary) fn serialize<S: Serializer>(
+        values: &[f64; 2],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        values.map(f64::to_bits).serialize(to)
+    }
+
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<[f64; 2], D::Error> {
+        <[u64; 2]>::deserialize(from).map(|bits| bits.map(f64::from_bits))
+    }
+}
+
+pub(super) mod bits_of_many {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(in crate::summary) fn serialize<S: Serializer>(
+        values: &[f64],
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_seq(values.iter().map(|value| value.to_bits()))
+    }
+
+    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Vec<f64>, D::Error> {
+        let bits = Vec::<u64>::deserialize(from)?;
+        Ok(bits.into_iter().map(f64::from_bits).collect())
+    }
+}
+
+/// A [`Partial`] as it was read.
+#[derive(serde::Deserialize)]
+pub(super) struct Unchecked {
+    plan: Plan,
+    tree: Tree,
+    fragments: Vec<Chunk>,
+    sketches: Vec<Option<Sketch>>,
+    outcomes: Vec<u64>,
+}
+
+impl TryFrom<Unchecked> for Partial {
+    type Error = &'static str;
+
+    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
+        let Unchecked {
+            plan,
+            tree,
+            fragments,
+            sketches,
+            outcomes,
+        } = read;
+        let whole = plan_is_consistent(&plan)
+            && tree.nodes.iter().all(|node| node_fits(node, &plan))
+            && fragments.iter().all(|chunk| fragment_fits(chunk, &plan))
+            && sketches_fit(&sketches, &plan)
+            && outcomes.len() == plan.outcomes;
+        if !whole {
+            return Err("the parts of this partial result do not fit together");
+        }
+        let in_order = tree
+            .nodes
+            .is_sorted_by(|a, b| a.samples().end <= b.samples().start)
+            && fragments.is_sorted_by(|a, b| a.index < b.index);
+        let nodes: Vec<_> = tree.nodes.iter().map(Node::samples).collect();
+        let parts: Vec<_> = ranges::joined(fragments.iter().flat_map(Chunk::samples));
+        if !in_order || ranges::overlap(&nodes, &parts).is_some() {
+            return Err("the samples of this partial result overlap");
+        }
+        Ok(Self {
+            plan,
+            tree,
+            fragments,
+            sketches,
+            outcomes,
+        })
+    }
+}
+
+fn plan_is_consistent(plan: &Plan) -> bool {
+    let pairs = plan
+        .pairs
+        .iter()
+        .all(|(first, second)| first < second && *second < plan.quantities());
+    pairs && plan.pairs.is_sorted() && plan.sketches.iter().flatten().all(Sketch::is_consistent)
+}
+
+fn node_fits(node: &Node, plan: &Plan) -> bool {
+    let fits = node.moments.len() == plan.quantities() && node.pairs.len() == plan.pairs.len();
+    let aligned =
+        node.level < 52 && node.start < 1 << 52 && node.start.trailing_zeros() >= node.level;
+    fits && aligned
+}
+
+fn fragment_fits(chunk: &Chunk, plan: &Plan) -> bool {
+    let counts = chunk.present.len() == plan.quantities()
+        && chunk.values.len() == plan.quantities() * CHUNK
+        && chunk.outcomes.is_empty();
+    let within = chunk
+        .present
+        .iter()
+        .all(|mask| mask.and(chunk.covered) == *mask);
+    counts
+        && within
+        && chunk.index < 1 << 52
+        && !chunk.covered.is_full()
+        && !chunk.covered.is_empty()
+}
+
+fn sketches_fit(sketches: &[Option<Sketch>], plan: &Plan) -> bool {
+    sketches.len() == plan.quantities()
+        && sketches.iter().zip(&plan.sketches).all(|pair| match pair {
+            (Some(sketch), Some(planned)) => sketch.is_like(planned) && sketch.is_consistent(),
+            (None, None) => true,
+            _ => false,
+        })
+}

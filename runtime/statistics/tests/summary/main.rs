@@ -1,0 +1,11 @@
+//! Summary statistics in one pass: the same bits however samples are split, against exact formulas and exact quantiles.
+
+mod common;
+mod distributions;
+mod errors;
+mod intervals;
+mod moments;
+#[cfg(feature = "serde")]
+mod serialized;
+mod sketches;
+mod splits;
