@@ -116,10 +116,16 @@ fn plan_is_consistent(plan: &Plan) -> bool {
 }
 
 fn node_fits(node: &Node, plan: &Plan) -> bool {
-    let fits = node.moments.len() == plan.quantities() && node.pairs.len() == plan.pairs.len();
-    let aligned =
-        node.level < 52 && node.start < 1 << 52 && node.start.trailing_zeros() >= node.level;
-    fits && aligned
+    let lengths = node.moments.len() == plan.quantities() && node.pairs.len() == plan.pairs.len();
+    let places = node.start < 1 << 52 && node.start.trailing_zeros() >= node.level;
+    if !lengths || node.level >= 52 || !places {
+        return false;
+    }
+    let counts = node.moments.iter().map(|moments| moments.count);
+    let of_pairs = node.pairs.iter().map(|pair| pair.count);
+    counts
+        .chain(of_pairs)
+        .all(|count| count <= (CHUNK as u64) << node.level)
 }
 
 fn fragment_fits(chunk: &Chunk, plan: &Plan) -> bool {

@@ -56,7 +56,10 @@ impl Statistics {
         let kurtosis = n * (fourth / second / second) - 3.0;
         // (m4 / sigma^4 - (n - 3) / (n - 1)) / n is the variance of sigma^2, over sigma^4.
         let share = (n - 1.0) / n;
-        let variance = ((kurtosis + 3.0) * share * share - (n - 3.0) / (n - 1.0)) / n;
+        let variance = given(
+            2,
+            ((kurtosis + 3.0) * share * share - (n - 3.0) / (n - 1.0)) / n,
+        );
         let skewness_error = (6.0 * n * (n - 1.0) / ((n - 2.0) * (n + 1.0) * (n + 3.0))).sqrt();
         let kurtosis_error =
             2.0 * skewness_error * ((n * n - 1.0) / ((n - 3.0) * (n + 5.0))).sqrt();
@@ -70,7 +73,9 @@ impl Statistics {
             mean,
             standard_error: sigma.map(|sigma| sigma / n.sqrt()),
             sigma,
-            sigma_error: sigma.and_then(|sigma| given(2, 0.5 * sigma * variance.max(0.0).sqrt())),
+            sigma_error: sigma
+                .zip(variance)
+                .map(|(sigma, variance)| 0.5 * sigma * variance.max(0.0).sqrt()),
             skewness,
             skewness_error: skewness.map(|_| skewness_error),
             excess_kurtosis,

@@ -114,7 +114,7 @@ fn large_means_with_small_spreads() -> Result<(), Error> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn of_any_integers(integers in prop::collection::vec(-1000_i64..1000, 4..900), origin in -9_i32..9) {

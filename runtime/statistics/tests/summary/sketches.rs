@@ -115,11 +115,14 @@ fn resolution_for_normal_values() -> Result<(), Error> {
     ] {
         let found = sketch.quantile(p)?;
         assert!(found.error <= limit * 0.2, "{p}: {found:?}");
-        // Interpolation is much better than its bound.
-        assert!(
-            (found.value - sorted.quantile(p)?).abs() <= 0.2 * limit * 0.2 + 2e-6,
-            "{p}: {found:?}"
-        );
+        // Where there are many values to a bucket, interpolation is much better than its bound.
+        if (0.1..0.9).contains(&p) {
+            let exact = sorted.quantile(p)?;
+            assert!(
+                (found.value - exact).abs() <= 0.1 * limit * 0.2 + 2e-6,
+                "{p}: {found:?}, exact {exact}"
+            );
+        }
     }
     Ok(())
 }
@@ -155,7 +158,7 @@ fn values_that_are_all_the_same_are_exact() -> Result<(), Error> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn of_any_values(

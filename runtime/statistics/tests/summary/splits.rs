@@ -57,7 +57,7 @@ fn pieces(mut cuts: Vec<u64>, end: u64, order: &[u64]) -> Vec<std::ops::Range<u6
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_split_and_order_of_merging_gives_the_same_bits(

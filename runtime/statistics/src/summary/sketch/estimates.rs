@@ -45,9 +45,12 @@ impl Sketch {
     pub fn quantile(&self, p: f64) -> Result<Estimate, Error> {
         let (rank, part) = place(self.count, p)?;
         let [lower, upper] = [rank, rank + 1].map(|rank| self.at_rank(rank));
+        let value = lower.value + part * (upper.value - lower.value);
+        let error = (1.0 - part) * lower.error + part * upper.error;
+        let rounding = 2.0 * f64::EPSILON * (lower.value.abs() + upper.value.abs());
         Ok(Estimate {
-            value: lower.value + part * (upper.value - lower.value),
-            error: (1.0 - part) * lower.error + part * upper.error,
+            value,
+            error: if error > 0.0 { error + rounding } else { 0.0 },
         })
     }
 
