@@ -202,7 +202,7 @@ impl Partial {
             .partition_point(|node| node.start <= chunk.index)
             .checked_sub(1);
         let in_tree =
-            before.is_some_and(|at| chunk.index - nodes[at].start >> nodes[at].level == 0);
+            before.is_some_and(|at| (chunk.index - nodes[at].start) >> nodes[at].level == 0);
         let place = self
             .fragments
             .binary_search_by_key(&chunk.index, |other| other.index);
@@ -228,7 +228,7 @@ fn not_a_number(chunk: &Chunk) -> Error {
             mask.places().map(move |place| (k, place, values[place]))
         })
     });
-    let found = values.find(|(_, _, value)| !(value.abs() <= LARGEST));
+    let found = values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST);
     let (quantity, place, value) = found.unwrap_or((0, 0, f64::NAN));
     let sample = chunk.index * CHUNK as u64 + place as u64;
     Error::Value {
