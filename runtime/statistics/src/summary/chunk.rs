@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use super::mask::Mask;
-use super::plan::{Plan, check_below};
+use super::checks::check_below;
+use super::mask::{CHUNK, Mask};
+use super::plan::Plan;
 use crate::Error;
-
-/// Number of samples that are summed as one. Chunk `c` has samples `256 c` to below `256 (c + 1)`.
-pub const CHUNK: usize = 256;
 
 /// Number of samples of all chunks.
 const END: u64 = 1 << 60;
@@ -40,7 +38,7 @@ pub struct Chunk {
     pub(super) index: u64,
     pub(super) covered: Mask,
     /// Of each quantity and sample of the chunk.
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits_of_many"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::many"))]
     pub(super) values: Vec<f64>,
     /// For each quantity, which samples have it.
     pub(super) present: Vec<Mask>,

@@ -10,9 +10,9 @@ use super::mean::Mean;
 pub struct Comoments {
     pub(super) count: u64,
     pub(super) means: [Mean; 2],
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits_of_two"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::two"))]
     pub(super) squares: [f64; 2],
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) product: f64,
 }
 

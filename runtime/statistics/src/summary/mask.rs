@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::chunk::CHUNK;
+/// Number of samples that are summed as one. Chunk `c` has samples `256 c` to below `256 (c + 1)`.
+pub const CHUNK: usize = 256;
 
 const WORDS: usize = CHUNK / 64;
 

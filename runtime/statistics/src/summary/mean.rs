@@ -5,9 +5,9 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Mean {
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) high: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) low: f64,
 }
 

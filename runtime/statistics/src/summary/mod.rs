@@ -35,6 +35,9 @@
 //! ```
 
 mod binomial;
+#[cfg(feature = "serde")]
+mod bits;
+mod checks;
 mod chunk;
 mod comoments;
 mod covariance;
@@ -52,9 +55,10 @@ mod sorted;
 mod statistics;
 mod tree;
 
-pub use chunk::{CHUNK, Chunk, chunks};
+pub use chunk::{Chunk, chunks};
 pub use comoments::Comoments;
 pub use covariance::Covariance;
+pub use mask::CHUNK;
 pub use moments::{LARGEST, Moments};
 pub use partial::Partial;
 pub use plan::Plan;

@@ -23,16 +23,16 @@ pub const LARGEST: f64 = 1e300;
 pub struct Moments {
     pub(super) count: u64,
     pub(super) mean: Mean,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) second: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) third: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) fourth: f64,
     /// Zero without values.
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) min: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     pub(super) max: f64,
 }
 

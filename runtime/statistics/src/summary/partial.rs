@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::chunk::{CHUNK, Chunk};
+use super::chunk::Chunk;
+use super::mask::CHUNK;
 use super::plan::Plan;
 use super::tree::{Node, Tree};
 use super::{Comoments, Covariance, LARGEST, Moments, Sketch, Statistics, ranges};
@@ -11,8 +12,7 @@ use crate::Error;
 /// What is known of the samples that were added, of any set of ranges. Two of the same samples are equal to the last bit, however
 /// they came about. A contiguous range takes memory that grows with the logarithm of its length.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "super::serialized::Unchecked"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Partial {
     pub(super) plan: Plan,
     pub(super) tree: Tree,

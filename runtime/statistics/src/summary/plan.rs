@@ -1,6 +1,7 @@
 //! What is to be learnt from samples.
 
-use super::{LARGEST, Sketch};
+use super::Sketch;
+use super::checks::check_below;
 use crate::Error;
 
 /// What is to be learnt from samples that have so many quantities each. Moments of each quantity always are; what is not asked
@@ -74,21 +75,4 @@ impl Plan {
     pub(super) fn check(&self, quantity: usize) -> Result<(), Error> {
         check_below("quantity", quantity, self.quantities())
     }
-}
-
-pub(super) fn check_below(setting: &'static str, index: usize, count: usize) -> Result<(), Error> {
-    if index < count {
-        return Ok(());
-    }
-    let reason = format!("there is no {index}, they count from 0 to below {count}");
-    Err(Error::Setting { setting, reason })
-}
-
-/// Refuses what is not a number of at most [`LARGEST`] in magnitude.
-pub(super) fn check_number(setting: &'static str, value: f64) -> Result<(), Error> {
-    if value.abs() <= LARGEST {
-        return Ok(());
-    }
-    let reason = format!("{value} is not a number of at most {LARGEST:e} in magnitude");
-    Err(Error::Setting { setting, reason })
 }

@@ -1,72 +1,29 @@
-//! Reading and writing. Numbers are written as their bits: many readers of decimal text miss the last one.
+//! Reading a partial result: what cannot be is refused.
 
-use super::chunk::{CHUNK, Chunk};
+use super::chunk::Chunk;
+use super::mask::CHUNK;
 use super::partial::Partial;
 use super::plan::Plan;
 use super::ranges;
 use super::sketch::Sketch;
 use super::tree::{Node, Tree};
-
-pub(super) mod bits {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        value: &f64,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        value.to_bits().serialize(to)
-    }
-
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<f64, D::Error> {
-        u64::deserialize(from).map(f64::from_bits)
-    }
-}
-
-pub(super) mod bits_of_two {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        values: &[f64; 2],
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        values.map(f64::to_bits).serialize(to)
-    }
-
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<[f64; 2], D::Error> {
-        <[u64; 2]>::deserialize(from).map(|bits| bits.map(f64::from_bits))
-    }
-}
-
-pub(super) mod bits_of_many {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub(in crate::summary) fn serialize<S: Serializer>(
-        values: &[f64],
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        to.collect_seq(values.iter().map(|value| value.to_bits()))
-    }
-
-    pub(in crate::summary) fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<Vec<f64>, D::Error> {
-        let bits = Vec::<u64>::deserialize(from)?;
-        Ok(bits.into_iter().map(f64::from_bits).collect())
-    }
-}
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 /// A [`Partial`] as it was read.
 #[derive(serde::Deserialize)]
-pub(super) struct Unchecked {
+struct Unchecked {
     plan: Plan,
     tree: Tree,
     fragments: Vec<Chunk>,
     sketches: Vec<Option<Sketch>>,
     outcomes: Vec<u64>,
+}
+
+impl<'de> Deserialize<'de> for Partial {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Self::try_from(Unchecked::deserialize(from)?).map_err(D::Error::custom)
+    }
 }
 
 impl TryFrom<Unchecked> for Partial {

@@ -1,7 +1,7 @@
 //! Exact quantiles of values that are kept.
 
 use super::binomial;
-use super::plan::check_number;
+use super::checks::check_number;
 use crate::Error;
 
 /// Values in ascending order.

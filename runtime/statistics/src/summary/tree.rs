@@ -3,7 +3,8 @@
 
 use std::ops::Range;
 
-use super::chunk::{CHUNK, Chunk};
+use super::chunk::Chunk;
+use super::mask::CHUNK;
 use super::plan::Plan;
 use super::{Comoments, Moments};
 

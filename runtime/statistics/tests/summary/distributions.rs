@@ -53,11 +53,14 @@ fn moments_are_those_of_the_distribution() {
     }
 }
 
+/// A value as a function of its index.
+type Value = fn(u64) -> f64;
+
 /// Standard errors are the scatter of what they belong to, over many experiments.
 #[test]
 fn standard_errors_are_the_scatter() {
     const EXPERIMENTS: u64 = 2000;
-    let distributions: [(&str, fn(u64) -> f64); 2] = [
+    let distributions: [(&str, Value); 2] = [
         ("normal", |k| normal(20, k)),
         ("uniform", |k| uniform(21, k)),
     ];

@@ -5,10 +5,8 @@ mod estimates;
 
 pub use estimates::{Estimate, Histogram};
 
-#[cfg(any(feature = "serde", doc))]
-use super::LARGEST;
-use super::chunk::CHUNK;
-use super::plan::check_number;
+use super::checks::check_number;
+use super::mask::CHUNK;
 use super::{Moments, lanes};
 use crate::Error;
 use buckets::{Buckets, Places};
@@ -38,16 +36,16 @@ use buckets::{Buckets, Places};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sketch {
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     reference: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     scale: f64,
     buckets: Buckets,
     count: u64,
     /// Zero without values.
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     min: f64,
-    #[cfg_attr(feature = "serde", serde(with = "super::serialized::bits"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
     max: f64,
 }
 
@@ -82,7 +80,7 @@ impl Sketch {
     ///
     /// # Errors
     ///
-    /// One is not a number of at most [`LARGEST`] in magnitude. Nothing has been added then.
+    /// One is not a number of at most [`LARGEST`](super::LARGEST) in magnitude. Nothing has been added then.
     pub fn add(&mut self, values: &[f64]) -> Result<(), Error> {
         for &value in values {
             check_number("values of a sketch", value)?;
@@ -114,7 +112,7 @@ impl Sketch {
         self.count
     }
 
-    /// Values of at most [`LARGEST`], and their moments.
+    /// Values of at most [`LARGEST`](super::LARGEST), and their moments.
     pub(in crate::summary) fn add_checked(&mut self, values: &[f64], moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
         self.count_all(values);
@@ -172,7 +170,7 @@ impl Sketch {
     /// Whether it can have come about by adding values.
     pub(in crate::summary) fn is_consistent(&self) -> bool {
         let numbers = [self.reference, self.scale, self.min, self.max];
-        numbers.iter().all(|number| number.abs() <= LARGEST)
+        numbers.iter().all(|number| number.abs() <= super::LARGEST)
             && self.scale > 0.0
             && self.min <= self.max
             && self
