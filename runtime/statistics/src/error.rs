@@ -60,4 +60,34 @@ pub enum Error {
         /// Which one.
         input: usize,
     },
+    /// Samples were to be added twice.
+    #[error(
+        "samples {start} to below {end} have been added already; split the samples into ranges that do not overlap"
+    )]
+    Overlap {
+        /// The first that is there twice.
+        start: u64,
+        /// The first after it that is not.
+        end: u64,
+    },
+    /// Partial results were gathered by different plans.
+    #[error(
+        "these samples were gathered by different plans; use clones of the same plan for all of them"
+    )]
+    OtherPlan,
+    /// A quantity of a sample is not a number, or too large to compute with.
+    #[error(
+        "quantity {quantity} of sample {sample} is {value}; leave it out (`None`) where a sample does not have it"
+    )]
+    Value {
+        /// Index of the quantity.
+        quantity: usize,
+        /// Index of the sample.
+        sample: u64,
+        /// Its value, as text.
+        value: String,
+    },
+    /// There are no values, so nothing can be said about them.
+    #[error("no values: add samples first")]
+    NoValues,
 }

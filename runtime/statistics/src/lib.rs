@@ -11,6 +11,7 @@ pub mod normal;
 pub mod quadrature;
 pub mod sensitivity;
 pub mod sequence;
+pub mod summary;
 
 pub use distribution::Distribution;
 pub use error::Error;
