@@ -4,5 +4,6 @@
 //! Functions take slices of numbers in any consistent units.
 
 mod error;
+pub mod reliability;
 
 pub use error::Error;
