@@ -69,6 +69,32 @@ impl<'a, L: LimitState> Counted<'a, L> {
         }
     }
 
+    /// Exact second derivatives at `z`, if the limit state knows them.
+    pub(super) fn hessian(&self, z: &[f64]) -> Result<Option<Vec<Vec<f64>>>, Error> {
+        let place = "at the design point";
+        let reason = |reason: String| Error::NoLimitValue { place, reason };
+        let Some(hessian) = self.limit.hessian(z) else {
+            return Ok(None);
+        };
+        let hessian = hessian.map_err(|error| reason(error.to_string()))?;
+        for found in [hessian.len()]
+            .into_iter()
+            .chain(hessian.iter().map(Vec::len))
+        {
+            if found != self.dimension {
+                return Err(Error::WrongLength {
+                    kind: "rows or columns of second derivatives",
+                    found,
+                    expected: self.dimension,
+                });
+            }
+        }
+        if hessian.iter().flatten().any(|entry| !entry.is_finite()) {
+            return Err(reason("a second derivative is not finite".into()));
+        }
+        Ok(Some(hessian))
+    }
+
     /// The error that there is no value at this place.
     pub(super) fn no_value(&self, place: &'static str) -> Error {
         let reason = self.reason.borrow().clone();

@@ -9,6 +9,9 @@ mod form;
 mod limit_state;
 mod normal;
 mod random;
+pub mod sampling;
+mod sorm;
+pub mod system;
 mod vector;
 
 pub use counted::Evaluations;
@@ -17,3 +20,4 @@ pub use form::{
     failure_regions, form,
 };
 pub use limit_state::{LimitFunction, LimitFunctionWithHessian, LimitState, LimitValue};
+pub use sorm::{Sorm, sorm};

@@ -83,11 +83,15 @@ impl<'a, L: LimitState> Regions<'a, L> {
         self.found.len() >= self.search.settings.regions
     }
 
-    /// Searches from random directions, at the distance of the first design point.
+    /// Searches from random directions and their opposites, at the distance of the first design point.
     fn restart(&mut self) {
+        let mut direction = Vec::new();
         for restart in 0..self.search.settings.restarts {
-            let direction = self.random_direction();
-            let usual = [3.0, 6.0, 1.0][restart % 3];
+            direction = match restart % 2 {
+                0 => self.random_direction(),
+                _ => scaled(-1.0, &direction),
+            };
+            let usual = [3.0, 6.0, 1.0][restart / 2 % 3];
             let distance = self.found.first().map_or(usual, |p| p.beta.abs().max(1.0));
             self.visit(&scaled(distance, &direction));
         }

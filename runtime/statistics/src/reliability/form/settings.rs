@@ -11,7 +11,7 @@ pub struct FormSettings {
     pub iterations: usize,
     /// Evaluations that the general optimiser may take from one start.
     pub optimiser_evaluations: usize,
-    /// Starts in random directions besides the one at the origin. Each costs about as much as the first.
+    /// Starts in random directions and their opposites, besides the one at the origin. Each costs about as much as that.
     pub restarts: usize,
     /// Seed of the random directions.
     pub seed: u64,
