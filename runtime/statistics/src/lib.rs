@@ -3,7 +3,13 @@
 //!
 //! Functions take slices of numbers in any consistent units.
 
+mod distribution;
 mod error;
+mod joint;
+mod legendre;
+pub mod normal;
 pub mod reliability;
 
+pub use distribution::Distribution;
 pub use error::Error;
+pub use joint::{Joint, semidefinite_factor};

@@ -7,7 +7,6 @@
 mod counted;
 mod form;
 mod limit_state;
-mod normal;
 mod random;
 pub mod sampling;
 mod sorm;

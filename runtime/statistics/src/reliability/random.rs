@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::normal::quantile;
+use crate::normal::quantile;
 
 /// Draws samples in sequence from a given one on.
 pub(super) struct NormalSamples {
@@ -76,9 +76,10 @@ mod tests {
             .collect();
         values.sort_by(f64::total_cmp);
         let number = values.len() as f64;
-        let distances = values.iter().enumerate().map(|(k, &x)| {
-            ((k as f64 + 0.5) / number - super::super::normal::probability_below(x)).abs()
-        });
+        let distances = values
+            .iter()
+            .enumerate()
+            .map(|(k, &x)| ((k as f64 + 0.5) / number - crate::normal::cdf(x)).abs());
         assert!(distances.fold(0.0, f64::max) < 1.95 / number.sqrt());
     }
 }

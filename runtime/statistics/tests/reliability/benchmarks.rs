@@ -28,7 +28,7 @@ fn sampled<L: LimitState>(
         ..SamplingSettings::default()
     };
     let found = Sampler::new(limits, failure, proposal, &settings)
-        .unwrap()
+        .expect("valid")
         .run();
     assert!(found.reached, "{found:?}");
     found
@@ -36,7 +36,7 @@ fn sampled<L: LimitState>(
 
 fn regions<L: LimitState>(limit: &L) -> Vec<DesignPoint> {
     failure_regions(limit, &FormSettings::default())
-        .unwrap()
+        .expect("valid")
         .design_points
 }
 

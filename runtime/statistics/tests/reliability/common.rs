@@ -24,7 +24,9 @@ pub(crate) fn linear(distance: f64, gradient: Vec<f64>) -> impl LimitState<Error
 }
 
 pub(crate) fn design_point<L: LimitState>(limit: &L) -> DesignPoint {
-    form(limit, &FormSettings::default()).unwrap().design_point
+    form(limit, &FormSettings::default())
+        .expect("has a design point")
+        .design_point
 }
 
 pub(crate) fn close(found: f64, expected: f64, relative: f64) {

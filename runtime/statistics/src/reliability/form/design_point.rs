@@ -2,9 +2,9 @@
 
 use core::fmt;
 
+use crate::normal;
 use crate::reliability::counted::Evaluations;
 use crate::reliability::limit_state::LimitValue;
-use crate::reliability::normal;
 use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
 
 /// How far a point is from being a design point. The unit of the limit state does not matter.
@@ -83,12 +83,12 @@ pub struct FormSensitivity {
 impl DesignPoint {
     /// Probability of failure to first order, `Phi(-beta)`.
     pub fn probability(&self) -> f64 {
-        normal::probability_below(-self.beta)
+        normal::cdf(-self.beta)
     }
 
     /// Its natural logarithm, also where the probability is below the least number.
     pub fn ln_probability(&self) -> f64 {
-        normal::ln_probability_below(-self.beta)
+        normal::ln_upper(self.beta)
     }
 
     /// Importance factors: the part of the variance of the linearised limit state that each variable causes. Their sum is 1.

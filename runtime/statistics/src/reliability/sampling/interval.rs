@@ -3,7 +3,7 @@
 use statrs::function::beta::checked_beta_reg;
 
 use crate::Error;
-use crate::reliability::normal::quantile;
+use crate::normal::quantile;
 
 /// An interval of probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@ mod paraboloid;
 use super::counted::{Counted, Evaluations};
 use super::form::DesignPoint;
 use super::limit_state::LimitState;
-use super::normal;
 use crate::Error;
+use crate::normal;
 
 /// The paraboloid that touches and osculates the limit at a design point.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,7 +117,7 @@ impl Sorm {
             .curvatures
             .iter()
             .map(|kappa| (1.0 + factor * kappa).sqrt());
-        Ok(self.of_failure(normal::probability_below(-side.beta) / roots.product::<f64>()))
+        Ok(self.of_failure(normal::cdf(-side.beta) / roots.product::<f64>()))
     }
 
     fn require(&self, formula: &'static str, factor: f64) -> Result<(), Error> {

@@ -1,14 +1,11 @@
 //! The bivariate normal probability.
 
-use core::num::NonZeroUsize;
-
-use gauss_quad::legendre::GaussLegendre;
+use core::f64::consts::PI;
 
 use crate::Error;
-use crate::reliability::normal::{ln_density, ln_probability_below, probability_below};
+use crate::legendre::composite;
+use crate::normal::{cdf, ln_upper};
 
-/// Points of the rule on each panel.
-const DEGREE: NonZeroUsize = NonZeroUsize::new(20).unwrap();
 /// Panels over the region that counts.
 const PANELS: usize = 16;
 /// What lies this far below the greatest value of a logarithm does not count.
@@ -49,7 +46,8 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
         return perfectly_correlated(h, k, correlation);
     }
     let sigma = rest.sqrt();
-    let ln_integrand = |x: f64| ln_density(x) + ln_probability_below((correlation * x - k) / sigma);
+    let ln_integrand =
+        |x: f64| -0.5 * (x * x + (2.0 * PI).ln()) + ln_upper((k - correlation * x) / sigma);
     let highest = maximum(&ln_integrand, h);
     let top = ln_integrand(highest);
     let counts = |x: f64| ln_integrand(x) > top - NEGLIGIBLE;
@@ -66,14 +64,10 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
     breaks.extend([rise - width, rise, rise + width]);
     breaks.retain(|x| (start..=end).contains(x));
     breaks.sort_by(f64::total_cmp);
-    let rule = GaussLegendre::new(DEGREE);
-    let integral = |panel: &[f64]| {
-        let width = (panel[1] - panel[0]) / PANELS as f64;
-        let part = |i: usize| {
-            let left = panel[0] + i as f64 * width;
-            rule.integrate(left, left + width, |x| (ln_integrand(x) - top).exp())
-        };
-        (0..PANELS).map(part).sum::<f64>()
+    let integral = |ends: &[f64]| {
+        composite((ends[0], ends[1]), PANELS, |x| {
+            (ln_integrand(x) - top).exp()
+        })
     };
     let sum: f64 = breaks.windows(2).map(integral).sum();
     sum * top.exp()
@@ -81,16 +75,16 @@ pub(super) fn both_above(h: f64, k: f64, correlation: f64) -> f64 {
 
 fn perfectly_correlated(h: f64, k: f64, correlation: f64) -> f64 {
     if correlation > 0.0 {
-        return probability_below(-h);
+        return cdf(-h);
     }
     // h < X < -k, on the side where both tails are small.
     if h >= -k {
         return 0.0;
     }
     if h > 0.0 {
-        probability_below(-h) - probability_below(k)
+        cdf(-h) - cdf(k)
     } else {
-        probability_below(-k) - probability_below(h)
+        cdf(-k) - cdf(h)
     }
 }
 
@@ -129,7 +123,6 @@ fn boundary(counts: &impl Fn(f64) -> bool, inside: f64, outside: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::f64::consts::PI;
 
     fn close(a: f64, b: f64, tolerance: f64) {
         assert!((a / b - 1.0).abs() < tolerance, "{a} {b}");
@@ -143,10 +136,10 @@ mod tests {
             // Both ways of splitting P(X > h).
             for (h, k) in [(0.5, -1.0), (2.0, 1.0), (3.0, 3.0)] {
                 let whole = both_above(h, k, r) + both_above(h, -k, -r);
-                close(whole, probability_below(-h), 1e-11);
+                close(whole, cdf(-h), 1e-11);
             }
         }
-        let tails = |h: f64, k: f64| probability_below(-h) * probability_below(-k);
+        let tails = |h: f64, k: f64| cdf(-h) * cdf(-k);
         for (h, k) in [(1.0, 2.0), (6.0, 5.0), (20.0, 10.0)] {
             close(both_above(h, k, 0.0), tails(h, k), 1e-11);
         }
@@ -154,16 +147,12 @@ mod tests {
 
     #[test]
     fn perfect_correlation() {
-        close(both_above(3.0, 2.0, 1.0), probability_below(-3.0), 1e-15);
+        close(both_above(3.0, 2.0, 1.0), cdf(-3.0), 1e-15);
         assert_eq!(both_above(1.0, 1.0, -1.0), 0.0);
-        let between = probability_below(-1.0) - probability_below(-2.0);
+        let between = cdf(-1.0) - cdf(-2.0);
         close(both_above(1.0, -2.0, -1.0), between, 1e-12);
         for h in [-2.0, 0.0, 4.0] {
-            close(
-                both_above(h, h - 1e-3, 1.0 - 1e-14),
-                probability_below(-h),
-                1e-7,
-            );
+            close(both_above(h, h - 1e-3, 1.0 - 1e-14), cdf(-h), 1e-7);
         }
     }
 
@@ -171,13 +160,12 @@ mod tests {
     #[test]
     fn plackett() {
         for (h, k, r) in [(2.5, 1.5, 0.6), (4.0, 5.0, -0.4), (5.0, 5.0, 0.8_f64)] {
-            let rule = GaussLegendre::new(NonZeroUsize::new(200).unwrap());
             let density = |r: f64| {
                 let q = 1.0 - r * r;
                 (-(h * h - 2.0 * r * h * k + k * k) / (2.0 * q)).exp() / (2.0 * PI * q.sqrt())
             };
-            let from_independent = rule.integrate(0.0, r, density);
-            let expected = probability_below(-h) * probability_below(-k) + from_independent;
+            let from_independent = composite((0.0, r), 40, density);
+            let expected = cdf(-h) * cdf(-k) + from_independent;
             close(both_above(h, k, r), expected, 1e-7);
         }
     }

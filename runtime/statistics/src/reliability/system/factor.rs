@@ -2,7 +2,7 @@
 
 use super::multinormal::Slice;
 use crate::Error;
-use crate::reliability::normal::density;
+use crate::normal::density;
 use crate::reliability::sampling::Interval;
 
 /// Rows of the factor, the bounds in the same order, and what is zero but for rounding.

@@ -11,10 +11,10 @@ pub use multinormal::{QuadratureSettings, box_probability};
 use bivariate::both_above;
 
 use super::form::DesignPoint;
-use super::normal::probability_below;
 use super::sampling::{Estimate, Interval};
 use super::vector::dot;
 use crate::Error;
+use crate::normal::cdf;
 
 /// Requirements by their reliability indices and the correlations of their linearised limit states.
 ///
@@ -93,7 +93,7 @@ impl FirstOrderSystem {
     pub fn series_bounds(&self) -> Interval {
         let (mut lower, mut upper) = (0.0, 0.0);
         for (i, (&beta, row)) in self.betas.iter().zip(&self.correlation).enumerate() {
-            let single = probability_below(-beta);
+            let single = cdf(-beta);
             let earlier = self.betas[..i].iter().zip(row);
             let pairs = earlier.map(|(&other, &r)| both_above(beta, other, r));
             let (sum, most) = pairs.fold((0.0, 0.0_f64), |(sum, most), p| (sum + p, most.max(p)));

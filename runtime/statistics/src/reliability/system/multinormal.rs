@@ -5,7 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::factor::{Factor, factorise};
 use crate::Error;
-use crate::reliability::normal::{probability_below, quantile};
+use crate::normal::{cdf, quantile};
 use crate::reliability::sampling::{Estimate, Interval};
 
 /// How finely to integrate.
@@ -141,11 +141,11 @@ impl Slice {
         } else {
             (lower, upper)
         };
-        let below = probability_below(lower);
+        let below = cdf(lower);
         Self {
             mirrored,
             below,
-            probability: (probability_below(upper) - below).max(0.0),
+            probability: (cdf(upper) - below).max(0.0),
         }
     }
 
