@@ -71,6 +71,7 @@ impl Resolver<'_> {
         let limits = self.limits(declared, dimension, "");
         let law = self.distribution(declared.law.as_ref());
         let tolerance = limits?.with(law?);
+        self.representable(&[tolerance.upper - tolerance.lower], declared.extent)?;
         if tolerance.relative {
             let mean = 1.0 + tolerance.middle();
             self.positive_mean(declared, tolerance.law, mean, "times the value")?;
@@ -187,20 +188,22 @@ impl Resolver<'_> {
             return None;
         }
         let unit = if limits.relative { value.abs() } else { 1.0 };
-        let limits = Limits {
-            lower: unit * limits.lower,
-            upper: unit * limits.upper,
+        let (lower, upper) = (unit * limits.lower, unit * limits.upper);
+        self.representable(&[value + lower, value + upper, upper - lower], extent)?;
+        Some(Limits {
+            lower,
+            upper,
             relative: false,
-        };
-        if ![limits.lower, limits.upper]
-            .iter()
-            .all(|deviation| (value + deviation).is_finite())
-        {
-            let message = "a limit of this tolerance is outside the range of a 64-bit number";
-            self.diagnostics.error(extent, message);
-            return None;
+        })
+    }
+
+    fn representable(&mut self, limits: &[f64], extent: Extent) -> Option<()> {
+        if limits.iter().all(|limit| limit.is_finite()) {
+            return Some(());
         }
-        Some(limits)
+        let message = "the limits of this tolerance are outside the range of a 64-bit number";
+        self.diagnostics.error(extent, message);
+        None
     }
 
     fn distribution(&mut self, law: Option<&ast::Law>) -> Option<Law> {

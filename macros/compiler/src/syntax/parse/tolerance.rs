@@ -5,6 +5,7 @@ use proc_macro2::{Delimiter, Ident};
 use super::super::ast::{
     Deviation, Deviations, Law, LawKind, Limits, Measure, Tolerance, Unit, Value, ValueKind,
 };
+use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::value::{digits_and_suffix, list, number, value, value_before};
 use super::words::{KEYWORDS, LAWS, suggested_law};
@@ -80,7 +81,8 @@ fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
         }
     } else {
         match deviations(tokens) {
-            Some(deviations) => Limits::Deviations(Box::new(deviations)),
+            Some((deviations, None)) => Limits::Deviations(Box::new(deviations)),
+            Some((deviations, Some(slash))) => return Err(separated(&deviations, slash)),
             None => return Ok(None),
         }
     };
@@ -101,16 +103,27 @@ fn percentage(tokens: &mut Tokens) -> Option<f64> {
     Some(sign * percent)
 }
 
-/// Two numbers with signs, and nothing behind them that would make an expression of them.
-fn deviations(tokens: &mut Tokens) -> Option<Deviations> {
+/// Two numbers with signs, and nothing behind them that would make an expression of them; the `/` that some put between.
+fn deviations(tokens: &mut Tokens) -> Option<(Deviations, Option<Extent>)> {
     let mut ahead = *tokens;
-    let (upper, lower) = (deviation(&mut ahead)?, deviation(&mut ahead)?);
+    let upper = deviation(&mut ahead)?;
+    let slash = ahead.sign('/');
+    let lower = deviation(&mut ahead)?;
     let goes_on = ['+', '-', '*', '/', '^', '.', ','];
     if goes_on.iter().any(|&sign| ahead.peek_sign(sign)) {
         return None;
     }
     *tokens = ahead;
-    Some(Deviations { upper, lower })
+    Some((Deviations { upper, lower }, slash))
+}
+
+fn separated(deviations: &Deviations, slash: Extent) -> Box<Diagnostic> {
+    let help = format!(
+        "write `{}`; a quotient here needs parentheses",
+        print::deviations(deviations)
+    );
+    let message = "limits are written one after the other, without `/`";
+    Box::new(Diagnostic::new(slash, message).with_help(help))
 }
 
 fn deviation(tokens: &mut Tokens) -> Option<Deviation> {
@@ -175,7 +188,7 @@ fn law(tokens: &mut Tokens) -> Parsed<Option<Law>> {
     };
     let extent = Extent::from(&word).to(tokens.last);
     if tokens.group(Delimiter::Parenthesis).is_some() {
-        let message = format!("`{text}` has no parameters");
+        let message = "this law has no parameters";
         let help = "the limits say how wide it is";
         let extent = extent.to(tokens.last);
         return Err(Box::new(Diagnostic::new(extent, message).with_help(help)));
@@ -198,12 +211,12 @@ fn beta(word: &Ident, tokens: &mut Tokens) -> Parsed<LawKind> {
         let diagnostic = Diagnostic::new(word, "`beta` has two shapes, none is given");
         return Err(Box::new(diagnostic.with_help(SHAPES)));
     };
-    let shapes = list(&mut content, 0)?;
+    let shapes = list(&mut content, 0).map_err(|error| Box::new(error.with_help(SHAPES)))?;
     let count = shapes.len();
     match <[Value; 2]>::try_from(shapes) {
         Ok(shapes) => Ok(LawKind::Beta(Box::new(shapes))),
         Err(_) => {
-            let message = format!("`beta` has two shapes, {count} are given");
+            let message = format!("`beta` has two shapes, not {count}");
             let extent = Extent::from(word).to(tokens.last);
             Err(Box::new(Diagnostic::new(extent, message).with_help(SHAPES)))
         }
