@@ -150,7 +150,7 @@ pub use sensitivity::{Quantity, Sensitivities};
 #[cfg(feature = "std")]
 pub use state::{Equilibrium, Stability};
 #[cfg(feature = "std")]
-pub use study::{InDeclaredUnit, Solved, Study, Value};
+pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
 

@@ -3,6 +3,12 @@
 //!
 //! Functions take slices of numbers in any consistent units.
 
+mod distribution;
 mod error;
+mod joint;
+mod legendre;
+pub mod normal;
 
+pub use distribution::Distribution;
 pub use error::Error;
+pub use joint::{Joint, semidefinite_factor};

@@ -1,0 +1,86 @@
+//! The standard normal distribution between limits.
+
+use crate::legendre;
+use crate::{Error, normal};
+
+/// An interval of standard normal values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    low: f64,
+    high: f64,
+    /// The limits change sign, so that most of the probability is on the left of zero.
+    mirrored: bool,
+    /// `P(Z > low)` and `P(Z > high)`, `low` not left of where most lies.
+    above: (f64, f64),
+}
+
+impl Interval {
+    pub(super) fn new(low: f64, high: f64) -> Result<Self, Error> {
+        // In the right tail differences of `P(Z > z)` keep their digits.
+        let mirrored = low + high < 0.0;
+        let (from, to) = if mirrored { (-high, -low) } else { (low, high) };
+        let above = (normal::cdf(-from), normal::cdf(-to));
+        if above.0 - above.1 < 1e-300 {
+            return Err(Error::Setting {
+                setting: "limits of a truncated normal variable",
+                reason: format!(
+                    "between {low:e} and {high:e} standard deviations from the mean there is no probability left"
+                ),
+            });
+        }
+        Ok(Self {
+            low,
+            high,
+            mirrored,
+            above,
+        })
+    }
+
+    pub(super) fn ends(&self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+
+    /// The value as probable to be exceeded within the interval as `z` is without limits.
+    pub(super) fn quantile(&self, z: f64) -> f64 {
+        let (below, beyond) = if self.mirrored {
+            (normal::cdf(-z), normal::cdf(z))
+        } else {
+            (normal::cdf(z), normal::cdf(-z))
+        };
+        let (most, least) = self.above;
+        // A mean of both ends, so that neither is lost beside the other.
+        let above = most * beyond + least * below;
+        let value = -normal::quantile(above);
+        let value = if self.mirrored { -value } else { value };
+        value.clamp(self.low, self.high)
+    }
+
+    /// Derivative of [`Self::quantile`].
+    pub(super) fn slope(&self, z: f64) -> f64 {
+        let value = self.quantile(z);
+        let share = self.above.0 - self.above.1;
+        share * (0.5 * (value * value - z * z)).exp()
+    }
+
+    /// Mean and standard deviation, by quadrature: closed forms cancel where the limits are close together.
+    pub(super) fn moments(&self) -> (f64, f64) {
+        // What lies farther out from the nearest possible value than this has less than a part in 10^18.
+        const REACH: f64 = 9.5;
+        let nearest = 0.0_f64.clamp(self.low, self.high);
+        let (low, high) = (
+            self.low.max(nearest - REACH),
+            self.high.min(nearest + REACH),
+        );
+        let density = |z: f64| (0.5 * (nearest - z) * (nearest + z)).exp();
+        let panels = (2.0 * (high - low) * (1.0 + nearest.abs()))
+            .ceil()
+            .clamp(1.0, 4000.0) as usize;
+        let integral = |f: &dyn Fn(f64) -> f64| {
+            legendre::composite((low, high), panels, |z| f(z) * density(z))
+        };
+        let mass = integral(&|_| 1.0);
+        let shift = integral(&|z| z - nearest) / mass;
+        let variance = integral(&|z| (z - nearest - shift).powi(2)) / mass;
+        (nearest + shift, variance.sqrt())
+    }
+}
