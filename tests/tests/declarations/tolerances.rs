@@ -1,7 +1,10 @@
 //! Tolerances: what is written, and what arrives of it in SI.
 
 use eigentol_compiler::model::mechanism::{Law, Mechanism, Tolerance};
+use eigentol_compiler::model::resolve::resolve;
 use eigentol_compiler::syntax::print::print;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::common::{read, resolved};
 
@@ -212,4 +215,89 @@ fn the_text_of_a_mechanism_names_limits_and_laws() {
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
+}
+
+/// A choice from a short list.
+fn one_of<'a, T>(random: &mut ChaCha8Rng, list: &'a [T]) -> &'a T {
+    &list[random.next_u32() as usize % list.len()]
+}
+
+/// Limits, units, percentages and laws in every combination: the text says what the numbers it was made of say.
+#[test]
+fn random_tolerances_arrive_as_written() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let random = &mut random;
+    let beta = Law::Beta {
+        alpha: 0.5,
+        beta: 3.0,
+    };
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..2000 {
+        let &(nominal, value) = one_of(
+            random,
+            &[
+                ("20 mm", 0.02),
+                ("-5 mm", -5e-3),
+                ("0.4 m", 0.4),
+                ("2 * 10 mm", 0.02),
+                ("1 m - 1 cm", 0.99),
+            ],
+        );
+        let numbers = [-0.041, -0.02, 0.0, 0.0, 0.021, 0.1, 2.0];
+        let (upper, lower) = (*one_of(random, &numbers), *one_of(random, &numbers));
+        let &(unit, scale) = one_of(
+            random,
+            &[("mm", 1e-3), ("um", 1e-6), ("%", 0.01 * f64::abs(value))],
+        );
+        let &(law_text, law) = one_of(
+            random,
+            &[
+                ("", Law::Normal),
+                ("normal", Law::Normal),
+                ("truncated normal", Law::TruncatedNormal),
+                ("uniform", Law::Uniform),
+                ("triangular", Law::Triangular),
+                ("lognormal", Law::Lognormal),
+                ("weibull", Law::Weibull),
+                ("beta(1 / 2, 3)", beta),
+            ],
+        );
+        let signed = |random: &mut ChaCha8Rng, number: f64| match number {
+            0.0 => (*one_of(random, &["0", "+0", "-0"])).to_string(),
+            number => format!("{number:+}"),
+        };
+        let space = *one_of(random, &["", " "]);
+        let unit_of_upper = if *one_of(random, &[true, false]) {
+            unit
+        } else {
+            ""
+        };
+        let text = format!(
+            "mechanism M {{ design x = {nominal} {}{space}{unit_of_upper} {}{space}{unit} {law_text};
+                body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint theta: revolute(y) from ground to bar; }}",
+            signed(random, upper),
+            signed(random, lower),
+        );
+        let ast = read(&text);
+        assert_eq!(read(&print(&ast)), ast, "{text}");
+        let mean = value + 0.5 * scale * (upper + lower);
+        let is_positive_law = matches!(law, Law::Lognormal | Law::Weibull);
+        let is_right = upper >= lower && (mean > 0.0 || !is_positive_law);
+        match resolve(&ast) {
+            Ok(mechanism) => {
+                assert!(is_right, "{text}");
+                let expected = tolerance(scale * upper, scale * lower, law);
+                assert_near(mechanism.design[0].tolerance, expected, &text);
+                accepted += 1;
+            }
+            Err(mistakes) => {
+                assert!(
+                    !is_right && mistakes.iter().count() == 1,
+                    "{text}\n{mistakes}"
+                );
+                refused += 1;
+            }
+        }
+    }
+    assert!(accepted > 500 && refused > 500, "{accepted} {refused}");
 }

@@ -103,14 +103,14 @@ fn percentage(tokens: &mut Tokens) -> Option<f64> {
     Some(sign * percent)
 }
 
-/// Two numbers with signs, and nothing behind them that would make an expression of them; the `/` that some put between.
+/// Two numbers with signs, with only a law or the end of the item behind them; the `/` that some put between.
 fn deviations(tokens: &mut Tokens) -> Option<(Deviations, Option<Extent>)> {
     let mut ahead = *tokens;
     let upper = deviation(&mut ahead)?;
     let slash = ahead.sign('/');
     let lower = deviation(&mut ahead)?;
-    let goes_on = ['+', '-', '*', '/', '^', '.', ','];
-    if goes_on.iter().any(|&sign| ahead.peek_sign(sign)) {
+    let is_law_or_item = ahead.peek_ident().is_some() || ahead.peek_sign('#');
+    if !(is_law_or_item || ahead.peek_sign(';') || ahead.is_empty()) {
         return None;
     }
     *tokens = ahead;
