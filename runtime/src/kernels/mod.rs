@@ -11,12 +11,14 @@
 mod batch;
 mod compiled;
 mod curvature;
+mod deviating_inputs;
 mod directional;
 mod interval;
 mod motion;
 
 pub use batch::{BatchKernels, BatchPoint};
 pub use curvature::CurvatureKernels;
+pub use deviating_inputs::DeviatingInputs;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;
 pub use motion::MotionKernels;
