@@ -7,6 +7,7 @@ mod branches;
 mod clusters;
 mod constrained_modes;
 mod constraints;
+mod deviations;
 mod dual;
 mod equilibrium;
 mod events;

@@ -35,7 +35,7 @@ use crate::{DesignVariable, Error};
 /// #     }
 /// # }
 /// use eigentol::kernels::DeviatingInputs;
-/// use eigentol::{Policy, Tolerances, equilibrium, modes, tolerance};
+/// use eigentol::{Policy, Tolerances, equilibrium, modes, sensitivity, tolerance};
 ///
 /// let wandering = DeviatingInputs::new(&RotatingPendulum, &[RotatingPendulum::omega.any()])?;
 /// let (u, b) = ([5.0], wandering.design(&[3.0, 1.0]));
@@ -44,7 +44,8 @@ use crate::{DesignVariable, Error};
 ///
 /// // Exact mass and length, a speed of 5 rad/s +/- 0.3 rad/s.
 /// let tolerances = Tolerances::new([0.0, 0.0, 0.3], 3.0, None)?;
-/// let spread = tolerance::first_order(&wandering, &state, &found, &tolerances)?;
+/// let slopes = sensitivity::sensitivities(&wandering, &state, &found)?;
+/// let spread = tolerance::first_order(&found, &slopes, &tolerances)?;
 /// let sigma = spread.modes[0].frequency.as_ref().map(|frequency| frequency.sigma);
 ///
 /// // The frequency is sqrt(u^2 - (3 g / 2 l)^2 / u^2).

@@ -28,6 +28,13 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         }
     }
 
+    fn input_of_deviation(&self, design: usize) -> Option<usize> {
+        match design.checked_sub(self.deviations.design()) {
+            Some(deviation) => self.deviations.inputs().get(deviation).copied(),
+            None => self.kernels.input_of_deviation(design),
+        }
+    }
+
     fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]) {
         let (u, b) = self.applied(u, b);
         self.kernels.residual_into(q, &u, b, residual);
