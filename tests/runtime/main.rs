@@ -8,6 +8,7 @@ mod clusters;
 mod constrained_modes;
 mod constraints;
 mod distributions;
+mod deviations;
 mod dual;
 mod equilibrium;
 mod events;
