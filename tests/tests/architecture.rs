@@ -49,8 +49,8 @@ const RUNTIME: [&str; 26] = [
     "scalar",
     "mechanism",
     "error",
-    "kernels",
     "arguments",
+    "kernels",
     "constraints",
     "rounding",
     "eigenproblem",
@@ -74,15 +74,16 @@ const RUNTIME: [&str; 26] = [
 ];
 
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 10] = [
+const TYPE_FILES: [(&str, &[&str]); 11] = [
     ("syntax/ast.rs", &[]),
     (
         "model/mechanism.rs",
-        &["constraint", "expression", "shape", "unit"],
+        &["constraint", "expression", "shape", "tolerance", "unit"],
     ),
     ("model/shape.rs", &["expression"]),
     ("model/constraint.rs", &["expression", "unit"]),
     ("model/unit.rs", &[]),
+    ("model/tolerance.rs", &[]),
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),
     ("algebra/function.rs", &["count", "graph"]),
