@@ -7,6 +7,8 @@ mod branches;
 mod clusters;
 mod constrained_modes;
 mod constraints;
+mod deviations;
+mod distributions;
 mod dual;
 mod equilibrium;
 mod events;
