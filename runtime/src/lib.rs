@@ -100,6 +100,8 @@ pub mod motion;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
+pub mod response;
+#[cfg(feature = "std")]
 mod rounding;
 #[cfg(feature = "std")]
 pub mod second_order;

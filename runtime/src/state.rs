@@ -2,7 +2,7 @@
 
 use crate::algebra::Vector;
 use crate::constraints::ConstraintState;
-use crate::kernels::Linear;
+use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::{Description, Error, PoseMargin, Shared, Text};
 
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
@@ -46,6 +46,16 @@ impl Equilibrium {
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)
+    }
+
+    /// The same state of the mechanism whose inputs deviate, deviations zero.
+    #[must_use]
+    pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
+        Self {
+            design: of.design(&self.design),
+            description: of.description(),
+            ..self.clone()
+        }
     }
 
     /// Refuses a singular configuration, of which the linearised mechanism says nothing.

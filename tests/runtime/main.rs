@@ -7,6 +7,8 @@ mod branches;
 mod clusters;
 mod constrained_modes;
 mod constraints;
+mod distributions;
+mod deviations;
 mod dual;
 mod equilibrium;
 mod events;

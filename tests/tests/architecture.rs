@@ -43,14 +43,14 @@ const TYPES: [&str; 2] = ["functions", "kernel_name"];
 
 /// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 26] = [
+const RUNTIME: [&str; 27] = [
     "setters",
     "algebra",
     "scalar",
     "mechanism",
     "error",
-    "kernels",
     "arguments",
+    "kernels",
     "constraints",
     "rounding",
     "eigenproblem",
@@ -63,6 +63,7 @@ const RUNTIME: [&str; 26] = [
     // beyond
     "branches",
     "sweep",
+    "response",
     "shapes",
     "clusters",
     "second_order",

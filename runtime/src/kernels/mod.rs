@@ -11,12 +11,14 @@
 mod batch;
 mod compiled;
 mod curvature;
+mod deviating_inputs;
 mod directional;
 mod interval;
 mod motion;
 
 pub use batch::{BatchKernels, BatchPoint};
 pub use curvature::CurvatureKernels;
+pub use deviating_inputs::DeviatingInputs;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;
 pub use motion::MotionKernels;
@@ -117,6 +119,12 @@ pub trait Kernels: Sync {
 
     /// How many unknowns, inputs, design variables and outputs there are.
     fn sizes(&self) -> Sizes;
+
+    /// The input of which a design variable is the deviation ([`DeviatingInputs`]): what follows that input, as an engine order
+    /// follows the speed, follows the deviation too.
+    fn input_of_deviation(&self, _design: usize) -> Option<usize> {
+        None
+    }
 
     /// [`Mechanism::residual`](crate::Mechanism::residual).
     fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]);

@@ -24,7 +24,7 @@ pub use whirl::{Sense, Whirl, whirls};
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
 use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
-use crate::kernels::Linear;
+use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
 
@@ -112,6 +112,15 @@ impl Modes {
     fn columns(&self, of: fn(&Mode) -> &[Complex]) -> Matrix<Complex> {
         let rows = self.modes.first().map_or(0, |mode| of(mode).len());
         Matrix::from_fn(rows, self.modes.len(), |i, r| of(&self.modes[r])[i])
+    }
+
+    /// The same modes of the mechanism whose inputs deviate, deviations zero.
+    #[must_use]
+    pub fn with_deviations<K: Kernels + ?Sized>(&self, of: &DeviatingInputs<'_, K>) -> Self {
+        Self {
+            description: of.description(),
+            ..self.clone()
+        }
     }
 
     /// The least `lambda`; infinite without modes.

@@ -3,9 +3,10 @@
 
 use super::curvature::mode_curvature;
 use super::margin::{Margin, margin};
-use crate::algebra::Vector;
+use super::quadratic::Quadratic;
+use crate::algebra::{Vector, add_scaled};
 use crate::arguments::check_input;
-use crate::kernels::CurvatureKernels;
+use crate::kernels::{CurvatureKernels, Kernels};
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
@@ -21,7 +22,8 @@ pub enum Band {
         /// High end, SI.
         high: f64,
     },
-    /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`.
+    /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`. Where the input
+    /// deviates ([`DeviatingInputs`](crate::kernels::DeviatingInputs)), the band does.
     Around {
         /// The input `u`, rad/s in SI.
         input: Input,
@@ -82,6 +84,10 @@ impl Band {
         })
     }
 
+    fn is_around(self, input: usize) -> bool {
+        matches!(self, Self::Around { input: own, .. } if own.index() == input)
+    }
+
     /// How the ends move with an input.
     fn slopes(self, inputs: &[f64], input: usize) -> (f64, f64) {
         match self {
@@ -98,6 +104,33 @@ impl Band {
     }
 }
 
+/// How the reciprocal of what a band is around moves with each design variable, relative to it: by deviations `d` of the input
+/// it is `u / (u + d)`.
+fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, band: Band) -> Vector {
+    let slope = |design: usize| match mechanism.input_of_deviation(design) {
+        Some(input) if band.is_around(input) => -at.inputs[input].recip(),
+        _ => 0.0,
+    };
+    Vector::from_fn(at.design.len(), slope)
+}
+
+/// The model of `f r`, `r` a reciprocal that is one and has these slopes. A quantity lies in a band about `u + d` where `f u / (u + d)`
+/// lies in that about `u`.
+fn relative(model: &Quadratic, reciprocal: &[f64]) -> Quadratic {
+    let (f, s, r) = (model.value, &model.slopes, reciprocal);
+    let mut curvature = model.curvature.clone();
+    for (i, row) in curvature.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            *value += s[i] * r[j] + s[j] * r[i] + 2.0 * f * r[i] * r[j];
+        }
+    }
+    Quadratic {
+        value: f,
+        slopes: add_scaled(s, f, r),
+        curvature,
+    }
+}
+
 /// The margin of a quantity of a mode against a forbidden band.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -108,7 +141,8 @@ pub struct ModeMargin {
     pub quantity: Quantity,
     /// The band that it is to avoid.
     pub band: Band,
-    /// Probabilities, distance, derivatives by design variables and half-widths; SI.
+    /// Probabilities, distance, derivatives by design variables and half-widths; SI. Where the band deviates, they are those of the
+    /// quantity times the ratio of the band's nominal centre to the centre.
     pub margin: Margin,
     /// Total derivatives of the first-order probability by each input, per SI unit: the quantity, its standard deviation
     /// and a band around the input all move. `None` where [`Margin::derivatives`] is.
@@ -139,13 +173,20 @@ pub fn mode_margin(
     let lambda = modes.modes[mode].lambda;
     let silent = Error::NotOscillating { mode, lambda };
     let model = curvature.quadratic(quantity).ok_or(silent.clone())?;
+    let reciprocal = reciprocal_slopes(mechanism, at, band);
+    let model = relative(&model, &reciprocal);
     let first = curvature.first.of(quantity).ok_or(silent.clone())?;
     let mixed = curvature.of(quantity).ok_or(silent)?.by_input_and_design;
     let margin = margin(&model, tolerances, ends)?;
     let by_input = margin.derivatives.as_ref().map(|derivatives| {
         Vector::from_fn(at.inputs.len(), |k| {
-            let sigma = tolerances.covariance(&first.by_design, &mixed[k]) / margin.sigma;
             let (low, high) = band.slopes(&at.inputs, k);
+            // The reciprocal `u / (u + d)` has the slope `r = -1/u` by `d`, and that the slope `r^2` by `u`.
+            let bend = if band.is_around(k) { model.value } else { 0.0 };
+            let slopes = Vector::from_fn(reciprocal.len(), |j| {
+                mixed[k][j] + reciprocal[j] * (first.by_input[k] + bend * reciprocal[j])
+            });
+            let sigma = tolerances.covariance(&model.slopes, &slopes) / margin.sigma;
             derivatives.along(first.by_input[k], sigma, low, high)
         })
     });

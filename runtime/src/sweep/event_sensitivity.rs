@@ -50,7 +50,14 @@ pub fn crossing_sensitivity(mechanism: &dyn Kernels, crossing: &Crossing) -> Res
             reason: NoDerivative::Touch,
         });
     }
-    let slopes = slopes.by_design.map(|value| -value / rate);
+    let moved = |design: usize| match mechanism.input_of_deviation(design) {
+        Some(input) if input == crossing.input.index() => other,
+        _ => 0.0,
+    };
+    let by_design = slopes.by_design.iter().enumerate();
+    let slopes = by_design
+        .map(|(design, value)| -(value - moved(design)) / rate)
+        .collect();
     finite(slopes, &crossing.equilibrium)
 }
 

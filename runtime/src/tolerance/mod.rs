@@ -26,5 +26,6 @@ pub use spread::Spread;
 pub use statistics::Statistics;
 pub use tolerances::Tolerances;
 
+pub(crate) use sample::Solution;
 pub(crate) use sampling::Draw;
 pub(crate) use statistics::Moments;

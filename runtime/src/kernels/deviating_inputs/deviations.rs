@@ -1,0 +1,130 @@
+//! Where deviations stand among the design variables, and what that makes of arguments and results.
+
+use core::mem::replace;
+
+use crate::algebra::{Matrix, Vector};
+use crate::kernels::{Gradient, Linear, LinearPartials, ResidualPartials};
+
+/// Deviations of inputs, which stand behind the mechanism's own design variables.
+#[derive(Debug)]
+pub(super) struct Deviations {
+    design: usize,
+    inputs: Vec<usize>,
+}
+
+impl Deviations {
+    /// After so many design variables, of these inputs.
+    pub(super) fn new(design: usize, inputs: Vec<usize>) -> Self {
+        Self { design, inputs }
+    }
+
+    /// Number of the mechanism's own design variables.
+    pub(super) fn design(&self) -> usize {
+        self.design
+    }
+
+    /// The inputs, by deviation.
+    pub(super) fn inputs(&self) -> &[usize] {
+        &self.inputs
+    }
+
+    /// The mechanism's own design variables, and the deviations.
+    pub(super) fn split<'b, T>(&self, b: &'b [T]) -> (&'b [T], &'b [T]) {
+        b.split_at(self.design)
+    }
+
+    /// The inputs and design variables that the mechanism gets; equally the directions in which they move.
+    pub(super) fn applied<'b, T: Copy + Default>(
+        &self,
+        u: &[T],
+        b: &'b [T],
+        sum: impl Fn(T, T) -> T,
+    ) -> (Vector<T>, &'b [T]) {
+        let (own, deviations) = self.split(b);
+        let mut applied = Vector::from(u);
+        for (&input, &deviation) in self.inputs.iter().zip(deviations) {
+            applied[input] = sum(applied[input], deviation);
+        }
+        (applied, own)
+    }
+
+    /// A gradient, from that of the mechanism.
+    pub(super) fn gradient<T: Copy + Default>(
+        &self,
+        gradient: &mut Gradient<T>,
+        kernel: impl FnOnce(&mut Gradient<T>),
+    ) {
+        let mut design = replace(&mut gradient.design, Vector::zeros(self.design));
+        kernel(gradient);
+        self.join(&mut design, &gradient.inputs, &gradient.design);
+        gradient.design = design;
+    }
+
+    /// Derivatives of the residual, from those of the mechanism.
+    pub(super) fn residual_partials<T: Copy + Default>(
+        &self,
+        partials: &mut ResidualPartials<T>,
+        kernel: impl FnOnce(&mut ResidualPartials<T>),
+    ) {
+        let own = Matrix::zeros(partials.1.row_count(), self.design);
+        let mut by_design = replace(&mut partials.1, own);
+        kernel(partials);
+        self.join_rows(&mut by_design, &partials.0, &partials.1);
+        partials.1 = by_design;
+    }
+
+    /// Derivatives of the outputs by unknowns, inputs and design variables, from those of the mechanism.
+    pub(super) fn output_partials(
+        &self,
+        [by_coordinate, by_input, by_design]: [&mut Matrix; 3],
+        kernel: impl FnOnce([&mut Matrix; 3]),
+    ) {
+        let mut own = Matrix::zeros(by_design.row_count(), self.design);
+        kernel([by_coordinate, &mut *by_input, &mut own]);
+        self.join_rows(by_design, by_input, &own);
+    }
+
+    /// Derivatives of the matrices, from those of the mechanism.
+    pub(super) fn linear_partials<T: Copy + Default>(
+        &self,
+        partials: &mut LinearPartials<T>,
+        kernel: impl FnOnce(&mut LinearPartials<T>),
+    ) {
+        let mut by_deviation = partials.by_design.split_off(self.design);
+        kernel(partials);
+        for (to, &input) in by_deviation.iter_mut().zip(&self.inputs) {
+            copy(&partials.by_input[input], to);
+        }
+        partials.by_design.append(&mut by_deviation);
+    }
+
+    /// Derivatives by design variables and deviations from those by inputs and by design variables.
+    fn join<T: Copy>(&self, joined: &mut [T], by_input: &[T], by_design: &[T]) {
+        let (own, deviations) = joined.split_at_mut(self.design);
+        own.copy_from_slice(by_design);
+        for (to, &input) in deviations.iter_mut().zip(&self.inputs) {
+            *to = by_input[input];
+        }
+    }
+
+    fn join_rows<T: Copy>(
+        &self,
+        joined: &mut Matrix<T>,
+        by_input: &Matrix<T>,
+        by_design: &Matrix<T>,
+    ) {
+        for i in 0..joined.row_count() {
+            self.join(&mut joined[i], &by_input[i], &by_design[i]);
+        }
+    }
+}
+
+fn copy<T: Copy>(from: &Linear<T>, to: &mut Linear<T>) {
+    for (from, to) in [
+        (&from.mass, &mut to.mass),
+        (&from.damping, &mut to.damping),
+        (&from.stiffness, &mut to.stiffness),
+    ] {
+        to.as_flattened_mut().copy_from_slice(from.as_flattened());
+    }
+}

@@ -1,0 +1,9 @@
+//! Reliability methods against exact probabilities and published ones.
+
+mod benchmarks;
+mod common;
+mod form;
+mod regions;
+mod sampling;
+mod sorm;
+mod system;

@@ -1,0 +1,212 @@
+//! Questions about one state: deviations do what their inputs do.
+
+use super::{
+    Double, Governor, OMEGA, Single, Spherical, all_deviate, frequency, frequency_slopes, nominal,
+    solved,
+};
+use crate::common::branching::{NearlyTwo, Rotor};
+use crate::common::chain::DOUBLE;
+use crate::common::close;
+use crate::common::derived::Derived;
+use crate::common::models::{Follower, Plate};
+use crate::common::pendulum::Pendulum;
+use eigentol::clusters::{clusters, directional_derivatives};
+use eigentol::kernels::{CurvatureKernels, DeviatingInputs, Kernels};
+use eigentol::second_order::{mode_curvature, second_order};
+use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
+use eigentol::shapes::shape_sensitivity;
+use eigentol::summary::summary;
+use eigentol::tolerance::{first_order, output_tolerances};
+use eigentol::{Complex, Quantity, Tolerances};
+
+/// All derivatives of a state by deviations against those by inputs, and the rest against the mechanism without deviations.
+fn state<K: CurvatureKernels>(machine: &K, u: &[f64], start: &[f64]) {
+    let plain: &dyn Kernels = machine;
+    let deviating = all_deviate(machine);
+    let b = nominal(machine);
+    let own = b.len();
+    let (plain_state, plain_modes) = solved(plain, u, &b, start);
+    let (at, modes) = solved(&deviating, u, &deviating.design(&b), start);
+    // What was found without is what would have been found with them.
+    assert_eq!(at, plain_state.with_deviations(&deviating));
+    assert_eq!(modes, plain_modes.with_deviations(&deviating));
+
+    let shift = equilibrium_shift(&deviating, &at).unwrap();
+    let without = equilibrium_shift(machine, &plain_state).unwrap();
+    for (i, by_input) in shift.by_input.iter().enumerate() {
+        assert_eq!(&shift.by_design[i][own..], by_input);
+        assert_eq!(shift.by_design[i][..own], without.by_design[i]);
+    }
+    let outputs = output_sensitivities(&deviating, &at).unwrap();
+    for (by_input, by_design) in outputs.by_input.iter().zip(&outputs.by_design) {
+        let (by_input, by_design) = (by_input.as_ref().unwrap(), by_design.as_ref().unwrap());
+        assert_eq!(by_design[own..], **by_input);
+    }
+
+    let slopes = sensitivities(&deviating, &at, &modes).unwrap();
+    let without = sensitivities(machine, &plain_state, &plain_modes).unwrap();
+    let mut moving = 0;
+    for (mode, without) in slopes.modes.iter().zip(&without.modes) {
+        assert_eq!(mode.lambda_by_design[own..], *mode.lambda_by_input);
+        let s = mode.s.as_ref().unwrap();
+        assert_eq!(s.by_design[own..], *s.by_input);
+        moving += s.by_input.iter().filter(|slope| slope.norm() > 0.0).count();
+        for (found, expected) in s
+            .by_design
+            .iter()
+            .zip(&without.s.as_ref().unwrap().by_design)
+        {
+            let scale = without.s.as_ref().unwrap().by_design.iter();
+            let scale = scale.fold(1.0, |most: f64, slope| most.max(slope.norm()));
+            assert!(
+                (found - expected).norm() <= 1e-12 * scale,
+                "{found} {expected}"
+            );
+        }
+    }
+    assert!(moving > 0);
+
+    for mode in 0..modes.modes.len() {
+        let shapes = shape_sensitivity(&deviating, &at, &modes, mode).unwrap();
+        let rows = shapes
+            .right_by_input
+            .iter()
+            .zip(shapes.right_by_design.iter().skip(own));
+        rows.for_each(|(by_input, by_design)| assert_eq!(by_input, by_design));
+
+        let curvature = mode_curvature(&deviating, &at, &modes, mode).unwrap();
+        let second = &curvature.lambda;
+        let scale = [
+            &second.by_input,
+            &second.by_design,
+            &second.by_input_and_design,
+        ];
+        let scale = scale.map(|matrix| matrix.as_flattened()).concat();
+        let scale = scale.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * scale, "{a:e} {b:e}");
+        for i in 0..u.len() {
+            for j in 0..u.len() {
+                near(second.by_design[own + i][own + j], second.by_input[i][j]);
+                near(
+                    second.by_input_and_design[i][own + j],
+                    second.by_input[i][j],
+                );
+            }
+            for j in 0..own {
+                near(
+                    second.by_design[own + i][j],
+                    second.by_input_and_design[i][j],
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_deviations_are_those_by_inputs() {
+    state(&Pendulum, &[5.0], &[1.0]);
+    state(&DOUBLE, &[5.0], &[1.0, 1.2]);
+    state(&Derived(Plate), &[3.0], &[0.0; 2]);
+    state(&Derived(Follower), &[1.0], &[0.0; 2]);
+    state(&Single, &[5.0], &[1.0]);
+    state(&Double, &[5.0, 3.0], &[1.0, 1.2]);
+    state(&Spherical, &[2.0, 0.7, 0.5], &[0.0; 3]);
+    state(&Governor, &[5.0], &[0.4, -0.5, 20.0]);
+}
+
+/// `sqrt(u^2 - c^2 / u^2)` with a speed that deviates, of the pendulum by hand and of the compiled one.
+fn of_the_pendulum(machine: &dyn CurvatureKernels, speed: f64, sigma: f64) {
+    let deviating = DeviatingInputs::new(machine, &[OMEGA]).unwrap();
+    let (at, modes) = solved(&deviating, &[speed], &deviating.design(&[3.0, 1.0]), &[1.0]);
+    let tolerances = Tolerances::new([0.0, 0.0, 2.0 * sigma], 2.0, None).unwrap();
+    let slopes = sensitivities(&deviating, &at, &modes).unwrap();
+    let spread = first_order(&modes, &slopes, &tolerances).unwrap();
+    let [slope, bend] = frequency_slopes(speed);
+    let found = spread.modes[0].frequency.as_ref().unwrap();
+    close(found.mean, frequency(speed), 1e-13);
+    close(found.sigma, slope.abs() * sigma, 1e-12);
+    assert_eq!(found.variance_shares, [0.0, 0.0, 1.0]);
+
+    let second = second_order(&deviating, &at, &modes, &tolerances);
+    let found = &second.modes[0].as_ref().unwrap().frequency;
+    close(found.model.slopes[2], slope, 1e-12);
+    close(found.model.curvature[2][2], bend, 1e-11);
+    close(found.moments.mean_shift, 0.5 * bend * sigma * sigma, 1e-11);
+    let variance = (slope * sigma).powi(2) + 0.5 * (bend * sigma * sigma).powi(2);
+    close(found.moments.sigma, variance.sqrt(), 1e-11);
+    let curvature = mode_curvature(&deviating, &at, &modes, 0).unwrap();
+    let by_input = curvature.of(Quantity::Frequency).unwrap().by_input[0][0];
+    close(found.model.curvature[2][2], by_input, 1e-13);
+
+    let whole = summary(&deviating, &at, &modes, &tolerances).unwrap();
+    assert_eq!(whole.first, spread);
+}
+
+#[test]
+fn a_wandering_speed_spreads_the_frequency_as_the_closed_form() {
+    for (speed, sigma) in [(4.5, 0.02), (5.0, 0.1), (8.0, 0.3)] {
+        of_the_pendulum(&Pendulum, speed, sigma);
+        of_the_pendulum(&Single, speed, sigma);
+    }
+}
+
+/// Speed and length together, and correlated.
+#[test]
+fn deviations_take_part_in_correlations() {
+    let deviating = all_deviate(&Pendulum);
+    let (at, modes) = solved(&deviating, &[5.0], &deviating.design(&[3.0, 1.0]), &[1.0]);
+    let slopes = sensitivities(&deviating, &at, &modes).unwrap();
+    let rates = slopes.modes[0].omega_by_design.as_ref().unwrap();
+    let correlation = [[1.0, 0.0, 0.0], [0.0, 1.0, -1.0], [0.0, -1.0, 1.0]];
+    let half_widths = [0.0, 0.03, 0.3];
+    let together = Tolerances::new(half_widths, 3.0, Some(correlation.into())).unwrap();
+    let spread = first_order(&modes, &slopes, &together).unwrap();
+    let sigma = spread.modes[0].frequency.as_ref().unwrap().sigma;
+    close(sigma, (rates[1] * 0.01 - rates[2] * 0.1).abs(), 1e-12);
+}
+
+/// The height of the tip of a bar and twice its speed, of which the latter depends on the input itself.
+#[test]
+fn outputs_spread_with_inputs() {
+    let deviating = all_deviate(&Spherical);
+    let b = deviating.design(&[20.0, 0.3]);
+    let (at, _) = solved(&deviating, &[2.0, 0.7, 0.5], &b, &[0.0; 3]);
+    let outputs = output_sensitivities(&deviating, &at).unwrap();
+    let tolerances = Tolerances::new([0.0, 0.0, 0.0, 0.06, 0.0], 3.0, None).unwrap();
+    let spread = output_tolerances(&outputs, &tolerances).unwrap();
+    for (o, spread) in spread.spreads.iter().enumerate() {
+        let by_speed = outputs.by_input[o].as_ref().unwrap()[1];
+        close(spread.as_ref().unwrap().sigma, 0.02 * by_speed.abs(), 1e-12);
+    }
+    assert!(spread.spreads[1].as_ref().unwrap().sigma > 0.03);
+}
+
+/// Two equal stiffnesses `1 - u`: both eigenvalues fall with `u`. Two nearly equal ones move along.
+#[test]
+fn clusters_move_with_inputs() {
+    let rotor = Derived(Rotor);
+    let deviating = all_deviate(&rotor);
+    let (at, modes) = solved(&deviating, &[0.4], &[0.0], &[0.0; 2]);
+    let tolerances = Tolerances::new([0.03], 3.0, None).unwrap();
+    let found = clusters(&deviating, &at, &modes, &tolerances).unwrap();
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].modes, [0, 1]);
+    let mean = found[0].mean.as_ref().unwrap();
+    assert_eq!(mean.by_design[..], mean.by_input[..]);
+    close(mean.by_design[0].re, -1.0, 1e-13);
+    close(mean.sigma_re, 0.01, 1e-12);
+
+    let nearly = Derived(NearlyTwo);
+    let deviating = all_deviate(&nearly);
+    let b = deviating.design(&[0.0]);
+    let (at, modes) = solved(&deviating, &[0.4], &b, &[0.0; 2]);
+    let along = |du: f64, db: [f64; 2]| {
+        directional_derivatives(&deviating, &at, &modes, 0, (&[du], &db)).unwrap()
+    };
+    assert_eq!(along(0.7, [0.2, 0.0]), along(0.0, [0.2, 0.7]));
+    assert_eq!(along(0.7, [0.2, 0.0]), along(0.5, [0.2, 0.2]));
+    let found = along(0.0, [0.2, 0.7]).eigenvalues;
+    for (found, expected) in found.iter().zip([-0.7, -0.5]) {
+        assert!((found - Complex::from(expected)).norm() < 1e-13);
+    }
+}

@@ -1,0 +1,105 @@
+//! A forbidden band around an input that deviates: the band deviates with it.
+
+use super::{CRITICAL, OMEGA, Single, all_deviate, solved};
+use crate::common::close;
+use eigentol::second_order::{Band, ModeMargin, mode_margin};
+use eigentol::{Error, Quantity, Tolerances};
+
+const SIGMA: f64 = 0.1;
+
+/// The margin of the bar against a tenth of its speed, which is set to `speed` and deviates by `deviation` about.
+fn margin(speed: f64, deviation: f64, sigma: f64, band: Band) -> Result<ModeMargin, Error> {
+    let deviating = all_deviate(&Single);
+    let mut b = deviating.design(&[3.0, 1.0]);
+    b[2] = deviation;
+    let (at, modes) = solved(&deviating, &[speed], &b, &[1.0]);
+    let tolerances = Tolerances::new([0.0, 0.0, 3.0 * sigma], 3.0, None).unwrap();
+    let what = (0, Quantity::Frequency);
+    mode_margin(&deviating, &at, &modes, what, &tolerances, band)
+}
+
+/// Probability that a standard normal variable exceeds `low`, by the midpoint rule.
+fn tail(low: f64) -> f64 {
+    let step = 1e-4;
+    let density = |z: f64| (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
+    let parts = (0..100_000).map(|k| density(low + (f64::from(k) + 0.5) * step));
+    parts.sum::<f64>() * step
+}
+
+/// The frequency over the speed, `sqrt(1 - c^2 / v^4)`, grows with the speed: it reaches nine tenths where `v^4 = c^2 / 0.19`.
+#[test]
+fn the_band_is_around_the_speed_that_it_is() {
+    let speed = 5.6_f64;
+    let found = margin(speed, 0.0, SIGMA, Band::around(OMEGA, 0.1))
+        .unwrap()
+        .margin;
+    let square = CRITICAL * CRITICAL;
+    let ratio = (1.0 - square / speed.powi(4)).sqrt();
+    let slope = 2.0 * square / (speed.powi(5) * ratio);
+    let bend = -(10.0 * square / speed.powi(6) + slope * slope) / ratio;
+    close(found.sigma, SIGMA * speed * slope, 1e-11);
+    close(found.value, speed * ratio, 1e-12);
+    let distance = (0.9 - ratio) / (SIGMA * slope);
+    close(found.distance, distance, 1e-10);
+    close(found.first_order, tail(distance), 1e-7);
+    // The parabola is in the band between two deviations.
+    let root = (slope * slope + 2.0 * bend * (0.9 - ratio)).sqrt();
+    let [near, far] = [root, -root].map(|root| (root - slope) / (bend * SIGMA));
+    close(found.corrected.value, tail(near) - tail(far), 1e-7);
+    let exact = tail(((square / 0.19).powf(0.25) - speed) / SIGMA);
+    let errors = [found.first_order, found.corrected.value].map(|value| (value - exact).abs());
+    assert!(
+        errors[0] > 0.5 * exact && errors[1] < 0.1 * exact,
+        "{errors:?} of {exact}"
+    );
+}
+
+/// Derivatives by the set speed and by the mean of its deviation, against differences.
+#[test]
+fn its_derivatives_are_what_differences_show() {
+    let band = Band::around(OMEGA, 0.1);
+    let found = margin(5.6, 0.0, SIGMA, band).unwrap();
+    let step = 1e-4;
+    let probability = |speed: f64| margin(speed, 0.0, SIGMA, band).unwrap().margin.first_order;
+    let expected = (probability(5.6 + step) - probability(5.6 - step)) / (2.0 * step);
+    assert!(expected.abs() > 0.1);
+    close(found.by_input.unwrap()[0], expected, 1e-6);
+    // A mean deviation at a set speed is that speed, less the deviation.
+    let moved = margin(
+        5.6,
+        0.02,
+        SIGMA,
+        Band::Between {
+            low: 5.0,
+            high: 6.0,
+        },
+    );
+    let other = margin(
+        5.62,
+        0.0,
+        SIGMA,
+        Band::Between {
+            low: 5.0,
+            high: 6.0,
+        },
+    );
+    close(
+        moved.unwrap().margin.corrected.value,
+        other.unwrap().margin.corrected.value,
+        1e-9,
+    );
+}
+
+/// Without a tolerance of the input nothing changes, and a band about zero has no fractions to deviate by.
+#[test]
+fn exact_inputs_and_none() {
+    let found = margin(5.6, 0.0, 0.0, Band::around(OMEGA, 0.1))
+        .unwrap()
+        .margin;
+    assert_eq!((found.sigma, found.first_order), (0.0, 0.0));
+    let at_rest = margin(0.0, 0.0, SIGMA, Band::around(OMEGA, 0.1));
+    assert!(
+        matches!(at_rest, Err(Error::NotFinite { .. })),
+        "{at_rest:?}"
+    );
+}
