@@ -100,6 +100,8 @@ pub mod motion;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
+pub mod response;
+#[cfg(feature = "std")]
 mod rounding;
 #[cfg(feature = "std")]
 pub mod second_order;
@@ -150,7 +152,7 @@ pub use sensitivity::{Quantity, Sensitivities};
 #[cfg(feature = "std")]
 pub use state::{Equilibrium, Stability};
 #[cfg(feature = "std")]
-pub use study::{InDeclaredUnit, Solved, Study, Value};
+pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
 

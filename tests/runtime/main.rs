@@ -8,6 +8,7 @@ mod clusters;
 mod constrained_modes;
 mod constraints;
 mod deviations;
+mod distributions;
 mod dual;
 mod equilibrium;
 mod events;

@@ -278,3 +278,26 @@ fn listed(others: &[(Text, f64)]) -> String {
         .map(|(name, gap)| format!(", `{name}` by {gap:.6e}"));
     each.collect()
 }
+
+impl From<eigentol_statistics::Error> for Error {
+    fn from(error: eigentol_statistics::Error) -> Self {
+        match error {
+            eigentol_statistics::Error::Setting { setting, reason } => {
+                Self::Setting { setting, reason }
+            }
+            eigentol_statistics::Error::WrongLength {
+                kind,
+                found,
+                expected,
+            } => Self::WrongLength {
+                kind,
+                found,
+                expected,
+            },
+            other => Self::Setting {
+                setting: "statistics",
+                reason: other.to_string(),
+            },
+        }
+    }
+}

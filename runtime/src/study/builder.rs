@@ -1,13 +1,15 @@
 //! A study, and how it is set up.
 
+use super::parameter::Parameter;
 use super::settings::Settings;
 use super::value::Value;
+use super::variation::Variation;
 use crate::equilibrium::Policy;
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::tolerance::Tolerances;
-use crate::{Coordinate, Description, DesignVariable, Error, Input, Matrix, Output, Text};
+use crate::tolerance::{Distribution, Tolerances};
+use crate::{Coordinate, Description, DesignVariable, Error, Input, Law, Matrix, Output, Text};
 
 /// A mechanism at one operating point, with tolerances and settings.
 ///
@@ -115,21 +117,99 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the half-width of a tolerance. It stays as it is when the variable is given another value; so does a declared
-    /// tolerance, also one in percent ([`Study::relative_tolerance`] follows the value).
+    /// Sets the half-width of a tolerance of a design variable or an input. It stays as it is when the parameter is given another
+    /// value; so does a declared tolerance, also one of a design variable in percent ([`Study::relative_tolerance`] follows the
+    /// value). The distribution stays normal, or what it was set to be.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // The speed wanders by 0.1 rad/s about whatever value it has.
+    /// let spread = study.clone().tolerance(Pendulum::omega, 0.1).first_order()?;
+    /// assert!(spread.modes[0].lambda.sigma > study.first_order()?.modes[0].lambda.sigma);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
     #[must_use]
-    pub fn tolerance(mut self, variable: DesignVariable<M>, half_width: impl Into<Value>) -> Self {
+    pub fn tolerance(
+        mut self,
+        parameter: impl Into<Parameter<M>>,
+        half_width: impl Into<Value>,
+    ) -> Self {
         let half_width = half_width.into();
-        self.settings.set_tolerance(variable.any(), half_width);
+        self.settings
+            .set_limits(parameter.into().any(), half_width.negative(), half_width);
         self
     }
 
-    /// Sets the half-width of a tolerance as a fraction of the variable's value: 0.03 for 3 %. It follows the value, whether that
+    /// Sets the half-width of a tolerance as a fraction of the value: 0.03 for 3 %. It follows the value, whether that
     /// is set before or after.
     #[must_use]
-    pub fn relative_tolerance(mut self, variable: DesignVariable<M>, fraction: f64) -> Self {
+    pub fn relative_tolerance(mut self, parameter: impl Into<Parameter<M>>, fraction: f64) -> Self {
+        let limits = (-fraction, fraction);
         self.settings
-            .set_relative_tolerance(variable.any(), fraction);
+            .set_relative_limits(parameter.into().any(), limits);
+        self
+    }
+
+    /// Sets the limits of a tolerance as deviations from the value, the lower one first: `(0.0, 0.1e-3)` for a bore of +0.1 -0 mm.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let longer = study.limits(Pendulum::l, 0.0, 0.02);
+    /// assert!((longer.tolerances()?.shifts()[Pendulum::l.index()] - 0.01).abs() < 1e-15);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn limits(
+        mut self,
+        parameter: impl Into<Parameter<M>>,
+        lower: impl Into<Value>,
+        upper: impl Into<Value>,
+    ) -> Self {
+        self.settings
+            .set_limits(parameter.into().any(), lower.into(), upper.into());
+        self
+    }
+
+    /// Sets how values are distributed between the limits of a tolerance.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Law;
+    ///
+    /// let uniform = study.clone().law(Pendulum::l, Law::Uniform);
+    /// let (uniform, normal) = (uniform.tolerances()?, study.tolerances()?);
+    /// // Limits hold three standard deviations of a normal variable and the square root of three of a uniform one.
+    /// let ratio = uniform.sigmas()[Pendulum::l.index()] / normal.sigmas()[Pendulum::l.index()];
+    /// assert!((ratio - 3.0_f64.sqrt()).abs() < 1e-12);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn law(mut self, parameter: impl Into<Parameter<M>>, law: Law) -> Self {
+        self.settings
+            .vary(parameter.into().any(), |own| own.set_law(law));
+        self
+    }
+
+    /// Sets the distribution of a parameter, of its values in SI, whatever its nominal value.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::tolerance::Distribution;
+    ///
+    /// let measured = Distribution::empirical(&[0.98, 1.01, 1.0, 1.03, 0.99])?;
+    /// let study = study.distribution(Pendulum::l, measured);
+    /// println!("{}", study.monte_carlo()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn distribution(
+        mut self,
+        parameter: impl Into<Parameter<M>>,
+        values: Distribution,
+    ) -> Self {
+        self.settings.vary(parameter.into().any(), |own| {
+            *own = Variation::Values(values)
+        });
         self
     }
 
@@ -140,7 +220,8 @@ impl<M: Kernels> Study<M> {
         self
     }
 
-    /// Sets the correlation matrix of the design variables (independent unless set).
+    /// Sets the correlation matrix of the design variables, and after them of the inputs that have a tolerance (independent unless
+    /// set).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
         self.settings.correlation = Some(matrix.into());

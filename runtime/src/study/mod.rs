@@ -4,10 +4,13 @@
 mod at_point;
 mod builder;
 mod over_input;
+mod parameter;
 mod settings;
 mod solved;
 mod value;
+mod variation;
 
 pub use builder::Study;
+pub use parameter::Parameter;
 pub use solved::Solved;
 pub use value::{InDeclaredUnit, Value};

@@ -1,8 +1,10 @@
 //! What is set of a study, and the questions that need no type of mechanism.
 
-use super::value::Value;
 use std::borrow::Cow;
 
+use super::parameter::Parameter;
+use super::value::Value;
+use super::variation::Variation;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::equilibrium;
@@ -11,17 +13,10 @@ use crate::kernels::Kernels;
 use crate::modes::{self, Family};
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
-use crate::tolerance::{Sampling, Tolerances};
-use crate::{Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Modes, Shared};
-
-/// Half-width of a tolerance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Width {
-    /// SI.
-    Absolute(f64),
-    /// Of the variable's value.
-    Relative(f64),
-}
+use crate::tolerance::{Distribution, Sampling, Tolerances};
+use crate::{
+    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Modes, Shared, Unit,
+};
 
 /// The operating point, the tolerances and how to solve.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +29,8 @@ pub(super) struct Settings {
     held: Vec<bool>,
     pub(super) policy: Policy,
     pub(super) family: Option<Family>,
-    half_widths: Vec<Width>,
+    design_variations: Vec<Variation>,
+    input_variations: Vec<Variation>,
     pub(super) sigma_level: f64,
     pub(super) correlation: Option<Matrix>,
     pub(super) samples: usize,
@@ -51,7 +47,6 @@ impl Settings {
     /// The nominal design with the declared tolerances.
     pub(super) fn new(description: Shared<Description>) -> Self {
         let (design, unknowns) = (&description.design, description.coordinates.len());
-        let half_width = |tolerance| Width::Absolute(tolerance);
         Self {
             inputs: Vector::zeros(description.inputs.len()),
             design: design.iter().map(|info| info.nominal).collect(),
@@ -59,9 +54,11 @@ impl Settings {
             held: vec![false; unknowns],
             policy: Policy::Stable,
             family: None,
-            half_widths: design
-                .iter()
-                .map(|info| half_width(info.tolerance.upper))
+            design_variations: (design.iter())
+                .map(|info| Variation::About(info.tolerance))
+                .collect(),
+            input_variations: (description.inputs.iter())
+                .map(|info| Variation::About(info.tolerance))
                 .collect(),
             sigma_level: 3.0,
             correlation: None,
@@ -102,16 +99,57 @@ impl Settings {
         }
     }
 
-    pub(super) fn set_tolerance(&mut self, variable: DesignVariable, half_width: Value) {
-        let half_width = self.design_si(variable, half_width).map(Width::Absolute);
-        let place = self.half_widths.get_mut(variable.index());
-        set(place, half_width, &mut self.fault);
+    /// Sets limits about the value of a parameter.
+    pub(super) fn set_limits(&mut self, parameter: Parameter, lower: Value, upper: Value) {
+        match self.unit(parameter) {
+            Ok(unit) => {
+                let limits = (lower.si(&unit), upper.si(&unit));
+                self.vary(parameter, |own| own.set_limits(limits, false));
+            }
+            Err(error) => self.refuse(error),
+        }
     }
 
-    pub(super) fn set_relative_tolerance(&mut self, variable: DesignVariable, fraction: f64) {
-        let width = self.design_si(variable, Value::Si(fraction));
-        let place = self.half_widths.get_mut(variable.index());
-        set(place, width.map(Width::Relative), &mut self.fault);
+    /// Sets limits that are fractions of the value.
+    pub(super) fn set_relative_limits(&mut self, parameter: Parameter, limits: (f64, f64)) {
+        self.vary(parameter, |own| own.set_limits(limits, true));
+    }
+
+    /// Changes how a parameter varies.
+    pub(super) fn vary(&mut self, parameter: Parameter, change: impl FnOnce(&mut Variation)) {
+        let (all, index) = match parameter {
+            Parameter::Design(variable) => (&mut self.design_variations, variable.index()),
+            Parameter::Input(input) => (&mut self.input_variations, input.index()),
+        };
+        match all.get_mut(index) {
+            Some(own) => change(own),
+            None => {
+                if let Err(error) = self.unit(parameter) {
+                    self.refuse(error);
+                }
+            }
+        }
+    }
+
+    fn unit(&self, parameter: Parameter) -> Result<Unit, Error> {
+        let d = &self.description;
+        match parameter {
+            Parameter::Design(variable) => {
+                let info = d.design.get(variable.index());
+                info.map(|info| info.unit.clone()).ok_or_else(|| {
+                    self.unknown("design variable", variable.index(), d.design.len())
+                })
+            }
+            Parameter::Input(input) => {
+                let info = d.inputs.get(input.index());
+                info.map(|info| info.unit.clone())
+                    .ok_or_else(|| self.unknown("input", input.index(), d.inputs.len()))
+            }
+        }
+    }
+
+    fn refuse(&mut self, error: Error) {
+        self.fault.get_or_insert(error);
     }
 
     /// A value of an input, SI.
@@ -145,15 +183,40 @@ impl Settings {
         }
     }
 
+    /// The tolerances of the design variables, and after them of the inputs that have any.
     pub(super) fn tolerances(&self) -> Result<Tolerances, Error> {
         self.ready()?;
-        let half_width = |(width, value): (&Width, &f64)| match width {
-            Width::Absolute(half_width) => *half_width,
-            Width::Relative(fraction) => fraction * value.abs(),
-        };
-        let half_widths = self.half_widths.iter().zip(&self.design).map(half_width);
-        let half_widths: Vector = half_widths.collect();
-        Tolerances::new(half_widths, self.sigma_level, self.correlation.clone())
+        let inputs = self.varied_inputs();
+        let inputs = inputs
+            .iter()
+            .map(|&i| (&self.input_variations[i], &self.inputs[i]));
+        let all = self
+            .design_variations
+            .iter()
+            .zip(&self.design)
+            .chain(inputs);
+        let (level, correlation) = (self.sigma_level, self.correlation.clone());
+        let normal = all
+            .clone()
+            .map(|(own, value)| own.normal_half_width(*value));
+        if normal.clone().all(|half_width| half_width.is_some()) {
+            let half_widths: Vector = normal.flatten().collect();
+            return Tolerances::new(half_widths, level, correlation);
+        }
+        let values: Vec<Distribution> = all
+            .clone()
+            .map(|(own, value)| own.distribution(*value, level))
+            .collect::<Result<_, _>>()?;
+        let nominal: Vector = all.map(|(_, value)| *value).collect();
+        Tolerances::distributed(&nominal, values, level, correlation)
+    }
+
+    /// The inputs that have a tolerance.
+    pub(super) fn varied_inputs(&self) -> Vec<usize> {
+        let all = self.input_variations.iter().enumerate();
+        all.filter(|(_, own)| !own.is_none())
+            .map(|(i, _)| i)
+            .collect()
     }
 
     pub(super) fn following(&self) -> Following {

@@ -62,6 +62,14 @@ impl From<InDeclaredUnit> for Value {
 }
 
 impl Value {
+    /// The same with the opposite sign.
+    pub(super) fn negative(self) -> Self {
+        match self {
+            Self::Si(value) => Self::Si(-value),
+            Self::Declared(value) => Self::Declared(-value),
+        }
+    }
+
     /// The value of a quantity declared in `unit`, SI.
     #[must_use]
     pub fn si(self, unit: &Unit) -> f64 {

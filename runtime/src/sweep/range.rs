@@ -51,7 +51,7 @@ impl Range {
         (1..=count).map(move |step| low + (high - low) * step as f64 / count as f64)
     }
 
-    pub(super) fn check(&self, description: &Description) -> Result<(), Error> {
+    pub(crate) fn check(&self, description: &Description) -> Result<(), Error> {
         check_input(self.input, description)?;
         let refused = if !(self.low.is_finite() && self.high.is_finite()) {
             "its ends must be finite"

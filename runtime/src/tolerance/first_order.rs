@@ -134,7 +134,7 @@ fn undamped(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> Mode
     let moving = |mean: f64, by_design: Vector| {
         let sigma = lambda.sigma / (2.0 * greater(mode.s.re, mode.s.im));
         Spread {
-            mean,
+            mean: mean + tolerances.mean_shift(&by_design),
             by_design,
             sigma,
             band: level * sigma,
@@ -157,7 +157,7 @@ fn undamped(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> Mode
         growth,
         distance_to_critical: match mode.behaviour {
             Behaviour::Neutral => 0.0,
-            _ => in_sigmas(mode.lambda, lambda.sigma),
+            _ => in_sigmas(lambda.mean, lambda.sigma),
         },
         lambda,
         distance_to_instability: f64::INFINITY,

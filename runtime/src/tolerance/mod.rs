@@ -2,6 +2,7 @@
 
 mod batched;
 mod first_order;
+mod law;
 mod monte_carlo;
 mod normal_sampling;
 mod outcome;
@@ -13,7 +14,10 @@ mod spread;
 mod statistics;
 mod tolerances;
 
+/// Distributions of one variable and of several, from [`eigentol_statistics`].
+pub use eigentol_statistics::{Distribution, Joint};
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
+pub use law::distribution;
 pub use monte_carlo::{MonteCarlo, Sampling, monte_carlo};
 pub use outcome::{Counts, Outcome};
 pub use outputs::{OutputTolerances, output_tolerances};
@@ -22,5 +26,6 @@ pub use spread::Spread;
 pub use statistics::Statistics;
 pub use tolerances::Tolerances;
 
+pub(crate) use sample::Solution;
 pub(crate) use sampling::Draw;
 pub(crate) use statistics::Moments;

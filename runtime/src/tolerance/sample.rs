@@ -27,10 +27,10 @@ pub struct Sample {
 }
 
 /// What was found of a sample, in room that the next one uses again.
-pub(super) struct Solution {
-    pub(super) outcome: Outcome,
+pub(crate) struct Solution {
+    pub(crate) outcome: Outcome,
     /// Means something where the outcome is that of an equilibrium.
-    pub(super) state: Equilibrium,
+    pub(crate) state: Equilibrium,
     solved: bool,
     modes: Modes,
     /// Where the nominal modes are among them; empty where they were not found.
@@ -39,7 +39,7 @@ pub(super) struct Solution {
 
 impl Solution {
     /// Room for samples about a nominal state.
-    pub(super) fn about(nominal: &Equilibrium, modes: &Modes) -> Self {
+    pub(crate) fn about(nominal: &Equilibrium, modes: &Modes) -> Self {
         Self {
             outcome: Outcome::Stable,
             state: nominal.clone(),
@@ -50,7 +50,7 @@ impl Solution {
     }
 
     /// Solves the sample of this design from the nominal state.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
@@ -94,12 +94,22 @@ impl Solution {
     }
 
     /// The mode that nominal mode `r` has become.
-    pub(super) fn mode(&self, r: usize) -> Option<&Mode> {
-        self.modes.modes.get((*self.places.get(r)?)?)
+    pub(crate) fn mode(&self, r: usize) -> Option<&Mode> {
+        self.modes.modes.get(self.place(r)?)
+    }
+
+    /// Where it stands among [`Self::modes`].
+    pub(crate) fn place(&self, r: usize) -> Option<usize> {
+        *self.places.get(r)?
+    }
+
+    /// The modes that were found, in their own order.
+    pub(crate) fn modes(&self) -> &Modes {
+        &self.modes
     }
 
     /// As a sample of so many nominal modes.
-    pub(super) fn sample(&self, design: &[f64], modes: usize) -> Sample {
+    pub(crate) fn sample(&self, design: &[f64], modes: usize) -> Sample {
         let own = || (0..modes).map(|r| self.mode(r));
         Sample {
             design: design.into(),

@@ -38,7 +38,8 @@ impl<'a> Draw<'a> {
                 .iter()
                 .any(|row| row.get(j).is_some_and(|l| *l != 0.0))
         };
-        let used = |pair| variable(2 * pair) || variable(2 * pair + 1);
+        let all = tolerances.joint().is_some();
+        let used = |pair| all || variable(2 * pair) || variable(2 * pair + 1);
         Self {
             random: generator(sequence, first, variables),
             nominal,
@@ -60,12 +61,27 @@ impl<'a> Draw<'a> {
                 }
             }
         }
-        let rows = self.tolerances.factor().iter().zip(self.nominal);
-        for (i, (value, (row, nominal))) in self.design.iter_mut().zip(rows).enumerate() {
-            let parts = row[..=i].iter().zip(&self.standard);
-            *value = parts.fold(*nominal, |sum, (l, normal)| sum + l * normal);
+        match self.tolerances.joint() {
+            None => self.combine(),
+            Some((joint, about)) => {
+                joint.from_normal(&self.standard, &mut self.design);
+                let moved = self.nominal.iter().zip(about);
+                for (value, (nominal, about)) in self.design.iter_mut().zip(moved) {
+                    *value += nominal - about;
+                }
+            }
         }
         &self.design
+    }
+
+    /// Normal variables: mean and what each of the standard ones adds.
+    fn combine(&mut self) {
+        let means = self.nominal.iter().zip(self.tolerances.shifts());
+        let rows = self.tolerances.factor().iter().zip(means);
+        for (i, (value, (row, (nominal, shift)))) in self.design.iter_mut().zip(rows).enumerate() {
+            let parts = row[..=i].iter().zip(&self.standard);
+            *value = parts.fold(nominal + shift, |sum, (l, normal)| sum + l * normal);
+        }
     }
 }
 

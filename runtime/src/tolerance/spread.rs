@@ -7,7 +7,7 @@ use crate::algebra::Vector;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Spread {
-    /// Nominal value, SI, which at first order is the mean.
+    /// Mean, SI: the nominal value, and what means of design variables beside their nominal values add to it.
     pub mean: f64,
     /// Derivatives by the design variables, per SI unit.
     pub by_design: Vector,
@@ -26,7 +26,7 @@ impl Spread {
     pub fn new(mean: f64, by_design: Vector, tolerances: &Tolerances) -> Self {
         let (sigma, variance_shares) = tolerances.spread(&by_design);
         Self {
-            mean,
+            mean: mean + tolerances.mean_shift(&by_design),
             by_design,
             sigma,
             band: tolerances.sigma_level() * sigma,

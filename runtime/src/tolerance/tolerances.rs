@@ -1,34 +1,62 @@
-//! Half-widths, the number of standard deviations they stand for, and how variables vary together.
+//! How design variables vary: distributions, the standard deviations that a half-width stands for, and correlation.
 
 use std::borrow::Cow;
 
+use eigentol_statistics::{Distribution, Joint, semidefinite_factor};
+
+use super::law::{distribution, standard_deviation};
 use crate::algebra::{Matrix, Vector, dot, largest, times};
 use crate::{Description, Error};
 
-/// Tolerances of the design variables.
+/// How the design variables vary about their nominal values.
+///
+/// ```
+/// use eigentol::Tolerances;
+/// use eigentol::tolerance::Distribution;
+///
+/// // Half-widths of three standard deviations, normally distributed about the nominal values.
+/// let normal = Tolerances::new([0.03, 0.1], 3.0, None)?;
+/// assert!((normal.sigma(&[2.0, 0.0]) - 0.02).abs() < 1e-15);
+///
+/// // Any distribution of the values; a bore may become only larger.
+/// let bore = Distribution::uniform(20e-3, 20.1e-3)?;
+/// let uniform = Tolerances::distributed(&[20e-3], vec![bore], 3.0, None)?;
+/// assert!((uniform.shifts()[0] - 0.05e-3).abs() < 1e-15);
+/// # Ok::<(), eigentol::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Tolerances {
     half_widths: Vector,
     sigma_level: f64,
     sigmas: Vector,
+    /// Mean less nominal value.
+    shifts: Vector,
     correlation: Option<Matrix>,
     /// Lower factor of the covariance matrix.
     factor: Matrix,
+    /// The values where they are not jointly normal, and the nominal values that these were made for.
+    joint: Option<(Joint, Vector)>,
 }
 
 impl Tolerances {
-    /// The declared half-widths, three standard deviations each, independent of each other.
+    /// The declared tolerances of the nominal design, independent of each other; limits of normal variables hold three standard
+    /// deviations.
     ///
     /// # Errors
-    /// [`Error::Setting`] when a declared half-width is negative or not finite.
+    /// [`Error::Setting`] when a declared tolerance makes no sense.
     pub fn declared(description: &Description) -> Result<Self, Error> {
-        let infos = description.design.iter();
-        let half_widths: Vector = infos.map(|info| info.tolerance.upper).collect();
-        Self::new(half_widths, 3.0, None)
+        let infos = &description.design;
+        let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
+        let own = infos
+            .iter()
+            .map(|info| distribution(info.nominal, &info.tolerance, 3.0));
+        let own: Vec<Distribution> = own.collect::<Result<_, _>>()?;
+        Self::distributed(&nominal, own, 3.0, None)
     }
 
-    /// Half-widths, SI, of `sigma_level` standard deviations each; `None` for `correlation` leaves the variables independent.
+    /// Normally distributed about the nominal values, with half-widths, SI, of `sigma_level` standard deviations each; `None` for
+    /// `correlation` leaves the variables independent.
     ///
     /// # Errors
     /// [`Error::Setting`] for a negative or infinite half-width, a level that is not positive or too small, or a correlation matrix
@@ -40,56 +68,67 @@ impl Tolerances {
         correlation: Option<Matrix>,
     ) -> Result<Self, Error> {
         let half_widths = half_widths.into();
-        if let Some(&value) = half_widths
-            .iter()
-            .find(|&&value| !(0.0..=f64::MAX).contains(&value))
-        {
-            return Err(refuse(
-                "tolerance",
-                format!("half-width {value} must be zero or positive"),
-            ));
+        let mut sigmas = Vector::zeros(half_widths.len());
+        for (sigma, half_width) in sigmas.iter_mut().zip(&half_widths) {
+            *sigma = standard_deviation(*half_width, sigma_level)?;
         }
-        if !(sigma_level > 0.0 && sigma_level.is_finite()) {
-            return Err(refuse(
-                "sigma level",
-                format!("{sigma_level} must be positive"),
-            ));
-        }
-        if let Some(&value) = half_widths
-            .iter()
-            .find(|&&value| !(value / sigma_level).is_finite())
-        {
-            return Err(refuse(
-                "sigma level",
-                format!(
-                    "{sigma_level} makes the standard deviation of half-width {value} infinite"
-                ),
-            ));
-        }
-        let sigmas = half_widths.map(|value| value / sigma_level);
-        let count = half_widths.len();
-        let factor = match &correlation {
-            Some(matrix) => {
-                let mut factor = semidefinite_factor(matrix, count)?;
-                for (row, half_width) in factor.iter_mut().zip(&half_widths) {
-                    for value in row {
-                        *value = *value * half_width / sigma_level;
-                    }
-                }
-                factor
-            }
-            None => Matrix::from_fn(count, count, |i, j| if i == j { sigmas[i] } else { 0.0 }),
-        };
         Ok(Self {
+            factor: covariance_factor(&sigmas, correlation.as_ref())?,
+            shifts: Vector::zeros(sigmas.len()),
             half_widths,
             sigma_level,
             sigmas,
             correlation,
-            factor,
+            joint: None,
         })
     }
 
-    /// Half-widths, SI.
+    /// Values, SI, that are distributed like this in place of the nominal ones; `sigma_level` says how many standard deviations a
+    /// half-width and a band stand for. A correlation matrix holds the linear correlations of the values, which vary together
+    /// through a Gaussian copula ([`Joint`]).
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] for other than one distribution for each nominal value; [`Error::Setting`] for a level that is not
+    /// positive, and a correlation matrix that is not symmetric and positive semidefinite with ones on its diagonal or that such
+    /// variables cannot have.
+    pub fn distributed(
+        nominal: &[f64],
+        values: Vec<Distribution>,
+        sigma_level: f64,
+        correlation: Option<Matrix>,
+    ) -> Result<Self, Error> {
+        if values.len() != nominal.len() {
+            return Err(Error::WrongLength {
+                kind: "distributions",
+                found: values.len(),
+                expected: nominal.len(),
+            });
+        }
+        standard_deviation(0.0, sigma_level)?;
+        let sigmas: Vector = values.iter().map(Distribution::sigma).collect();
+        let means = values.iter().zip(nominal);
+        let normal = values.iter().all(Distribution::is_normal);
+        Ok(Self {
+            factor: covariance_factor(&sigmas, correlation.as_ref())?,
+            shifts: means
+                .map(|(value, nominal)| value.mean() - nominal)
+                .collect(),
+            half_widths: sigmas.map(|sigma| sigma_level * sigma),
+            sigma_level,
+            sigmas,
+            joint: match &correlation {
+                _ if normal => None,
+                None => Some((Joint::independent(values), nominal.into())),
+                Some(matrix) => {
+                    let joint = Joint::correlated(values, matrix.as_flattened())?;
+                    Some((joint, nominal.into()))
+                }
+            },
+            correlation,
+        })
+    }
+
+    /// Half-widths, SI: [`Self::sigma_level`] standard deviations each.
     #[must_use]
     pub fn half_widths(&self) -> &[f64] {
         &self.half_widths
@@ -111,6 +150,34 @@ impl Tolerances {
     #[must_use]
     pub fn sigmas(&self) -> &[f64] {
         &self.sigmas
+    }
+
+    /// Means of the values less the nominal values, SI.
+    #[must_use]
+    pub fn shifts(&self) -> &[f64] {
+        &self.shifts
+    }
+
+    /// Whether the values are jointly normal, about whatever mean.
+    #[must_use]
+    pub fn is_normal(&self) -> bool {
+        self.joint.is_none()
+    }
+
+    /// The values where they are not jointly normal, and the nominal values that these were made for.
+    pub(crate) fn joint(&self) -> Option<(&Joint, &[f64])> {
+        self.joint
+            .as_ref()
+            .map(|(joint, nominal)| (joint, &nominal[..]))
+    }
+
+    /// What the means, at first order, add to a quantity with these slopes.
+    pub(crate) fn mean_shift(&self, slopes: &[f64]) -> f64 {
+        let parts = slopes.iter().zip(&self.shifts);
+        parts
+            .filter(|(_, shift)| **shift != 0.0)
+            .map(|(slope, shift)| slope * shift)
+            .sum()
     }
 
     /// Refuses tolerances that are not those of `count` design variables.
@@ -222,46 +289,24 @@ fn sum(values: &[f64]) -> f64 {
 /// Variances whose parts neither overflow nor lose digits: what is far below the greatest part does not matter.
 const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;
 
-fn refuse(setting: &'static str, reason: String) -> Error {
-    Error::Setting { setting, reason }
-}
-
-/// Cholesky factor of a correlation matrix of this size; a pivot that is zero to rounding gives a zero column.
-fn semidefinite_factor(matrix: &Matrix, size: usize) -> Result<Matrix, Error> {
-    const ROUNDING: f64 = 1e-10;
-    let wrong = |reason: String| refuse("correlation matrix", reason);
+/// Lower triangular `L` with covariance `L L^T`.
+fn covariance_factor(sigmas: &[f64], correlation: Option<&Matrix>) -> Result<Matrix, Error> {
+    let size = sigmas.len();
+    let Some(matrix) = correlation else {
+        return Ok(Matrix::from_fn(size, size, |i, j| {
+            if i == j { sigmas[i] } else { 0.0 }
+        }));
+    };
     let found = (matrix.row_count(), matrix.column_count());
     if found != (size, size) {
         let (rows, columns) = found;
-        return Err(wrong(format!(
-            "it is {rows} by {columns} and must be {size} by {size}"
-        )));
+        return Err(Error::Setting {
+            setting: "correlation matrix",
+            reason: format!("it is {rows} by {columns} and must be {size} by {size}"),
+        });
     }
-    let mut lower = Matrix::zeros(size, size);
-    for i in 0..size {
-        if (matrix[i][i] - 1.0).abs() > ROUNDING || matrix[i][i].is_nan() {
-            return Err(wrong(format!(
-                "element ({i}, {i}) is {} and must be 1",
-                matrix[i][i]
-            )));
-        }
-        for j in 0..=i {
-            let (here, mirrored) = (matrix[i][j], matrix[j][i]);
-            if here.is_nan() || (here - mirrored).abs() > ROUNDING || mirrored.is_nan() {
-                return Err(wrong(format!("elements ({i}, {j}) and ({j}, {i}) differ")));
-            }
-            let rest = (0..j).fold(here, |sum, k| sum - lower[i][k] * lower[j][k]);
-            if i == j {
-                if rest < -ROUNDING {
-                    return Err(wrong("it is not positive semidefinite".to_owned()));
-                }
-                lower[i][i] = if rest > ROUNDING { rest.sqrt() } else { 0.0 };
-            } else if lower[j][j] > 0.0 {
-                lower[i][j] = rest / lower[j][j];
-            } else if rest.abs() > ROUNDING.sqrt() {
-                return Err(wrong("it is not positive semidefinite".to_owned()));
-            }
-        }
-    }
-    Ok(lower)
+    let root = semidefinite_factor(matrix.as_flattened(), size)?;
+    Ok(Matrix::from_fn(size, size, |i, j| {
+        root[i * size + j] * sigmas[i]
+    }))
 }

@@ -22,4 +22,72 @@ pub enum Error {
         /// How many there should be.
         expected: usize,
     },
+    /// There is no element of this number.
+    #[error("there is no {kind} {index}: they are numbered from 0, and there are {number}")]
+    BeyondLast {
+        /// What is counted.
+        kind: &'static str,
+        /// The number that was asked for.
+        index: u64,
+        /// How many there are.
+        number: u64,
+    },
+    /// A number is not finite, or has become so.
+    #[error("{kind} is not finite")]
+    NotFinite {
+        /// What it is.
+        kind: &'static str,
+    },
+    /// There are not enough of something.
+    #[error("{found} {kind}, at least {needed} are needed")]
+    TooFew {
+        /// Of what.
+        kind: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+    },
+    /// Something that should vary does not.
+    #[error("{what} never varies: leave it out, or sample it over a range")]
+    Constant {
+        /// What it is.
+        what: String,
+    },
+    /// An input is a linear function of those before it.
+    #[error("input {input} is a linear function of those before it: leave one of them out")]
+    Dependent {
+        /// Which one.
+        input: usize,
+    },
+    /// Samples were to be added twice.
+    #[error(
+        "samples {start} to below {end} have been added already; split the samples into ranges that do not overlap"
+    )]
+    Overlap {
+        /// The first that is there twice.
+        start: u64,
+        /// The first after it that is not.
+        end: u64,
+    },
+    /// Partial results were gathered by different plans.
+    #[error(
+        "these samples were gathered by different plans; use clones of the same plan for all of them"
+    )]
+    OtherPlan,
+    /// A quantity of a sample is not a number, or too large to compute with.
+    #[error(
+        "quantity {quantity} of sample {sample} is {value}; leave it out (`None`) where a sample does not have it"
+    )]
+    Value {
+        /// Index of the quantity.
+        quantity: usize,
+        /// Index of the sample.
+        sample: u64,
+        /// Its value, as text.
+        value: String,
+    },
+    /// There are no values, so nothing can be said about them.
+    #[error("no values: add samples first")]
+    NoValues,
 }

@@ -8,6 +8,10 @@ mod error;
 mod joint;
 mod legendre;
 pub mod normal;
+pub mod quadrature;
+pub mod sensitivity;
+pub mod sequence;
+pub mod summary;
 
 pub use distribution::Distribution;
 pub use error::Error;

@@ -169,7 +169,7 @@ fn third_and_fourth_moments() {
 #[test]
 fn quantiles_agree_with_moments_and_slopes() {
     for variable in all() {
-        let number = 200_000;
+        let number = 20_000;
         let values =
             (0..number).map(|k| variable.quantile((f64::from(k) + 0.5) / f64::from(number)));
         let values: Vec<f64> = values.collect();
@@ -184,7 +184,7 @@ fn quantiles_agree_with_moments_and_slopes() {
             "{variable:?}"
         );
         assert!(
-            (sigma / variable.sigma() - 1.0).abs() < 3e-3,
+            (sigma / variable.sigma() - 1.0).abs() < 1.5e-2,
             "{variable:?}: {sigma}"
         );
         for k in -50..=50 {

@@ -67,6 +67,9 @@ fn through<V: Lanes>(
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
             stages::draw::<V>(prepared, batch, at);
+        }
+        stages::distribute(prepared, &mut batch.design);
+        for at in (0..WIDTH).step_by(V::WIDTH) {
             stages::predict::<V>(n, prepared, batch, at);
         }
         batch.resting = Batch::all(0.0);

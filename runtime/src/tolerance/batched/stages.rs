@@ -21,7 +21,7 @@ const STIFFENED: f64 = 2.0;
 /// Greatest displacement from the nominal position, in displacements of one standard deviation.
 pub(super) const FAR: f64 = 6.0;
 
-/// `b = b_nominal + L z`, `z` standard normal.
+/// `b = b_mean + L z`, `z` standard normal; of other distributions the normal numbers behind them.
 #[inline(always)]
 pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved, at: usize) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
@@ -35,9 +35,10 @@ pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved, at:
         }
     }
     let mut shared = &prepared.shared[..];
-    let nominal = prepared.nominal.design.iter().zip(&prepared.own);
-    for (i, (design, (nominal, own))) in design.iter_mut().zip(nominal).enumerate() {
-        let mut value = V::constant(*nominal);
+    let means = prepared.means.iter().zip(&prepared.own);
+    for (i, (design, (mean, own))) in design.iter_mut().zip(means).enumerate() {
+        let start = if prepared.joint.is_some() { 0.0 } else { *mean };
+        let mut value = V::constant(start);
         while let Some((&(_, j, factor), behind)) =
             shared.split_first().filter(|(one, _)| one.0 == i)
         {
@@ -46,6 +47,19 @@ pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved, at:
         }
         value = value + V::constant(*own) * V::load(&standard[i], at);
         value.store(design, at);
+    }
+}
+
+/// Values that are not normal, from the standard normal numbers in their places.
+pub(super) fn distribute(prepared: &TaylorModel<'_>, design: &mut [Batch]) {
+    let Some((joint, moved)) = &prepared.joint else {
+        return;
+    };
+    let variables = joint.variables().iter().zip(moved);
+    for (batch, (variable, moved)) in design.iter_mut().zip(variables) {
+        for value in &mut batch.0 {
+            *value = variable.from_normal(*value) + moved;
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! What all samples share: how the nominal state answers to the design, to first and second order.
 
-use crate::algebra::{Cholesky, Matrix, Vector, all_finite, all_finite_matrix, form};
+use eigentol_statistics::Joint;
+
+use crate::algebra::{Cholesky, Matrix, Vector, all_finite, all_finite_matrix, form, largest};
 use crate::batched::algebra::{LARGEST, Row, Square, small};
 use crate::batched::possible;
 use crate::kernels::{BatchKernels, Kernels};
@@ -27,9 +29,13 @@ pub(in crate::tolerance) struct TaylorModel<'a> {
     pub(super) kernels: &'a dyn BatchKernels,
     pub(in crate::tolerance) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium,
+    /// Where values are not normal: functions of a standard normal number each, and what is added to them.
+    pub(super) joint: Option<(&'a Joint, Vector)>,
+    /// Means, of normal values.
+    pub(super) means: Vector,
     /// The same inputs in every lane.
     pub(super) inputs: Vector<Batch>,
-    /// Diagonal of the factor `L` of the covariance.
+    /// Diagonal of the factor `L` of the covariance; of values that are not normal, of the correlation of the normal numbers behind them.
     pub(super) own: Vector,
     /// (`i`, `j`, `L_ij`) beside the diagonal, row by row, without zeros.
     pub(super) shared: Vec<(usize, usize, f64)>,
@@ -64,7 +70,7 @@ impl<'a> TaylorModel<'a> {
         kernels: &'a dyn BatchKernels,
         nominal: &'a Equilibrium,
         modes: &Modes,
-        tolerances: &Tolerances,
+        tolerances: &'a Tolerances,
         instructions: Instructions,
     ) -> Option<Self> {
         let n = nominal.coordinates.len();
@@ -80,10 +86,14 @@ impl<'a> TaylorModel<'a> {
         {
             return None;
         }
-        let factor = tolerances.factor();
         let p = nominal.design.len();
+        let joint = tolerances.joint();
+        let copula =
+            joint.map(|(joint, _)| Matrix::from_fn(p, p, |i, j| joint.normal_factor(i, j)));
+        let factor = copula.as_ref().unwrap_or(tolerances.factor());
         let shared: Vec<_> = (0..p)
-            .flat_map(|i| (0..i).map(move |j| (i, j, factor[i][j])))
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, factor[i][j]))
             .filter(|(_, _, value)| *value != 0.0)
             .collect();
         let own = Vector::from_fn(p, |i| factor[i][i]);
@@ -92,26 +102,39 @@ impl<'a> TaylorModel<'a> {
         let drawn = pairs
             .map(|pair| (2 * pair..p.min(2 * pair + 2)).any(used))
             .collect();
+        let shifts = tolerances.shifts();
         let varied: Vec<_> = (0..p)
-            .filter(|&i| factor[i].iter().any(|value| *value != 0.0))
+            .filter(|&i| tolerances.sigmas()[i] != 0.0 || shifts[i] != 0.0)
             .collect();
         let answer = Answer {
             mechanism: kernels,
             nominal,
         };
         let first = answer.slopes(&nominal.coordinates, &nominal.design, &varied)?;
-        let deviations = tolerances.sigmas();
+        let deviations = &Vector::from_fn(p, |i| shifts[i].hypot(tolerances.sigmas()[i]));
         let reach = answer.reach(&varied, &first, deviations);
         let slopes = answer.stiffening(&reach, &shapes, &lambda)?;
         let limits = Vector::from_fn(p, |i| {
             let sum: f64 = factor[i].iter().map(|value| value.abs()).sum();
-            GREATEST_NORMAL * sum
+            let greatest = GREATEST_NORMAL * sum;
+            match joint {
+                None => shifts[i].abs() + greatest,
+                Some((joint, about)) => {
+                    let ends = [-greatest, greatest].map(|z| joint.variables()[i].from_normal(z));
+                    largest(&ends.map(|end| end - about[i]))
+                }
+            }
         });
         Some(Self {
             kernels,
             instructions,
             nominal,
             inputs: nominal.inputs.map(Batch::all),
+            joint: joint.map(|(joint, about)| {
+                let moved = Vector::from_fn(p, |i| nominal.design[i] - about[i]);
+                (joint, moved)
+            }),
+            means: Vector::from_fn(p, |i| nominal.design[i] + shifts[i]),
             second: answer.curvatures(&varied, &first, deviations)?,
             curvature: slopes.iter().enumerate().map(quadratic_terms).collect(),
             all_possible: kernels.possible_within(&nominal.inputs, &nominal.design, &limits),

@@ -117,6 +117,16 @@ impl Joint {
         correlation * self.variables[i].sigma() * self.variables[j].sigma()
     }
 
+    /// Element of the lower triangular factor that makes the normal variables behind these of independent ones.
+    ///
+    /// # Panics
+    /// For an index beyond the variables.
+    #[must_use]
+    pub fn normal_factor(&self, i: usize, j: usize) -> f64 {
+        let own = if i == j { 1.0 } else { 0.0 };
+        (self.dependence.as_ref()).map_or(own, |all| all.factor[i * self.len() + j])
+    }
+
     /// Writes the values that belong to independent standard normal numbers, one for each variable.
     ///
     /// # Panics
@@ -153,7 +163,7 @@ impl Joint {
             None => z[i],
             Some(all) => {
                 let row = &all.factor[i * self.len()..][..=i];
-                row.iter().zip(z).map(|(l, z)| l * z).sum()
+                row.iter().zip(z).fold(0.0, |sum, (l, z)| sum + l * z)
             }
         }
     }

@@ -1,0 +1,221 @@
+//! What is asked of a mechanism at other values of its design: quantities of modes, outputs, critical values of an input, with exact
+//! total derivatives.
+
+use crate::algebra::Vector;
+use crate::kernels::{DirectionalKernels, Kernels};
+use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
+use crate::sweep::{Range, critical_sensitivity, critical_state};
+use crate::tolerance::{Outcome, Solution};
+use crate::{Equilibrium, Error, Modes, Output};
+
+/// A number that a design gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Response {
+    /// A quantity of a nominal mode, counted from 0: frequencies in rad/s, growth in 1/s.
+    Mode {
+        /// Position of the nominal mode.
+        mode: usize,
+        /// What is asked of it.
+        quantity: Quantity,
+    },
+    /// An output, SI.
+    Output(Output),
+    /// The first value of an input in a range at which the branch that is stable at its low end loses its stiffness, SI
+    /// ([`critical_state`]).
+    Critical(Range),
+}
+
+/// The responses to one design.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Realisation {
+    /// What becomes of it at the operating point.
+    pub outcome: Outcome,
+    /// The responses in the order in which they were asked for; `None` where it has none: of a mode that does not oscillate, of a
+    /// design without a stable equilibrium, of a range without a critical value.
+    pub values: Vec<Option<f64>>,
+    /// Total derivatives by the design variables, when asked for; `None` where there are none.
+    pub gradients: Vec<Option<Vector>>,
+}
+
+/// Responses of designs near a nominal one. Modes are matched to the nominal modes by shape.
+pub struct Responses<'a> {
+    mechanism: &'a dyn DirectionalKernels,
+    nominal: &'a Equilibrium,
+    modes: &'a Modes,
+    wanted: Vec<Response>,
+}
+
+/// What the next evaluation uses again.
+pub struct Workspace(Solution);
+
+impl<'a> Responses<'a> {
+    /// Prepares to ask for responses of designs near the nominal one.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a range that makes no sense.
+    pub fn new(
+        mechanism: &'a dyn DirectionalKernels,
+        nominal: &'a Equilibrium,
+        modes: &'a Modes,
+        wanted: Vec<Response>,
+    ) -> Result<Self, Error> {
+        let description = &nominal.description;
+        for response in &wanted {
+            match response {
+                Response::Mode { mode, .. } => {
+                    let (mode, count) = (*mode, modes.modes.len());
+                    if mode >= count {
+                        return Err(Error::NoSuchMode { mode, count });
+                    }
+                }
+                Response::Output(output) => {
+                    let (index, count) = (output.index(), description.outputs.len());
+                    if index >= count {
+                        return Err(Error::UnknownHandle {
+                            kind: "output",
+                            index,
+                            mechanism: description.name.clone(),
+                            count,
+                        });
+                    }
+                }
+                Response::Critical(range) => range.check(description)?,
+            }
+        }
+        Ok(Self {
+            mechanism,
+            nominal,
+            modes,
+            wanted,
+        })
+    }
+
+    /// The responses in order.
+    #[must_use]
+    pub fn wanted(&self) -> &[Response] {
+        &self.wanted
+    }
+
+    /// Room for evaluations by one thread.
+    #[must_use]
+    pub fn workspace(&self) -> Workspace {
+        Workspace(Solution::about(self.nominal, self.modes))
+    }
+
+    /// The responses to a design, SI.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] for a design of another mechanism. What fails is an outcome and has no values.
+    pub fn at(&self, room: &mut Workspace, design: &[f64]) -> Result<Realisation, Error> {
+        self.evaluate(room, design, false)
+    }
+
+    /// As [`Self::at`], with derivatives.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub fn with_gradients(
+        &self,
+        room: &mut Workspace,
+        design: &[f64],
+    ) -> Result<Realisation, Error> {
+        self.evaluate(room, design, true)
+    }
+
+    fn evaluate(
+        &self,
+        Workspace(solved): &mut Workspace,
+        design: &[f64],
+        slopes: bool,
+    ) -> Result<Realisation, Error> {
+        crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
+        solved.solve(self.mechanism, self.nominal, self.modes, design);
+        let stable = solved.outcome == Outcome::Stable;
+        let mut found = Realisation {
+            outcome: solved.outcome,
+            values: Vec::with_capacity(self.wanted.len()),
+            gradients: Vec::new(),
+        };
+        let mut own = Own::default();
+        for response in &self.wanted {
+            let (value, gradient) = match response {
+                Response::Critical(range) => self.critical(design, *range, slopes),
+                _ if !stable => (None, None),
+                Response::Mode { mode, quantity } => {
+                    let value = solved.mode(*mode).and_then(|mode| quantity.of(mode));
+                    let slopes = value.filter(|_| slopes);
+                    let place = solved.place(*mode);
+                    let gradient = slopes.and(place).and_then(|place| {
+                        let all = own.of_modes(self.mechanism, solved)?;
+                        Some(all.modes.get(place)?.of(*quantity)?.by_design)
+                    });
+                    (value, gradient)
+                }
+                Response::Output(output) => {
+                    let k = output.index();
+                    let state = &solved.state;
+                    let kernels: &dyn Kernels = self.mechanism;
+                    let values = kernels.outputs(&state.coordinates, &state.inputs, design);
+                    let value = values.get(k).copied().filter(|value| value.is_finite());
+                    let slopes = value.filter(|_| slopes);
+                    let gradient = slopes.and_then(|_| {
+                        let all = own.of_outputs(self.mechanism, solved)?;
+                        all.by_design.get(k)?.clone()
+                    });
+                    (value, gradient)
+                }
+            };
+            found.values.push(value);
+            if slopes {
+                found.gradients.push(gradient);
+            }
+        }
+        Ok(found)
+    }
+
+    fn critical(
+        &self,
+        design: &[f64],
+        range: Range,
+        slopes: bool,
+    ) -> (Option<f64>, Option<Vector>) {
+        let (inputs, start) = (&self.nominal.inputs, &self.nominal.coordinates);
+        if self.mechanism.violation(inputs, design).is_some() {
+            return (None, None);
+        }
+        let Ok(state) = critical_state(self.mechanism, inputs, design, start, range) else {
+            return (None, None);
+        };
+        let gradient = || critical_sensitivity(self.mechanism, &state).ok();
+        (Some(state.value), slopes.then(gradient).flatten())
+    }
+}
+
+/// Derivatives at one design, found when first asked for.
+#[derive(Default)]
+struct Own {
+    modes: Option<Option<crate::Sensitivities>>,
+    outputs: Option<Option<crate::sensitivity::OutputSensitivities>>,
+}
+
+impl Own {
+    fn of_modes(
+        &mut self,
+        mechanism: &dyn Kernels,
+        solved: &Solution,
+    ) -> Option<&crate::Sensitivities> {
+        let found = || sensitivities(mechanism, &solved.state, solved.modes()).ok();
+        self.modes.get_or_insert_with(found).as_ref()
+    }
+
+    fn of_outputs(
+        &mut self,
+        mechanism: &dyn Kernels,
+        solved: &Solution,
+    ) -> Option<&crate::sensitivity::OutputSensitivities> {
+        let found = || output_sensitivities(mechanism, &solved.state).ok();
+        self.outputs.get_or_insert_with(found).as_ref()
+    }
+}

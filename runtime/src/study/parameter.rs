@@ -1,0 +1,36 @@
+//! What may have a tolerance.
+
+use crate::mechanism::Any;
+use crate::{DesignVariable, Input};
+
+/// A design variable or an input: what may have a tolerance. Made from a handle of either.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter<M = Any> {
+    /// A design variable.
+    Design(DesignVariable<M>),
+    /// An input.
+    Input(Input<M>),
+}
+
+impl<M> Parameter<M> {
+    /// The same without its mechanism.
+    #[must_use]
+    pub fn any(self) -> Parameter {
+        match self {
+            Self::Design(variable) => Parameter::Design(variable.any()),
+            Self::Input(input) => Parameter::Input(input.any()),
+        }
+    }
+}
+
+impl<M> From<DesignVariable<M>> for Parameter<M> {
+    fn from(variable: DesignVariable<M>) -> Self {
+        Self::Design(variable)
+    }
+}
+
+impl<M> From<Input<M>> for Parameter<M> {
+    fn from(input: Input<M>) -> Self {
+        Self::Input(input)
+    }
+}

@@ -1,0 +1,63 @@
+//! How the parameters of a study vary.
+
+use crate::Error;
+use crate::mechanism::{Law, ToleranceInfo};
+use crate::tolerance::{Distribution, distribution};
+
+/// How a parameter varies.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Variation {
+    /// About its value.
+    About(ToleranceInfo),
+    /// With these values, SI.
+    Values(Distribution),
+}
+
+impl Variation {
+    /// Sets limits about the value; the law stays, or is normal in place of given values.
+    pub(super) fn set_limits(&mut self, (lower, upper): (f64, f64), relative: bool) {
+        let law = match self {
+            Self::About(info) => info.law,
+            Self::Values(_) => Law::Normal,
+        };
+        *self = Self::About(ToleranceInfo {
+            lower,
+            upper,
+            relative,
+            law,
+        });
+    }
+
+    /// Sets the law; limits stay, or are none in place of given values.
+    pub(super) fn set_law(&mut self, law: Law) {
+        let info = match self {
+            Self::About(info) => *info,
+            Self::Values(_) => ToleranceInfo::NONE,
+        };
+        *self = Self::About(ToleranceInfo { law, ..info });
+    }
+
+    /// Whether it does not vary at all.
+    pub(super) fn is_none(&self) -> bool {
+        matches!(self, Self::About(info) if info.lower == 0.0 && info.upper == 0.0)
+    }
+
+    /// The half-width of a normal variable about this value; `None` for any other.
+    pub(super) fn normal_half_width(&self, value: f64) -> Option<f64> {
+        match self {
+            Self::About(info) if info.law == Law::Normal && info.lower == -info.upper => {
+                let size = if info.relative { value.abs() } else { 1.0 };
+                Some(info.upper * size)
+            }
+            _ => None,
+        }
+    }
+
+    /// The distribution of the parameter when this is its nominal value.
+    pub(super) fn distribution(&self, value: f64, sigma_level: f64) -> Result<Distribution, Error> {
+        match self {
+            Self::About(info) => distribution(value, info, sigma_level),
+            Self::Values(values) => Ok(values.clone()),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Linear regression of a result on its inputs.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Sample;
+use super::indices::at_least;
+use crate::Error;
+
+/// The least diagonal element of the triangular factor, relative to the length of its column, that is not rounding.
+const INDEPENDENT: f64 = 1e-10;
+
+/// The linear function of the inputs that fits the result best.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regression {
+    /// By input: standard deviations of the result for one of the input (standardised regression coefficient, SRC).
+    pub coefficients: Vec<f64>,
+    /// By input: its correlation with the result after the linear effect of all others has been taken out of both (partial
+    /// correlation coefficient, PCC).
+    pub partial: Vec<f64>,
+    /// The part of the variance that the fit explains, between 0 and 1 (coefficient of determination).
+    pub determination: f64,
+}
+
+impl Sample {
+    /// Fits the result by least squares. Coefficients tell the importance of inputs if the determination is near 1.
+    ///
+    /// # Errors
+    /// [`Error::TooFew`] without two more rows than inputs, [`Error::Dependent`] if an input is a linear function of others.
+    pub fn regression(&self) -> Result<Regression, Error> {
+        let (rows, inputs) = (self.rows(), self.columns.len());
+        at_least("rows with a result", rows, inputs + 2)?;
+        let factors = DMatrix::from_fn(rows, inputs, |i, j| self.columns[j][i]).qr();
+        let r = factors.r();
+        if let Some(input) = (0..inputs).find(|&j| r[(j, j)].abs() < INDEPENDENT) {
+            return Err(Error::Dependent { input });
+        }
+        let mut projected = DVector::from_column_slice(&self.result);
+        factors.q_tr_mul(&mut projected);
+        let projected = projected.rows(0, inputs).into_owned();
+        let singular = || Error::Dependent { input: inputs - 1 };
+        let coefficients = r.solve_upper_triangular(&projected).ok_or_else(singular)?;
+        let identity = DMatrix::identity(inputs, inputs);
+        let inverse = r.solve_upper_triangular(&identity).ok_or_else(singular)?;
+
+        let determination = projected.norm_squared().min(1.0);
+        let partial = |i: usize| {
+            // b / sqrt(b^2 + C (1 - R^2)), C the diagonal element of the inverse of the correlation matrix.
+            let b: f64 = coefficients[i];
+            let unexplained = inverse.row(i).norm_squared() * (1.0 - determination);
+            let length = (b * b + unexplained).sqrt();
+            if length == 0.0 { 0.0 } else { b / length }
+        };
+        Ok(Regression {
+            partial: (0..inputs).map(partial).collect(),
+            coefficients: coefficients.iter().copied().collect(),
+            determination,
+        })
+    }
+}

@@ -1,0 +1,59 @@
+//! Point after point.
+
+use rand_chacha::ChaCha8Rng;
+
+use super::random::draw;
+use super::{Kind, Sequence};
+
+/// Walks along a [`Sequence`]: see [`Sequence::from`].
+#[derive(Clone, Debug)]
+pub struct Cursor<'a> {
+    sequence: &'a Sequence,
+    next: u64,
+    state: State,
+    point: Vec<f64>,
+}
+
+/// What a point leaves for the next one.
+#[derive(Clone, Debug)]
+enum State {
+    Random(Box<ChaCha8Rng>),
+    Sobol(Vec<u64>),
+    Nothing,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(sequence: &'a Sequence, first: u64) -> Self {
+        let first = first.min(sequence.points);
+        let state = match &sequence.kind {
+            Kind::Random(random) => State::Random(random.at(first).into()),
+            Kind::Sobol(sobol) => State::Sobol(sobol.digits(first)),
+            Kind::LatinHypercube(_) => State::Nothing,
+        };
+        Self {
+            sequence,
+            next: first,
+            state,
+            point: vec![0.5; sequence.dimensions],
+        }
+    }
+
+    /// The next point: its coordinates, strictly between 0 and 1. `None` behind the last one.
+    pub fn next_point(&mut self) -> Option<&[f64]> {
+        let k = self.next;
+        if k >= self.sequence.points {
+            return None;
+        }
+        match (&self.sequence.kind, &mut self.state) {
+            (Kind::Sobol(sobol), State::Sobol(digits)) => {
+                sobol.write(digits, &mut self.point);
+                sobol.advance(k, digits);
+            }
+            (Kind::LatinHypercube(sample), _) => sample.write(k, &mut self.point),
+            (_, State::Random(random)) => draw(random, &mut self.point),
+            _ => return None,
+        }
+        self.next += 1;
+        Some(&self.point)
+    }
+}

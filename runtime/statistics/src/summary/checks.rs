@@ -1,0 +1,21 @@
+//! What arguments have in common.
+
+use super::LARGEST;
+use crate::Error;
+
+pub(super) fn check_below(setting: &'static str, index: usize, count: usize) -> Result<(), Error> {
+    if index < count {
+        return Ok(());
+    }
+    let reason = format!("there is no {index}, they count from 0 to below {count}");
+    Err(Error::Setting { setting, reason })
+}
+
+/// Refuses what is not a number of at most [`LARGEST`] in magnitude.
+pub(super) fn check_number(setting: &'static str, value: f64) -> Result<(), Error> {
+    if value.abs() <= LARGEST {
+        return Ok(());
+    }
+    let reason = format!("{value} is not a number of at most {LARGEST:e} in magnitude");
+    Err(Error::Setting { setting, reason })
+}

@@ -1,0 +1,114 @@
+//! Some of the samples of a chunk.
+
+use std::ops::Range;
+
+/// Number of samples that are summed as one. Chunk `c` has samples `256 c` to below `256 (c + 1)`.
+pub const CHUNK: usize = 256;
+
+const WORDS: usize = CHUNK / 64;
+
+/// A bit for each sample of a chunk.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Mask([u64; WORDS]);
+
+impl Mask {
+    pub(super) fn of(places: Range<usize>) -> Self {
+        let first = |count: usize| match count {
+            0..64 => (1 << count) - 1,
+            _ => u64::MAX,
+        };
+        let up_to = |end: usize, k: usize| first(end.saturating_sub(64 * k));
+        Self(std::array::from_fn(|k| {
+            up_to(places.end, k) & !up_to(places.start, k)
+        }))
+    }
+
+    pub(super) fn count(self) -> usize {
+        self.0.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
+    pub(super) fn has(self, place: usize) -> bool {
+        let word = self.0.get(place / 64).copied().unwrap_or_default();
+        word >> (place % 64) & 1 == 1
+    }
+
+    pub(super) fn set(&mut self, place: usize, to: bool) {
+        if let Some(word) = self.0.get_mut(place / 64) {
+            let bit = 1 << (place % 64);
+            *word = if to { *word | bit } else { *word & !bit };
+        }
+    }
+
+    pub(super) fn and(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] & other.0[k]))
+    }
+
+    pub(super) fn or(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] | other.0[k]))
+    }
+
+    pub(super) fn is_full(self) -> bool {
+        self.0 == [u64::MAX; WORDS]
+    }
+
+    pub(super) fn is_empty(self) -> bool {
+        self.0 == [0; WORDS]
+    }
+
+    pub(super) fn places(self) -> impl Iterator<Item = usize> {
+        let words = self.0.into_iter().enumerate();
+        words.flat_map(|(k, word)| {
+            let bits = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
+            bits.take_while(|left| *left != 0)
+                .map(move |left| 64 * k + left.trailing_zeros() as usize)
+        })
+    }
+
+    /// The values at these places, side by side: `values` themselves or a part of `room`.
+    pub(super) fn select<'a>(
+        self,
+        values: &'a [f64; CHUNK],
+        room: &'a mut [f64; CHUNK],
+    ) -> &'a [f64] {
+        if self.is_full() {
+            return values;
+        }
+        let mut count = 0;
+        for (to, place) in room.iter_mut().zip(self.places()) {
+            *to = values[place];
+            count += 1;
+        }
+        &room[..count]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_of_places() {
+        for range in [0..1, 0..256, 63..65, 64..128, 100..100, 255..256, 3..200] {
+            let mask = Mask::of(range.clone());
+            assert!(mask.places().eq(range.clone()), "{range:?}");
+            assert_eq!(mask.count(), range.len());
+            assert_eq!(
+                (mask.is_full(), mask.is_empty()),
+                (range.len() == 256, range.is_empty())
+            );
+            assert!((0..300).all(|place| mask.has(place) == range.contains(&place)));
+        }
+    }
+
+    #[test]
+    fn selected_values_are_side_by_side() {
+        let values = std::array::from_fn(|k| k as f64);
+        let mut room = [0.0; CHUNK];
+        let mut mask = Mask::of(62..67);
+        mask.set(64, false);
+        assert_eq!(mask.select(&values, &mut room), [62.0, 63.0, 65.0, 66.0]);
+        assert_eq!(Mask::of(0..256).select(&values, &mut room), values);
+        assert!(Mask::default().select(&values, &mut room).is_empty());
+    }
+}

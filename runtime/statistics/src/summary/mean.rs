@@ -1,0 +1,36 @@
+//! A mean to twice the digits of a number: the mean of values that are large and close together is needed to better than their
+//! last digit, or their spread is lost in merging.
+
+/// The sum `high + low`, of which `high` is the nearest number.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Mean {
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
+    pub(super) high: f64,
+    #[cfg_attr(feature = "serde", serde(with = "super::bits::one"))]
+    pub(super) low: f64,
+}
+
+impl Mean {
+    /// `value + step`.
+    pub(super) fn new(value: f64, step: f64) -> Self {
+        Self::sum(value, step)
+    }
+
+    /// Exact (Knuth 1969, two-sum).
+    fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let part = high - a;
+        let low = (a - (high - part)) + (b - part);
+        Self { high, low }
+    }
+
+    pub(super) fn minus(self, other: Self) -> f64 {
+        (self.high - other.high) + (self.low - other.low)
+    }
+
+    pub(super) fn moved(self, step: f64) -> Self {
+        let sum = Self::sum(self.high, step);
+        Self::sum(sum.high, sum.low + self.low)
+    }
+}

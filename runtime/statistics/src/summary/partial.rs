@@ -1,0 +1,239 @@
+//! What is known of some samples.
+
+use std::ops::Range;
+
+use super::chunk::Chunk;
+use super::mask::CHUNK;
+use super::plan::Plan;
+use super::tree::{Node, Tree};
+use super::{Comoments, Covariance, LARGEST, Moments, Sketch, Statistics, ranges};
+use crate::Error;
+
+/// What is known of the samples that were added, of any set of ranges. Two of the same samples are equal to the last bit, however
+/// they came about. A contiguous range takes memory that grows with the logarithm of its length.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Partial {
+    pub(super) plan: Plan,
+    pub(super) tree: Tree,
+    /// Chunks of which samples are missing, in order.
+    pub(super) fragments: Vec<Chunk>,
+    pub(super) sketches: Vec<Option<Sketch>>,
+    pub(super) outcomes: Vec<u64>,
+}
+
+impl Partial {
+    /// Of no samples.
+    #[must_use]
+    pub fn new(plan: Plan) -> Self {
+        Self {
+            tree: Tree::default(),
+            fragments: Vec::new(),
+            sketches: plan.sketches.clone(),
+            outcomes: vec![0; plan.outcomes],
+            plan,
+        }
+    }
+
+    /// Adds the samples of a chunk.
+    ///
+    /// # Errors
+    ///
+    /// Some of them have been added, the chunk is of another plan, or a value is no number of at most [`LARGEST`] in magnitude.
+    /// Nothing has been added then.
+    pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {
+        if chunk.present.len() != self.plan.quantities()
+            || chunk.outcomes.len() != self.plan.outcomes
+        {
+            return Err(Error::OtherPlan);
+        }
+        self.refuse_overlap(chunk)?;
+        let node = Node::of(chunk, &self.plan);
+        if !node.moments.iter().all(Moments::are_numbers) {
+            return Err(not_a_number(chunk));
+        }
+        let mut room = [0.0; CHUNK];
+        for (k, sketch) in self.sketches.iter_mut().enumerate() {
+            if let (Some(sketch), Some((values, mask))) = (sketch, chunk.column(k)) {
+                sketch.add_checked(mask.select(values, &mut room), &node.moments[k]);
+            }
+        }
+        for (own, other) in self.outcomes.iter_mut().zip(&chunk.outcomes) {
+            *own += other;
+        }
+        if chunk.covered.is_full() {
+            self.tree.insert(node);
+        } else {
+            self.keep(chunk);
+        }
+        Ok(())
+    }
+
+    /// Adds all samples of another.
+    ///
+    /// # Errors
+    ///
+    /// Both have some samples in common, or they are of different plans. Nothing has been added then.
+    pub fn merge(&mut self, other: Self) -> Result<(), Error> {
+        if self.plan != other.plan {
+            return Err(Error::OtherPlan);
+        }
+        if let Some(Range { start, end }) = ranges::overlap(&self.ranges(), &other.ranges()) {
+            return Err(Error::Overlap { start, end });
+        }
+        for node in other.tree.nodes {
+            self.tree.insert(node);
+        }
+        for fragment in &other.fragments {
+            self.keep(fragment);
+        }
+        for (own, other) in self.sketches.iter_mut().zip(&other.sketches) {
+            if let (Some(own), Some(other)) = (own, other) {
+                own.merge_checked(other);
+            }
+        }
+        for (own, other) in self.outcomes.iter_mut().zip(&other.outcomes) {
+            *own += other;
+        }
+        Ok(())
+    }
+
+    /// The ranges of samples that were added, in order and apart.
+    #[must_use]
+    pub fn ranges(&self) -> Vec<Range<u64>> {
+        let nodes = self.tree.nodes.iter().map(Node::samples);
+        let fragments = self.fragments.iter().flat_map(Chunk::samples);
+        let mut all: Vec<_> = nodes.chain(fragments).collect();
+        all.sort_unstable_by_key(|range| range.start);
+        ranges::joined(all)
+    }
+
+    /// The ranges of samples in `whole` that have not been added, in order.
+    #[must_use]
+    pub fn missing(&self, whole: Range<u64>) -> Vec<Range<u64>> {
+        ranges::missing(&self.ranges(), whole)
+    }
+
+    /// How many samples had each outcome.
+    #[must_use]
+    pub fn outcomes(&self) -> &[u64] {
+        &self.outcomes
+    }
+
+    /// Moments of a quantity.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity.
+    pub fn moments(&self, quantity: usize) -> Result<Moments, Error> {
+        self.plan.check(quantity)?;
+        let mut all = Moments::default();
+        self.fold(|node| all.merge(&node.moments[quantity]));
+        Ok(all)
+    }
+
+    /// Statistics of a quantity; `None` if no sample has it.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity.
+    pub fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
+        let moments = self.moments(quantity)?;
+        Ok(Statistics::of(&moments, self.sketches[quantity].clone()))
+    }
+
+    /// Covariance of two quantities; `None` if no sample has both.
+    ///
+    /// # Errors
+    ///
+    /// It was not asked for in the plan.
+    pub fn covariance(&self, first: usize, second: usize) -> Result<Option<Covariance>, Error> {
+        let pair = (first.min(second), first.max(second));
+        let Ok(place) = self.plan.pairs.binary_search(&pair) else {
+            let reason = format!(
+                "that of {first} and {second} is not planned; ask for it with `Plan::covariances`"
+            );
+            return Err(Error::Setting {
+                setting: "covariance",
+                reason,
+            });
+        };
+        let mut all = Comoments::default();
+        self.fold(|node| all.merge(&node.pairs[place]));
+        if first > second {
+            all.means.reverse();
+            all.squares.reverse();
+        }
+        Ok(Covariance::of(&all))
+    }
+
+    /// The parts of the sums, in the order of the samples.
+    fn fold(&self, mut add: impl FnMut(&Node)) {
+        let fragments: Vec<Node> = self
+            .fragments
+            .iter()
+            .map(|chunk| Node::of(chunk, &self.plan))
+            .collect();
+        let mut all: Vec<&Node> = self.tree.nodes.iter().chain(&fragments).collect();
+        all.sort_unstable_by_key(|node| node.start);
+        all.into_iter().for_each(&mut add);
+    }
+
+    fn keep(&mut self, part: &Chunk) {
+        let place = self
+            .fragments
+            .binary_search_by_key(&part.index, |chunk| chunk.index);
+        let at = place.unwrap_or_else(|at| {
+            let mut empty = Chunk::empty(&self.plan, part.index);
+            empty.outcomes.clear();
+            self.fragments.insert(at, empty);
+            at
+        });
+        self.fragments[at].join(part);
+        if self.fragments[at].covered.is_full() {
+            let whole = self.fragments.remove(at);
+            self.tree.insert(Node::of(&whole, &self.plan));
+        }
+    }
+
+    fn refuse_overlap(&self, chunk: &Chunk) -> Result<(), Error> {
+        let nodes = &self.tree.nodes;
+        let before = nodes
+            .partition_point(|node| node.start <= chunk.index)
+            .checked_sub(1);
+        let in_tree =
+            before.is_some_and(|at| (chunk.index - nodes[at].start) >> nodes[at].level == 0);
+        let place = self
+            .fragments
+            .binary_search_by_key(&chunk.index, |other| other.index);
+        let in_fragment =
+            place.is_ok_and(|at| !self.fragments[at].covered.and(chunk.covered).is_empty());
+        if !in_tree && !in_fragment {
+            return Ok(());
+        }
+        let own: Vec<_> = ranges::joined(chunk.samples());
+        let common = ranges::overlap(&self.ranges(), &own).unwrap_or_default();
+        Err(Error::Overlap {
+            start: common.start,
+            end: common.end,
+        })
+    }
+}
+
+/// Which value of the chunk is not a number.
+fn not_a_number(chunk: &Chunk) -> Error {
+    let mut values = (0..chunk.present.len()).flat_map(|k| {
+        let column = chunk.column(k).into_iter();
+        column.flat_map(move |(values, mask)| {
+            mask.places().map(move |place| (k, place, values[place]))
+        })
+    });
+    let found = values.find(|(_, _, value)| value.is_nan() || value.abs() > LARGEST);
+    let (quantity, place, value) = found.unwrap_or((0, 0, f64::NAN));
+    let sample = chunk.index * CHUNK as u64 + place as u64;
+    Error::Value {
+        quantity,
+        sample,
+        value: value.to_string(),
+    }
+}

@@ -1,0 +1,78 @@
+//! What is to be learnt from samples.
+
+use super::Sketch;
+use super::checks::check_below;
+use crate::Error;
+
+/// What is to be learnt from samples that have so many quantities each. Moments of each quantity always are; what is not asked
+/// for costs nothing.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Plan {
+    /// For each quantity an empty sketch, where one was asked for.
+    pub(super) sketches: Vec<Option<Sketch>>,
+    /// In order; the first of a pair is the lesser.
+    pub(super) pairs: Vec<(usize, usize)>,
+    pub(super) outcomes: usize,
+}
+
+impl Plan {
+    /// The moments of each of so many quantities.
+    #[must_use]
+    pub fn new(quantities: usize) -> Self {
+        Self {
+            sketches: vec![None; quantities],
+            pairs: Vec::new(),
+            outcomes: 0,
+        }
+    }
+
+    /// Number of quantities.
+    #[must_use]
+    pub fn quantities(&self) -> usize {
+        self.sketches.len()
+    }
+
+    /// Also the distribution of a quantity, for quantiles and histograms: a [`Sketch`] about `reference`, such as the nominal
+    /// value, for deviations of the order of `scale`, both in the unit of the quantity.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity, `reference` is not a number, or `scale` is not a positive one.
+    pub fn sketch(mut self, quantity: usize, reference: f64, scale: f64) -> Result<Self, Error> {
+        self.check(quantity)?;
+        self.sketches[quantity] = Some(Sketch::new(reference, scale)?);
+        Ok(self)
+    }
+
+    /// Also the covariances of each of `firsts` with each of `seconds`, over the samples that have both.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity.
+    pub fn covariances(mut self, firsts: &[usize], seconds: &[usize]) -> Result<Self, Error> {
+        for &first in firsts {
+            for &second in seconds {
+                self.check(first)?;
+                self.check(second)?;
+                if first != second {
+                    self.pairs.push((first.min(second), first.max(second)));
+                }
+            }
+        }
+        self.pairs.sort_unstable();
+        self.pairs.dedup();
+        Ok(self)
+    }
+
+    /// Also how many samples had each of so many outcomes.
+    #[must_use]
+    pub fn outcomes(mut self, outcomes: usize) -> Self {
+        self.outcomes = outcomes;
+        self
+    }
+
+    pub(super) fn check(&self, quantity: usize) -> Result<(), Error> {
+        check_below("quantity", quantity, self.quantities())
+    }
+}

@@ -1,0 +1,168 @@
+//! Counts of deviations in buckets whose width is a share of the deviation.
+
+/// Bits of the fraction of a number that tell buckets apart.
+const FRACTION: u32 = 8;
+const SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - FRACTION;
+
+/// Number of buckets between two powers of two.
+const OCTAVE: i32 = 1 << FRACTION;
+
+/// Deviations below `2^-24` of the scale, rounded down to a power of two, are not told apart.
+const SMALLEST_SHARE: i32 = 24;
+
+/// Exponent and leading digits of a magnitude, which count up with it.
+fn key(deviation: f64) -> i32 {
+    (deviation.abs().to_bits() >> SHIFT) as i32
+}
+
+/// Where the buckets are. Place 0 is about the reference, place 1 the first one above it, place -1 the first below.
+#[derive(Clone, Copy)]
+pub(super) struct Places {
+    /// The key of what place 0 no longer has.
+    smallest: i32,
+}
+
+impl Places {
+    pub(super) fn of(scale: f64) -> Self {
+        let octave = key(scale) / OCTAVE - SMALLEST_SHARE;
+        Self {
+            smallest: octave.max(1) * OCTAVE,
+        }
+    }
+
+    #[inline]
+    pub(super) fn of_deviation(self, deviation: f64) -> i32 {
+        let place = (key(deviation) - self.smallest + 1).max(0);
+        if deviation < 0.0 { -place } else { place }
+    }
+
+    /// The least and the greatest deviation that a place has.
+    pub(super) fn edges(self, place: i32) -> (f64, f64) {
+        let magnitude = |key: i32| f64::from_bits(u64::from(key.unsigned_abs()) << SHIFT);
+        let inner = magnitude(self.smallest + place.abs() - 1);
+        let outer = magnitude(self.smallest + place.abs());
+        match place {
+            0 => (-outer, outer),
+            1.. => (inner, outer),
+            _ => (-outer, -inner),
+        }
+    }
+}
+
+/// Counts of whole octaves of places, from the first to the last that has any.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Buckets {
+    /// Place of the first count, a multiple of [`OCTAVE`].
+    first: i32,
+    counts: Vec<u64>,
+}
+
+impl Buckets {
+    /// Makes room for the places from `least` to `greatest`.
+    pub(super) fn reach(&mut self, least: i32, greatest: i32) {
+        let first = least.div_euclid(OCTAVE) * OCTAVE;
+        let end = (greatest.div_euclid(OCTAVE) + 1) * OCTAVE;
+        if self.counts.is_empty() {
+            self.first = first;
+        }
+        if first < self.first {
+            let missing = self.first - first;
+            self.counts.splice(..0, (0..missing).map(|_| 0));
+            self.first = first;
+        }
+        let length = (end - self.first).unsigned_abs() as usize;
+        if length > self.counts.len() {
+            self.counts.resize(length, 0);
+        }
+    }
+
+    /// Counts deviations at these places, for which there is room.
+    #[inline]
+    pub(super) fn count(&mut self, places: &[i32]) {
+        let (first, counts) = (self.first, self.counts.as_mut_slice());
+        for place in places {
+            if let Some(count) = counts.get_mut((place - first) as usize) {
+                *count += 1;
+            }
+        }
+    }
+
+    pub(super) fn merge(&mut self, other: &Self) {
+        if other.counts.is_empty() {
+            return;
+        }
+        self.reach(other.first, other.last());
+        let start = (other.first - self.first).unsigned_abs() as usize;
+        for (own, other) in self.counts[start..].iter_mut().zip(&other.counts) {
+            *own += other;
+        }
+    }
+
+    /// The places that have values and how many, in order.
+    pub(super) fn counted(&self) -> impl Iterator<Item = (i32, u64)> {
+        let counts = (self.first..).zip(&self.counts);
+        counts
+            .filter(|(_, count)| **count > 0)
+            .map(|(place, count)| (place, *count))
+    }
+
+    fn last(&self) -> i32 {
+        self.first + self.counts.len() as i32 - 1
+    }
+
+    /// The sum of all counts; `None` if these are not counts of whole octaves from `least` to `greatest`.
+    #[cfg(feature = "serde")]
+    pub(super) fn total(&self, least: i32, greatest: i32) -> Option<u64> {
+        let mut expected = Self::default();
+        if !self.counts.is_empty() {
+            expected.reach(least, greatest);
+        }
+        let fits = (expected.first, expected.counts.len()) == (self.first, self.counts.len());
+        let sum = self
+            .counts
+            .iter()
+            .try_fold(0_u64, |sum, count| sum.checked_add(*count))?;
+        fits.then_some(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn buckets_are_a_256th_of_their_deviation_wide() {
+        let places = Places::of(1.0);
+        for magnitude in [1e-7, 0.3, 1.0, 1.999, 7e12, 2e300] {
+            let place = places.of_deviation(magnitude);
+            let (lower, upper) = places.edges(place);
+            assert!(lower <= magnitude && magnitude < upper);
+            assert!(upper - lower <= lower / 256.0 && upper - lower >= lower / 512.0);
+            assert_eq!(places.of_deviation(-magnitude), -place);
+            assert_eq!(places.edges(-place), (-upper, -lower));
+            assert_eq!(places.edges(place - 1).1, lower);
+        }
+        let smallest = 0.5_f64.powi(24);
+        assert_eq!(places.edges(0), (-smallest, smallest));
+        assert_eq!(places.edges(1).0, smallest);
+        for (deviation, place) in [
+            (smallest, 1),
+            (-smallest, -1),
+            (0.9999 * smallest, 0),
+            (-0.0, 0),
+        ] {
+            assert_eq!(places.of_deviation(deviation), place);
+        }
+        assert_eq!(places.of_deviation(2.0) - places.of_deviation(1.0), OCTAVE);
+    }
+
+    #[test]
+    fn any_scale_has_places() {
+        for scale in [f64::from_bits(1), f64::MIN_POSITIVE, 1e300] {
+            let places = Places::of(scale);
+            assert_eq!(places.of_deviation(0.0), 0);
+            assert!(places.of_deviation(2e300) > 0 && places.edges(0).1 > 0.0);
+        }
+    }
+}

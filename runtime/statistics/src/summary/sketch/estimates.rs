@@ -1,0 +1,190 @@
+//! What a sketch tells of the distribution.
+
+use super::Sketch;
+use crate::Error;
+use crate::summary::binomial;
+use crate::summary::sorted::{Interval, place};
+
+/// A number that is known to lie near `value`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// The estimate.
+    pub value: f64,
+    /// What it would be from all values, sorted, is no farther from `value` than this.
+    pub error: f64,
+}
+
+/// A distribution in bins of equal width from the least to the greatest value.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Histogram {
+    /// Where bins begin and end, one more than there are bins, in the unit of the values.
+    pub edges: Vec<f64>,
+    /// The share of the values in each bin, up to and with its upper edge; they sum to 1.
+    pub shares: Vec<f64>,
+}
+
+/// Values that are not told apart.
+struct Bucket {
+    place: i32,
+    lower: f64,
+    upper: f64,
+    count: u64,
+}
+
+impl Sketch {
+    /// The quantile for the share `p`, between 0 and 1, with the definition of R (type 7) and NumPy: linear between the values of
+    /// ranks about `(count - 1) p`.
+    ///
+    /// The error is at most `2^-8` of the deviation from the reference, or `2^-23` of the scale if that is more, and rounding.
+    ///
+    /// # Errors
+    ///
+    /// `p` is not between 0 and 1, or there are no values.
+    pub fn quantile(&self, p: f64) -> Result<Estimate, Error> {
+        let (rank, part) = place(self.count, p)?;
+        let [lower, upper] = [rank, rank + 1].map(|rank| self.at_rank(rank));
+        let value = lower.value + part * (upper.value - lower.value);
+        let error = (1.0 - part) * lower.error + part * upper.error;
+        let rounding = 2.0 * f64::EPSILON * (lower.value.abs() + upper.value.abs());
+        Ok(Estimate {
+            value,
+            error: if error > 0.0 { error + rounding } else { 0.0 },
+        })
+    }
+
+    /// An interval that has the quantile of the distribution the values were drawn from with at least this confidence; see
+    /// [`crate::summary::Sorted::quantile_interval`]. The buckets widen it a little. `None` if there are not enough values.
+    ///
+    /// # Errors
+    ///
+    /// `p` or `confidence` is not strictly between 0 and 1.
+    pub fn quantile_interval(&self, p: f64, confidence: f64) -> Result<Option<Interval>, Error> {
+        let ranks = binomial::ranks(self.count, p, confidence)?;
+        Ok(ranks.map(|ranks| {
+            let [lower, upper] = [ranks.lower, ranks.upper].map(|rank| self.at_rank(rank));
+            Interval {
+                lower: lower.value - lower.error,
+                upper: upper.value + upper.error,
+                coverage: ranks.coverage,
+            }
+        }))
+    }
+
+    /// The share of the values that are at most `value`.
+    ///
+    /// # Errors
+    ///
+    /// There are no values, or `value` is not a number.
+    pub fn cdf(&self, value: f64) -> Result<Estimate, Error> {
+        if value.is_nan() {
+            let reason = "NaN is not a number".to_owned();
+            return Err(Error::Setting {
+                setting: "value",
+                reason,
+            });
+        }
+        if self.count == 0 {
+            return Err(Error::NoValues);
+        }
+        let exact = |value| Ok(Estimate { value, error: 0.0 });
+        if value < self.min {
+            return exact(0.0);
+        }
+        if value >= self.max {
+            return exact(1.0);
+        }
+        let place = self.place(value);
+        let (mut below, mut within, mut part) = (0, 0, 0.5);
+        for bucket in self.buckets().take_while(|bucket| bucket.place <= place) {
+            if bucket.place < place {
+                below += bucket.count;
+            } else {
+                within = bucket.count;
+                let width = bucket.upper - bucket.lower;
+                if width > 0.0 {
+                    part = ((value - bucket.lower) / width).clamp(0.0, 1.0);
+                }
+            }
+        }
+        let (within, count) = (within as f64, self.count as f64);
+        Ok(Estimate {
+            value: (below as f64 + part * within) / count,
+            error: part.max(1.0 - part) * within / count,
+        })
+    }
+
+    /// The distribution in so many bins; in one if all values are the same.
+    ///
+    /// # Errors
+    ///
+    /// There are no values, or no bins.
+    pub fn histogram(&self, bins: usize) -> Result<Histogram, Error> {
+        if bins == 0 {
+            let reason = "there must be at least one".to_owned();
+            return Err(Error::Setting {
+                setting: "bins",
+                reason,
+            });
+        }
+        let bins = if self.min == self.max { 1 } else { bins };
+        let step = (self.max - self.min) / bins as f64;
+        let inner = (1..bins).map(|k| (self.min + step * k as f64).min(self.max));
+        let mut edges = vec![self.min];
+        edges.extend(inner);
+        edges.push(self.max);
+        let mut shares = Vec::with_capacity(bins);
+        let mut below = 0.0;
+        for &edge in &edges[1..] {
+            let share = self.cdf(edge)?.value;
+            shares.push(share - below);
+            below = share;
+        }
+        Ok(Histogram { edges, shares })
+    }
+
+    /// The value of this rank, from 0 on; ranks beyond the last are the last.
+    fn at_rank(&self, rank: u64) -> Estimate {
+        let exact = |value| Estimate { value, error: 0.0 };
+        if rank == 0 {
+            return exact(self.min);
+        }
+        let mut below = 0;
+        let found = self.buckets().find(|bucket| {
+            below += bucket.count;
+            rank < below
+        });
+        let Some(bucket) = found.filter(|_| rank + 1 < self.count) else {
+            return exact(self.max);
+        };
+        let width = bucket.upper - bucket.lower;
+        if width == 0.0 {
+            return exact(bucket.lower);
+        }
+        let after = below - rank;
+        let part = 1.0 - (after as f64 - 0.5) / bucket.count as f64;
+        let value = bucket.lower + part * width;
+        // The edges are rounded, and so were the deviations.
+        let rounding = 2.0 * f64::EPSILON * (self.reference.abs() + value.abs());
+        Estimate {
+            value,
+            error: part.max(1.0 - part) * width + rounding,
+        }
+    }
+
+    /// In the order of their values.
+    fn buckets(&self) -> impl Iterator<Item = Bucket> {
+        let places = self.places();
+        self.buckets.counted().map(move |(place, count)| {
+            let (lower, upper) = places.edges(place);
+            let within = |deviation: f64| (self.reference + deviation).clamp(self.min, self.max);
+            Bucket {
+                place,
+                lower: within(lower),
+                upper: within(upper),
+                count,
+            }
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! Tolerances of any distribution: first order and Monte Carlo against the exact distribution of the rotating bar, whose frequency is
+//! a function of its length.
+
+use eigentol::tolerance::{Distribution, MonteCarlo, Outcome};
+use eigentol::{DesignVariable, Error, Law, Study, mechanism};
+
+use crate::common::{GRAVITY, close};
+
+mechanism! {
+    mechanism Pendulum {
+        input omega: rad/s;
+        design m = 3.0 kg;
+        design l = 1.0 m;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+const MASS: DesignVariable<Pendulum> = Pendulum::m;
+const LENGTH: DesignVariable<Pendulum> = Pendulum::l;
+const SPEED: f64 = 5.0;
+const SAMPLES: usize = 20_000;
+
+fn study() -> Study<Pendulum> {
+    Study::new(Pendulum)
+        .input(Pendulum::omega, SPEED)
+        .start(Pendulum::theta, 1.0)
+        .samples(SAMPLES)
+}
+
+fn frequency(length: f64) -> f64 {
+    let natural = 1.5 * GRAVITY / length;
+    (SPEED.powi(2) - (natural / SPEED).powi(2)).sqrt()
+}
+
+/// Mean and standard deviation of the frequency, over quantiles of the length.
+fn exact(length: &Distribution) -> (f64, f64) {
+    let number = 20_000;
+    let at = |k: u32| frequency(length.quantile((f64::from(k) + 0.5) / f64::from(number)));
+    let mean = (0..number).map(at).sum::<f64>() / f64::from(number);
+    let squares = (0..number).map(|k| (at(k) - mean).powi(2)).sum::<f64>();
+    (mean, (squares / f64::from(number)).sqrt())
+}
+
+fn lengths() -> Vec<Distribution> {
+    [
+        Distribution::normal(1.01, 0.01),
+        Distribution::truncated_normal(1.0, 0.02, (0.98, 1.05)),
+        Distribution::uniform(0.95, 1.05),
+        Distribution::triangular(0.98, 1.0, 1.06),
+        Distribution::lognormal(1.0, 0.03),
+        Distribution::weibull_by_moments(1.0, 0.02),
+        Distribution::beta((2.0, 5.0), (0.97, 1.08)),
+        Distribution::discrete(&[(0.95, 1.0), (1.0, 2.0), (1.02, 1.0)]),
+        Distribution::empirical(&[0.97, 0.99, 1.0, 1.0, 1.01, 1.04]),
+    ]
+    .into_iter()
+    .map(Result::unwrap)
+    .collect()
+}
+
+#[test]
+fn monte_carlo_has_the_exact_moments() {
+    for (seed, length) in lengths().into_iter().enumerate() {
+        let (mean, sigma) = exact(&length);
+        let study = study()
+            .distribution(LENGTH, length.clone())
+            .seed(seed as u64);
+        for study in [study.clone(), study.vectors(None)] {
+            let run = study.monte_carlo().unwrap();
+            let found = run.modes[0].unwrap();
+            let error = sigma / (SAMPLES as f64).sqrt();
+            assert_eq!(run.counts.stable, SAMPLES);
+            assert!((found.mean - mean).abs() < 4.0 * error, "{length:?}");
+            // The standard error of a standard deviation is at most this for excess kurtosis below 6.
+            assert!(
+                (found.sigma.unwrap() - sigma).abs() < 4.0 * 1.42 * error,
+                "{length:?}"
+            );
+        }
+    }
+}
+
+/// The same designs, whichever way they are solved.
+#[test]
+fn side_by_side_draws_the_same_values() {
+    for length in lengths() {
+        let mass = Distribution::uniform(2.9, 3.2).unwrap();
+        let correlation = [[1.0, 0.4], [0.4, 1.0]];
+        let study = study()
+            .distribution(LENGTH, length)
+            .distribution(MASS, mass)
+            .correlation(correlation)
+            .samples(100)
+            .keep_samples(true);
+        let together = study.monte_carlo().unwrap();
+        let alone = study.vectors(None).monte_carlo().unwrap();
+        assert!(together.side_by_side && !alone.side_by_side);
+        for (one, other) in together.all.unwrap().iter().zip(alone.all.unwrap()) {
+            assert_eq!(one.design, other.design);
+            let [one, other] = [one, &other].map(|sample| sample.frequencies[0].unwrap());
+            close(one, other, 1e-12);
+        }
+    }
+}
+
+fn correlation_of(run: &MonteCarlo) -> f64 {
+    let all = run.all.as_ref().unwrap();
+    let number = all.len() as f64;
+    let mean = [0, 1].map(|k| all.iter().map(|sample| sample.design[k]).sum::<f64>() / number);
+    let moment = |i: usize, j: usize| {
+        let each = all
+            .iter()
+            .map(|s| (s.design[i] - mean[i]) * (s.design[j] - mean[j]));
+        each.sum::<f64>() / number
+    };
+    moment(0, 1) / (moment(0, 0) * moment(1, 1)).sqrt()
+}
+
+#[test]
+fn values_have_the_correlation_that_was_asked_for() {
+    for wanted in [-0.5, 0.7] {
+        let study = study()
+            .distribution(LENGTH, Distribution::uniform(0.99, 1.01).unwrap())
+            .distribution(MASS, Distribution::lognormal(3.0, 1.0).unwrap())
+            .correlation([[1.0, wanted], [wanted, 1.0]])
+            .keep_samples(true);
+        let found = correlation_of(&study.monte_carlo().unwrap());
+        assert!((found - wanted).abs() < 0.03, "{found}, not {wanted}");
+    }
+}
+
+#[test]
+fn first_order_counts_the_mean_and_the_law() {
+    let study = study().limits(LENGTH, -0.01, 0.03);
+    let slope = study.sensitivities().unwrap().modes[0]
+        .omega_by_design
+        .clone()
+        .unwrap()[1];
+    for (law, sigma) in [
+        (Law::Normal, 0.02 / 3.0),
+        (Law::Uniform, 0.02 / 3.0_f64.sqrt()),
+        (Law::Triangular, 0.02 / 6.0_f64.sqrt()),
+        (Law::Lognormal, 0.02 / 3.0),
+        (Law::Weibull, 0.02 / 3.0),
+        (Law::TruncatedNormal, 0.02 / 3.0 * 0.986_578_392_558_108_6),
+        (
+            Law::Beta {
+                alpha: 2.0,
+                beta: 2.0,
+            },
+            0.02 / 5.0_f64.sqrt(),
+        ),
+    ] {
+        let study = study.clone().law(LENGTH, law);
+        let first = study.first_order().unwrap();
+        let found = first.modes[0].frequency.as_ref().unwrap();
+        close(found.sigma, slope.abs() * sigma, 1e-11);
+        close(found.mean, frequency(1.0) + 0.01 * slope, 1e-12);
+        assert!((study.tolerances().unwrap().shifts()[1] - 0.01).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_law_follows_limits_and_limits_keep_the_law() {
+    let wide = |study: Study<Pendulum>| study.tolerances().unwrap().sigmas()[1];
+    let one = study().law(LENGTH, Law::Uniform).tolerance(LENGTH, 0.03);
+    let other = study().tolerance(LENGTH, 0.03).law(LENGTH, Law::Uniform);
+    assert_eq!(wide(one.clone()), wide(other));
+    // Hard limits do not ask how many standard deviations they hold.
+    assert_eq!(wide(one.clone()), wide(one.sigma_level(2.0)));
+    let soft = study().tolerance(LENGTH, 0.03);
+    close(wide(soft.clone().sigma_level(2.0)), 1.5 * wide(soft), 1e-14);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let refused = |study: Study<Pendulum>| match study.tolerances() {
+        Err(Error::Setting { setting, .. }) => setting,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(refused(study().limits(LENGTH, 0.02, 0.01)), "tolerance");
+    assert_eq!(refused(study().limits(LENGTH, f64::NAN, 0.01)), "tolerance");
+    assert_eq!(
+        refused(study().limits(LENGTH, -0.01, f64::INFINITY)),
+        "tolerance"
+    );
+    let shape = Law::Beta {
+        alpha: -1.0,
+        beta: 2.0,
+    };
+    assert_eq!(
+        refused(study().tolerance(LENGTH, 0.01).law(LENGTH, shape)),
+        "shape of a beta distribution"
+    );
+    let negative = study()
+        .limits(LENGTH, -3.0, -2.0)
+        .law(LENGTH, Law::Lognormal);
+    assert_eq!(refused(negative), "mean of a lognormal variable");
+    let uniform = Distribution::uniform(0.9, 1.1).unwrap();
+    let correlated = study()
+        .distribution(LENGTH, uniform)
+        .tolerance(MASS, 0.1)
+        .correlation([[1.0, 0.999], [0.999, 1.0]]);
+    assert_eq!(refused(correlated), "correlation matrix");
+}
+
+#[test]
+fn impossible_bodies_are_counted() {
+    let study = study()
+        .distribution(LENGTH, Distribution::uniform(-0.5, 1.5).unwrap())
+        .keep_samples(true);
+    for study in [study.clone(), study.vectors(None)] {
+        let run = study.monte_carlo().unwrap();
+        let share = run.counts.unphysical as f64 / SAMPLES as f64;
+        assert!((share - 0.25).abs() < 0.01, "{share}");
+        for sample in run.all.unwrap() {
+            assert_eq!(
+                sample.outcome == Outcome::Unphysical,
+                sample.design[1] <= 0.0
+            );
+        }
+        assert_eq!(run.counts.total(), SAMPLES);
+    }
+}
