@@ -31,6 +31,24 @@ fn bulges_uncover_the_other_side() {
     close(found.design_points[0].point[0], -3.0, 1e-9);
 }
 
+/// Regions at a right angle, one of them farther away.
+#[test]
+fn bulges_uncover_what_is_beside() {
+    let corner = limit(2, |z| {
+        let (a, b) = (3.0 - z[0], 3.5 - z[1]);
+        (a * b, vec![-b, -a])
+    });
+    let settings = FormSettings {
+        restarts: 0,
+        ..FormSettings::default()
+    };
+    let found = failure_regions(&corner, &settings).unwrap();
+    let betas: Vec<f64> = found.design_points.iter().map(|p| p.beta).collect();
+    assert_eq!(betas.len(), 2, "{betas:?}");
+    close(betas[0], 3.0, 1e-8);
+    close(betas[1], 3.5, 1e-8);
+}
+
 #[test]
 fn mixtures_sum_over_regions() {
     let limits = [two_sided()];

@@ -44,3 +44,46 @@ impl Bulge {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reliability::form::design_point::Residuals;
+
+    #[test]
+    fn gradients_are_derivatives() {
+        for beta in [2.0, -3.0] {
+            let bulge = Bulge::over(&DesignPoint {
+                point: vec![0.6 * beta, 0.8 * beta],
+                beta,
+                direction: vec![0.6, 0.8],
+                gradient_norm: 5.0,
+                residuals: Residuals {
+                    limit: 0.0,
+                    direction: 0.0,
+                },
+            })
+            .unwrap();
+            let added = |z: &[f64]| {
+                let mut limit = LimitValue {
+                    value: 0.0,
+                    gradient: vec![0.0; 2],
+                };
+                bulge.add_to(&mut limit, z);
+                limit
+            };
+            let z = [0.5 * beta, 0.3 * beta];
+            for i in 0..2 {
+                let (mut ahead, mut behind) = (z, z);
+                ahead[i] += 1e-5;
+                behind[i] -= 1e-5;
+                let difference = (added(&ahead).value - added(&behind).value) / 2e-5;
+                assert!((added(&z).gradient[i] - difference).abs() < 1e-7);
+            }
+            // A linear limit is shifted by its part of beta: on the normal it is zero there.
+            let beyond = [0.6 * beta * (1.0 - SHIFT), 0.8 * beta * (1.0 - SHIFT)];
+            assert!((added(&beyond).value - 5.0 * SHIFT * beta).abs() < 1e-12);
+            assert_eq!(added(&[-0.2 * beta, -0.2 * beta]).value, 0.0);
+        }
+    }
+}

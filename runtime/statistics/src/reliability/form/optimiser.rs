@@ -9,6 +9,9 @@ use super::search::Search;
 use crate::reliability::limit_state::LimitState;
 use crate::reliability::vector::norm;
 
+/// The library counts in 32 bits.
+const EVALUATIONS: usize = i32::MAX as usize;
+
 /// The best point on the way of minimising `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for
 /// sequential quadratic programming*), from a start on. Points without a value have an infinite objective; the line search
 /// then halves its step.
@@ -65,7 +68,7 @@ pub(super) fn minimise<L: LimitState>(search: &Search<'_, L>, start: Iterate) ->
         &vec![(-radius, radius); first.len()],
         &limits,
         (),
-        search.settings.optimiser_evaluations,
+        search.settings.optimiser_evaluations.min(EVALUATIONS),
         Some(stop),
     );
     progress.into_inner().best

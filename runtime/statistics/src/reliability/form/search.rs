@@ -41,7 +41,8 @@ impl<L: LimitState> Search<'_, L> {
             at_start = self.at(&start);
         }
         let best = self.iterate(at_start?);
-        if self.is_solved(&best) || self.limit.dimension() > OPTIMISER_VARIABLES {
+        let too_many = self.limit.dimension() > OPTIMISER_VARIABLES;
+        if self.is_solved(&best) || too_many || self.settings.optimiser_evaluations == 0 {
             return Some(best);
         }
         Some(self.iterate(optimiser::minimise(self, best)))

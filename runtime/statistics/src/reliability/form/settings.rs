@@ -9,7 +9,7 @@ pub struct FormSettings {
     pub tolerance: f64,
     /// Steps of the Hasofer-Lind-Rackwitz-Fiessler iteration before the general optimiser takes over.
     pub iterations: usize,
-    /// Evaluations that the general optimiser may take from one start.
+    /// Evaluations that the general optimiser may take from one start; zero goes without it.
     pub optimiser_evaluations: usize,
     /// Starts in random directions and their opposites, besides the one at the origin. Each costs about as much as that.
     pub restarts: usize,

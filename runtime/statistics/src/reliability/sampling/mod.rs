@@ -53,6 +53,10 @@ impl Default for SamplingSettings {
 /// Fewer failures say nothing about the coefficient of variation.
 const FAILURES: u64 = 10;
 
+/// Sums of squares of weights stay finite. Only samples so far on the safe side of a far design point weigh more that none
+/// of them will ever fail.
+const GREATEST_LN_WEIGHT: f64 = 300.0;
+
 /// A probability of failure from samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampledProbability {
@@ -143,7 +147,8 @@ impl<'a, L: LimitState> Sampler<'a, L> {
         let ln_scale = self.proposal.ln_scale();
         let mut z = vec![0.0; dimension];
         for _ in range {
-            let weight = (self.proposal.draw(&mut samples, &mut z) - ln_scale).exp();
+            let ln_weight = self.proposal.draw(&mut samples, &mut z) - ln_scale;
+            let weight = ln_weight.min(GREATEST_LN_WEIGHT).exp();
             sums.samples += 1;
             match self.fails(&z) {
                 Some(true) => sums.add_failure(&z, weight),
