@@ -111,7 +111,8 @@ fn a_limit_through_the_origin_has_beta_zero() {
 /// Nothing fails within reach: an error that says so, not a probability.
 #[test]
 fn no_failure_is_an_error() {
-    let cases: [Box<dyn Fn(&[f64]) -> (f64, Vec<f64>)>; 5] = [
+    type Function = dyn Fn(&[f64]) -> (f64, Vec<f64>);
+    let cases: [Box<Function>; 5] = [
         Box::new(|z| (1.0 + z[0] * z[0], vec![2.0 * z[0], 0.0])),
         Box::new(|_| (1.0, vec![0.0, 0.0])),
         Box::new(|z| ((-z[0]).exp(), vec![-(-z[0]).exp(), 0.0])),
