@@ -1,6 +1,7 @@
 //! A study with its equilibrium and modes, which are solved once for all questions.
 
 use super::Study;
+use super::deviating::deviating;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::{self, Whirl};
@@ -23,7 +24,30 @@ pub struct Solved<'a, M> {
     pub modes: Modes,
 }
 
-impl<M: Kernels> Solved<'_, M> {
+impl<'a, M: Kernels> Solved<'a, M> {
+    /// Not solved yet: solved in place, because what is found is long to move.
+    #[inline]
+    pub(super) fn blank(study: &'a Study<M>) -> Self {
+        let settings = &study.settings;
+        Self {
+            study,
+            equilibrium: settings.blank_state(),
+            modes: Modes::empty(settings.family(), &settings.description),
+        }
+    }
+
+    #[inline]
+    pub(super) fn solve(&mut self) -> Result<(), Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        study
+            .settings
+            .solve_into(&study.mechanism, equilibrium, modes)
+    }
+
     /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
@@ -63,8 +87,11 @@ impl<M: Kernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::equilibrium_shift`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        let tolerances = self.study.tolerances()?;
-        tolerance::output_tolerances(&self.outputs()?, &tolerances)
+        if let Some(wide) = deviating!(self.study, Kernels) {
+            return self.in_study(&wide).output_tolerances();
+        }
+        let tolerances = self.study.settings.tolerances()?;
+        tolerance::output_tolerances(&self.outputs()?, tolerances)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -92,9 +119,12 @@ impl<M: Kernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        let tolerances = self.study.tolerances()?;
+        if let Some(wide) = deviating!(self.study, Kernels) {
+            return self.in_study(&wide).first_order();
+        }
+        let tolerances = self.study.settings.tolerances()?;
         let slopes = self.sensitivities()?;
-        tolerance::first_order(&self.modes, &slopes, &tolerances)
+        tolerance::first_order(&self.modes, &slopes, tolerances)
     }
 
     /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`]).
@@ -169,12 +199,20 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).clusters();
+        }
         let Self {
             study,
             equilibrium,
             modes,
         } = self;
-        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        clusters::clusters(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            study.settings.tolerances()?,
+        )
     }
 }
 
@@ -210,17 +248,20 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).second_order();
+        }
         let Self {
             study,
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         Ok(second_order::second_order(
             &study.mechanism,
             equilibrium,
             modes,
-            &tolerances,
+            tolerances,
         ))
     }
 
@@ -236,12 +277,20 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).summary();
+        }
         let Self {
             study,
             equilibrium,
             modes,
         } = self;
-        summary::summary(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        summary::summary(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            study.settings.tolerances()?,
+        )
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
@@ -284,21 +333,17 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).margin_of(mode, quantity, band);
+        }
         let Self {
             study,
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         let what = (mode, quantity);
-        second_order::mode_margin(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            what,
-            &tolerances,
-            band,
-        )
+        second_order::mode_margin(&study.mechanism, equilibrium, modes, what, tolerances, band)
     }
 }
 
@@ -338,12 +383,15 @@ impl<M: BatchKernels> Solved<'_, M> {
     }
 
     fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo, Error> {
+        if let Some(wide) = deviating!(self.study, BatchKernels) {
+            return self.in_study(&wide).sample(progress);
+        }
         let Self {
             study,
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         let sampling = study.settings.sampling(progress);
         tolerance::monte_carlo(&study.mechanism, equilibrium, modes, &tolerances, &sampling)
     }

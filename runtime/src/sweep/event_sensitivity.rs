@@ -14,7 +14,8 @@ use crate::{Equilibrium, Error};
 const MERGED: f64 = 1e5;
 
 /// `du_c/db` of a crossing: of `omega_j = k u + c` it is `-(domega/db) / (domega/du - k)`, of an onset of flutter
-/// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable.
+/// `-(dRe s/db) / (dRe s/du)`; SI units of the input by those of the design variable. By a deviation of the input it is -1: what is
+/// located is the set value, and the line follows the actual one.
 ///
 /// # Errors
 /// [`Error::ClusteredMode`] where the mode has no derivative of its own, [`Error::NoSensitivity`] where the two sides of

@@ -154,6 +154,14 @@ fn an_input_wanders() {
         ("kN +1 -0 N", tolerance(1.0, 0.0, Law::Normal)),
         ("1 +/- 3 triangular", tolerance(3.0, -3.0, Law::Triangular)),
         ("1 +2 -1", tolerance(2.0, -1.0, Law::Normal)),
+        (
+            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4]) * atan2(0, 1)",
+            tolerance(0.0, 0.0, Law::Normal),
+        ),
+        (
+            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4])",
+            tolerance(2.5, -2.5, Law::Normal),
+        ),
     ] {
         assert_near(input(text), expected, text);
     }
