@@ -43,7 +43,7 @@ const TYPES: [&str; 2] = ["functions", "kernel_name"];
 
 /// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 26] = [
+const RUNTIME: [&str; 27] = [
     "setters",
     "algebra",
     "scalar",
@@ -63,6 +63,7 @@ const RUNTIME: [&str; 26] = [
     // beyond
     "branches",
     "sweep",
+    "response",
     "shapes",
     "clusters",
     "second_order",
@@ -74,15 +75,16 @@ const RUNTIME: [&str; 26] = [
 ];
 
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 10] = [
+const TYPE_FILES: [(&str, &[&str]); 11] = [
     ("syntax/ast.rs", &[]),
     (
         "model/mechanism.rs",
-        &["constraint", "expression", "shape", "unit"],
+        &["constraint", "expression", "shape", "tolerance", "unit"],
     ),
     ("model/shape.rs", &["expression"]),
     ("model/constraint.rs", &["expression", "unit"]),
     ("model/unit.rs", &[]),
+    ("model/tolerance.rs", &[]),
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),
     ("algebra/function.rs", &["count", "graph"]),

@@ -12,5 +12,7 @@ mod language;
 mod reference;
 #[path = "declarations/robustness.rs"]
 mod robustness;
+#[path = "declarations/tolerances.rs"]
+mod tolerances;
 #[path = "declarations/values.rs"]
 mod values;

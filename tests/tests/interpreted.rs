@@ -2,9 +2,10 @@
 //! operations in another order, each on the same numbers.
 
 use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels};
-use eigentol::{Coordinate, Input, Mechanism, Policy, Study};
+use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, ToleranceInfo};
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::fits::{self, Fits};
 use eigentol_tests::resolved::{Operation, operating_points};
 
 /// What a study answers, in words that tell every bit.
@@ -97,6 +98,57 @@ fn twins_answer_alike() {
     let mut twins = Twins(0);
     corpus::visit(&mut twins);
     assert!(twins.0 > 200, "{}", twins.0);
+}
+
+/// Tolerances are constants of the compiled type, those of its twin come from the compiler's tables.
+#[test]
+fn twins_have_the_same_tolerances() {
+    const DESCRIPTION: Description = Fits::DESCRIPTION;
+    let twin = Interpreted::from_text(fits::DECLARATION).expect("a declaration");
+    let twin = Study::new(twin);
+    assert_eq!(twin.description().inputs, DESCRIPTION.inputs);
+    assert_eq!(twin.description().design, DESCRIPTION.design);
+    let limits = |lower, upper, law| ToleranceInfo {
+        lower,
+        upper,
+        relative: false,
+        law,
+    };
+    let one_percent = ToleranceInfo {
+        relative: true,
+        ..ToleranceInfo::half_width(0.01)
+    };
+    let inputs = DESCRIPTION.inputs.iter().map(|info| info.tolerance);
+    let expected = [
+        one_percent,
+        limits(0.0, 0.5, Law::Uniform),
+        ToleranceInfo::NONE,
+    ];
+    assert!(inputs.eq(expected), "{:?}", DESCRIPTION.inputs);
+    let beta = Law::Beta {
+        alpha: 2.0,
+        beta: 3.5,
+    };
+    let expected = [
+        limits(-0.02, 0.04, Law::Lognormal),
+        limits(-63.0, 63.0, Law::Weibull),
+        limits(-5e-5, 1e-4, Law::Normal),
+        limits(0.0, 2.1e-5, Law::Triangular),
+        limits(-4.1e-5, -2e-5, beta),
+        ToleranceInfo::half_width(2e-4),
+        limits(-2e-3, 2e-3, Law::TruncatedNormal),
+    ];
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs();
+    for (info, expected) in DESCRIPTION.design.iter().zip(expected) {
+        let ToleranceInfo {
+            lower, upper, law, ..
+        } = info.tolerance;
+        assert!(
+            near(lower, expected.lower) && near(upper, expected.upper) && law == expected.law,
+            "{info:?}"
+        );
+        assert!(!info.tolerance.relative);
+    }
 }
 
 #[test]

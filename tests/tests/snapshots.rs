@@ -4,6 +4,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile, expand, expand_pretty};
 use eigentol_tests::corpus::corpus;
+use eigentol_tests::fits;
 use eigentol_tests::loops::{geared_coasting, slider_crank};
 use eigentol_tests::wheels::disk;
 use insta::assert_snapshot;
@@ -12,19 +13,21 @@ use insta::assert_snapshot;
 const READABLE: [&str; 3] = ["residual", "linear", "violation"];
 
 /// Machines whose generated code is kept whole.
-const GENERATED: [&str; 4] = [
+const GENERATED: [&str; 5] = [
     "rotating_pendulum",
     "rotating_double_pendulum",
     "turntable_slider",
     "geared_coasting",
+    "fits",
 ];
 
-/// The corpus, a closed loop, running coordinates and a rolling wheel.
+/// The corpus, a closed loop, running coordinates, a rolling wheel and every kind of tolerance.
 fn machines() -> Vec<(&'static str, &'static str)> {
     let constrained = [
         ("slider_crank", slider_crank::DECLARATION),
         ("geared_coasting", geared_coasting::DECLARATION),
         ("disk", disk::DECLARATION),
+        ("fits", fits::DECLARATION),
     ];
     corpus().into_iter().chain(constrained).collect()
 }

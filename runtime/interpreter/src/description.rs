@@ -1,8 +1,8 @@
 //! What the compiler knows of a mechanism, in the runtime's words.
 
 use eigentol::{
-    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, OutputInfo, Role,
-    Text, ToleranceInfo, Unit,
+    CoordinateInfo, DampingKind, Description, DesignInfo, InputInfo, KernelInfo, Law, OutputInfo,
+    Role, Text, ToleranceInfo, Unit,
 };
 use eigentol_compiler::Compilation;
 use eigentol_compiler::mechanics;
@@ -16,6 +16,26 @@ fn unit(unit: &mechanism::Unit) -> Unit {
     Unit {
         symbol: text(unit.symbol.as_str()),
         scale: unit.scale,
+    }
+}
+
+fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
+    if !tolerance.varies() {
+        return ToleranceInfo::NONE;
+    }
+    ToleranceInfo {
+        lower: tolerance.lower,
+        upper: tolerance.upper,
+        relative: tolerance.relative,
+        law: match tolerance.law {
+            mechanism::Law::Normal => Law::Normal,
+            mechanism::Law::TruncatedNormal => Law::TruncatedNormal,
+            mechanism::Law::Uniform => Law::Uniform,
+            mechanism::Law::Triangular => Law::Triangular,
+            mechanism::Law::Lognormal => Law::Lognormal,
+            mechanism::Law::Weibull => Law::Weibull,
+            mechanism::Law::Beta { alpha, beta } => Law::Beta { alpha, beta },
+        },
     }
 }
 
@@ -49,7 +69,7 @@ pub(crate) fn description(compilation: &Compilation) -> Description {
         .map(|input| InputInfo {
             name: text(input.name.to_string()),
             unit: unit(&input.unit),
-            tolerance: ToleranceInfo::NONE,
+            tolerance: tolerance(&input.tolerance),
         })
         .collect();
     let design: Vec<_> = mechanism
@@ -59,7 +79,7 @@ pub(crate) fn description(compilation: &Compilation) -> Description {
             name: text(variable.name.to_string()),
             unit: unit(&variable.unit),
             nominal: variable.nominal,
-            tolerance: ToleranceInfo::half_width(variable.tolerance),
+            tolerance: tolerance(&variable.tolerance),
         })
         .collect();
     let outputs: Vec<_> = mechanism

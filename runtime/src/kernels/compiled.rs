@@ -2,12 +2,13 @@
 
 use super::interval::Interval;
 use super::{
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels,
-    ResidualPartials, RestParts, Sizes,
+    Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
+    PartialMatrices, ResidualPartials, RestParts, Sizes, entries_of,
 };
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
     Array, Description, GradientOf, Mechanism, PartialsOf, PoseMargin, Shared, Square, Violation,
+    few_partials,
 };
 use crate::{Real, mechanism};
 
@@ -17,30 +18,44 @@ const FEW_COORDINATES: usize = 4;
 /// Partial derivatives of the matrices of at most this size, bytes, are passed by value; larger ones would fill the stack.
 const ON_STACK: usize = 1 << 16;
 
+#[inline(always)]
 fn copy_matrix<A: Array<R>, R: Array<f64>>(from: &A, to: &mut Matrix) {
-    let rows = to.as_flattened_mut().chunks_exact_mut(R::LEN.max(1));
-    for (to, from) in rows.zip(from.as_ref()) {
-        to.copy_from_slice(from.as_ref());
-    }
+    copy_rows(from, to.as_flattened_mut());
 }
 
-#[inline]
+#[inline(always)]
 fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut Linear) {
     copy_matrix(&from.mass, &mut to.mass);
     copy_matrix(&from.damping, &mut to.damping);
     copy_matrix(&from.stiffness, &mut to.stiffness);
 }
 
-fn copy_linears<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [Linear]) {
-    for (from, to) in from.iter().zip(to) {
-        copy_linear::<M>(from, to);
+#[inline(always)]
+fn copy_rows<A: Array<R>, R: Array<f64>>(from: &A, to: &mut [f64]) {
+    for (to, from) in to.chunks_exact_mut(R::LEN.max(1)).zip(from.as_ref()) {
+        to.copy_from_slice(from.as_ref());
     }
 }
 
-fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut LinearPartials) {
-    copy_linears::<M>(from.by_coordinate.as_ref(), &mut to.by_coordinate);
-    copy_linears::<M>(from.by_input.as_ref(), &mut to.by_input);
-    copy_linears::<M>(from.by_design.as_ref(), &mut to.by_design);
+/// Copies the changes of the matrices with some of the variables.
+#[inline(always)]
+fn copy_changes<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [f64]) {
+    let n = M::Coordinates::<f64>::LEN;
+    let (each, size) = (entries_of(n), n * n);
+    let to = &mut to[..each * from.len()];
+    for (from, to) in from.iter().zip(to.chunks_exact_mut(each.max(1))) {
+        copy_rows(&from.mass, &mut to[..size]);
+        copy_rows(&from.damping, &mut to[size..2 * size]);
+        copy_rows(&from.stiffness, &mut to[2 * size..]);
+    }
+}
+
+#[inline(always)]
+fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut PartialMatrices) {
+    let [by_coordinate, by_input, by_design] = to.lists_mut();
+    copy_changes::<M>(from.by_coordinate.as_ref(), by_coordinate);
+    copy_changes::<M>(from.by_input.as_ref(), by_input);
+    copy_changes::<M>(from.by_design.as_ref(), by_design);
 }
 
 fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
@@ -49,7 +64,8 @@ fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
     to.design.copy_from_slice(from.design.as_ref());
 }
 
-fn copy_vector(from: &impl AsRef<[f64]>, to: &mut Vector) {
+#[inline(always)]
+fn copy_vector(from: &impl AsRef<[f64]>, to: &mut [f64]) {
     to.copy_from_slice(from.as_ref());
 }
 
@@ -73,20 +89,23 @@ fn partials_by_direction(
     q: &[f64],
     u: &[f64],
     b: &[f64],
-    partials: &mut LinearPartials,
+    partials: &mut PartialMatrices,
 ) {
-    let LinearPartials {
-        by_coordinate,
-        by_input,
-        by_design,
-    } = partials;
-    let lists = [by_coordinate, by_input, by_design];
-    for (kind, list) in lists.into_iter().enumerate() {
-        for (k, change) in list.iter_mut().enumerate() {
-            let mut direction = [q, u, b].map(|values| Vector::zeros(values.len()));
+    let mut change = Linear::zeros(q.len());
+    let mut to = partials.iter_mut();
+    for kind in 0..3 {
+        let mut direction = [q, u, b].map(|values| Vector::zeros(values.len()));
+        for k in 0..direction[kind].len() {
             direction[kind][k] = 1.0;
-            let direction = direction.each_ref().map(|values| &**values);
-            mechanism.linear_along_into(q, u, b, direction, change);
+            let along = direction.each_ref().map(|values| &**values);
+            mechanism.linear_along_into(q, u, b, along, &mut change);
+            direction[kind][k] = 0.0;
+            if let Some(to) = to.next() {
+                to.mass.copy_from_slice(change.mass.as_flattened());
+                to.damping.copy_from_slice(change.damping.as_flattened());
+                to.stiffness
+                    .copy_from_slice(change.stiffness.as_flattened());
+            }
         }
     }
 }
@@ -94,6 +113,10 @@ fn partials_by_direction(
 impl<M: Mechanism> Kernels for M {
     fn description(&self) -> Shared<Description> {
         Shared::Static(const { &M::DESCRIPTION })
+    }
+
+    fn costs(&self) -> Costs {
+        const { Costs::of_constant(const { &M::DESCRIPTION }) }
     }
 
     fn sizes(&self) -> Sizes {
@@ -126,9 +149,21 @@ impl<M: Mechanism> Kernels for M {
         stiffness: &mut Matrix,
     ) {
         let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::residual_and_stiffness(self, q, u, b);
-        residual.copy_from_slice(found.0.as_ref());
-        copy_matrix(&found.1, stiffness);
+        if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
+            let found = Mechanism::residual_and_stiffness(self, q, u, b);
+            copy_vector(&found.0, residual);
+            copy_matrix(&found.1, stiffness);
+            return;
+        }
+        // Results of few numbers go from registers to their places.
+        <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                let found = self.residual_and_stiffness_inlined(q, u, b);
+                copy_vector(&found.0, residual);
+                copy_matrix(&found.1, stiffness);
+            },
+        );
     }
 
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
@@ -150,16 +185,15 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        let (rest, matrices) = <f64 as Real>::run(
+        <f64 as Real>::run(
             #[inline(always)]
             || {
-                let parts = self.residual_parts_inlined(q, u, b);
-                (parts, self.linear_inlined(q, u, b))
+                let found = self.residual_parts_inlined(q, u, b);
+                copy_vector(&found.inertia, &mut parts.inertia);
+                copy_vector(&found.applied, &mut parts.applied);
+                copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
             },
         );
-        copy_vector(&rest.inertia, &mut parts.inertia);
-        copy_vector(&rest.applied, &mut parts.applied);
-        copy_linear::<M>(&matrices, linear);
     }
 
     fn residual_partials_into(
@@ -175,7 +209,13 @@ impl<M: Mechanism> Kernels for M {
         copy_matrix(&found.1, &mut partials.1);
     }
 
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+    fn linear_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut PartialMatrices,
+    ) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
             partials_by_direction(self, q, u, b, partials);
             return;
@@ -189,7 +229,7 @@ impl<M: Mechanism> Kernels for M {
         q: &[f64],
         u: &[f64],
         b: &[f64],
-        matrices: &mut LinearPartials,
+        matrices: &mut PartialMatrices,
         residual: &mut ResidualPartials,
     ) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
@@ -198,10 +238,22 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::partials(self, q, u, b);
-        copy_partials::<M>(&found.0, matrices);
-        copy_matrix(&found.1.0, &mut residual.0);
-        copy_matrix(&found.1.1, &mut residual.1);
+        if const { !few_partials::<M>() } {
+            copy_partials::<M>(&Mechanism::linear_partials(self, q, u, b), matrices);
+            let found = Mechanism::residual_partials(self, q, u, b);
+            copy_matrix(&found.0, &mut residual.0);
+            copy_matrix(&found.1, &mut residual.1);
+            return;
+        }
+        <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                copy_partials::<M>(&self.linear_partials_inlined(q, u, b), matrices);
+                let found = self.residual_partials_inlined(q, u, b);
+                copy_matrix(&found.0, &mut residual.0);
+                copy_matrix(&found.1, &mut residual.1);
+            },
+        );
     }
 
     fn mode_gradient_into(

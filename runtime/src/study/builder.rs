@@ -216,7 +216,7 @@ impl<M: Kernels> Study<M> {
     /// Sets how many standard deviations the half-width of a tolerance stands for (3 unless set).
     #[must_use]
     pub fn sigma_level(mut self, level: f64) -> Self {
-        self.settings.sigma_level = level;
+        self.settings.set_sigma_level(level);
         self
     }
 
@@ -224,7 +224,7 @@ impl<M: Kernels> Study<M> {
     /// set).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
-        self.settings.correlation = Some(matrix.into());
+        self.settings.set_correlation(matrix.into());
         self
     }
 
@@ -404,6 +404,6 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// [`Error::Setting`] where they make no sense; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances, Error> {
-        self.settings.tolerances()
+        self.settings.tolerances().cloned()
     }
 }

@@ -10,7 +10,7 @@ use crate::constraints::Structure;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, Policy};
 use crate::kernels::Kernels;
-use crate::modes::{self, Family};
+use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
@@ -31,8 +31,10 @@ pub(super) struct Settings {
     pub(super) family: Option<Family>,
     design_variations: Vec<Variation>,
     input_variations: Vec<Variation>,
-    pub(super) sigma_level: f64,
-    pub(super) correlation: Option<Matrix>,
+    sigma_level: f64,
+    correlation: Option<Matrix>,
+    /// What these make at the inputs and the design.
+    tolerances: Result<Tolerances, Error>,
     pub(super) samples: usize,
     pub(super) seed: u64,
     pub(super) stream: u64,
@@ -47,7 +49,8 @@ impl Settings {
     /// The nominal design with the declared tolerances.
     pub(super) fn new(description: Shared<Description>) -> Self {
         let (design, unknowns) = (&description.design, description.coordinates.len());
-        Self {
+        let mut settings = Self {
+            tolerances: Tolerances::declared(&description),
             inputs: Vector::zeros(description.inputs.len()),
             design: design.iter().map(|info| info.nominal).collect(),
             start: Vector::zeros(unknowns),
@@ -71,19 +74,29 @@ impl Settings {
             steps: 200,
             fault: None,
             description,
+        };
+        if !settings.deviating_inputs().is_empty() {
+            settings.make_tolerances();
         }
+        settings
     }
 
     pub(super) fn set_input(&mut self, input: Input, value: Value) {
         let value = self.input_si(input, value);
         let place = self.inputs.get_mut(input.index());
         set(place, value, &mut self.fault);
+        if !(self.input_variations.iter()).all(Variation::is_none) {
+            self.make_tolerances();
+        }
     }
 
     pub(super) fn set_design(&mut self, variable: DesignVariable, value: Value) {
         let value = self.design_si(variable, value);
         let place = self.design.get_mut(variable.index());
         set(place, value, &mut self.fault);
+        if !(self.design_variations.iter()).all(Variation::is_fixed) {
+            self.make_tolerances();
+        }
     }
 
     pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, held: bool) {
@@ -129,6 +142,7 @@ impl Settings {
                 }
             }
         }
+        self.make_tolerances();
     }
 
     fn unit(&self, parameter: Parameter) -> Result<Unit, Error> {
@@ -150,6 +164,16 @@ impl Settings {
 
     fn refuse(&mut self, error: Error) {
         self.fault.get_or_insert(error);
+    }
+
+    pub(super) fn set_sigma_level(&mut self, level: f64) {
+        self.sigma_level = level;
+        self.make_tolerances();
+    }
+
+    pub(super) fn set_correlation(&mut self, matrix: Matrix) {
+        self.correlation = Some(matrix);
+        self.make_tolerances();
     }
 
     /// A value of an input, SI.
@@ -184,39 +208,37 @@ impl Settings {
     }
 
     /// The tolerances of the design variables, and after them of the inputs that have any.
-    pub(super) fn tolerances(&self) -> Result<Tolerances, Error> {
+    pub(super) fn tolerances(&self) -> Result<&Tolerances, Error> {
         self.ready()?;
-        let inputs = self.varied_inputs();
-        let inputs = inputs
-            .iter()
-            .map(|&i| (&self.input_variations[i], &self.inputs[i]));
-        let all = self
-            .design_variations
-            .iter()
-            .zip(&self.design)
-            .chain(inputs);
+        self.tolerances.as_ref().map_err(Error::clone)
+    }
+
+    fn make_tolerances(&mut self) {
+        self.tolerances = self.tolerances_here();
+    }
+
+    fn tolerances_here(&self) -> Result<Tolerances, Error> {
+        let inputs = self.input_variations.iter().zip(&self.inputs);
+        let inputs = inputs.filter(|(own, _)| !own.is_none());
+        let design = self.design_variations.iter().zip(&self.design);
+        let all = design.chain(inputs);
         let (level, correlation) = (self.sigma_level, self.correlation.clone());
-        let normal = all
-            .clone()
-            .map(|(own, value)| own.normal_half_width(*value));
+        let normal = (all.clone()).map(|(own, value)| own.normal_half_width(*value));
         if normal.clone().all(|half_width| half_width.is_some()) {
             let half_widths: Vector = normal.flatten().collect();
             return Tolerances::new(half_widths, level, correlation);
         }
-        let values: Vec<Distribution> = all
-            .clone()
-            .map(|(own, value)| own.distribution(*value, level))
-            .collect::<Result<_, _>>()?;
+        let values = (all.clone()).map(|(own, value)| own.distribution(*value, level));
+        let values: Vec<Distribution> = values.collect::<Result<_, _>>()?;
         let nominal: Vector = all.map(|(_, value)| *value).collect();
         Tolerances::distributed(&nominal, values, level, correlation)
     }
 
     /// The inputs that have a tolerance.
-    pub(super) fn varied_inputs(&self) -> Vec<usize> {
+    pub(super) fn deviating_inputs(&self) -> Vec<Input> {
         let all = self.input_variations.iter().enumerate();
-        all.filter(|(_, own)| !own.is_none())
-            .map(|(i, _)| i)
-            .collect()
+        let varied = all.filter(|(_, own)| !own.is_none());
+        varied.map(|(i, _)| Input::new(i)).collect()
     }
 
     pub(super) fn following(&self) -> Following {
@@ -274,23 +296,45 @@ impl Settings {
         Ok(Cow::Owned(assembly.coordinates.into()))
     }
 
-    pub(super) fn equilibrium(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
+    /// What a state at this point is written over.
+    pub(super) fn blank_state(&self) -> Equilibrium {
+        Equilibrium::blank(&self.description, &self.inputs, &self.design)
+    }
+
+    /// Writes the equilibrium over a blank state.
+    pub(super) fn equilibrium_into(
+        &self,
+        mechanism: &dyn Kernels,
+        state: &mut Equilibrium,
+    ) -> Result<(), Error> {
         let start = self.assembled_start(mechanism)?;
-        equilibrium::equilibrium(mechanism, &self.inputs, &self.design, &start, self.policy)
+        let (u, b) = (&self.inputs, &self.design);
+        equilibrium::equilibrium_into(mechanism, u, b, &start, self.policy, state)
     }
 
     /// An equilibrium that has derivatives.
     pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
-        let state = self.equilibrium(mechanism)?;
+        let mut state = self.blank_state();
+        self.equilibrium_into(mechanism, &mut state)?;
         state.regular()?;
         Ok(state)
     }
 
-    pub(super) fn solve(&self, mechanism: &dyn Kernels) -> Result<(Equilibrium, Modes), Error> {
-        let state = self.regular(mechanism)?;
-        let family = self.family.unwrap_or(Family::of(&self.description));
-        let found = modes::modes_at(&state, family)?;
-        Ok((state, found))
+    /// The family of the modes that are wanted.
+    pub(super) fn family(&self) -> Family {
+        self.family.unwrap_or(Family::of(&self.description))
+    }
+
+    /// Writes equilibrium and modes over blank ones.
+    pub(super) fn solve_into(
+        &self,
+        mechanism: &dyn Kernels,
+        state: &mut Equilibrium,
+        modes: &mut Modes,
+    ) -> Result<(), Error> {
+        self.equilibrium_into(mechanism, state)?;
+        state.regular()?;
+        modes.solve_at(state)
     }
 }
 

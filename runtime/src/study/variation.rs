@@ -42,6 +42,12 @@ impl Variation {
         matches!(self, Self::About(info) if info.lower == 0.0 && info.upper == 0.0)
     }
 
+    /// Whether its tolerances are the same whatever the value is.
+    pub(super) fn is_fixed(&self) -> bool {
+        matches!(self, Self::About(info) if !info.relative
+            && info.law == Law::Normal && info.lower == -info.upper)
+    }
+
     /// The half-width of a normal variable about this value; `None` for any other.
     pub(super) fn normal_half_width(&self, value: f64) -> Option<f64> {
         match self {

@@ -219,12 +219,38 @@ pub(crate) const CLOSED_MECHANISM: &str = "
         output wheel_speed = rate(idle);
     }";
 
+/// Every form of tolerance, with every law.
+pub(crate) const TOLERANCES: &str = "
+    mechanism Fits {
+        input omega: rpm +/- 1%;
+        input load: N +/- 0.5 N uniform;
+        input supply: 1 +0.1 -0.2 triangular;
+        input drift: 1/s 0 -2 % lognormal;
+        design length = 1 m +/- 3% truncated normal;
+        design bore = 20 mm +0.021 0 mm;
+        design pin = 20 mm -0.020 -0.041 mm uniform;
+        design clearance = 2 * 10 mm +0.1 mm -0.05 mm triangular;
+        design density = 7850 kg/m^3 +2 -1 % lognormal;
+        design stiffness = 100 N/m + 10 N/m +/- 5 N/m weibull;
+        design ratio = 3 +/- 0.5 beta(2, 1 / 2);
+        design teeth = 20 +1 -1 normal;
+        design tilt = -5 deg +10% -10% beta(0.5, 3);
+        body shaft: massless;
+        body bar: cylinder(density: density, length: length, radius: pin / 2, axis: x);
+        joint spin: revolute(z) from ground to shaft, driven at omega * supply;
+        joint theta: revolute(y) from shaft to bar;
+        force hinge: spring(on: theta, stiffness: stiffness * length * bore * ratio * teeth, rest: tilt);
+        force weight: load(at: tip, force: [0, 0, -load * (1 + drift * 1 s)]);
+        point tip: bar at [clearance, 0, 0];
+    }";
+
 /// All of them, for tests that only compare.
-pub(crate) const DECLARATIONS: [&str; 5] = [
+pub(crate) const DECLARATIONS: [&str; 6] = [
     DOUBLE_PENDULUM,
     EVERYTHING,
     OPEN_MECHANISM,
     CLOSED_MECHANISM,
+    TOLERANCES,
     WITHOUT_BODIES,
 ];
 

@@ -12,14 +12,15 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::common::{
-    CLOSED_MECHANISM, DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, read, resolved,
+    CLOSED_MECHANISM, DOUBLE_PENDULUM, EVERYTHING, OPEN_MECHANISM, TOLERANCES, read, resolved,
 };
 
-const FUZZED: [&str; 4] = [
+const FUZZED: [&str; 5] = [
     DOUBLE_PENDULUM,
     EVERYTHING,
     OPEN_MECHANISM,
     CLOSED_MECHANISM,
+    TOLERANCES,
 ];
 
 /// Runs the front half; counts what got how far.

@@ -23,7 +23,7 @@ fn pendulums_of_every_size() {
             };
             study = study
                 .design(DesignVariable::new(j), factor * info.nominal)
-                .tolerance(DesignVariable::new(j), factor * info.tolerance);
+                .tolerance(DesignVariable::new(j), factor * info.tolerance.upper);
         }
         study
     };

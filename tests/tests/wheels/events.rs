@@ -19,7 +19,7 @@ fn check_event<M: Mechanism>(study: &Study<M>, found: &EventTolerance, expected:
     close_real_slopes(&spread.by_design, &by, study.design_values(), &names, &what);
     let shares = by.iter().zip(study.description().design.iter());
     let variance: f64 = shares
-        .map(|(slope, info)| (slope * info.tolerance / 3.0).powi(2))
+        .map(|(slope, info)| (slope * info.tolerance.upper / 3.0).powi(2))
         .sum();
     close(spread.sigma, variance.sqrt(), 0.0, &what);
 }

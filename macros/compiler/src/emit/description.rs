@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
+use super::tolerance;
 use crate::mechanics::{Damping, Functions, Role, Unknown};
 use crate::model::mechanism::{Mechanism, Unit};
 use crate::program::Program;
@@ -32,15 +33,13 @@ pub(super) fn description(
     });
     let inputs = mechanism.inputs.iter().map(|input| {
         let (name, unit) = (input.name.to_string(), unit(&input.unit));
-        quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, tolerance: ::eigentol::ToleranceInfo::NONE } }
+        let tolerance = tolerance::info(&input.tolerance);
+        quote! { ::eigentol::InputInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, tolerance: #tolerance } }
     });
     let design = mechanism.design.iter().map(|variable| {
         let (name, unit) = (variable.name.to_string(), unit(&variable.unit));
         let nominal = variable.nominal;
-        let tolerance = match variable.tolerance {
-            0.0 => quote!(::eigentol::ToleranceInfo::NONE),
-            half_width => quote!(::eigentol::ToleranceInfo::half_width(#half_width)),
-        };
+        let tolerance = tolerance::info(&variable.tolerance);
         quote! {
             ::eigentol::DesignInfo { name: ::eigentol::Shared::Static(#name), unit: #unit, nominal: #nominal, tolerance: #tolerance }
         }
@@ -99,25 +98,20 @@ pub(super) fn handles(mechanism: &Mechanism, functions: &Functions) -> TokenStre
         handles.extend(handle(name, "Coordinate", index, doc));
     }
     for (index, input) in mechanism.inputs.iter().enumerate() {
+        let unit = shown(&input.unit);
+        let tolerance = tolerance::doc(&input.tolerance, unit, input.unit.scale);
         let doc = with_docs(
             &input.docs,
-            format!("Input, declared in {}.", shown(&input.unit)),
+            format!("Input, declared in {unit}{tolerance}."),
         );
         handles.extend(handle(&input.name, "Input", index, doc));
     }
     for (index, variable) in mechanism.design.iter().enumerate() {
         let (unit, scale) = (shown(&variable.unit), variable.unit.scale);
-        let mut text = format!(
-            "Design variable, nominally {} {unit}",
-            variable.nominal / scale
-        );
-        if variable.tolerance != 0.0 {
-            text += &format!(
-                ", tolerance {} {unit} either way",
-                variable.tolerance / scale
-            );
-        }
-        let doc = with_docs(&variable.docs, text + ".");
+        let nominal = variable.nominal / scale;
+        let tolerance = tolerance::doc(&variable.tolerance, unit, scale);
+        let text = format!("Design variable, nominally {nominal} {unit}{tolerance}.");
+        let doc = with_docs(&variable.docs, text);
         handles.extend(handle(&variable.name, "DesignVariable", index, doc));
     }
     for (index, output) in mechanism.outputs.iter().enumerate() {

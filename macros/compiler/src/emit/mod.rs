@@ -30,6 +30,7 @@ mod pose_margin;
 mod results;
 mod signature;
 mod sines;
+mod tolerance;
 mod violation;
 
 use std::fmt::{Debug, Write};

@@ -5,6 +5,7 @@ use proc_macro2::Ident;
 pub use super::constraint::{Constraint, ConstraintLaw};
 use super::expression::{Expr, Vector};
 pub use super::shape::Shape;
+pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
 use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
 
@@ -59,6 +60,8 @@ pub struct Input {
     pub docs: Vec<String>,
     /// Declared unit.
     pub unit: Unit,
+    /// How it varies about the value it is given.
+    pub tolerance: Tolerance,
 }
 
 /// A design variable.
@@ -72,8 +75,8 @@ pub struct DesignVariable {
     pub unit: Unit,
     /// Nominal value, SI.
     pub nominal: f64,
-    /// Half-width of the tolerance, SI; zero when none is declared.
-    pub tolerance: f64,
+    /// How it varies about the nominal value, SI.
+    pub tolerance: Tolerance,
     /// Something refers to it.
     pub is_used: bool,
 }

@@ -9,6 +9,7 @@ pub mod resolve;
 mod rules;
 pub mod shape;
 mod simplify;
+pub mod tolerance;
 pub mod unit;
 pub mod welded;
 

@@ -7,7 +7,9 @@ mod shape;
 use std::fmt::{self, Display, Formatter};
 
 use super::expression::{Expr, Vector};
-use super::mechanism::{Frame, Joint, Mechanism, Motion, Placement, StepMotion, Unit};
+use super::mechanism::{
+    Frame, Joint, Law, Mechanism, Motion, Placement, StepMotion, Tolerance, Unit,
+};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -20,15 +22,19 @@ impl Display for Mechanism {
         writeln!(f, "mechanism {}", self.name)?;
         writeln!(f, "gravity {}", names.vector(&self.gravity))?;
         for input in &self.inputs {
-            writeln!(f, "input {}{}", input.name, unit(&input.unit))?;
+            let tolerance = match input.tolerance.varies() {
+                true => tolerance(&input.tolerance),
+                false => String::new(),
+            };
+            writeln!(f, "input {}{tolerance}{}", input.name, unit(&input.unit))?;
         }
         for variable in &self.design {
             writeln!(
                 f,
-                "design {} = {} +/- {}{}",
+                "design {} = {}{}{}",
                 variable.name,
                 variable.nominal,
-                variable.tolerance,
+                tolerance(&variable.tolerance),
                 unit(&variable.unit)
             )?;
         }
@@ -181,6 +187,22 @@ impl Names<'_> {
             arguments => format!("{}({})", joint.word, arguments.join(", ")),
         }
     }
+}
+
+/// Limits, SI or as factors of the value, and any law but the normal one.
+fn tolerance(tolerance: &Tolerance) -> String {
+    let Tolerance { lower, upper, .. } = tolerance;
+    let mut text = match tolerance.is_symmetric() {
+        true => format!(" +/- {upper}"),
+        false => format!(" {upper:+} {lower:+}"),
+    };
+    if tolerance.relative {
+        text += " of it";
+    }
+    if tolerance.law != Law::Normal {
+        text += &format!(" {}", tolerance.law);
+    }
+    text
 }
 
 fn unit(unit: &Unit) -> String {

@@ -23,6 +23,7 @@ mod references;
 mod resolver;
 mod scope;
 mod tension;
+mod tolerances;
 mod typed;
 mod units;
 mod values;

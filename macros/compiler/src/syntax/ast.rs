@@ -51,9 +51,9 @@ pub struct Item {
 /// What an item declares.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ItemKind {
-    /// `input NAME: UNIT;`
+    /// `input NAME: UNIT [TOLERANCE];`
     Input(Input),
-    /// `design NAME = VALUE [+/- TOLERANCE];`
+    /// `design NAME = VALUE [TOLERANCE];`
     Design(Design),
     /// `let NAME = VALUE;`
     Let(Named),
@@ -97,6 +97,8 @@ pub struct Input {
     pub name: Ident,
     /// Unit in which a user gives it.
     pub unit: Unit,
+    /// How it varies about the value it is given.
+    pub tolerance: Option<Tolerance>,
 }
 
 /// A design variable.
@@ -106,26 +108,105 @@ pub struct Design {
     pub name: Ident,
     /// Nominal value.
     pub nominal: Value,
-    /// Half-width of its tolerance.
+    /// How it varies about the nominal value.
     pub tolerance: Option<Tolerance>,
 }
 
-/// A tolerance after `+/-`.
+/// Limits about a value, and the distribution between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
-    /// A percentage of the nominal value or a value of its own.
-    pub kind: ToleranceKind,
-    /// The value and the percent sign.
+    /// The limits.
+    pub limits: Limits,
+    /// The numbers of the limits with their units; not the `+/-`.
+    pub extent: Extent,
+    /// The distribution; normal when absent.
+    pub law: Option<Law>,
+}
+
+/// Limits as they are written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Limits {
+    /// `+/- 3%`: the same on either side, in percent of the value.
+    Percent(f64),
+    /// `+/- 1 mm`: the same on either side.
+    HalfWidth(Value),
+    /// `+0.1 -0.05 mm`: unequal ones.
+    Deviations(Box<Deviations>),
+}
+
+/// The limits less the value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviations {
+    /// The first.
+    pub upper: Deviation,
+    /// The second.
+    pub lower: Deviation,
+}
+
+impl Deviations {
+    /// What the upper number is measured in: where nothing follows it, in what follows the lower one.
+    pub fn upper_measure(&self) -> &Measure {
+        if self.shares_measure() {
+            &self.lower.measure
+        } else {
+            &self.upper.measure
+        }
+    }
+
+    /// What the numbers are measured in stands once for both: `+0.1 -0.05 mm`.
+    pub fn shares_measure(&self) -> bool {
+        self.upper.measure == Measure::Bare && self.lower.measure != Measure::Bare
+    }
+}
+
+/// A number with its sign; a zero may have none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviation {
+    /// The number.
+    pub number: f64,
+    /// What follows it.
+    pub measure: Measure,
+    /// From its sign to its last token.
     pub extent: Extent,
 }
 
-/// Kinds of tolerance.
+/// What a number is measured in.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ToleranceKind {
-    /// Percent of the nominal value.
-    Relative(f64),
+pub enum Measure {
+    /// Nothing follows the number.
+    Bare,
+    /// In percent.
+    Percent,
     /// In a unit.
-    Absolute(Value),
+    Unit(Unit),
+}
+
+/// A distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// What it is.
+    pub kind: LawKind,
+    /// From its first to its last token.
+    pub extent: Extent,
+}
+
+/// Kinds of distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LawKind {
+    /// `normal`.
+    Normal,
+    /// `truncated normal`.
+    TruncatedNormal,
+    /// `uniform`.
+    Uniform,
+    /// `triangular`.
+    Triangular,
+    /// `lognormal`.
+    Lognormal,
+    /// `weibull`.
+    Weibull,
+    /// `beta(ALPHA, BETA)`.
+    Beta(Box<[Value; 2]>),
 }
 
 /// A name for a value: a `let` or an output.

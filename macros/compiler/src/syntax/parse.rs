@@ -6,6 +6,7 @@ mod item;
 mod joint;
 mod names;
 mod placement;
+mod tolerance;
 mod unit;
 mod value;
 mod words;
@@ -138,9 +139,10 @@ fn item(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<ItemKind> 
         } else {
             return tokens.expected("`;`").map_err(|error| match kind {
                 _ if tokens.peek_decimal_comma() => Box::new(error.with_help(DECIMAL_POINT)),
-                ItemKind::Design(_) if tokens.peek_sign('%') => {
-                    Box::new(error.with_help("a tolerance is written `+/- 3%`"))
-                }
+                ItemKind::Design(_) | ItemKind::Input(_) => match tolerance::help(tokens) {
+                    Some(help) => Box::new(error.with_help(help)),
+                    None => error,
+                },
                 ItemKind::Constraint(_) if tokens.peek_word("from") => Box::new(
                     error.with_help("what connects two bodies is a `joint`; it may close a loop"),
                 ),

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use quote::ToTokens as _;
 
 use super::ast::{
-    Ast, Body, Item, ItemKind, Joint, JointArgument, JointClause, NamedCall, Operator, Placement,
-    ToleranceKind, Unit, UnitFactor, Value, ValueKind,
+    Ast, Body, Deviation, Deviations, Item, ItemKind, Joint, JointArgument, JointClause, LawKind,
+    Limits, Measure, NamedCall, Operator, Placement, Tolerance, Unit, UnitFactor, Value, ValueKind,
 };
 
 /// The canonical text of a declaration.
@@ -64,20 +64,18 @@ fn doc_line(doc: &str, indent: &str, text: &mut String) {
 
 fn item(kind: &ItemKind) -> String {
     match kind {
-        ItemKind::Input(input) => format!("input {}: {}", input.name, unit(&input.unit)),
-        ItemKind::Design(design) => {
-            let mut text = format!("design {} = {}", design.name, value(&design.nominal));
-            match design.tolerance.as_ref().map(|tolerance| &tolerance.kind) {
-                Some(ToleranceKind::Relative(percent)) => {
-                    let _ = write!(text, " +/- {percent}%");
-                }
-                Some(ToleranceKind::Absolute(width)) => {
-                    let _ = write!(text, " +/- {}", value(width));
-                }
-                None => {}
-            }
-            text
-        }
+        ItemKind::Input(input) => format!(
+            "input {}: {}{}",
+            input.name,
+            unit(&input.unit),
+            tolerance(input.tolerance.as_ref())
+        ),
+        ItemKind::Design(design) => format!(
+            "design {} = {}{}",
+            design.name,
+            value(&design.nominal),
+            tolerance(design.tolerance.as_ref())
+        ),
         ItemKind::Let(named) => format!("let {} = {}", named.name, value(&named.value)),
         ItemKind::Output(named) => format!("output {} = {}", named.name, value(&named.value)),
         ItemKind::Gravity(gravity) => match &gravity.along {
@@ -96,6 +94,46 @@ fn item(kind: &ItemKind) -> String {
             placed(point.placement.as_ref())
         ),
         ItemKind::Joint(item) => joint(item),
+    }
+}
+
+/// A tolerance with a space before it.
+fn tolerance(tolerance: Option<&Tolerance>) -> String {
+    let Some(tolerance) = tolerance else {
+        return String::new();
+    };
+    let mut text = match &tolerance.limits {
+        Limits::Percent(percent) => format!(" +/- {percent}%"),
+        Limits::HalfWidth(width) => format!(" +/- {}", value(width)),
+        Limits::Deviations(both) => format!(" {}", deviations(both)),
+    };
+    if let Some(of) = &tolerance.law {
+        let _ = write!(text, " {}", law(&of.kind));
+    }
+    text
+}
+
+/// Limits with their signs, the upper one first.
+pub fn deviations(deviations: &Deviations) -> String {
+    let text = |Deviation {
+                    number, measure, ..
+                }: &Deviation| match measure {
+        Measure::Bare => format!("{number:+?}"),
+        Measure::Percent => format!("{number:+?}%"),
+        Measure::Unit(of) => format!("{number:+?} {}", unit(of)),
+    };
+    format!("{} {}", text(&deviations.upper), text(&deviations.lower))
+}
+
+fn law(law: &LawKind) -> String {
+    match law {
+        LawKind::Normal => "normal".to_string(),
+        LawKind::TruncatedNormal => "truncated normal".to_string(),
+        LawKind::Uniform => "uniform".to_string(),
+        LawKind::Triangular => "triangular".to_string(),
+        LawKind::Lognormal => "lognormal".to_string(),
+        LawKind::Weibull => "weibull".to_string(),
+        LawKind::Beta(shapes) => format!("beta({})", list(shapes.as_slice())),
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Tokens<'a> {
     pub(super) last: Span,
     /// The closing delimiter, where an error about a missing token points.
     end: Option<Span>,
+    /// Words that may follow a number here and are then no units.
+    pub(super) no_units: &'static [&'static str],
 }
 
 impl<'a> Tokens<'a> {
@@ -28,6 +30,7 @@ impl<'a> Tokens<'a> {
             cursor,
             last: cursor.span(),
             end: None,
+            no_units: &[],
         }
     }
 
@@ -156,6 +159,7 @@ impl<'a> Tokens<'a> {
             cursor: content,
             last: span.open(),
             end: Some(span.close()),
+            no_units: &[],
         };
         Some((span.open(), content, span.close()))
     }

@@ -3,7 +3,7 @@
 use core::mem::replace;
 
 use crate::algebra::{Matrix, Vector};
-use crate::kernels::{Gradient, Linear, LinearPartials, ResidualPartials};
+use crate::kernels::{Gradient, Linear, LinearPartials, PartialMatrices, ResidualPartials};
 
 /// Deviations of inputs, which stand behind the mechanism's own design variables.
 #[derive(Debug)]
@@ -96,6 +96,19 @@ impl Deviations {
             copy(&partials.by_input[input], to);
         }
         partials.by_design.append(&mut by_deviation);
+    }
+
+    /// The same in one block.
+    pub(super) fn partial_matrices(&self, own: &PartialMatrices, joined: &mut PartialMatrices) {
+        let [by_coordinate, by_input, by_design] = joined.lists_mut();
+        by_coordinate.copy_from_slice(own.by_coordinate());
+        by_input.copy_from_slice(own.by_input());
+        let (design, deviations) = by_design.split_at_mut(own.by_design().len());
+        design.copy_from_slice(own.by_design());
+        let size = deviations.len() / self.inputs.len().max(1);
+        for (to, &input) in deviations.chunks_exact_mut(size.max(1)).zip(&self.inputs) {
+            to.copy_from_slice(&by_input[input * size..][..size]);
+        }
     }
 
     /// Derivatives by design variables and deviations from those by inputs and by design variables.

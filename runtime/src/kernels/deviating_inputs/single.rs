@@ -5,8 +5,8 @@ use core::ops::Add;
 use super::DeviatingInputs;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels,
-    ResidualPartials, RestParts, Sizes,
+    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
+    PartialMatrices, ResidualPartials, RestParts, Sizes,
 };
 use crate::mechanism::{Description, PoseMargin, Shared, Violation};
 
@@ -88,11 +88,17 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         });
     }
 
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+    fn linear_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut PartialMatrices,
+    ) {
         let (u, b) = self.applied(u, b);
-        self.deviations.linear_partials(partials, |partials| {
-            self.kernels.linear_partials_into(q, &u, b, partials);
-        });
+        let mut own = PartialMatrices::zeros(self.kernels.sizes());
+        self.kernels.linear_partials_into(q, &u, b, &mut own);
+        self.deviations.partial_matrices(&own, partials);
     }
 
     fn partials_into(
@@ -100,15 +106,15 @@ impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
         q: &[f64],
         u: &[f64],
         b: &[f64],
-        matrices: &mut LinearPartials,
+        matrices: &mut PartialMatrices,
         residual: &mut ResidualPartials,
     ) {
         let (u, b) = self.applied(u, b);
-        self.deviations.linear_partials(matrices, |matrices| {
-            self.deviations.residual_partials(residual, |residual| {
-                self.kernels.partials_into(q, &u, b, matrices, residual);
-            });
+        let mut own = PartialMatrices::zeros(self.kernels.sizes());
+        self.deviations.residual_partials(residual, |residual| {
+            self.kernels.partials_into(q, &u, b, &mut own, residual);
         });
+        self.deviations.partial_matrices(&own, matrices);
     }
 
     fn mode_gradient_into(

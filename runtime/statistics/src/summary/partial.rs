@@ -167,16 +167,12 @@ impl Partial {
         Ok(Covariance::of(&all))
     }
 
-    /// The parts of the sums, in the order of the samples.
+    /// The parts of the sums: whole chunks in their order, then the others in theirs.
     fn fold(&self, mut add: impl FnMut(&Node)) {
-        let fragments: Vec<Node> = self
-            .fragments
-            .iter()
-            .map(|chunk| Node::of(chunk, &self.plan))
-            .collect();
-        let mut all: Vec<&Node> = self.tree.nodes.iter().chain(&fragments).collect();
-        all.sort_unstable_by_key(|node| node.start);
-        all.into_iter().for_each(&mut add);
+        self.tree.nodes.iter().for_each(&mut add);
+        for chunk in &self.fragments {
+            add(&Node::of(chunk, &self.plan));
+        }
     }
 
     fn keep(&mut self, part: &Chunk) {

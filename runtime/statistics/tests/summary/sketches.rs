@@ -128,6 +128,18 @@ fn resolution_for_normal_values() -> Result<(), Error> {
 }
 
 #[test]
+fn zeros_of_either_sign_are_the_same_in_any_order() -> Result<(), Error> {
+    let mut texts = Vec::new();
+    for [first, second] in [[0.0, -0.0], [-0.0, 0.0]] {
+        let mut all = sketch(&[first], 1.0, 1.0)?;
+        all.merge(&sketch(&[second], 1.0, 1.0)?)?;
+        texts.push(format!("{all:?}"));
+    }
+    assert_eq!(texts[0], texts[1]);
+    Ok(())
+}
+
+#[test]
 fn values_that_are_all_the_same_are_exact() -> Result<(), Error> {
     for (value, reference) in [
         (5.0, 5.0),

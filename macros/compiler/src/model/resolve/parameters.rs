@@ -2,13 +2,12 @@
 
 use super::nominal::Nominal;
 use super::resolver::Resolver;
-use super::typed::Place;
+use super::typed::{Place, Quantity};
 use crate::base::dimension::Dimension;
-use crate::base::span::Extent;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{DesignVariable, Input, Unit};
+use crate::model::mechanism::{DesignVariable, Input, Tolerance, Unit};
 use crate::model::rules::physical::DesignPoint;
-use crate::syntax::ast::{self, ItemKind, ToleranceKind, Value, ValueKind};
+use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
 use crate::syntax::print;
 
 impl Resolver<'_> {
@@ -19,7 +18,9 @@ impl Resolver<'_> {
                 continue;
             };
             let resolved = self.unit(&input.unit);
-            self.inputs.push(resolved.map(|(dimension, _)| dimension));
+            let dimension = resolved.map(|(dimension, _)| dimension);
+            let tolerance = self.input_tolerance(input.tolerance.as_ref(), dimension);
+            self.inputs.push(dimension);
             inputs.push(Input {
                 name: input.name.clone(),
                 docs: item.docs.clone(),
@@ -27,6 +28,7 @@ impl Resolver<'_> {
                     symbol: print::unit(&input.unit),
                     scale: resolved.map_or(1.0, |(_, scale)| scale),
                 },
+                tolerance: tolerance.unwrap_or(Tolerance::NONE),
             });
         }
         inputs
@@ -69,13 +71,13 @@ impl Resolver<'_> {
                 Some(nominal) => DesignPoint {
                     name,
                     nominal: nominal.value,
-                    tolerance: nominal.tolerance,
+                    limits: [nominal.tolerance.lower, nominal.tolerance.upper],
                     extent: nominal.tolerance_extent,
                 },
                 None => DesignPoint {
                     name,
                     nominal: f64::NAN,
-                    tolerance: 0.0,
+                    limits: [0.0; 2],
                     extent: None,
                 },
             });
@@ -84,17 +86,8 @@ impl Resolver<'_> {
 
     fn nominal(&mut self, design: &ast::Design) -> Option<Nominal> {
         let nominal = self.plain_number(&design.nominal);
-        let tolerance = match &design.tolerance {
-            None => Some(0.0),
-            Some(tolerance) => match &tolerance.kind {
-                ToleranceKind::Relative(percent) => {
-                    self.relative(*percent, nominal.map(|(value, _)| value), tolerance.extent)
-                }
-                ToleranceKind::Absolute(width) => {
-                    self.absolute(width, nominal.map(|(_, dimension)| dimension))
-                }
-            },
-        };
+        let nominal = nominal.map(|(value, quantity)| (value, quantity.dimension()));
+        let tolerance = self.design_tolerance(design.tolerance.as_ref(), nominal);
         let (value, dimension) = nominal?;
         Some(Nominal {
             dimension,
@@ -105,48 +98,13 @@ impl Resolver<'_> {
     }
 
     /// A value made of numbers only.
-    fn plain_number(&mut self, value: &Value) -> Option<(f64, Dimension)> {
+    pub(super) fn plain_number(&mut self, value: &Value) -> Option<(f64, Quantity)> {
         let (expr, quantity) = self.scalar(value, Place::Nominal)?;
         match expr {
-            Expr::Number(number) => Some((number, quantity.dimension())),
+            Expr::Number(number) => Some((number, quantity)),
             // No name but `pi` is allowed, and numbers are combined at once.
             _ => None,
         }
-    }
-
-    fn relative(&mut self, percent: f64, nominal: Option<f64>, extent: Extent) -> Option<f64> {
-        self.not_negative(percent, extent)?;
-        let nominal = nominal?;
-        if nominal == 0.0 {
-            self.diagnostics.error_with_help(
-                extent,
-                "a percentage of a nominal value of zero is zero",
-                "give an absolute tolerance, such as `+/- 1 mm`",
-            );
-            return None;
-        }
-        Some(nominal.abs() * (percent / 100.0))
-    }
-
-    fn absolute(&mut self, width: &Value, nominal: Option<Dimension>) -> Option<f64> {
-        let (expr, quantity) = self.scalar(width, Place::Nominal)?;
-        let nominal = nominal?;
-        self.expect(quantity, nominal, "this tolerance", width)?;
-        let Expr::Number(tolerance) = expr else {
-            return None;
-        };
-        self.not_negative(tolerance, width.extent)?;
-        Some(tolerance)
-    }
-
-    /// A half-width has no sign.
-    fn not_negative(&mut self, tolerance: f64, extent: Extent) -> Option<()> {
-        if tolerance < 0.0 {
-            let message = "a tolerance is a half-width and cannot be negative";
-            self.diagnostics.error(extent, message);
-            return None;
-        }
-        Some(())
     }
 
     /// The unit of the number as written, SI for a computed one.

@@ -56,8 +56,8 @@ pub(crate) struct DesignPoint {
     pub(crate) name: String,
     /// Nominal value, SI.
     pub(crate) nominal: f64,
-    /// Half-width of the tolerance, SI.
-    pub(crate) tolerance: f64,
+    /// Lower and upper limit less the nominal value, SI.
+    pub(crate) limits: [f64; 2],
     /// The declared tolerance.
     pub(crate) extent: Option<Extent>,
 }
@@ -112,12 +112,12 @@ fn check_tolerance(
     let Some(extent) = variable.extent else {
         return;
     };
-    if variable.tolerance == 0.0 {
-        return;
-    }
-    for sign in [-1.0, 1.0] {
+    for deviation in variable.limits {
+        if deviation == 0.0 {
+            continue;
+        }
         let mut shifted: Vec<f64> = design.iter().map(|variable| variable.nominal).collect();
-        shifted[index] += sign * variable.tolerance;
+        shifted[index] += deviation;
         let values = Values::new(constants, inputs, &shifted);
         for requirement in requirements {
             if let Some(Violation { what, problem, .. }) = violation(requirement, &values) {

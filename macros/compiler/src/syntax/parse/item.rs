@@ -2,20 +2,18 @@
 
 use proc_macro2::Ident;
 
-use super::super::ast::{
-    Constraint, Design, Force, Gravity, Input, ItemKind, Named, Point, Tolerance, ToleranceKind,
-};
+use super::super::ast::{Constraint, Design, Force, Gravity, Input, ItemKind, Named, Point};
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
 use super::joint::joint;
 use super::names::{colon, declared_name};
 use super::placement::placement;
+use super::tolerance::{nominal, tolerance};
 use super::unit;
-use super::value::{digits_and_suffix, value};
+use super::value::value;
 use super::words::instead_of;
 use crate::base::diagnostics::Diagnostic;
-use crate::base::span::Extent;
 
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
@@ -49,7 +47,11 @@ fn input(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens)?;
     let unit = unit::declared(tokens)?;
     has_no_value(tokens, &name, &print::unit(&unit))?;
-    Ok(ItemKind::Input(Input { name, unit }))
+    Ok(ItemKind::Input(Input {
+        name,
+        unit,
+        tolerance: tolerance(tokens)?,
+    }))
 }
 
 /// An operating point belongs to a study, not to the mechanism.
@@ -69,44 +71,11 @@ fn has_no_value(tokens: &Tokens, name: &Ident, unit: &str) -> Parsed<()> {
 fn design(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let name = declared_name(tokens)?;
     tokens.expect_sign('=', "`=`")?;
-    let nominal = value(tokens)?;
-    let tolerance = if tokens.peek_plus_minus() {
-        for sign in ['+', '/', '-'] {
-            tokens.sign(sign);
-        }
-        Some(tolerance(tokens)?)
-    } else {
-        None
-    };
     Ok(ItemKind::Design(Design {
         name,
-        nominal,
-        tolerance,
+        nominal: nominal(tokens)?,
+        tolerance: tolerance(tokens)?,
     }))
-}
-
-/// A number and `%`, or a value. A percentage may be negative here, so that a rule can say what is wrong with it.
-fn tolerance(tokens: &mut Tokens) -> Parsed<Tolerance> {
-    let start = tokens.span();
-    let mut ahead = *tokens;
-    let sign = if ahead.sign('-').is_some() { -1.0 } else { 1.0 };
-    let number = ahead
-        .literal()
-        .and_then(|literal| digits_and_suffix(&literal))
-        .filter(|(_, suffix)| suffix.is_empty())
-        .and_then(|(digits, _)| digits.parse::<f64>().ok())
-        .filter(|percent| percent.is_finite());
-    let kind = match (number, ahead.sign('%')) {
-        (Some(percent), Some(_)) => {
-            *tokens = ahead;
-            ToleranceKind::Relative(sign * percent)
-        }
-        _ => ToleranceKind::Absolute(value(tokens)?),
-    };
-    Ok(Tolerance {
-        kind,
-        extent: Extent::from(start).to(tokens.last),
-    })
 }
 
 fn named(tokens: &mut Tokens) -> Parsed<Named> {

@@ -96,7 +96,8 @@ fn unit(factors: Vec<UnitFactor>, start: Span, tokens: &Tokens) -> Unit {
 fn starts(tokens: &Tokens) -> bool {
     tokens.peek_ident().is_some_and(|ident| {
         let word = ident.to_string();
-        !FOLLOWING.contains(&word.as_str()) && !KEYWORDS.contains(&word.as_str())
+        let is_word_of = |words: &[&str]| words.contains(&word.as_str());
+        !is_word_of(&FOLLOWING) && !is_word_of(&KEYWORDS) && !is_word_of(tokens.no_units)
     })
 }
 

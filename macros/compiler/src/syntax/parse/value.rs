@@ -20,6 +20,11 @@ pub(super) fn value(tokens: &mut Tokens) -> Parsed<Value> {
     sum(tokens, 0)
 }
 
+/// Reads a value; its last terms do not belong to it where `ends` says so of the tokens before them.
+pub(super) fn value_before(tokens: &mut Tokens, ends: fn(&Tokens) -> bool) -> Parsed<Value> {
+    chain(tokens, 0, &TERMS, product, ends)
+}
+
 /// Reads values separated by commas to the end of a group.
 pub(super) fn list(tokens: &mut Tokens, depth: u32) -> Parsed<Vec<Value>> {
     let mut values = Vec::new();
@@ -32,17 +37,17 @@ pub(super) fn list(tokens: &mut Tokens, depth: u32) -> Parsed<Vec<Value>> {
     Ok(values)
 }
 
+const TERMS: [Operator; 2] = [Operator::Add, Operator::Subtract];
+const FACTORS: [Operator; 2] = [Operator::Multiply, Operator::Divide];
+
+/// A sum ends before a tolerance, and before the next shape of a body.
 fn sum(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
-    chain(tokens, depth, &[Operator::Add, Operator::Subtract], product)
+    let ends = |tokens: &Tokens| tokens.peek_plus_minus() || tokens.peek_shape();
+    chain(tokens, depth, &TERMS, product, ends)
 }
 
 fn product(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
-    chain(
-        tokens,
-        depth,
-        &[Operator::Multiply, Operator::Divide],
-        signed,
-    )
+    chain(tokens, depth, &FACTORS, signed, |_| false)
 }
 
 /// Reads operands joined by operators of one precedence, grouped from the left.
@@ -51,10 +56,10 @@ fn chain(
     depth: u32,
     operators: &[Operator],
     operand: fn(&mut Tokens, u32) -> Parsed<Value>,
+    ends: fn(&Tokens) -> bool,
 ) -> Parsed<Value> {
     let mut left = operand(tokens, depth)?;
-    // A sum ends before a tolerance, and before the next shape of a body.
-    while !tokens.peek_plus_minus() && !tokens.peek_shape() {
+    while !ends(tokens) {
         let read = operators
             .iter()
             .find_map(|&operator| Some((operator, tokens.sign(operator.sign())?)));
@@ -138,7 +143,8 @@ fn primary(tokens: &mut Tokens, depth: u32) -> Parsed<Value> {
     built(ValueKind::Name(name), start.into())
 }
 
-fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
+/// Reads the unit of a number.
+pub(super) fn number(literal: &Literal, tokens: &mut Tokens) -> Parsed<Value> {
     let span = literal.span();
     let (digits, suffix) = digits_and_suffix(literal).ok_or_else(|| {
         let message = format!("expected a number, found `{literal}`");

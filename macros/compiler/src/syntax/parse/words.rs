@@ -99,5 +99,37 @@ pub(super) fn instead_of(unknown: &str) -> String {
     }
 }
 
+/// The words that start a law of a tolerance; `truncated normal` is two words.
+pub(super) const LAWS: [&str; 7] = [
+    "normal",
+    "truncated",
+    "uniform",
+    "triangular",
+    "lognormal",
+    "weibull",
+    "beta",
+];
+
+/// What others call a law.
+const SYNONYMS_OF_LAWS: [(&str, &str); 8] = [
+    ("gaussian", "normal"),
+    ("gauss", "normal"),
+    ("truncnorm", "truncated"),
+    ("truncated_normal", "truncated"),
+    ("rectangular", "uniform"),
+    ("flat", "uniform"),
+    ("triangle", "triangular"),
+    ("log_normal", "lognormal"),
+];
+
+/// The law that is probably meant by an unknown word, as it is written.
+pub(super) fn suggested_law(unknown: &str) -> Option<&'static str> {
+    match suggestion(unknown, LAWS, &SYNONYMS_OF_LAWS)? {
+        "truncated" => Some("truncated normal"),
+        "beta" => Some("beta(2, 3)"),
+        law => Some(law),
+    }
+}
+
 /// What to write instead of `3,5`.
 pub(super) const DECIMAL_POINT: &str = "a fraction is written with a point: `3.5`, not `3,5`";

@@ -1,0 +1,286 @@
+//! Tolerances: limits checked and in SI, laws with their shapes.
+
+use super::resolver::Resolver;
+use crate::base::dimension::Dimension;
+use crate::base::span::Extent;
+use crate::model::mechanism::{Law, Tolerance};
+use crate::syntax::ast::{self, Deviation, Deviations, LawKind, Measure, Value, ValueKind};
+use crate::syntax::print;
+
+/// The limits of a tolerance less the value.
+#[derive(Clone, Copy)]
+struct Limits {
+    lower: f64,
+    upper: f64,
+    /// Fractions of the value, otherwise SI.
+    relative: bool,
+}
+
+impl Limits {
+    fn half_width(half_width: f64, relative: bool) -> Self {
+        Self {
+            lower: -half_width,
+            upper: half_width,
+            relative,
+        }
+    }
+
+    fn with(self, law: Law) -> Tolerance {
+        Tolerance {
+            // No sign is left of a zero.
+            lower: self.lower + 0.0,
+            upper: self.upper + 0.0,
+            relative: self.relative,
+            law,
+        }
+    }
+}
+
+/// In all functions below, nothing means: wrong, and reported.
+impl Resolver<'_> {
+    /// The tolerance of a design variable, in SI.
+    pub(super) fn design_tolerance(
+        &mut self,
+        tolerance: Option<&ast::Tolerance>,
+        nominal: Option<(f64, Dimension)>,
+    ) -> Option<Tolerance> {
+        let Some(declared) = tolerance else {
+            return Some(Tolerance::NONE);
+        };
+        let dimension = nominal.map(|(_, dimension)| dimension);
+        let help = "; a sum as the nominal value needs parentheses";
+        let limits = self.limits(declared, dimension, help);
+        let law = self.distribution(declared.law.as_ref());
+        let (value, dimension) = nominal?;
+        let limits = self.at(value, limits?, declared.extent)?;
+        let tolerance = limits.with(law?);
+        let mean = value + tolerance.middle();
+        self.positive_mean(declared, tolerance.law, mean, &dimension.si_symbol())?;
+        Some(tolerance)
+    }
+
+    /// The tolerance of an input: percentages follow the value that it has.
+    pub(super) fn input_tolerance(
+        &mut self,
+        tolerance: Option<&ast::Tolerance>,
+        dimension: Option<Dimension>,
+    ) -> Option<Tolerance> {
+        let Some(declared) = tolerance else {
+            return Some(Tolerance::NONE);
+        };
+        let limits = self.limits(declared, dimension, "");
+        let law = self.distribution(declared.law.as_ref());
+        let tolerance = limits?.with(law?);
+        self.representable(&[tolerance.upper - tolerance.lower], declared.extent)?;
+        if tolerance.relative {
+            let mean = 1.0 + tolerance.middle();
+            self.positive_mean(declared, tolerance.law, mean, "times the value")?;
+        }
+        Some(tolerance)
+    }
+
+    /// Limits as declared, the upper one not below the lower one.
+    fn limits(
+        &mut self,
+        tolerance: &ast::Tolerance,
+        dimension: Option<Dimension>,
+        more_help: &str,
+    ) -> Option<Limits> {
+        match &tolerance.limits {
+            ast::Limits::Percent(percent) => {
+                self.not_negative(*percent, tolerance.extent)?;
+                Some(Limits::half_width(percent / 100.0, true))
+            }
+            ast::Limits::HalfWidth(width) => {
+                let (half_width, quantity) = self.plain_number(width)?;
+                self.expect(quantity, dimension?, "this tolerance", width)?;
+                self.not_negative(half_width, width.extent)?;
+                Some(Limits::half_width(half_width, false))
+            }
+            ast::Limits::Deviations(deviations) => {
+                let limits = self.deviations(deviations, tolerance.extent, dimension)?;
+                if limits.upper < limits.lower {
+                    let right = print::deviations(&exchanged(deviations));
+                    self.diagnostics.error_with_help(
+                        tolerance.extent,
+                        "the upper limit is below the lower one",
+                        format!("the upper limit stands first: `{right}`{more_help}"),
+                    );
+                    return None;
+                }
+                Some(limits)
+            }
+        }
+    }
+
+    /// A half-width has no sign.
+    fn not_negative(&mut self, half_width: f64, extent: Extent) -> Option<()> {
+        if half_width < 0.0 {
+            let message = "a tolerance is a half-width and cannot be negative";
+            self.diagnostics.error(extent, message);
+            return None;
+        }
+        Some(())
+    }
+
+    fn deviations(
+        &mut self,
+        deviations: &Deviations,
+        extent: Extent,
+        dimension: Option<Dimension>,
+    ) -> Option<Limits> {
+        let Deviations { upper, lower } = deviations;
+        let low = self.deviation(lower, &lower.measure, dimension);
+        // A wrong unit that both share is reported once.
+        if low.is_none() && deviations.shares_measure() {
+            return None;
+        }
+        let high = self.deviation(upper, deviations.upper_measure(), dimension);
+        let ((low, low_kind), (high, high_kind)) = (low?, high?);
+        let relative = match (low_kind, high_kind) {
+            (DeviationKind::Zero, kind) | (kind, DeviationKind::Zero) => {
+                kind == DeviationKind::Fraction
+            }
+            (low, high) if low == high => low == DeviationKind::Fraction,
+            _ => {
+                self.diagnostics.error_with_help(
+                    extent,
+                    "one of these limits is in percent, the other is not",
+                    "give both in percent, or both in units",
+                );
+                return None;
+            }
+        };
+        Some(Limits {
+            lower: low,
+            upper: high,
+            relative,
+        })
+    }
+
+    fn deviation(
+        &mut self,
+        deviation: &Deviation,
+        measure: &Measure,
+        dimension: Option<Dimension>,
+    ) -> Option<(f64, DeviationKind)> {
+        let Deviation { number, extent, .. } = *deviation;
+        let unit = match measure {
+            Measure::Percent => return Some((number / 100.0, DeviationKind::Fraction)),
+            Measure::Bare if number == 0.0 => return Some((0.0, DeviationKind::Zero)),
+            Measure::Bare => None,
+            Measure::Unit(unit) => Some(unit.clone()),
+        };
+        let value = Value::new(ValueKind::Number(number, unit), extent);
+        let (number, quantity) = self.plain_number(&value)?;
+        self.expect(quantity, dimension?, "this limit", &value)?;
+        Some((number, DeviationKind::Quantity))
+    }
+
+    /// Limits of a design variable, percentages taken of its value.
+    fn at(&mut self, value: f64, limits: Limits, extent: Extent) -> Option<Limits> {
+        if limits.relative && value == 0.0 {
+            self.diagnostics.error_with_help(
+                extent,
+                "a percentage of a nominal value of zero is zero",
+                "give an absolute tolerance, such as `+/- 1 mm`",
+            );
+            return None;
+        }
+        let unit = if limits.relative { value.abs() } else { 1.0 };
+        let (lower, upper) = (unit * limits.lower, unit * limits.upper);
+        self.representable(&[value + lower, value + upper, upper - lower], extent)?;
+        Some(Limits {
+            lower,
+            upper,
+            relative: false,
+        })
+    }
+
+    fn representable(&mut self, limits: &[f64], extent: Extent) -> Option<()> {
+        if limits.iter().all(|limit| limit.is_finite()) {
+            return Some(());
+        }
+        let message = "the limits of this tolerance are outside the range of a 64-bit number";
+        self.diagnostics.error(extent, message);
+        None
+    }
+
+    fn distribution(&mut self, law: Option<&ast::Law>) -> Option<Law> {
+        Some(match law.map(|law| &law.kind) {
+            None | Some(LawKind::Normal) => Law::Normal,
+            Some(LawKind::TruncatedNormal) => Law::TruncatedNormal,
+            Some(LawKind::Uniform) => Law::Uniform,
+            Some(LawKind::Triangular) => Law::Triangular,
+            Some(LawKind::Lognormal) => Law::Lognormal,
+            Some(LawKind::Weibull) => Law::Weibull,
+            Some(LawKind::Beta(shapes)) => {
+                let [alpha, beta] = [&shapes[0], &shapes[1]].map(|shape| self.shape(shape));
+                Law::Beta {
+                    alpha: alpha?,
+                    beta: beta?,
+                }
+            }
+        })
+    }
+
+    /// A shape of a beta distribution.
+    fn shape(&mut self, value: &Value) -> Option<f64> {
+        let (shape, quantity) = self.plain_number(value)?;
+        self.expect(quantity, Dimension::NONE, "a shape of `beta`", value)?;
+        if shape <= 0.0 {
+            let message = format!("a shape of `beta` is positive, this one is {shape}");
+            self.diagnostics.error(value.extent, message);
+            return None;
+        }
+        Some(shape)
+    }
+
+    /// Some laws know positive values only, and their mean is midway between the limits.
+    fn positive_mean(
+        &mut self,
+        declared: &ast::Tolerance,
+        law: Law,
+        mean: f64,
+        unit: &str,
+    ) -> Option<()> {
+        let demands = matches!(law, Law::Lognormal | Law::Weibull);
+        if !demands || mean > 0.0 {
+            return Some(());
+        }
+        let extent = declared
+            .law
+            .as_ref()
+            .map_or(declared.extent, |law| law.extent);
+        let message = format!(
+            "a `{law}` value is positive, but its mean, midway between the limits, is {mean} {unit}"
+        );
+        let help = "choose another law, or declare the amount and write the sign where it is used";
+        self.diagnostics.error_with_help(extent, message, help);
+        None
+    }
+}
+
+/// What a deviation is measured in.
+#[derive(Clone, Copy, PartialEq)]
+enum DeviationKind {
+    /// A zero without a unit, which fits everything.
+    Zero,
+    /// A fraction of the value.
+    Fraction,
+    /// SI.
+    Quantity,
+}
+
+/// The same limits in the other order.
+fn exchanged(deviations: &Deviations) -> Deviations {
+    let Deviations { upper, lower } = deviations;
+    let (mut first, mut second) = (lower.clone(), upper.clone());
+    if deviations.shares_measure() {
+        std::mem::swap(&mut first.measure, &mut second.measure);
+    }
+    Deviations {
+        upper: first,
+        lower: second,
+    }
+}

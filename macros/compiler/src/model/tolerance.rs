@@ -1,0 +1,79 @@
+//! How values vary.
+
+use std::fmt::{self, Display, Formatter};
+
+/// Limits about a value, and the distribution between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Lower limit less the value, SI or a fraction of the value.
+    pub lower: f64,
+    /// Upper limit less the value, SI or a fraction of the value; not below the lower one.
+    pub upper: f64,
+    /// The limits are fractions of the value.
+    pub relative: bool,
+    /// The distribution.
+    pub law: Law,
+}
+
+impl Tolerance {
+    /// A value that does not vary.
+    pub const NONE: Self = Self {
+        lower: 0.0,
+        upper: 0.0,
+        relative: false,
+        law: Law::Normal,
+    };
+
+    /// The value is not always the nominal one.
+    pub fn varies(&self) -> bool {
+        self.lower != 0.0 || self.upper != 0.0
+    }
+
+    /// Either limit is as far from the value as the other.
+    pub fn is_symmetric(&self) -> bool {
+        self.lower == -self.upper
+    }
+
+    /// The middle between the limits, less the value.
+    pub fn middle(&self) -> f64 {
+        0.5 * self.lower + 0.5 * self.upper
+    }
+}
+
+/// How values are distributed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// Normal.
+    Normal,
+    /// Normal, without what lies beyond the limits.
+    TruncatedNormal,
+    /// Uniform between the limits.
+    Uniform,
+    /// Triangular, highest midway between the limits.
+    Triangular,
+    /// Lognormal.
+    Lognormal,
+    /// Weibull in two parameters.
+    Weibull,
+    /// Beta between the limits, with density `x^(alpha - 1) (1 - x)^(beta - 1)` over them.
+    Beta {
+        /// First shape, positive.
+        alpha: f64,
+        /// Second shape, positive.
+        beta: f64,
+    },
+}
+
+impl Display for Law {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Law::Normal => "normal",
+            Law::TruncatedNormal => "truncated normal",
+            Law::Uniform => "uniform",
+            Law::Triangular => "triangular",
+            Law::Lognormal => "lognormal",
+            Law::Weibull => "weibull",
+            Law::Beta { alpha, beta } => return write!(f, "beta({alpha}, {beta})"),
+        })
+    }
+}

@@ -1,0 +1,232 @@
+//! Tolerances: `+/- 3%`, `+0.1 -0.05 mm`, and the law after either.
+
+use proc_macro2::{Delimiter, Ident};
+
+use super::super::ast::{
+    Deviation, Deviations, Law, LawKind, Limits, Measure, Tolerance, Unit, Value, ValueKind,
+};
+use super::super::print;
+use super::super::tokens::{Parsed, Tokens};
+use super::value::{digits_and_suffix, list, number, value, value_before};
+use super::words::{KEYWORDS, LAWS, suggested_law};
+use crate::base::diagnostics::Diagnostic;
+use crate::base::span::Extent;
+use crate::base::units;
+
+/// What to do about the token after what could be read, where it looks like a tolerance or its law.
+pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
+    if tokens.cursor.literal().is_some()
+        || ['%', '+', '-'].iter().any(|&sign| tokens.peek_sign(sign))
+    {
+        return Some("a tolerance is written `+/- 3%` or, with the upper limit first, `+2% -1%`");
+    }
+    let mut ahead = *tokens;
+    ahead.sign(',');
+    LAWS.iter()
+        .any(|law| ahead.peek_word(law))
+        .then_some("a law directly follows a tolerance: `+/- 3% uniform`")
+}
+
+/// Reads a value up to a tolerance: two numbers with signs at its end are limits, not terms of a sum.
+pub(super) fn nominal(tokens: &mut Tokens) -> Parsed<Value> {
+    tokens.no_units = &LAWS;
+    let nominal = value_before(tokens, |tokens| {
+        let mut ahead = *tokens;
+        tokens.peek_plus_minus() || deviations(&mut ahead).is_some()
+    });
+    tokens.no_units = &[];
+    nominal
+}
+
+/// Reads a tolerance if there is one.
+pub(super) fn tolerance(tokens: &mut Tokens) -> Parsed<Option<Tolerance>> {
+    tokens.no_units = &LAWS;
+    let limits = limits(tokens);
+    tokens.no_units = &[];
+    let Some((limits, extent)) = limits? else {
+        return Ok(None);
+    };
+    match &limits {
+        Limits::HalfWidth(Value {
+            kind: ValueKind::Number(_, Some(unit)),
+            ..
+        }) => is_no_law(unit)?,
+        Limits::Deviations(pair) => {
+            if let Measure::Unit(unit) = &pair.lower.measure {
+                is_no_law(unit)?;
+            }
+        }
+        _ => {}
+    }
+    let law = law(tokens)?;
+    Ok(Some(Tolerance {
+        limits,
+        extent,
+        law,
+    }))
+}
+
+fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
+    let is_half_width = tokens.peek_plus_minus();
+    if is_half_width {
+        for sign in ['+', '/', '-'] {
+            tokens.sign(sign);
+        }
+    }
+    let start = tokens.span();
+    let limits = if is_half_width {
+        match percentage(tokens) {
+            Some(percent) => Limits::Percent(percent),
+            None => Limits::HalfWidth(value(tokens)?),
+        }
+    } else {
+        match deviations(tokens) {
+            Some((deviations, None)) => Limits::Deviations(Box::new(deviations)),
+            Some((deviations, Some(slash))) => return Err(separated(&deviations, slash)),
+            None => return Ok(None),
+        }
+    };
+    Ok(Some((limits, Extent::from(start).to(tokens.last))))
+}
+
+/// A number and `%`. It may be negative here, so that a rule can say what is wrong with it.
+fn percentage(tokens: &mut Tokens) -> Option<f64> {
+    let mut ahead = *tokens;
+    let sign = if ahead.sign('-').is_some() { -1.0 } else { 1.0 };
+    let (digits, suffix) = digits_and_suffix(&ahead.literal()?)?;
+    let percent = digits.parse::<f64>().ok()?;
+    ahead.sign('%')?;
+    if !suffix.is_empty() || !percent.is_finite() {
+        return None;
+    }
+    *tokens = ahead;
+    Some(sign * percent)
+}
+
+/// Two numbers with signs, with only a law or the end of the item behind them; the `/` that some put between.
+fn deviations(tokens: &mut Tokens) -> Option<(Deviations, Option<Extent>)> {
+    let mut ahead = *tokens;
+    let upper = deviation(&mut ahead)?;
+    let slash = ahead.sign('/');
+    let lower = deviation(&mut ahead)?;
+    let is_law_or_item = ahead.peek_ident().is_some() || ahead.peek_sign('#');
+    if !(is_law_or_item || ahead.peek_sign(';') || ahead.is_empty()) {
+        return None;
+    }
+    *tokens = ahead;
+    Some((Deviations { upper, lower }, slash))
+}
+
+fn separated(deviations: &Deviations, slash: Extent) -> Box<Diagnostic> {
+    let help = format!(
+        "write `{}`; a quotient here needs parentheses",
+        print::deviations(deviations)
+    );
+    let message = "limits are written one after the other, without `/`";
+    Box::new(Diagnostic::new(slash, message).with_help(help))
+}
+
+fn deviation(tokens: &mut Tokens) -> Option<Deviation> {
+    let start = tokens.span();
+    let sign = match tokens.sign('+') {
+        Some(_) => Some(1.0),
+        None => tokens.sign('-').map(|_| -1.0),
+    };
+    let literal = tokens.literal()?;
+    let ValueKind::Number(number, unit) = number(&literal, tokens).ok()?.kind else {
+        return None;
+    };
+    // Drawings write a zero without a sign.
+    if sign.is_none() && number != 0.0 {
+        return None;
+    }
+    let measure = match unit {
+        Some(unit) => Measure::Unit(unit),
+        None if tokens.sign('%').is_some() => Measure::Percent,
+        None => Measure::Bare,
+    };
+    Some(Deviation {
+        number: sign.unwrap_or(1.0) * number,
+        measure,
+        extent: Extent::from(start).to(tokens.last),
+    })
+}
+
+/// A misspelt law after a plain number looks like its unit.
+fn is_no_law(unit: &Unit) -> Parsed<()> {
+    let [factor] = unit.factors.as_slice() else {
+        return Ok(());
+    };
+    let name = &factor.name;
+    if units::find(name).is_some() || units::suggestion(name).is_some() {
+        return Ok(());
+    }
+    match suggested_law(name) {
+        Some(_) => Err(unknown_law(name, factor.extent)),
+        None => Ok(()),
+    }
+}
+
+fn law(tokens: &mut Tokens) -> Parsed<Option<Law>> {
+    let Some(word) = tokens.peek_ident() else {
+        return Ok(None);
+    };
+    let text = word.to_string();
+    if KEYWORDS.contains(&text.as_str()) {
+        return Ok(None);
+    }
+    tokens.ident();
+    let kind = match text.as_str() {
+        "normal" => LawKind::Normal,
+        "truncated" => truncated(tokens)?,
+        "uniform" => LawKind::Uniform,
+        "triangular" => LawKind::Triangular,
+        "lognormal" => LawKind::Lognormal,
+        "weibull" => LawKind::Weibull,
+        "beta" => beta(&word, tokens)?,
+        unknown => return Err(unknown_law(unknown, (&word).into())),
+    };
+    let extent = Extent::from(&word).to(tokens.last);
+    if tokens.group(Delimiter::Parenthesis).is_some() {
+        let message = "this law has no parameters";
+        let help = "the limits say how wide it is";
+        let extent = extent.to(tokens.last);
+        return Err(Box::new(Diagnostic::new(extent, message).with_help(help)));
+    }
+    Ok(Some(Law { kind, extent }))
+}
+
+fn truncated(tokens: &mut Tokens) -> Parsed<LawKind> {
+    match tokens.word("normal") {
+        Some(_) => Ok(LawKind::TruncatedNormal),
+        None => tokens.expected("`normal`").map_err(|error| {
+            Box::new(error.with_help("only a normal law is truncated: `truncated normal`"))
+        }),
+    }
+}
+
+fn beta(word: &Ident, tokens: &mut Tokens) -> Parsed<LawKind> {
+    const SHAPES: &str = "both shapes are given: `beta(2, 3)`";
+    let Some((_, mut content, _)) = tokens.group(Delimiter::Parenthesis) else {
+        let diagnostic = Diagnostic::new(word, "`beta` has two shapes, none is given");
+        return Err(Box::new(diagnostic.with_help(SHAPES)));
+    };
+    let shapes = list(&mut content, 0).map_err(|error| Box::new(error.with_help(SHAPES)))?;
+    let count = shapes.len();
+    match <[Value; 2]>::try_from(shapes) {
+        Ok(shapes) => Ok(LawKind::Beta(Box::new(shapes))),
+        Err(_) => {
+            let message = format!("`beta` has two shapes, not {count}");
+            let extent = Extent::from(word).to(tokens.last);
+            Err(Box::new(Diagnostic::new(extent, message).with_help(SHAPES)))
+        }
+    }
+}
+
+fn unknown_law(name: &str, extent: Extent) -> Box<Diagnostic> {
+    let help = match suggested_law(name) {
+        Some(law) => format!("did you mean `{law}`?"),
+        None => "a law is normal, truncated normal, uniform, triangular, lognormal, weibull or beta(2, 3)".to_string(),
+    };
+    Box::new(Diagnostic::new(extent, format!("unknown law `{name}`")).with_help(help))
+}

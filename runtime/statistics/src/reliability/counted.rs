@@ -1,0 +1,115 @@
+//! A limit state whose evaluations are counted and checked.
+
+use core::cell::{Cell, RefCell};
+
+use super::limit_state::{LimitState, LimitValue};
+use super::vector::norm;
+use crate::Error;
+
+/// How often a limit state was asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Evaluations {
+    /// Evaluations of value and gradient.
+    pub total: usize,
+    /// Those of them without a value, or with one that is not finite.
+    pub without_value: usize,
+}
+
+/// Only finite values and gradients of the right length come through.
+pub(super) struct Counted<'a, L> {
+    limit: &'a L,
+    dimension: usize,
+    total: Cell<usize>,
+    without_value: Cell<usize>,
+    reason: RefCell<String>,
+}
+
+impl<'a, L: LimitState> Counted<'a, L> {
+    pub(super) fn new(limit: &'a L) -> Result<Self, Error> {
+        let dimension = limit.dimension();
+        if dimension == 0 {
+            return Err(Error::Setting {
+                setting: "dimension",
+                reason: "a limit state needs a variable".into(),
+            });
+        }
+        Ok(Self {
+            limit,
+            dimension,
+            total: Cell::new(0),
+            without_value: Cell::new(0),
+            reason: RefCell::default(),
+        })
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Value and gradient at `z`, if there are any.
+    pub(super) fn evaluate(&self, z: &[f64]) -> Option<LimitValue> {
+        self.total.set(self.total.get() + 1);
+        let found = match self.limit.evaluate(z) {
+            Err(error) => Err(error.to_string()),
+            Ok(found) if found.gradient.len() != self.dimension => Err(format!(
+                "its gradient has {} entries, expected {}",
+                found.gradient.len(),
+                self.dimension
+            )),
+            Ok(found) if !is_finite(&found) => Err("its value or gradient is not finite".into()),
+            Ok(found) => Ok(found),
+        };
+        match found {
+            Ok(found) => Some(found),
+            Err(reason) => {
+                self.without_value.set(self.without_value.get() + 1);
+                self.reason.replace(reason);
+                None
+            }
+        }
+    }
+
+    /// Exact second derivatives at `z`, if the limit state knows them.
+    pub(super) fn hessian(&self, z: &[f64]) -> Result<Option<Vec<Vec<f64>>>, Error> {
+        let place = "at the design point";
+        let reason = |reason: String| Error::NoLimitValue { place, reason };
+        let Some(hessian) = self.limit.hessian(z) else {
+            return Ok(None);
+        };
+        let hessian = hessian.map_err(|error| reason(error.to_string()))?;
+        for found in [hessian.len()]
+            .into_iter()
+            .chain(hessian.iter().map(Vec::len))
+        {
+            if found != self.dimension {
+                return Err(Error::WrongLength {
+                    kind: "rows or columns of second derivatives",
+                    found,
+                    expected: self.dimension,
+                });
+            }
+        }
+        if hessian.iter().flatten().any(|entry| !entry.is_finite()) {
+            return Err(reason("a second derivative is not finite".into()));
+        }
+        Ok(Some(hessian))
+    }
+
+    /// The error that there is no value at this place.
+    pub(super) fn no_value(&self, place: &'static str) -> Error {
+        let reason = self.reason.borrow().clone();
+        Error::NoLimitValue { place, reason }
+    }
+
+    pub(super) fn evaluations(&self) -> Evaluations {
+        Evaluations {
+            total: self.total.get(),
+            without_value: self.without_value.get(),
+        }
+    }
+}
+
+fn is_finite(found: &LimitValue) -> bool {
+    let finite = found.gradient.iter().all(|x| x.is_finite());
+    found.value.is_finite() && finite && norm(&found.gradient).is_finite()
+}

@@ -1,0 +1,182 @@
+//! Points of a search, and design points.
+
+use core::fmt;
+
+use crate::normal;
+use crate::reliability::counted::Evaluations;
+use crate::reliability::limit_state::LimitValue;
+use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
+
+/// How far a point is from being a design point. The unit of the limit state does not matter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residuals {
+    /// `|g| / |grad g| / max(1, |z|)`: distance from the limit, to first order.
+    pub limit: f64,
+    /// `|z - beta n| / max(1, |z|)`, where `n` is the direction towards failure and `|beta| = |z|`: angle between the point
+    /// and the normal of the limit.
+    pub direction: f64,
+}
+
+impl Residuals {
+    /// The greater one.
+    pub fn largest(&self) -> f64 {
+        self.limit.max(self.direction)
+    }
+}
+
+/// The point nearest to a design point that a search came across.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closest {
+    /// Its coordinates.
+    pub point: Vec<f64>,
+    /// The limit state there.
+    pub value: f64,
+    /// What keeps it from being a design point; none where the gradient is zero.
+    pub residuals: Option<Residuals>,
+    /// Evaluations of the whole search.
+    pub evaluations: Evaluations,
+}
+
+impl fmt::Display for Closest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the best point has value {}, ", self.value)?;
+        match self.residuals {
+            None => write!(f, "no gradient")?,
+            Some(found) => write!(
+                f,
+                "is {:.1e} off the limit and {:.1e} off its normal",
+                found.limit, found.direction
+            )?,
+        }
+        let Evaluations {
+            total,
+            without_value,
+        } = self.evaluations;
+        write!(f, " ({total} evaluations, {without_value} without a value)")
+    }
+}
+
+/// A design point: the point of the limit nearest to the origin, at least in its neighbourhood.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignPoint {
+    /// Its coordinates `z*`.
+    pub point: Vec<f64>,
+    /// The reliability index: distance from the origin, negative if the origin fails.
+    pub beta: f64,
+    /// Unit vector towards failure, `-grad g / |grad g|`; `z* = beta n`.
+    pub direction: Vec<f64>,
+    /// Length of the gradient of the limit state, in its unit.
+    pub gradient_norm: f64,
+    /// How exactly `z*` is a design point.
+    pub residuals: Residuals,
+}
+
+/// Derivatives by a parameter of the limit state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormSensitivity {
+    /// `d beta / d theta`, per unit of the parameter.
+    pub beta: f64,
+    /// `d Phi(-beta) / d theta`, per unit of the parameter.
+    pub probability: f64,
+}
+
+impl DesignPoint {
+    /// Probability of failure to first order, `Phi(-beta)`.
+    pub fn probability(&self) -> f64 {
+        normal::cdf(-self.beta)
+    }
+
+    /// Its natural logarithm, also where the probability is below the least number.
+    pub fn ln_probability(&self) -> f64 {
+        normal::ln_upper(self.beta)
+    }
+
+    /// Importance factors: the part of the variance of the linearised limit state that each variable causes. Their sum is 1.
+    pub fn importance_factors(&self) -> Vec<f64> {
+        self.direction.iter().map(|n| n * n).collect()
+    }
+
+    /// Derivatives by a parameter of the limit state, of its partial derivative `dg/dtheta` at the design point, in the unit
+    /// of the limit state per unit of the parameter: `d beta / d theta = (dg/dtheta) / |grad g|` (Ditlevsen and Madsen 1996,
+    /// *Structural Reliability Methods*, section 8.2).
+    pub fn sensitivity(&self, limit_by_parameter: f64) -> FormSensitivity {
+        let beta = limit_by_parameter / self.gradient_norm;
+        FormSensitivity {
+            beta,
+            probability: -normal::density(self.beta) * beta,
+        }
+    }
+}
+
+/// A point where the limit state is known.
+#[derive(Clone, Debug)]
+pub(super) struct Iterate {
+    pub(super) point: Vec<f64>,
+    pub(super) limit: LimitValue,
+    /// Nothing where the gradient is zero.
+    slope: Option<Slope>,
+}
+
+/// The limit state near a point, to first order.
+#[derive(Clone, Debug)]
+pub(super) struct Slope {
+    pub(super) direction: Vec<f64>,
+    pub(super) norm: f64,
+    pub(super) residuals: Residuals,
+}
+
+impl Iterate {
+    /// `sign` is +1 if the origin is safe, -1 if it fails.
+    pub(super) fn new(point: Vec<f64>, limit: LimitValue, sign: f64) -> Self {
+        let slope = unit(&limit.gradient).map(|upwards| {
+            let direction = scaled(-1.0, &upwards);
+            let (length, norm_of_gradient) = (norm(&point), norm(&limit.gradient));
+            let scale = length.max(1.0);
+            let off_normal = add_scaled(&point, -sign * length, &direction);
+            Slope {
+                residuals: Residuals {
+                    limit: (limit.value / norm_of_gradient).abs() / scale,
+                    direction: norm(&off_normal) / scale,
+                },
+                direction,
+                norm: norm_of_gradient,
+            }
+        });
+        let slope = slope.filter(|slope| slope.residuals.largest().is_finite());
+        Self {
+            point,
+            limit,
+            slope,
+        }
+    }
+
+    pub(super) fn slope(&self) -> Option<&Slope> {
+        self.slope.as_ref()
+    }
+
+    pub(super) fn residual(&self) -> f64 {
+        self.slope
+            .as_ref()
+            .map_or(f64::INFINITY, |slope| slope.residuals.largest())
+    }
+
+    pub(super) fn design_point(self) -> Option<DesignPoint> {
+        let slope = self.slope?;
+        Some(DesignPoint {
+            beta: dot(&self.point, &slope.direction),
+            point: self.point,
+            direction: slope.direction,
+            gradient_norm: slope.norm,
+            residuals: slope.residuals,
+        })
+    }
+
+    pub(super) fn closest(self, evaluations: Evaluations) -> Closest {
+        Closest {
+            residuals: self.slope.map(|slope| slope.residuals),
+            value: self.limit.value,
+            point: self.point,
+            evaluations,
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Sequential quadratic programming where the iteration does not converge: where the limit is strongly curved.
+
+use core::cell::RefCell;
+
+use slsqp::{Func, StopTols, minimize};
+
+use super::design_point::Iterate;
+use super::search::Search;
+use crate::reliability::limit_state::LimitState;
+use crate::reliability::vector::norm;
+
+/// The library counts in 32 bits.
+const EVALUATIONS: usize = i32::MAX as usize;
+
+/// The best point on the way of minimising `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for
+/// sequential quadratic programming*), from a start on. Points without a value have an infinite objective; the line search
+/// then halves its step.
+pub(super) fn minimise<L: LimitState>(search: &Search<'_, L>, start: Iterate) -> Iterate {
+    let Some(slope) = start.slope() else {
+        return start;
+    };
+    // In units of z, and negative where wanted.
+    let scale = search.sign / slope.norm;
+    let tolerance = search.settings.tolerance;
+    let radius = search.settings.radius;
+    let first = start.point.clone();
+    let progress = RefCell::new(Progress {
+        last: Some(start.clone()),
+        last_point: first.clone(),
+        best: start,
+    });
+    let objective = |z: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
+        if let Some(gradient) = gradient {
+            gradient.copy_from_slice(z);
+        }
+        match progress.borrow_mut().at(search, z) {
+            Some(_) => 0.5 * norm(z).powi(2),
+            None => f64::INFINITY,
+        }
+    };
+    let limit = |z: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
+        let mut progress = progress.borrow_mut();
+        let Some(found) = progress.at(search, z) else {
+            return f64::INFINITY;
+        };
+        if let Some(gradient) = gradient {
+            for (entry, slope) in gradient.iter_mut().zip(&found.limit.gradient) {
+                *entry = scale * slope;
+            }
+        }
+        // On the limit is far enough: without this the rounding of g would decide what counts as feasible.
+        let value = scale * found.limit.value;
+        if value.abs() < 0.1 * tolerance {
+            0.0
+        } else {
+            value
+        }
+    };
+    let limits: [&dyn Func<()>; 1] = [&limit];
+    let stop = StopTols {
+        xtol_rel: 0.1 * tolerance,
+        ..StopTols::default()
+    };
+    // Whatever it ends with: what counts are the residuals of the best point.
+    let _ = minimize(
+        objective,
+        &first,
+        &vec![(-radius, radius); first.len()],
+        &limits,
+        (),
+        search.settings.optimiser_evaluations.min(EVALUATIONS),
+        Some(stop),
+    );
+    progress.into_inner().best
+}
+
+/// Objective and limit are asked for at the same point one after the other.
+struct Progress {
+    last_point: Vec<f64>,
+    last: Option<Iterate>,
+    best: Iterate,
+}
+
+impl Progress {
+    fn at<L: LimitState>(&mut self, search: &Search<'_, L>, z: &[f64]) -> Option<&Iterate> {
+        if self.last_point != z {
+            self.last_point = z.to_vec();
+            let finite = z.iter().all(|z| z.is_finite());
+            self.last = if finite { search.at(z) } else { None };
+            if let Some(last) = &self.last
+                && last.residual() < self.best.residual()
+            {
+                self.best = last.clone();
+            }
+        }
+        self.last.as_ref()
+    }
+}

@@ -1,0 +1,192 @@
+//! Several starts, several design points.
+
+use super::bulge::Bulge;
+use super::design_point::{DesignPoint, Iterate};
+use super::search::Search;
+use super::settings::FormSettings;
+use crate::Error;
+use crate::reliability::counted::{Counted, Evaluations};
+use crate::reliability::limit_state::LimitState;
+use crate::reliability::random::NormalSamples;
+use crate::reliability::vector::{add_scaled, distance, dot, norm, scaled, unit};
+
+/// Design points of separate failure regions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailureRegions {
+    /// The design points, the nearest to the origin first; at least one.
+    pub design_points: Vec<DesignPoint>,
+    /// Whether the search ended because it found no other region, not because the wished number was reached.
+    pub exhausted: bool,
+    /// How often the limit state was asked.
+    pub evaluations: Evaluations,
+}
+
+/// How far beside a point a search restarts to see whether it comes back, in parts of its distance from the origin. A point
+/// that is nearest along some directions only (Rackwitz: `1 + beta kappa < 0`) is left by that.
+const NUDGE: f64 = 0.05;
+
+pub(super) fn by_restarts<L: LimitState>(
+    limit: &L,
+    settings: &FormSettings,
+) -> Result<FailureRegions, Error> {
+    let counted = Counted::new(limit)?;
+    let mut regions = Regions::start(&counted, settings)?;
+    regions.restart();
+    regions.finish()
+}
+
+pub(super) fn by_bulges<L: LimitState>(
+    limit: &L,
+    settings: &FormSettings,
+) -> Result<FailureRegions, Error> {
+    let counted = Counted::new(limit)?;
+    let mut regions = Regions::start(&counted, settings)?;
+    regions.restart();
+    while !regions.is_full() && regions.search_behind_bulges() {}
+    regions.finish()
+}
+
+struct Regions<'a, L> {
+    search: Search<'a, L>,
+    random: NormalSamples,
+    found: Vec<DesignPoint>,
+    /// The best of the points that are no design points.
+    best: Iterate,
+}
+
+impl<'a, L: LimitState> Regions<'a, L> {
+    /// Searches from the origin.
+    fn start(limit: &'a Counted<'a, L>, settings: &'a FormSettings) -> Result<Self, Error> {
+        settings.check()?;
+        let dimension = limit.dimension();
+        let origin = vec![0.0; dimension];
+        let at_origin = limit
+            .evaluate(&origin)
+            .ok_or_else(|| limit.no_value("at the origin"))?;
+        let sign = if at_origin.value > 0.0 { 1.0 } else { -1.0 };
+        let mut regions = Self {
+            search: Search {
+                limit,
+                settings,
+                sign,
+                bulges: Vec::new(),
+            },
+            random: NormalSamples::new(settings.seed, 0, 0, dimension),
+            found: Vec::new(),
+            best: Iterate::new(origin.clone(), at_origin, sign),
+        };
+        regions.visit(&origin);
+        Ok(regions)
+    }
+
+    fn is_full(&self) -> bool {
+        self.found.len() >= self.search.settings.regions
+    }
+
+    /// Searches from random directions and their opposites, at the distance of the first design point.
+    fn restart(&mut self) {
+        let mut direction = Vec::new();
+        for restart in 0..self.search.settings.restarts {
+            direction = match restart % 2 {
+                0 => self.random_direction(),
+                _ => scaled(-1.0, &direction),
+            };
+            let usual = [3.0, 6.0, 1.0][restart / 2 % 3];
+            let distance = self.found.first().map_or(usual, |p| p.beta.abs().max(1.0));
+            self.visit(&scaled(distance, &direction));
+        }
+    }
+
+    /// Searches where known design points are no longer on the limit, from the origin and from opposite to the last one.
+    /// Says whether there was another one.
+    fn search_behind_bulges(&mut self) -> bool {
+        self.search.bulges = self.found.iter().filter_map(Bulge::over).collect();
+        let opposite = self.found.last().map(|last| scaled(-1.0, &last.point));
+        let origin = vec![0.0; self.search.limit.dimension()];
+        let starts = [Some(origin), opposite];
+        let ends: Vec<Iterate> = starts
+            .into_iter()
+            .flatten()
+            .filter_map(|start| self.search.from(&start))
+            .collect();
+        self.search.bulges.clear();
+        let before = self.found.len();
+        for end in ends {
+            if norm(&end.point) <= self.search.settings.radius {
+                self.visit(&end.point);
+            }
+        }
+        self.found.len() > before
+    }
+
+    /// Searches from a start, checks what comes out of it, and keeps it if it is new.
+    fn visit(&mut self, start: &[f64]) {
+        if self.is_full() {
+            return;
+        }
+        let Some(end) = self.search.from(start) else {
+            return;
+        };
+        if !self.search.is_solved(&end) {
+            if end.residual() < self.best.residual() {
+                self.best = end;
+            }
+            return;
+        }
+        let Some(point) = end.design_point() else {
+            return;
+        };
+        if self.is_new(&point) {
+            let point = self.nudged(point);
+            if self.is_new(&point) {
+                self.found.push(point);
+            }
+        }
+    }
+
+    fn is_new(&self, point: &DesignPoint) -> bool {
+        let apart = self.search.settings.separation * point.beta.abs().max(1.0);
+        let far = |known: &DesignPoint| distance(&known.point, &point.point) > apart;
+        self.found.iter().all(far)
+    }
+
+    /// The point itself, or what a search from beside it finds if that is nearer to the origin.
+    fn nudged(&mut self, point: DesignPoint) -> DesignPoint {
+        let random = self.random_direction();
+        let along = dot(&random, &point.direction);
+        let Some(tangent) = unit(&add_scaled(&random, -along, &point.direction)) else {
+            return point;
+        };
+        let beside = add_scaled(&point.point, NUDGE * point.beta.abs().max(1.0), &tangent);
+        let end = self.search.from(&beside);
+        let solved = end.filter(|end| self.search.is_solved(end));
+        let nearer = (1.0 - 1e-6) * point.beta.abs() - self.search.settings.tolerance;
+        match solved.and_then(Iterate::design_point) {
+            Some(other) if other.beta.abs() < nearer => other,
+            _ => point,
+        }
+    }
+
+    fn random_direction(&mut self) -> Vec<f64> {
+        let sample = self.random.next_sample().to_vec();
+        unit(&sample).unwrap_or(sample)
+    }
+
+    fn finish(mut self) -> Result<FailureRegions, Error> {
+        let evaluations = self.search.limit.evaluations();
+        let exhausted = !self.is_full();
+        if self.found.is_empty() {
+            return Err(Error::NoDesignPoint {
+                radius: self.search.settings.radius,
+                closest: Box::new(self.best.closest(evaluations)),
+            });
+        }
+        self.found
+            .sort_by(|a, b| a.beta.abs().total_cmp(&b.beta.abs()));
+        Ok(FailureRegions {
+            design_points: self.found,
+            exhausted,
+            evaluations,
+        })
+    }
+}

@@ -1,0 +1,98 @@
+//! The search for a design point from one start.
+
+use super::bulge::Bulge;
+use super::design_point::Iterate;
+use super::optimiser;
+use super::settings::FormSettings;
+use crate::reliability::counted::Counted;
+use crate::reliability::limit_state::LimitState;
+use crate::reliability::vector::{add_scaled, dot, norm};
+
+/// The optimiser stores dense matrices; beyond this many variables only the iteration is tried.
+const OPTIMISER_VARIABLES: usize = 1000;
+
+/// The limit state of a search, with bulges where no further design points are wanted.
+pub(super) struct Search<'a, L> {
+    pub(super) limit: &'a Counted<'a, L>,
+    pub(super) settings: &'a FormSettings,
+    /// +1 if the origin is safe, -1 if it fails.
+    pub(super) sign: f64,
+    pub(super) bulges: Vec<Bulge>,
+}
+
+impl<L: LimitState> Search<'_, L> {
+    pub(super) fn at(&self, z: &[f64]) -> Option<Iterate> {
+        let mut limit = self.limit.evaluate(z)?;
+        for bulge in &self.bulges {
+            bulge.add_to(&mut limit, z);
+        }
+        Some(Iterate::new(z.to_vec(), limit, self.sign))
+    }
+
+    /// The best point on the way from a start, if the limit state has a value at the start or between it and the origin.
+    pub(super) fn from(&self, start: &[f64]) -> Option<Iterate> {
+        let mut start = start.to_vec();
+        let mut at_start = self.at(&start);
+        for _ in 0..8 {
+            if at_start.is_some() {
+                break;
+            }
+            start.iter_mut().for_each(|z| *z *= 0.5);
+            at_start = self.at(&start);
+        }
+        let best = self.iterate(at_start?);
+        let too_many = self.limit.dimension() > OPTIMISER_VARIABLES;
+        if self.is_solved(&best) || too_many || self.settings.optimiser_evaluations == 0 {
+            return Some(best);
+        }
+        Some(self.iterate(optimiser::minimise(self, best)))
+    }
+
+    pub(super) fn is_solved(&self, iterate: &Iterate) -> bool {
+        iterate.residual() <= self.settings.tolerance
+            && norm(&iterate.point) <= self.settings.radius
+    }
+
+    /// The improved iteration of Hasofer, Lind, Rackwitz and Fiessler (Zhang and Der Kiureghian 1995, *Two improved
+    /// algorithms for reliability analysis*): a step to the nearest point of the linearised limit, halved until the merit
+    /// function `|z|^2 / 2 + c |g|` falls. Gives the best point on its way.
+    fn iterate(&self, start: Iterate) -> Iterate {
+        let mut best = start.clone();
+        let mut current = start;
+        for _ in 0..self.settings.iterations {
+            if self.is_solved(&best) {
+                break;
+            }
+            let Some(next) = self.step(&current) else {
+                break;
+            };
+            if next.residual() < best.residual() {
+                best = next.clone();
+            }
+            current = next;
+        }
+        best
+    }
+
+    fn step(&self, from: &Iterate) -> Option<Iterate> {
+        let slope = from.slope()?;
+        let height = from.limit.value / slope.norm;
+        let along_normal = dot(&from.point, &slope.direction) + height;
+        let target: Vec<f64> = slope.direction.iter().map(|n| along_normal * n).collect();
+        let penalty = 2.0 * norm(&from.point).max(along_normal.abs()) / slope.norm;
+        let merit = |at: &Iterate| 0.5 * norm(&at.point).powi(2) + penalty * at.limit.value.abs();
+        let step = add_scaled(&target, -1.0, &from.point);
+        let mut part = (self.settings.radius / norm(&step).max(f64::MIN_POSITIVE)).min(1.0);
+        for _ in 0..12 {
+            let next = self.at(&add_scaled(&from.point, part, &step));
+            let better = |next: &Iterate| {
+                merit(next) < merit(from) || next.residual() < 0.5 * from.residual()
+            };
+            if let Some(next) = next.filter(better) {
+                return Some(next);
+            }
+            part *= 0.5;
+        }
+        None
+    }
+}

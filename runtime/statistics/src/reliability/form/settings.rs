@@ -1,0 +1,70 @@
+//! How to search for design points.
+
+use crate::Error;
+
+/// How to search for design points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormSettings {
+    /// Greatest residual of a design point, both of the limit and of the direction; see [`super::Residuals`].
+    pub tolerance: f64,
+    /// Steps of the Hasofer-Lind-Rackwitz-Fiessler iteration before the general optimiser takes over.
+    pub iterations: usize,
+    /// Evaluations that the general optimiser may take from one start; zero goes without it.
+    pub optimiser_evaluations: usize,
+    /// Starts in random directions and their opposites, besides the one at the origin. Each costs about as much as that.
+    pub restarts: usize,
+    /// Seed of the random directions.
+    pub seed: u64,
+    /// Design points farther from the origin, in standard deviations, are not looked for.
+    pub radius: f64,
+    /// Design points nearer to each other than this part of their distance from the origin (or of 1, if that is less) are
+    /// one failure region.
+    pub separation: f64,
+    /// Greatest number of failure regions.
+    pub regions: usize,
+}
+
+impl Default for FormSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-9,
+            iterations: 30,
+            optimiser_evaluations: 300,
+            restarts: 4,
+            seed: 1,
+            radius: 100.0,
+            separation: 0.1,
+            regions: 16,
+        }
+    }
+}
+
+impl FormSettings {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let positive = [
+            ("tolerance", self.tolerance),
+            ("radius", self.radius),
+            ("separation", self.separation),
+        ];
+        for (setting, value) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::Setting {
+                    setting,
+                    reason: format!("{value} is not positive and finite"),
+                });
+            }
+        }
+        let reason = "at least one is needed".to_string();
+        match (self.iterations, self.regions) {
+            (0, _) => Err(Error::Setting {
+                setting: "iterations",
+                reason,
+            }),
+            (_, 0) => Err(Error::Setting {
+                setting: "regions",
+                reason,
+            }),
+            _ => Ok(()),
+        }
+    }
+}

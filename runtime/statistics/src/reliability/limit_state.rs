@@ -1,0 +1,140 @@
+//! What fails where: a function of independent standard normal variables that is not positive in failure.
+
+use core::fmt::Display;
+
+/// Value and gradient of a limit state at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitValue {
+    /// `g(z)`, in the unit of the limit state.
+    pub value: f64,
+    /// `dg/dz_i`, one per variable, in the unit of the limit state.
+    pub gradient: Vec<f64>,
+}
+
+/// A limit state `g(z)` of independent standard normal variables `z`: failure where `g(z) <= 0`.
+///
+/// It may have no value somewhere, because what it describes does not exist there; it then says why. Searches step back
+/// from such points and samplers count them; none of them takes them for failures or for safe.
+pub trait LimitState {
+    /// Why there is no value.
+    type Error: Display;
+
+    /// Number of variables.
+    fn dimension(&self) -> usize;
+
+    /// Value and exact gradient at `z`.
+    ///
+    /// # Errors
+    ///
+    /// If there is none at `z`.
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, Self::Error>;
+
+    /// The value alone, for sampling.
+    ///
+    /// # Errors
+    ///
+    /// If there is none at `z`.
+    fn value(&self, z: &[f64]) -> Result<f64, Self::Error> {
+        Ok(self.evaluate(z)?.value)
+    }
+
+    /// The exact matrix of second derivatives at `z`, row by row, if it is known.
+    fn hessian(&self, _z: &[f64]) -> Option<Result<Vec<Vec<f64>>, Self::Error>> {
+        None
+    }
+}
+
+impl<L: LimitState + ?Sized> LimitState for &L {
+    type Error = L::Error;
+
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, Self::Error> {
+        (**self).evaluate(z)
+    }
+
+    fn value(&self, z: &[f64]) -> Result<f64, Self::Error> {
+        (**self).value(z)
+    }
+
+    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, Self::Error>> {
+        (**self).hessian(z)
+    }
+}
+
+/// A limit state made of a closure for value and gradient.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitFunction<F> {
+    dimension: usize,
+    function: F,
+}
+
+impl<F, E> LimitFunction<F>
+where
+    F: Fn(&[f64]) -> Result<LimitValue, E>,
+{
+    /// A limit state of `dimension` variables.
+    pub fn new(dimension: usize, function: F) -> Self {
+        Self {
+            dimension,
+            function,
+        }
+    }
+
+    /// The same with exact second derivatives, row by row.
+    pub fn with_hessian<H>(self, hessian: H) -> LimitFunctionWithHessian<F, H>
+    where
+        H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
+    {
+        LimitFunctionWithHessian {
+            limit: self,
+            hessian,
+        }
+    }
+}
+
+impl<F, E> LimitState for LimitFunction<F>
+where
+    F: Fn(&[f64]) -> Result<LimitValue, E>,
+    E: Display,
+{
+    type Error = E;
+
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, E> {
+        (self.function)(z)
+    }
+}
+
+/// A limit state made of two closures, one of them for the second derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitFunctionWithHessian<F, H> {
+    limit: LimitFunction<F>,
+    hessian: H,
+}
+
+impl<F, H, E> LimitState for LimitFunctionWithHessian<F, H>
+where
+    F: Fn(&[f64]) -> Result<LimitValue, E>,
+    H: Fn(&[f64]) -> Result<Vec<Vec<f64>>, E>,
+    E: Display,
+{
+    type Error = E;
+
+    fn dimension(&self) -> usize {
+        self.limit.dimension
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, E> {
+        self.limit.evaluate(z)
+    }
+
+    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, E>> {
+        Some((self.hessian)(z))
+    }
+}

@@ -1,0 +1,22 @@
+//! Probabilities of failure of limit states in independent standard normal variables.
+//!
+//! A [`LimitState`] is a function `g(z)` that is not positive in failure. [`form`] finds its design point, [`sorm`] corrects
+//! for the curvature of the limit there, [`sampling`] gives what is unbiased, and [`system`] joins several requirements.
+//! Transforming physical variables to standard normal ones is the business of the caller.
+
+mod counted;
+mod form;
+mod limit_state;
+mod random;
+pub mod sampling;
+mod sorm;
+pub mod system;
+mod vector;
+
+pub use counted::Evaluations;
+pub use form::{
+    Closest, DesignPoint, FailureRegions, FormResult, FormSensitivity, FormSettings, Residuals,
+    failure_regions, form,
+};
+pub use limit_state::{LimitFunction, LimitFunctionWithHessian, LimitState, LimitValue};
+pub use sorm::{Sorm, sorm};

@@ -1,0 +1,10 @@
+//! Reliability methods against exact probabilities and published ones.
+
+mod benchmarks;
+mod common;
+mod form;
+mod random_limits;
+mod regions;
+mod sampling;
+mod sorm;
+mod system;

@@ -1,0 +1,94 @@
+//! Several failure regions.
+
+use eigentol_statistics::reliability::sampling::{Failure, Proposal, Sampler, SamplingSettings};
+use eigentol_statistics::reliability::{FormSettings, LimitState, failure_regions};
+
+use crate::common::{below, close, limit};
+
+/// Failure beyond 3 on one side and beyond 4 on the other; the search from the origin sees the far one only.
+fn two_sided() -> impl LimitState<Error = core::convert::Infallible> {
+    limit(3, |z| {
+        (
+            (3.0 + z[0]) * (4.0 - z[0]),
+            vec![1.0 - 2.0 * z[0], 0.0, 0.0],
+        )
+    })
+}
+
+#[test]
+fn bulges_uncover_the_other_side() {
+    // Without restarts, the bulges are on their own.
+    let settings = FormSettings {
+        restarts: 0,
+        ..FormSettings::default()
+    };
+    let found = failure_regions(&two_sided(), &settings).unwrap();
+    let betas: Vec<f64> = found.design_points.iter().map(|p| p.beta).collect();
+    assert_eq!(betas.len(), 2, "{betas:?}");
+    assert!(found.exhausted);
+    close(betas[0], 3.0, 1e-9);
+    close(betas[1], 4.0, 1e-9);
+    close(found.design_points[0].point[0], -3.0, 1e-9);
+}
+
+/// Regions at a right angle, one of them farther away.
+#[test]
+fn bulges_uncover_what_is_beside() {
+    let corner = limit(2, |z| {
+        let (a, b) = (3.0 - z[0], 3.5 - z[1]);
+        (a * b, vec![-b, -a])
+    });
+    let settings = FormSettings {
+        restarts: 0,
+        ..FormSettings::default()
+    };
+    let found = failure_regions(&corner, &settings).unwrap();
+    let betas: Vec<f64> = found.design_points.iter().map(|p| p.beta).collect();
+    assert_eq!(betas.len(), 2, "{betas:?}");
+    close(betas[0], 3.0, 1e-8);
+    close(betas[1], 3.5, 1e-8);
+}
+
+#[test]
+fn mixtures_sum_over_regions() {
+    let limits = [two_sided()];
+    let found = failure_regions(&limits[0], &FormSettings::default()).unwrap();
+    let proposal = Proposal::around(&found.design_points).unwrap();
+    let settings = SamplingSettings {
+        coefficient_of_variation: 0.01,
+        ..SamplingSettings::default()
+    };
+    let sampled = Sampler::new(&limits, Failure::Any, &proposal, &settings)
+        .unwrap()
+        .run();
+    assert!(sampled.reached);
+    close(sampled.probability.value, below(-3.0) + below(-4.0), 0.03);
+}
+
+/// Infinitely many design points: a cap on their number, and the result says that there may be more.
+#[test]
+fn a_ring_of_design_points_is_capped() {
+    let ring = limit(2, |z| {
+        (
+            9.0 - z[0] * z[0] - z[1] * z[1],
+            vec![-2.0 * z[0], -2.0 * z[1]],
+        )
+    });
+    let settings = FormSettings {
+        regions: 3,
+        restarts: 10,
+        ..FormSettings::default()
+    };
+    let found = failure_regions(&ring, &settings).unwrap();
+    assert_eq!(found.design_points.len(), 3);
+    assert!(!found.exhausted);
+    for point in &found.design_points {
+        close(point.beta, 3.0, 1e-9);
+    }
+}
+
+#[test]
+fn the_same_seed_finds_the_same() {
+    let find = || failure_regions(&two_sided(), &FormSettings::default()).unwrap();
+    assert_eq!(find(), find());
+}

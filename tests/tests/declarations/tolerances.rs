@@ -1,0 +1,311 @@
+//! Tolerances: what is written, and what arrives of it in SI.
+
+use eigentol_compiler::model::mechanism::{Law, Mechanism, Tolerance};
+use eigentol_compiler::model::resolve::resolve;
+use eigentol_compiler::syntax::print::print;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::common::{read, resolved};
+
+fn with_item(item: &str) -> Mechanism {
+    resolved(&format!(
+        "mechanism Bar {{ {item} body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint theta: revolute(y) from ground to bar; }}"
+    ))
+}
+
+/// Nominal value and tolerance of a design variable.
+fn design(value: &str) -> (f64, Tolerance) {
+    let mechanism = with_item(&format!("design x = {value};"));
+    (mechanism.design[0].nominal, mechanism.design[0].tolerance)
+}
+
+fn input(unit: &str) -> Tolerance {
+    with_item(&format!("input x: {unit};")).inputs[0].tolerance
+}
+
+fn tolerance(upper: f64, lower: f64, law: Law) -> Tolerance {
+    Tolerance {
+        lower,
+        upper,
+        relative: false,
+        law,
+    }
+}
+
+fn assert_near(found: Tolerance, expected: Tolerance, what: &str) {
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * a.abs().max(b.abs());
+    assert!(
+        near(found.lower, expected.lower)
+            && near(found.upper, expected.upper)
+            && found.law == expected.law
+            && found.relative == expected.relative,
+        "{what}: {found:?}"
+    );
+}
+
+#[test]
+fn limits_of_a_design_variable_are_in_si() {
+    for (text, nominal, upper, lower) in [
+        ("1 m", 1.0, 0.0, 0.0),
+        ("1 m +/- 3%", 1.0, 0.03, -0.03),
+        ("2 m +/- 3 mm", 2.0, 3e-3, -3e-3),
+        ("-2 m +/- 1%", -2.0, 0.02, -0.02),
+        // As on drawings: the unit once, or at each.
+        ("20 mm +0.1 -0 mm", 0.02, 1e-4, 0.0),
+        ("20 mm +0.1 mm -0.05 mm", 0.02, 1e-4, -5e-5),
+        ("20mm +0.1mm -50um", 0.02, 1e-4, -5e-5),
+        ("-20 mm +0.1 -0.2 mm", -0.02, 1e-4, -2e-4),
+        // Both of one sign: the fits f7, p6 and h6 of 20 mm.
+        ("20 mm -0.020 -0.041 mm", 0.02, -2e-5, -4.1e-5),
+        ("20 mm +0.035 +0.022 mm", 0.02, 3.5e-5, 2.2e-5),
+        ("20 mm 0 -0.013 mm", 0.02, 0.0, -1.3e-5),
+        ("20 mm +0.021 0 mm", 0.02, 2.1e-5, 0.0),
+        ("20 mm +0.021 mm 0", 0.02, 2.1e-5, 0.0),
+        ("20 mm 0 -0.013 mm", 0.02, 0.0, -1.3e-5),
+        ("3 kg +2 -1 %", 3.0, 0.06, -0.03),
+        ("3 kg +2% -1%", 3.0, 0.06, -0.03),
+        ("3 kg 0 -1%", 3.0, 0.0, -0.03),
+        ("3 kg +2% 0", 3.0, 0.06, 0.0),
+        // The upper limit is the greater one, also of a negative value.
+        ("-5 mm +2 -1 %", -5e-3, 1e-4, -5e-5),
+        ("7 +0.5 -0.25", 7.0, 0.5, -0.25),
+        ("5 1/s +1 -2 1/s", 5.0, 1.0, -2.0),
+        ("30 deg +1 -0.5 mrad", 30f64.to_radians(), 1e-3, -5e-4),
+        // What comes before the limits may be any value.
+        ("2 * 10 mm +0.1 -0.05 mm", 0.02, 1e-4, -5e-5),
+        ("(19 mm + 1 mm) +0.1 mm -0.05 mm", 0.02, 1e-4, -5e-5),
+        ("1 m + 2 m +3 mm -4 mm", 3.0, 3e-3, -4e-3),
+        ("0 m +1 -1 mm", 0.0, 1e-3, -1e-3),
+    ] {
+        let (value, found) = design(text);
+        assert!((value - nominal).abs() <= 1e-15, "{text}: {value}");
+        assert_near(found, tolerance(upper, lower, Law::Normal), text);
+    }
+}
+
+/// One signed number, three, or two with more behind them, are terms of a sum.
+#[test]
+fn other_sums_are_sums() {
+    for (text, nominal) in [
+        ("1 m + 2 m", 3.0),
+        ("1 m + 2 m - 2 * 1 m", 1.0),
+        ("1 m + 2 m - 1 m / 2", 2.5),
+        ("1 m + 2 m - 2^2 * 1 m", -1.0),
+        ("(1 m + 2 m - 0.5 m)", 2.5),
+        ("1 m + 2 m - (0.5 m)", 2.5),
+        ("1 m + 2 m * 3 - 4 m", 3.0),
+        ("1 m + 2 m / 4", 1.5),
+        ("1 m + (2 m / -4)", 0.5),
+    ] {
+        assert_eq!(design(text), (nominal, Tolerance::NONE), "{text}");
+    }
+    let (nominal, found) = design("1 m + 2 m - (0.5 m) +/- 1 mm uniform");
+    assert_eq!(nominal, 2.5);
+    assert_eq!(found, tolerance(1e-3, -1e-3, Law::Uniform));
+}
+
+#[test]
+fn a_law_follows_the_limits() {
+    let beta = Law::Beta {
+        alpha: 2.0,
+        beta: 3.5,
+    };
+    for (text, law) in [
+        ("", Law::Normal),
+        ("normal", Law::Normal),
+        ("truncated normal", Law::TruncatedNormal),
+        ("uniform", Law::Uniform),
+        ("triangular", Law::Triangular),
+        ("lognormal", Law::Lognormal),
+        ("weibull", Law::Weibull),
+        ("beta(2, 7 / 2)", beta),
+    ] {
+        for limits in [
+            "+/- 0.5",
+            "+/- 10 %",
+            "+/- (1 / 2)",
+            "+0.5 -0.5",
+            "+10% -10%",
+        ] {
+            let text = format!("5 {limits} {text}");
+            assert_near(design(&text).1, tolerance(0.5, -0.5, law), &text);
+        }
+        let text = format!("5 m +/- 50 cm {text}");
+        assert_near(design(&text).1, tolerance(0.5, -0.5, law), &text);
+    }
+}
+
+#[test]
+fn an_input_wanders() {
+    let relative = |upper, lower, law| Tolerance {
+        relative: true,
+        ..tolerance(upper, lower, law)
+    };
+    assert_eq!(input("rad/s"), Tolerance::NONE);
+    for (text, expected) in [
+        ("rad/s +/- 1%", relative(0.01, -0.01, Law::Normal)),
+        ("rad/s +2 -1 % uniform", relative(0.02, -0.01, Law::Uniform)),
+        ("rad/s 0 -1% weibull", relative(0.0, -0.01, Law::Weibull)),
+        (
+            "rad/s +/- 0.5 rad/s uniform",
+            tolerance(0.5, -0.5, Law::Uniform),
+        ),
+        ("kN +1 -0 N", tolerance(1.0, 0.0, Law::Normal)),
+        ("1 +/- 3 triangular", tolerance(3.0, -3.0, Law::Triangular)),
+        ("1 +2 -1", tolerance(2.0, -1.0, Law::Normal)),
+        (
+            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4]) * atan2(0, 1)",
+            tolerance(0.0, 0.0, Law::Normal),
+        ),
+        (
+            "1 +/- sqrt(0.25) * cos(0) * norm([3, 0, 4])",
+            tolerance(2.5, -2.5, Law::Normal),
+        ),
+    ] {
+        assert_near(input(text), expected, text);
+    }
+    let turn = std::f64::consts::TAU / 60.0;
+    let rpm = tolerance(30.0 * turn, -10.0 * turn, Law::Normal);
+    assert_near(input("rad/s +30 -10 rpm"), rpm, "rpm");
+}
+
+/// Words of laws are names and units like others where no law can stand.
+#[test]
+fn words_of_laws_are_no_keywords() {
+    let mechanism = resolved(
+        "mechanism Words {
+            input uniform: rad/s +/- 1% uniform;
+            design normal = 3 kg +/- 1% normal;
+            design beta = 10 cm +0.1 -0 cm beta(1, 2);
+            let truncated = 2 * beta;
+            body lognormal: rod(mass: normal, length: truncated, along: -z);
+            joint weibull: revolute(y) from ground to lognormal;
+        }",
+    );
+    assert_eq!(mechanism.design.len(), 2);
+    assert_eq!(mechanism.inputs[0].tolerance.law, Law::Uniform);
+}
+
+#[test]
+fn the_canonical_text_keeps_what_was_written() {
+    for (text, canonical) in [
+        ("20 mm+0.1-0mm", "20.0 mm +0.1 -0.0 mm"),
+        ("20 mm 0 -41 um", "20.0 mm +0.0 -41.0 um"),
+        ("20 mm +1e-7 m -0.05", "20.0 mm +1e-7 m -0.05"),
+        ("3 +2-1%truncated normal", "3.0 +2.0 -1.0% truncated normal"),
+        ("3 +/- 5e-1 % beta(2,3)", "3.0 +/- 0.5% beta(2.0, 3.0)"),
+    ] {
+        let source = format!("mechanism M {{ design x = {text}; }}");
+        let printed = print(&read(&source));
+        assert!(
+            printed.contains(&format!("design x = {canonical};\n")),
+            "{printed}"
+        );
+        assert_eq!(read(&printed), read(&source));
+    }
+}
+
+#[test]
+fn the_text_of_a_mechanism_names_limits_and_laws() {
+    let mechanism = with_item(
+        "input u: rad/s; input v: rad/s +/- 25 %; input w: rad/s +2 -1 rad/s uniform;
+        design a = 20 mm; design b = 20 mm +0.5 -0 mm; design c = 4 mm +/- 50 % beta(2, 0.5);",
+    );
+    let text = mechanism.to_string();
+    for line in [
+        "input u [rad/s]\n",
+        "input v +/- 0.25 of it [rad/s]\n",
+        "input w +2 -1 uniform [rad/s]\n",
+        "design a = 0.02 +/- 0 [mm]\n",
+        "design b = 0.02 +0.0005 +0 [mm]\n",
+        "design c = 0.004 +/- 0.002 beta(2, 0.5) [mm]\n",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+}
+
+/// A choice from a short list.
+fn one_of<'a, T>(random: &mut ChaCha8Rng, list: &'a [T]) -> &'a T {
+    &list[random.next_u32() as usize % list.len()]
+}
+
+/// Limits, units, percentages and laws in every combination: the text says what the numbers it was made of say.
+#[test]
+fn random_tolerances_arrive_as_written() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let random = &mut random;
+    let beta = Law::Beta {
+        alpha: 0.5,
+        beta: 3.0,
+    };
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..2000 {
+        let &(nominal, value) = one_of(
+            random,
+            &[
+                ("20 mm", 0.02),
+                ("-5 mm", -5e-3),
+                ("0.4 m", 0.4),
+                ("2 * 10 mm", 0.02),
+                ("1 m - 1 cm", 0.99),
+            ],
+        );
+        let numbers = [-0.041, -0.02, 0.0, 0.0, 0.021, 0.1, 2.0];
+        let (upper, lower) = (*one_of(random, &numbers), *one_of(random, &numbers));
+        let &(unit, scale) = one_of(
+            random,
+            &[("mm", 1e-3), ("um", 1e-6), ("%", 0.01 * f64::abs(value))],
+        );
+        let &(law_text, law) = one_of(
+            random,
+            &[
+                ("", Law::Normal),
+                ("normal", Law::Normal),
+                ("truncated normal", Law::TruncatedNormal),
+                ("uniform", Law::Uniform),
+                ("triangular", Law::Triangular),
+                ("lognormal", Law::Lognormal),
+                ("weibull", Law::Weibull),
+                ("beta(1 / 2, 3)", beta),
+            ],
+        );
+        let signed = |random: &mut ChaCha8Rng, number: f64| match number {
+            0.0 => (*one_of(random, &["0", "+0", "-0"])).to_string(),
+            number => format!("{number:+}"),
+        };
+        let space = *one_of(random, &["", " "]);
+        let unit_of_upper = if *one_of(random, &[true, false]) {
+            unit
+        } else {
+            ""
+        };
+        let text = format!(
+            "mechanism M {{ design x = {nominal} {}{space}{unit_of_upper} {}{space}{unit} {law_text};
+                body bar: rod(mass: 3 kg, length: 1 m, along: -z); joint theta: revolute(y) from ground to bar; }}",
+            signed(random, upper),
+            signed(random, lower),
+        );
+        let ast = read(&text);
+        assert_eq!(read(&print(&ast)), ast, "{text}");
+        let mean = value + 0.5 * scale * (upper + lower);
+        let is_positive_law = matches!(law, Law::Lognormal | Law::Weibull);
+        let is_right = upper >= lower && (mean > 0.0 || !is_positive_law);
+        match resolve(&ast) {
+            Ok(mechanism) => {
+                assert!(is_right, "{text}");
+                let expected = tolerance(scale * upper, scale * lower, law);
+                assert_near(mechanism.design[0].tolerance, expected, &text);
+                accepted += 1;
+            }
+            Err(mistakes) => {
+                assert!(
+                    !is_right && mistakes.iter().count() == 1,
+                    "{text}\n{mistakes}"
+                );
+                refused += 1;
+            }
+        }
+    }
+    assert!(accepted > 500 && refused > 500, "{accepted} {refused}");
+}
