@@ -48,31 +48,14 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         }
     }
 
-    /// Writes these values over what there is, in the same room where they fit.
+    /// Writes these values over what there is, in the same room where they are as many.
     #[inline]
-    pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        let values = values.into_iter();
-        match (self, values.size_hint()) {
-            (Self::Few(count, few), (_, Some(most))) if most <= FEW => {
-                let mut written = 0;
-                for (place, value) in few[..most].iter_mut().zip(values) {
-                    *place = value;
-                    written += 1;
-                }
-                *count = written;
-            }
-            (Self::Many(many), _) => {
-                many.clear();
-                many.extend(values);
-            }
-            (few, _) => {
-                let values: Vec<T> = values.collect();
-                *few = if values.len() <= FEW {
-                    Self::from_slice(&values)
-                } else {
-                    Self::Many(values)
-                };
-            }
+    pub(super) fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
+        if self.len() != values.len() {
+            *self = Self::filled(values.len(), T::default());
+        }
+        for (place, value) in self.iter_mut().zip(values) {
+            *place = value;
         }
     }
 }

@@ -63,7 +63,7 @@ impl<T: Copy + Default> Vector<T> {
 impl<T: Copy + Default> Vector<T> {
     /// Writes other values over these, in the same room.
     #[inline]
-    pub(crate) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
+    pub(crate) fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
         self.entries.assign(values);
     }
 }

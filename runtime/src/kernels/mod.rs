@@ -15,7 +15,9 @@ mod directional;
 mod interval;
 mod motion;
 
-pub use batch::{BatchKernels, BatchPoint};
+pub use batch::{
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
+};
 pub use curvature::CurvatureKernels;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;

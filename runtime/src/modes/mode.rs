@@ -111,7 +111,7 @@ impl Mode {
         &mut self,
         label: usize,
         (lambda, error): (f64, f64),
-        shape: impl Iterator<Item = f64> + Clone,
+        shape: impl ExactSizeIterator<Item = f64> + Clone,
         residual: f64,
     ) {
         let rate = lambda.abs().sqrt();

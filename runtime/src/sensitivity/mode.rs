@@ -104,8 +104,8 @@ impl ModeSensitivity {
     pub(crate) fn set_undamped(
         &mut self,
         mode: &Mode,
-        by_input: impl IntoIterator<Item = f64>,
-        by_design: impl IntoIterator<Item = f64>,
+        by_input: impl ExactSizeIterator<Item = f64>,
+        by_design: impl ExactSizeIterator<Item = f64>,
     ) {
         self.lambda_by_input.assign(by_input);
         self.lambda_by_design.assign(by_design);
@@ -134,8 +134,8 @@ impl ModeSensitivity {
     pub(crate) fn set_general(
         &mut self,
         mode: &Mode,
-        by_input: impl IntoIterator<Item = Complex>,
-        by_design: impl IntoIterator<Item = Complex>,
+        by_input: impl ExactSizeIterator<Item = Complex>,
+        by_design: impl ExactSizeIterator<Item = Complex>,
     ) {
         let s = self.s.get_or_insert_with(Slopes::empty);
         s.by_input.assign(by_input);

@@ -3,7 +3,6 @@
 
 use super::points::SweepPoint;
 use super::track::{Tracked, Tracker, even};
-use crate::batched;
 use crate::batched::Block;
 use crate::kernels::BatchKernels;
 use crate::scalar::WIDTH;
@@ -27,16 +26,20 @@ pub(crate) fn follow(
     with_slopes: bool,
     mut each: impl FnMut(&Station),
 ) {
-    let (mut room, mut rest) = (None, values);
+    let mut rest = values;
+    let mut memory = Vec::new();
+    let mut workspace =
+        (tracker.side_by_side()).then(|| tracker.workspace(&mut memory, with_slopes));
     let mut slopes = None;
     // Values to be solved one by one before a block is tried again; three tell a way.
     let mut alone = 3;
-    let possible = batched::possible(&tracker.description, &batched::KERNELS);
     while let Some((&value, behind)) = rest.split_first() {
-        if possible && alone == 0 && !behind.is_empty() {
-            let room = room.get_or_insert_with(|| tracker.block(with_slopes));
-            let number = tracker.solve_block(kernels, room, rest);
-            let (block, _) = room;
+        if let Some(workspace) = &mut workspace
+            && alone == 0
+            && !behind.is_empty()
+        {
+            let number = tracker.solve_block(kernels, workspace, rest);
+            let block = &workspace.block;
             if number > 0
                 && let Some(last) = tracker.last.take()
             {
@@ -106,7 +109,7 @@ impl Station {
     }
 
     /// Goes on to a lane of a block.
-    fn go(&mut self, tracker: &Tracker<'_>, block: &Block, lane: usize) {
+    fn go(&mut self, tracker: &Tracker<'_>, block: &Block<'_>, lane: usize) {
         let SweepPoint {
             value,
             equilibrium,

@@ -3,13 +3,14 @@
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
-use crate::batched::{Block, Workspace};
+use crate::batched::algebra::{Square, small};
+use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve, solve_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{
     CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
 };
-use crate::scalar::{Instructions, WIDTH};
+use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
 
@@ -154,10 +155,21 @@ impl<'a> Tracker<'a> {
         })
     }
 
-    /// Room for values that are solved side by side.
-    pub(super) fn block(&self, with_slopes: bool) -> (Block, Workspace) {
-        let block = Block::new(&self.description, &self.inputs, &self.design);
-        (block, Workspace::new(&self.description, with_slopes))
+    /// Whether values may be solved side by side, as far as is known before any of them.
+    pub(super) fn side_by_side(&self) -> bool {
+        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
+        wanted && self.vectors.is_some() && possible(&self.description, &KERNELS)
+    }
+
+    /// What values are solved side by side in.
+    pub(super) fn workspace<'m>(
+        &self,
+        memory: &'m mut Vec<Batch>,
+        with_slopes: bool,
+    ) -> Workspace<'m> {
+        let values = (&*self.inputs, &*self.design);
+        *memory = Workspace::memory(self.mechanism.sizes(), with_slopes);
+        Workspace::new(memory, self.mechanism, values, with_slopes)
     }
 
     /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
@@ -165,12 +177,11 @@ impl<'a> Tracker<'a> {
     pub(super) fn solve_block(
         &self,
         kernels: &dyn BatchKernels,
-        (block, workspace): &mut (Block, Workspace),
+        workspace: &mut Workspace<'_>,
         values: &[f64],
     ) -> usize {
-        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
-        let (Some(vectors), Some(last), Some(past), true) =
-            (self.vectors, &self.last, self.path.last_three(), wanted)
+        let (Some(vectors), Some(last), Some(past)) =
+            (self.vectors, &self.last, self.path.last_three())
         else {
             return 0;
         };
@@ -187,12 +198,12 @@ impl<'a> Tracker<'a> {
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes = last.modes.real_shapes();
-        block.solve(workspace, (kernels, vectors), values, past, &shapes)
+        let shapes: Square<f64> = small(&last.modes.real_shapes());
+        workspace.solve((kernels, vectors), values, past, &shapes)
     }
 
     /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn commit(&mut self, point: SweepPoint, block: &Block, number: usize) {
+    pub(super) fn commit(&mut self, point: SweepPoint, block: &Block<'_>, number: usize) {
         for lane in number.saturating_sub(3)..number {
             self.path.go(block.values.0[lane], &block.state_of(lane));
         }
