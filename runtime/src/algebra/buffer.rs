@@ -48,15 +48,21 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         }
     }
 
-    /// Writes these values over what there is, in the same room where they are as many.
-    #[inline]
-    pub(super) fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
-        if self.len() != values.len() {
-            *self = Self::filled(values.len(), T::default());
+    /// Makes it `count` long, to be written over; what stands in it is not said.
+    #[inline(always)]
+    pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
+        match self {
+            Self::Few(own, _) if count <= FEW => *own = count,
+            Self::Many(many) if many.len() == count => {}
+            _ => self.renew(count),
         }
-        for (place, value) in self.iter_mut().zip(values) {
-            *place = value;
-        }
+        &mut self[..count]
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn renew(&mut self, count: usize) {
+        *self = Self::filled(count, T::default());
     }
 }
 

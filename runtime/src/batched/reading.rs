@@ -37,22 +37,28 @@ impl Block<'_> {
 
     /// The modes, in the order and with the labels that these have.
     pub(crate) fn read_modes(&self, lane: usize, modes: &mut Modes) {
-        let n = self.lambda.len();
-        for (r, mode) in modes.modes.iter_mut().enumerate() {
-            let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
-            let shape = of(&self.shapes[r * n..][..n], lane);
-            let residual = self.mode_residuals[r].0[lane];
-            mode.set_undamped(mode.label, lambda, shape, residual);
-        }
+        for_size(
+            self.lambda.len(),
+            #[inline(always)]
+            |n| {
+                for (r, mode) in modes.modes.iter_mut().enumerate() {
+                    let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
+                    let shape = of(&self.shapes[r * n..][..n], lane);
+                    let residual = self.mode_residuals[r].0[lane];
+                    mode.set_undamped(mode.label, lambda, shape, residual);
+                }
+            },
+        );
     }
 
     /// The derivatives of these modes.
     pub(crate) fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
         let (inputs, design) = (self.inputs.len(), self.design.len());
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let by_input = &self.by_input[r * inputs..][..inputs];
-            let by_design = &self.by_design[r * design..][..design];
-            own.set_undamped(mode, of(by_input, lane), of(by_design, lane));
+            let [by_input, by_design] = own.make_room(inputs, design);
+            read(inputs, &self.by_input[r * inputs..], lane, by_input);
+            read(design, &self.by_design[r * design..], lane, by_design);
+            own.finish_undamped(mode);
         }
     }
 }

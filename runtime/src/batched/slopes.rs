@@ -129,12 +129,7 @@ impl Task for FromPartials<'_, '_> {
 }
 
 #[inline(always)]
-fn from_partials<V: Lanes>(
-    n: usize,
-    partials: &Partials<'_>,
-    block: &mut Block<'_>,
-    at: usize,
-) {
+fn from_partials<V: Lanes>(n: usize, partials: &Partials<'_>, block: &mut Block<'_>, at: usize) {
     let Partials { matrices, residual } = partials;
     let stiffness = load_matrix::<V>(n, block.linear.stiffness, at);
     let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
@@ -156,8 +151,18 @@ fn from_partials<V: Lanes>(
         }
         let w = solver.solve(n, &right);
         for (count, changes, forces, to) in [
-            (inputs, &matrices.by_input, &residual[0], &mut *block.by_input),
-            (design, &matrices.by_design, &residual[1], &mut *block.by_design),
+            (
+                inputs,
+                &matrices.by_input,
+                &residual[0],
+                &mut *block.by_input,
+            ),
+            (
+                design,
+                &matrices.by_design,
+                &residual[1],
+                &mut *block.by_design,
+            ),
         ] {
             let to = &mut to[mode * count..][..count];
             for k in 0..count {

@@ -15,9 +15,7 @@ mod directional;
 mod interval;
 mod motion;
 
-pub use batch::{
-    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-};
+pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use curvature::CurvatureKernels;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;

@@ -52,14 +52,6 @@ impl From<Policy> for Following {
     }
 }
 
-/// An equilibrium and its modes at a value of the input.
-#[derive(Clone)]
-pub(crate) struct Tracked {
-    pub(crate) value: f64,
-    pub(crate) equilibrium: Equilibrium,
-    pub(crate) modes: Modes,
-}
-
 /// Follows an equilibrium along an input.
 pub(crate) struct Tracker<'a> {
     pub(crate) mechanism: &'a dyn Kernels,
@@ -79,7 +71,7 @@ pub(crate) struct Tracker<'a> {
     /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
     pub(crate) smooth: bool,
     /// The last point that has modes.
-    pub(crate) last: Option<Tracked>,
+    pub(crate) last: Option<SweepPoint>,
 }
 
 impl<'a> Tracker<'a> {
@@ -144,15 +136,16 @@ impl<'a> Tracker<'a> {
             .map_err(|failure| failure.explain(&operating_point.description))
     }
 
-    /// Equilibrium and modes near a point, in the order and with the labels of its modes.
-    pub(crate) fn near(&self, value: f64, point: &Tracked) -> Result<Tracked, Error> {
-        let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
+    /// Equilibrium and modes at a value, near to others, in the order and with the labels of their modes.
+    pub(crate) fn near(
+        &self,
+        value: f64,
+        (state, modes): (&Equilibrium, &Modes),
+    ) -> Result<(Equilibrium, Modes), Error> {
+        let (equilibrium, _) = self.equilibrium(value, &state.coordinates, None)?;
         let found = modes_at(&equilibrium, self.family)?;
-        Ok(Tracked {
-            value,
-            modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
-            equilibrium,
-        })
+        let modes = found.continuing(modes, &equilibrium.linear, self.unused);
+        Ok((equilibrium, modes))
     }
 
     /// Whether values may be solved side by side, as far as is known before any of them.
@@ -185,12 +178,14 @@ impl<'a> Tracker<'a> {
         else {
             return 0;
         };
-        let sound = last.equilibrium.stability == Stability::Stable
-            && last.modes.modes.len() == self.from.len()
-            && last.value == past[0].0;
-        if !sound {
+        let sound = |(state, modes): &(&Equilibrium, &Modes)| {
+            state.stability == Stability::Stable
+                && modes.modes.len() == self.from.len()
+                && last.value == past[0].0
+        };
+        let Some((_, modes)) = last.solved().ok().filter(sound) else {
             return 0;
-        }
+        };
         let mut inputs = self.inputs.clone();
         let possible = |value: &&f64| {
             inputs[self.input.index()] = **value;
@@ -198,53 +193,36 @@ impl<'a> Tracker<'a> {
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes: Square<f64> = small(&last.modes.real_shapes());
+        let shapes: Square<f64> = small(&modes.real_shapes());
         workspace.solve((kernels, vectors), values, past, &shapes)
     }
 
-    /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn commit(&mut self, point: SweepPoint, block: &Block<'_>, number: usize) {
+    /// The way goes on to the last of the first `number` states of a block, which is the last point already.
+    pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
         for lane in number.saturating_sub(3)..number {
-            self.path.go(block.values.0[lane], &block.state_of(lane));
-        }
-        if let Ok(state) = &point.equilibrium {
-            self.from.copy_from_slice(&state.coordinates);
-        }
-        self.put_back(point);
-    }
-
-    /// Makes a point that has modes the last one.
-    pub(super) fn put_back(&mut self, point: SweepPoint) {
-        if let (Ok(equilibrium), Ok(modes)) = (point.equilibrium, point.modes) {
-            self.last = Some(Tracked {
-                value: point.value,
-                equilibrium,
-                modes,
-            });
+            let state = block.state_of(lane);
+            self.path.go(block.values.0[lane], &state);
+            self.from.clone_from(&state);
         }
     }
 
-    /// Goes on to a value of the input; the equilibrium comes back even where its modes fail. Modes that are not
-    /// recognised at once are followed in smaller steps.
-    pub(crate) fn advance(
-        &mut self,
-        value: f64,
-    ) -> Result<(Equilibrium, Result<Modes, Error>), Error> {
-        Ok(match self.go(value)? {
-            Ok(last) => {
-                let copies = (last.equilibrium.clone(), Ok(last.modes.clone()));
-                self.last = Some(last);
-                copies
-            }
-            Err((state, error)) => (*state, Err(error)),
+    /// Goes on to a value of the input; modes that are not recognised at once are followed in smaller steps. The point is
+    /// [`Self::last`]; one without modes comes back instead.
+    pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
+        let (equilibrium, error) = match self.go(value) {
+            Ok(None) => return None,
+            Ok(Some((state, error))) => (Ok(*state), error),
+            Err(error) => (Err(error.clone()), error),
+        };
+        Some(SweepPoint {
+            value,
+            equilibrium,
+            modes: Err(error),
         })
     }
 
-    /// As [`Self::advance`]; the point is [`Self::last`], taken from there to be put back, or a state whose modes fail.
-    pub(super) fn go(
-        &mut self,
-        value: f64,
-    ) -> Result<Result<Tracked, (Box<Equilibrium>, Error)>, Error> {
+    /// As [`Self::advance`]: a state whose modes fail comes back.
+    fn go(&mut self, value: f64) -> Result<Option<(Box<Equilibrium>, Error)>, Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
@@ -261,12 +239,10 @@ impl<'a> Tracker<'a> {
                         next = middle;
                     }
                     (_, Some(place)) => (next, halvings) = place,
-                    (Step::WithoutModes(state, error), None) => return Ok(Err((state, error))),
+                    (Step::WithoutModes(state, error), None) => return Ok(Some((state, error))),
                     (Step::Arrived, None) => {
                         self.smooth = smooth;
-                        if let Some(last) = self.last.take() {
-                            return Ok(Ok(last));
-                        }
+                        return Ok(None);
                     }
                 },
                 Err(error) => match after.pop() {
@@ -290,11 +266,13 @@ impl<'a> Tracker<'a> {
             }
         };
         self.smooth = false;
-        if let Some(last) = &self.last {
+        if let Some(last) = &self.last
+            && let Ok(modes) = &last.modes
+        {
             self.smooth = confirmed
                 && self.family == Family::Undamped
-                && even(last.modes.least_lambda(), found.least_lambda());
-            let order = match_with_assurance(&last.modes, &found, &state.linear);
+                && even(modes.least_lambda(), found.least_lambda());
+            let order = match_with_assurance(modes, &found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
             let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
             let doubtful = order
@@ -307,16 +285,16 @@ impl<'a> Tracker<'a> {
                 return Ok(Step::TooFar(middle));
             }
             let order = order.map(position);
-            found.arrange(&last.modes, &order, self.unused);
+            found.arrange(modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);
         self.path.go(value, &state.coordinates);
         let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
-        self.last = Some(Tracked {
+        self.last = Some(SweepPoint {
             value,
-            equilibrium: state,
-            modes: found,
+            equilibrium: Ok(state),
+            modes: Ok(found),
         });
         Ok(Step::Arrived)
     }
