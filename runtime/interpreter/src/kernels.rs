@@ -2,8 +2,8 @@
 
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
-    CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear,
-    MotionKernels, PartialMatrices, ResidualPartials, RestParts, Sizes,
+    CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
+    PartialMatrices, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};

@@ -341,7 +341,11 @@ fn same_linear(
 ) {
     let matrix = |found: &[Batch], expected: &Matrix| {
         let expected = expected.as_flattened();
-        same_batch(&found[k * expected.len()..][..expected.len()], state, expected);
+        same_batch(
+            &found[k * expected.len()..][..expected.len()],
+            state,
+            expected,
+        );
     };
     matrix(&found.mass, &expected.mass);
     matrix(&found.stiffness, &expected.stiffness);
