@@ -139,7 +139,8 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
             same_list(partials.0.as_flattened(), state, by_input.as_flattened());
             same_list(partials.1.as_flattened(), state, by_design.as_flattened());
             let alone = kernels.linear_partials(&q, &u, &b);
-            let at_once = kernels.partials(&q, &u, &b);
+            let mut at_once = (Matrix::zeros(n, u.len()), Matrix::zeros(n, b.len()));
+            let matrices_at_once = kernels.partials(&q, &u, &b, &mut at_once);
             for (batch, alone) in [
                 (&matrices.by_coordinate, &alone.by_coordinate),
                 (&matrices.by_input, &alone.by_input),
@@ -151,6 +152,7 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
                     .zip(alone)
                     .for_each(|(batch, alone)| same_linear(batch, state, alone));
             }
+            let at_once = (matrices_at_once.to_lists(), at_once);
             let one_by_one = (alone, (by_input, by_design));
             assert!(format!("{at_once:?}") == format!("{one_by_one:?}"));
             same_gradient(

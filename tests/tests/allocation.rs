@@ -11,7 +11,7 @@ use std::hint::black_box;
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{
-    CurvatureKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels, RestParts, Sizes,
+    CurvatureKernels, Gradient, Kernels, Linear, PartialMatrices, MotionKernels, RestParts, Sizes,
 };
 use eigentol::modes::{match_modes, modes};
 use eigentol::scalar::Instructions;
@@ -111,7 +111,7 @@ struct Buffers {
     matrix: Matrix,
     linear: Linear,
     residual_partials: (Matrix, Matrix),
-    linear_partials: LinearPartials,
+    linear_partials: PartialMatrices,
     output_partials: [Matrix; 3],
     gradient: Gradient,
 }
@@ -135,7 +135,7 @@ impl Buffers {
                 Matrix::zeros(coordinates, inputs),
                 Matrix::zeros(coordinates, design),
             ),
-            linear_partials: LinearPartials::zeros(sizes),
+            linear_partials: PartialMatrices::zeros(sizes),
             output_partials: columns.map(|columns| Matrix::zeros(outputs, columns)),
             gradient: Gradient::zeros(sizes),
         }

@@ -2,7 +2,7 @@
 
 use eigentol::kernels::{
     BatchKernels, BatchPoint, CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels,
-    Linear, LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
+    Linear, LinearPartials, MotionKernels, PartialMatrices, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
@@ -50,16 +50,16 @@ fn partials_buffers<T>(partials: &mut ResidualPartials<T>) -> [&mut [T]; 2] {
     [partials.0.as_flattened_mut(), partials.1.as_flattened_mut()]
 }
 
-/// Copies lists of three matrices, one after the other in the results.
-fn copy_partials<T: Copy>(registers: &[T], tape: &Tape, partials: &mut LinearPartials<T>) {
-    let lists = [
-        &mut partials.by_coordinate,
-        &mut partials.by_input,
-        &mut partials.by_design,
-    ];
-    for (list, results) in lists.into_iter().zip(tape.results.chunks(3)) {
-        for (k, linear) in list.iter_mut().enumerate() {
-            for (to, places) in linear_buffers(linear).into_iter().zip(results) {
+/// Copies lists of three matrices, one after the other in the results, of so many variables each.
+fn copy_partials<'a, T: Copy + 'a>(
+    registers: &[T],
+    tape: &Tape,
+    counts: [usize; 3],
+    mut changes: impl Iterator<Item = [&'a mut [T]; 3]>,
+) {
+    for (count, results) in counts.into_iter().zip(tape.results.chunks(3)) {
+        for (k, buffers) in changes.by_ref().take(count).enumerate() {
+            for (to, places) in buffers.into_iter().zip(results) {
                 let size = to.len();
                 copy(registers, &places[k * size..(k + 1) * size], to);
             }
@@ -180,28 +180,35 @@ impl Kernels for Interpreted {
         run(tape, &[q, u, b], &mut partials_buffers(partials));
     }
 
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+    fn linear_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut PartialMatrices,
+    ) {
+        let counts = [q.len(), u.len(), b.len()];
+        let mut changes = partials
+            .iter_mut()
+            .map(|change| [change.mass, change.damping, change.stiffness]);
         if let Some(tape) = &self.shared.tapes.linear_partials {
             scalar(tape, &[q, u, b], |registers| {
-                copy_partials(registers, tape, partials);
+                copy_partials(registers, tape, counts, changes);
             });
             return;
         }
         // One direction at a time, as compiled code does for large mechanisms.
-        let mut direction = [q, u, b].map(|list| vec![0.0; list.len()]);
-        for (list, partials) in [
-            &mut partials.by_coordinate,
-            &mut partials.by_input,
-            &mut partials.by_design,
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            for (k, linear) in partials.iter_mut().enumerate() {
+        let mut direction = counts.map(|count| vec![0.0; count]);
+        let mut linear = Linear::zeros(q.len());
+        for (list, count) in counts.into_iter().enumerate() {
+            for (k, buffers) in changes.by_ref().take(count).enumerate() {
                 direction[list][k] = 1.0;
                 let [dq, du, db] = &direction;
-                self.linear_along_into(q, u, b, [dq, du, db], linear);
+                self.linear_along_into(q, u, b, [dq, du, db], &mut linear);
                 direction[list][k] = 0.0;
+                for (to, from) in buffers.into_iter().zip(linear_buffers(&mut linear)) {
+                    to.copy_from_slice(from);
+                }
             }
         }
     }
@@ -509,7 +516,15 @@ impl BatchKernels for Interpreted {
         let arguments = [at.q, at.u, at.b];
         if let Some(tape) = &self.shared.tapes.linear_partials {
             batch(tape, instructions, &arguments, |registers| {
-                copy_partials(registers, tape, matrices);
+                let LinearPartials {
+                    by_coordinate,
+                    by_input,
+                    by_design,
+                } = matrices;
+                let counts = [by_coordinate.len(), by_input.len(), by_design.len()];
+                let changes = by_coordinate.iter_mut().chain(by_input).chain(by_design);
+                let changes = changes.map(linear_buffers);
+                copy_partials(registers, tape, counts, changes);
             });
         }
         let mut to = partials_buffers(residual);

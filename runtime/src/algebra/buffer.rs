@@ -48,54 +48,65 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         }
     }
 
+    /// Makes it `count` long, to be written over; what stands in it is not said.
+    #[inline]
+    pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
+        match self {
+            Self::Few(own, _) if count <= FEW => *own = count,
+            Self::Many(many) if many.capacity() > 0 => many.resize(count, T::default()),
+            _ => *self = Self::filled(count, T::default()),
+        }
+        self
+    }
+
     /// Writes these values over what there is, in the same room where they fit.
     #[inline]
     pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
         let values = values.into_iter();
-        match (self, values.size_hint()) {
-            (Self::Few(count, few), (_, Some(most))) if most <= FEW => {
-                let mut written = 0;
-                for (place, value) in few[..most].iter_mut().zip(values) {
-                    *place = value;
-                    written += 1;
-                }
-                *count = written;
-            }
-            (Self::Many(many), _) => {
+        match self {
+            Self::Few(count, few) if at_most(&values, FEW) => *count = fill(few, values),
+            Self::Many(many) if many.capacity() > 0 => {
                 many.clear();
                 many.extend(values);
             }
-            (few, _) => {
-                let values: Vec<T> = values.collect();
-                *few = if values.len() <= FEW {
-                    Self::from_slice(&values)
-                } else {
-                    Self::Many(values)
-                };
-            }
+            other => *other = values.collect(),
         }
     }
+}
+
+/// Whether there are certainly no more than so many.
+#[inline(always)]
+fn at_most(values: &impl Iterator, most: usize) -> bool {
+    matches!(values.size_hint(), (_, Some(count)) if count <= most)
+}
+
+/// Writes values in the first places, and tells how many.
+#[inline(always)]
+fn fill<T>(places: &mut [T], values: impl Iterator<Item = T>) -> usize {
+    let most = values.size_hint().1.unwrap_or(usize::MAX);
+    let most = most.min(places.len());
+    let mut written = 0;
+    for (place, value) in places[..most].iter_mut().zip(values) {
+        *place = value;
+        written += 1;
+    }
+    written
 }
 
 impl<T: Copy + Default, const FEW: usize> FromIterator<T> for Buffer<T, FEW> {
     #[inline]
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
-        let mut values = values.into_iter();
-        if values.size_hint().0 > FEW {
-            return Self::Many(values.collect());
+        let values = values.into_iter();
+        if at_most(&values, FEW) {
+            let mut few = [T::default(); FEW];
+            let count = fill(&mut few, values);
+            return Self::Few(count, few);
         }
-        let mut few = [T::default(); FEW];
-        let mut count = 0;
-        for place in &mut few {
-            let Some(value) = values.next() else {
-                return Self::Few(count, few);
-            };
-            *place = value;
-            count += 1;
-        }
-        match values.next() {
-            None => Self::Few(count, few),
-            Some(next) => Self::Many(few.into_iter().chain([next]).chain(values).collect()),
+        let values: Vec<T> = values.collect();
+        if values.len() <= FEW {
+            Self::from_slice(&values)
+        } else {
+            Self::Many(values)
         }
     }
 }
@@ -116,10 +127,11 @@ impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
     }
 }
 
-impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
+/// Nothing, which is quick to write: places are made when there is something to put in them.
+impl<T, const FEW: usize> Default for Buffer<T, FEW> {
     #[inline]
     fn default() -> Self {
-        Self::filled(0, T::default())
+        Self::Many(Vec::new())
     }
 }
 

@@ -16,10 +16,12 @@ pub struct Vector<T = f64> {
     entries: Buffer<T, FEW>,
 }
 
-impl<T: Copy + Default> Default for Vector<T> {
+impl<T> Default for Vector<T> {
     #[inline]
     fn default() -> Self {
-        Self::zeros(0)
+        Self {
+            entries: Buffer::default(),
+        }
     }
 }
 
@@ -61,6 +63,20 @@ impl<T: Copy + Default> Vector<T> {
 }
 
 impl<T: Copy + Default> Vector<T> {
+    /// Makes it `n` long, to be written over in the same room; what stands in it is not said.
+    #[inline]
+    pub(crate) fn make_room(&mut self, n: usize) -> &mut [T] {
+        self.entries.make_room(n)
+    }
+
+    /// Writes `f` of other numbers over these, in the same room.
+    #[inline(always)]
+    pub(crate) fn set<S>(&mut self, from: &[S], f: impl Fn(&S) -> T) {
+        for (to, from) in self.make_room(from.len()).iter_mut().zip(from) {
+            *to = f(from);
+        }
+    }
+
     /// Writes other values over these, in the same room.
     #[inline]
     pub(crate) fn assign(&mut self, values: impl IntoIterator<Item = T>) {

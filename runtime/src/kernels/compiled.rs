@@ -2,7 +2,7 @@
 
 use super::interval::Interval;
 use super::{
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, LinearPartials, MotionKernels,
+    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels, PartialMatrices,
     ResidualPartials, RestParts, Sizes,
 };
 use crate::algebra::{Matrix, Vector};
@@ -18,10 +18,7 @@ const FEW_COORDINATES: usize = 4;
 const ON_STACK: usize = 1 << 16;
 
 fn copy_matrix<A: Array<R>, R: Array<f64>>(from: &A, to: &mut Matrix) {
-    let rows = to.as_flattened_mut().chunks_exact_mut(R::LEN.max(1));
-    for (to, from) in rows.zip(from.as_ref()) {
-        to.copy_from_slice(from.as_ref());
-    }
+    copy_rows(from, to.as_flattened_mut());
 }
 
 #[inline]
@@ -31,16 +28,20 @@ fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut 
     copy_matrix(&from.stiffness, &mut to.stiffness);
 }
 
-fn copy_linears<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [Linear]) {
-    for (from, to) in from.iter().zip(to) {
-        copy_linear::<M>(from, to);
+fn copy_rows<A: Array<R>, R: Array<f64>>(from: &A, to: &mut [f64]) {
+    for (to, from) in to.chunks_exact_mut(R::LEN.max(1)).zip(from.as_ref()) {
+        to.copy_from_slice(from.as_ref());
     }
 }
 
-fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut LinearPartials) {
-    copy_linears::<M>(from.by_coordinate.as_ref(), &mut to.by_coordinate);
-    copy_linears::<M>(from.by_input.as_ref(), &mut to.by_input);
-    copy_linears::<M>(from.by_design.as_ref(), &mut to.by_design);
+fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut PartialMatrices) {
+    let [coordinates, inputs] = [from.by_coordinate.as_ref(), from.by_input.as_ref()];
+    let all = coordinates.iter().chain(inputs).chain(from.by_design.as_ref());
+    for (from, to) in all.zip(to.iter_mut()) {
+        copy_rows(&from.mass, to.mass);
+        copy_rows(&from.damping, to.damping);
+        copy_rows(&from.stiffness, to.stiffness);
+    }
 }
 
 fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
@@ -73,20 +74,22 @@ fn partials_by_direction(
     q: &[f64],
     u: &[f64],
     b: &[f64],
-    partials: &mut LinearPartials,
+    partials: &mut PartialMatrices,
 ) {
-    let LinearPartials {
-        by_coordinate,
-        by_input,
-        by_design,
-    } = partials;
-    let lists = [by_coordinate, by_input, by_design];
-    for (kind, list) in lists.into_iter().enumerate() {
-        for (k, change) in list.iter_mut().enumerate() {
-            let mut direction = [q, u, b].map(|values| Vector::zeros(values.len()));
+    let mut change = Linear::zeros(q.len());
+    let mut to = partials.iter_mut();
+    for kind in 0..3 {
+        let mut direction = [q, u, b].map(|values| Vector::zeros(values.len()));
+        for k in 0..direction[kind].len() {
             direction[kind][k] = 1.0;
-            let direction = direction.each_ref().map(|values| &**values);
-            mechanism.linear_along_into(q, u, b, direction, change);
+            let along = direction.each_ref().map(|values| &**values);
+            mechanism.linear_along_into(q, u, b, along, &mut change);
+            direction[kind][k] = 0.0;
+            if let Some(to) = to.next() {
+                to.mass.copy_from_slice(change.mass.as_flattened());
+                to.damping.copy_from_slice(change.damping.as_flattened());
+                to.stiffness.copy_from_slice(change.stiffness.as_flattened());
+            }
         }
     }
 }
@@ -175,7 +178,7 @@ impl<M: Mechanism> Kernels for M {
         copy_matrix(&found.1, &mut partials.1);
     }
 
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials) {
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
             partials_by_direction(self, q, u, b, partials);
             return;
@@ -189,7 +192,7 @@ impl<M: Mechanism> Kernels for M {
         q: &[f64],
         u: &[f64],
         b: &[f64],
-        matrices: &mut LinearPartials,
+        matrices: &mut PartialMatrices,
         residual: &mut ResidualPartials,
     ) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {

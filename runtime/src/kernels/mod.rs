@@ -14,12 +14,15 @@ mod curvature;
 mod directional;
 mod interval;
 mod motion;
+mod partial_matrices;
 
 pub use batch::{BatchKernels, BatchPoint};
 pub use curvature::CurvatureKernels;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;
 pub use motion::MotionKernels;
+pub use partial_matrices::PartialMatrices;
+pub(crate) use partial_matrices::{entries_of, parts};
 
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};
@@ -160,7 +163,7 @@ pub trait Kernels: Sync {
     );
 
     /// [`Mechanism::linear_partials`](crate::Mechanism::linear_partials).
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut LinearPartials);
+    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices);
 
     /// Both partial derivatives: what they need is computed once where that pays.
     fn partials_into(
@@ -168,7 +171,7 @@ pub trait Kernels: Sync {
         q: &[f64],
         u: &[f64],
         b: &[f64],
-        matrices: &mut LinearPartials,
+        matrices: &mut PartialMatrices,
         residual: &mut ResidualPartials,
     ) {
         self.linear_partials_into(q, u, b, matrices);
@@ -273,17 +276,22 @@ impl dyn Kernels + '_ {
 
     /// Derivatives of the three matrices.
     pub fn linear_partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> LinearPartials {
-        let mut partials = LinearPartials::zeros(self.sizes());
+        let mut partials = PartialMatrices::zeros(self.sizes());
         self.linear_partials_into(q, u, b, &mut partials);
-        partials
+        partials.to_lists()
     }
 
-    /// Derivatives of the three matrices and of the residual.
-    pub fn partials(&self, q: &[f64], u: &[f64], b: &[f64]) -> (LinearPartials, ResidualPartials) {
-        let mut matrices = LinearPartials::zeros(self.sizes());
-        let mut residual = residual_partials_zeros(self.sizes());
-        self.partials_into(q, u, b, &mut matrices, &mut residual);
-        (matrices, residual)
+    /// Derivatives of the three matrices; those of the residual are written to `residual`.
+    pub fn partials(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        residual: &mut ResidualPartials,
+    ) -> PartialMatrices {
+        let mut matrices = PartialMatrices::zeros(self.sizes());
+        self.partials_into(q, u, b, &mut matrices, residual);
+        matrices
     }
 
     /// Gradient of `phi^T (Khat - lambda Mhat) phi`.

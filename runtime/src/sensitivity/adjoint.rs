@@ -2,11 +2,13 @@
 //! `dlambda/db = da/db - (dg/db)^T w`, `a = phi^T (Khat - lambda Mhat) phi`; for general ones the same with
 //! `a = psi^T (s^2 Mhat + s Chat + Khat) phi`, divided by `-psi^T (2 s Mhat + Chat) phi`. In both `Khat^T w = da/dq`.
 
-use super::gradients::{Source, of_general, of_undamped};
+use super::gradients::{Source, changes, of_general, rate};
 use super::pencil::{ComplexGradient, Form, form_gradient};
 use super::{Method, ModeSensitivity, Sensitivities, assemble, check_state, redundancy};
-use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex};
-use crate::kernels::{Gradient, Kernels, LinearPartials, ResidualPartials};
+use crate::algebra::{Cholesky, Lu, Matrix, Vector, add_to, dot_complex, for_size};
+use crate::kernels::{
+    Gradient, Kernels, PartialMatrices, ResidualPartials, residual_partials_zeros,
+};
 use crate::modes::{Family, pencil_slope_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
@@ -22,136 +24,160 @@ pub fn sensitivities(
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
     redundancy::check(mechanism, at)?;
-    let mut adjoint = Adjoint::new(mechanism, at, modes.family, Factors::new(at)?);
-    assemble(at, modes, Method::Adjoint, |own, mode| {
-        adjoint.set(own, mode)
-    })
+    let factors = Factors::new(at)?;
+    let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
+    let mut residual = residual_partials_zeros(mechanism.sizes());
+    let matrices;
+    let (matrices, residual) = match Source::cheapest(&at.description, modes.family) {
+        Source::Partials => {
+            matrices = mechanism.partials(q, u, b, &mut residual);
+            (Some(&matrices), Some(&residual))
+        }
+        Source::ResidualPartials => {
+            mechanism.residual_partials_into(q, u, b, &mut residual);
+            (None, Some(&residual))
+        }
+        Source::Reverse => (None, None),
+    };
+    let shared = Shared {
+        mechanism,
+        at,
+        factors: &factors,
+        residual,
+    };
+    let method = Method::Adjoint;
+    match (modes.family, matrices, residual) {
+        (Family::Undamped, Some(matrices), Some(residual)) => {
+            assemble(at, modes, method, |own, mode| {
+                shared.undamped_from_partials(matrices, residual, own, mode);
+            })
+        }
+        (Family::Undamped, ..) => {
+            let sizes = mechanism.sizes();
+            let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
+            assemble(at, modes, method, |own, mode| {
+                shared.undamped(&mut gradient, &mut room, own, mode);
+            })
+        }
+        (Family::General, ..) => {
+            let sizes = mechanism.sizes();
+            let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
+            let mut room = Gradient::zeros(sizes);
+            assemble(at, modes, method, |own, mode| {
+                shared.general(matrices, &mut gradient, &mut room, own, mode);
+            })
+        }
+    }
 }
 
-/// What all modes share, and room for what one has by itself.
-struct Adjoint<'a> {
+/// What all modes share.
+struct Shared<'a> {
     mechanism: &'a dyn Kernels,
     at: &'a Equilibrium,
-    family: Family,
-    factors: Factors,
-    /// Explicit partials of the matrices, where gradients of forms come from them.
-    matrices: Option<LinearPartials>,
+    factors: &'a Factors,
     /// Explicit partials of the residual, where its gradients come from them.
-    residual: Option<ResidualPartials>,
-    phi: Vector,
-    /// Of the form; of undamped modes there is a real part alone.
-    direct: ComplexGradient,
-    adjoint: Vector,
-    /// What the motion of the equilibrium changes.
-    shift: Gradient,
+    residual: Option<&'a ResidualPartials>,
 }
 
-impl<'a> Adjoint<'a> {
-    #[inline(always)]
-    fn new(
-        mechanism: &'a dyn Kernels,
-        at: &'a Equilibrium,
-        family: Family,
-        factors: Factors,
-    ) -> Self {
-        let sizes = mechanism.sizes();
-        let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-        let (matrices, residual) = match Source::cheapest(&at.description, family) {
-            Source::Partials => {
-                let (matrices, residual) = mechanism.partials(q, u, b);
-                (Some(matrices), Some(residual))
-            }
-            Source::ResidualPartials => (None, Some(mechanism.residual_partials(q, u, b))),
-            Source::Reverse => (None, None),
-        };
-        let imaginary = match family {
-            Family::Undamped => Gradient::default(),
-            Family::General => Gradient::zeros(sizes),
-        };
-        Self {
-            mechanism,
-            at,
-            family,
-            factors,
-            matrices,
-            residual,
-            phi: Vector::zeros(sizes.coordinates),
-            direct: [Gradient::zeros(sizes), imaginary],
-            adjoint: Vector::zeros(sizes.coordinates),
-            shift: Gradient::zeros(sizes),
-        }
+impl Shared<'_> {
+    /// The derivatives of an undamped mode, from explicit partials alone.
+    fn undamped_from_partials(
+        &self,
+        matrices: &PartialMatrices,
+        (by_input, by_design): &ResidualPartials,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        let symmetric = self.at.description.symmetric_stiffness;
+        let all = [
+            (matrices.by_input(), by_input),
+            (matrices.by_design(), by_design),
+        ];
+        let room = own.make_room(self.at.inputs.len(), self.at.design.len());
+        for_size(
+            mode.shape.len(),
+            #[inline(always)]
+            |n| {
+                let (mut phi, mut w) = (Vector::zeros(n), Vector::zeros(n));
+                let (phi, w) = (&mut phi[..n], &mut w[..n]);
+                for (phi, value) in phi.iter_mut().zip(&mode.shape[..n]) {
+                    *phi = value.re;
+                }
+                let slope = |change: &[f64]| rate(n, change, phi, mode.lambda, symmetric);
+                for (w, change) in w.iter_mut().zip(changes(n, matrices.by_coordinate())) {
+                    *w = slope(change);
+                }
+                self.factors.solve(n, w);
+                for (to, (matrices, residual)) in room.into_iter().zip(all) {
+                    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
+                        *to = slope(change) - column_times(n, w, residual, k);
+                    }
+                }
+            },
+        );
+        own.finish_undamped(mode);
     }
 
-    fn set(&mut self, own: &mut ModeSensitivity, mode: &Mode) {
-        match self.family {
-            Family::Undamped => {
-                self.undamped_gradient(mode);
-                self.total(0);
-                let [lambda, _] = &self.direct;
-                let (inputs, design) = (lambda.inputs.iter(), lambda.design.iter());
-                own.set_undamped(mode, inputs.copied(), design.copied());
-            }
-            Family::General => {
-                self.general_gradient(mode);
-                self.total(0);
-                self.total(1);
-                let [re, im] = &self.direct;
-                let scale = -normaliser(self.at, mode);
-                let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
-                let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
-                let by_design = re.design.iter().zip(&im.design).map(slope);
-                own.set_general(mode, by_input, by_design);
-            }
-        }
+    /// The derivatives of an undamped mode, the gradient of its form by reverse differentiation.
+    fn undamped(
+        &self,
+        gradient: &mut Gradient,
+        room: &mut Gradient,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
+        let phi = mode.real_shape();
+        self.mechanism
+            .mode_gradient_into(q, u, b, &phi, mode.lambda, gradient);
+        self.total(gradient, room);
+        let (inputs, design) = (gradient.inputs.iter(), gradient.design.iter());
+        own.set_undamped(mode, inputs.copied(), design.copied());
     }
 
-    fn undamped_gradient(&mut self, mode: &Mode) {
-        for (phi, value) in self.phi.iter_mut().zip(&mode.shape) {
-            *phi = value.re;
-        }
-        let (phi, lambda, gradient) = (&self.phi, mode.lambda, &mut self.direct[0]);
-        match &self.matrices {
-            Some(matrices) => {
-                let symmetric = self.at.description.symmetric_stiffness;
-                of_undamped(matrices, phi, lambda, symmetric, gradient);
-            }
-            None => {
-                let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
-                self.mechanism
-                    .mode_gradient_into(q, u, b, phi, lambda, gradient);
-            }
-        }
-    }
-
-    fn general_gradient(&mut self, mode: &Mode) {
-        match &self.matrices {
-            Some(matrices) => of_general(matrices, mode, &mut self.direct),
+    /// The derivatives of a general mode.
+    fn general(
+        &self,
+        matrices: Option<&PartialMatrices>,
+        gradient: &mut ComplexGradient,
+        room: &mut Gradient,
+        own: &mut ModeSensitivity,
+        mode: &Mode,
+    ) {
+        match matrices {
+            Some(matrices) => of_general(matrices, mode, gradient),
             None => {
                 let form = Form::of(&mode.left, mode.s, &mode.shape);
-                let room = &mut self.shift;
-                form_gradient(self.mechanism, self.at, &form, room, &mut self.direct);
+                form_gradient(self.mechanism, self.at, &form, room, gradient);
             }
         }
+        for part in gradient.iter_mut() {
+            self.total(part, room);
+        }
+        let [re, im] = &*gradient;
+        let scale = -normaliser(self.at, mode);
+        let slope = |(&re, &im): (&f64, &f64)| Complex { re, im } / scale;
+        let by_input = re.inputs.iter().zip(&im.inputs).map(slope);
+        let by_design = re.design.iter().zip(&im.design).map(slope);
+        own.set_general(mode, by_input, by_design);
     }
 
-    /// Takes what the motion of the equilibrium changes into a part of the gradient.
-    fn total(&mut self, part: usize) {
-        let direct = &mut self.direct[part];
-        self.adjoint.copy_from_slice(&direct.coordinates);
-        self.factors.solve(&mut self.adjoint);
-        match &self.residual {
+    /// Takes what the motion of the equilibrium changes into a gradient.
+    fn total(&self, direct: &mut Gradient, shift: &mut Gradient) {
+        let w = &mut direct.coordinates;
+        self.factors.solve(w.len(), w);
+        match self.residual {
             Some((by_input, by_design)) => {
-                combine(&self.adjoint, by_input, &mut self.shift.inputs);
-                combine(&self.adjoint, by_design, &mut self.shift.design);
+                combine(w, by_input, &mut shift.inputs);
+                combine(w, by_design, &mut shift.design);
             }
             None => {
                 let (q, u, b) = (&self.at.coordinates, &self.at.inputs, &self.at.design);
-                self.mechanism
-                    .residual_gradient_into(q, u, b, &self.adjoint, &mut self.shift);
+                self.mechanism.residual_gradient_into(q, u, b, w, shift);
             }
         }
-        add_to(&mut direct.inputs, -1.0, &self.shift.inputs);
-        add_to(&mut direct.design, -1.0, &self.shift.design);
+        add_to(&mut direct.inputs, -1.0, &shift.inputs);
+        add_to(&mut direct.design, -1.0, &shift.design);
     }
 }
 
@@ -173,13 +199,21 @@ impl Factors {
         factors.map(Self::General).ok_or(Error::CriticalState)
     }
 
-    /// Writes the solution over the right-hand side.
-    fn solve(&self, x: &mut Vector) {
+    /// Writes the solution over the right-hand side, `n` numbers; see [`for_size`].
+    #[inline(always)]
+    fn solve(&self, n: usize, x: &mut [f64]) {
         match self {
-            Self::Definite(factors) => factors.solve_in_place(x),
-            Self::General(factors) => *x = factors.solve(x),
+            Self::Definite(factors) => factors.solve_of(n, x),
+            Self::General(factors) => x.copy_from_slice(&factors.solve(x)),
         }
     }
+}
+
+/// `w^T partials` in column `k`, `partials` of `n` rows.
+#[inline(always)]
+fn column_times(n: usize, w: &[f64], partials: &Matrix, k: usize) -> f64 {
+    let (columns, entries) = (partials.column_count(), partials.as_flattened());
+    (0..n).fold(0.0, |sum, i| sum + w[i] * entries[i * columns + k])
 }
 
 /// `sum = w^T partials`.

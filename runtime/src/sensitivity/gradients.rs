@@ -2,8 +2,9 @@
 //! partial derivatives, which all modes share. A small mechanism has few partials, and they cost less.
 
 use super::pencil::ComplexGradient;
-use crate::algebra::{Matrix, for_size};
-use crate::kernels::{Gradient, Linear, LinearPartials};
+use crate::algebra::Matrix;
+use crate::kernels::{PartialMatrices, entries_of, parts};
+use crate::mechanism::Linear;
 use crate::modes::Family;
 use crate::{Complex, Description, Mode};
 
@@ -70,37 +71,19 @@ fn cost(description: &Description, name: &str) -> Option<usize> {
     Some(kernel.operations + FUNCTION * kernel.functions)
 }
 
-/// Gradient of `phi^T (Khat - lambda Mhat) phi`, vector and eigenvalue held fixed, from explicit partials;
-/// those of `Khat` are `symmetric` or not.
-pub(crate) fn of_undamped(
-    partials: &LinearPartials,
-    phi: &[f64],
-    lambda: f64,
-    symmetric: bool,
-    gradient: &mut Gradient,
-) {
-    for_size(
-        phi.len(),
-        #[inline(always)]
-        |n| {
-            for (rates, changes) in [
-                (&mut gradient.coordinates, &partials.by_coordinate),
-                (&mut gradient.inputs, &partials.by_input),
-                (&mut gradient.design, &partials.by_design),
-            ] {
-                for (to, change) in rates.iter_mut().zip(changes) {
-                    *to = rate(n, change, &phi[..n], lambda, symmetric);
-                }
-            }
-        },
-    );
+/// The changes of matrices of size `n`, one after the other, with each of the variables.
+#[inline(always)]
+pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
+    all.chunks_exact(entries_of(n))
 }
 
-/// `phi^T (dKhat - lambda dMhat) phi` of a change of matrices of size `n`.
+/// `phi^T (dKhat - lambda dMhat) phi` of a change of matrices of size `n`, vector and eigenvalue held fixed; `dKhat` is
+/// `symmetric` or not.
 #[inline(always)]
-fn rate(n: usize, change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
-    let stiffness = &change.stiffness.as_flattened()[..n * n];
-    let mass = &change.mass.as_flattened()[..n * n];
+pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric: bool) -> f64 {
+    let Linear {
+        mass, stiffness, ..
+    } = parts(&change[..entries_of(n)]);
     let (mut own, mut mixed) = (-0.0, -0.0);
     for i in 0..n {
         own += phi[i] * phi[i] * (stiffness[i * n + i] - lambda * mass[i * n + i]);
@@ -118,15 +101,22 @@ fn rate(n: usize, change: &Linear, phi: &[f64], lambda: f64, symmetric: bool) ->
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.
-pub(crate) fn of_general(partials: &LinearPartials, mode: &Mode, gradient: &mut ComplexGradient) {
+pub(crate) fn of_general(
+    partials: &PartialMatrices,
+    mode: &Mode,
+    gradient: &mut ComplexGradient,
+) {
     let n = mode.shape.len();
     let s = mode.s;
     let weights = Matrix::from_fn(n, n, |i, j| mode.left[i] * mode.shape[j]);
-    let rate = |change: &Linear| {
+    let rate = |change: &[f64]| {
         let (mut k, mut c, mut m) = (Complex::ZERO, Complex::ZERO, Complex::ZERO);
-        let elements = change.stiffness.as_flattened().iter();
-        let elements = elements.zip(change.damping.as_flattened());
-        let elements = elements.zip(change.mass.as_flattened());
+        let Linear {
+            mass,
+            damping,
+            stiffness,
+        } = parts(change);
+        let elements = stiffness.iter().zip(damping).zip(mass);
         for (weight, ((stiffness, damping), mass)) in weights.as_flattened().iter().zip(elements) {
             k += weight * stiffness;
             c += weight * damping;
@@ -139,12 +129,12 @@ pub(crate) fn of_general(partials: &LinearPartials, mode: &Mode, gradient: &mut 
         (
             &mut re.coordinates,
             &mut im.coordinates,
-            &partials.by_coordinate,
+            partials.by_coordinate(),
         ),
-        (&mut re.inputs, &mut im.inputs, &partials.by_input),
-        (&mut re.design, &mut im.design, &partials.by_design),
+        (&mut re.inputs, &mut im.inputs, partials.by_input()),
+        (&mut re.design, &mut im.design, partials.by_design()),
     ] {
-        for ((re, im), change) in re.iter_mut().zip(im).zip(changes) {
+        for ((re, im), change) in re.iter_mut().zip(im).zip(self::changes(n, changes)) {
             Complex { re: *re, im: *im } = rate(change);
         }
     }

@@ -109,6 +109,21 @@ impl ModeSensitivity {
     ) {
         self.lambda_by_input.assign(by_input);
         self.lambda_by_design.assign(by_design);
+        self.finish_undamped(mode);
+    }
+
+    /// Room for the derivatives of `lambda` by so many inputs and design variables. Once they are written,
+    /// [`Self::finish_undamped`] adds what follows from them.
+    #[inline]
+    pub(crate) fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [f64]; 2] {
+        [
+            self.lambda_by_input.make_room(inputs),
+            self.lambda_by_design.make_room(design),
+        ]
+    }
+
+    /// Goes to an undamped mode, apart from all others, whose derivatives of `lambda` are written.
+    pub(crate) fn finish_undamped(&mut self, mode: &Mode) {
         // ds = -dlambda / (2 s), `s` real or imaginary
         if mode.s.im > 0.0 {
             let rate = 0.5 / mode.s.im;
@@ -126,8 +141,8 @@ impl ModeSensitivity {
     fn set_s_by_lambda(&mut self, slope: impl Fn(f64) -> Complex) {
         let s = self.s.get_or_insert_with(Slopes::empty);
         let slope = |dlambda: &f64| slope(*dlambda);
-        s.by_input.assign(self.lambda_by_input.iter().map(slope));
-        s.by_design.assign(self.lambda_by_design.iter().map(slope));
+        s.by_input.set(&self.lambda_by_input, slope);
+        s.by_design.set(&self.lambda_by_design, slope);
     }
 
     /// Goes to a general mode with these derivatives of `s`; where they are not finite, it has merged with another.
@@ -141,8 +156,8 @@ impl ModeSensitivity {
         s.by_input.assign(by_input);
         s.by_design.assign(by_design);
         let lambda = |ds: &Complex| -2.0 * (mode.s * ds).re;
-        self.lambda_by_input.assign(s.by_input.iter().map(lambda));
-        self.lambda_by_design.assign(s.by_design.iter().map(lambda));
+        self.lambda_by_input.set(&s.by_input, lambda);
+        self.lambda_by_design.set(&s.by_design, lambda);
         let (inputs, design) = (s.by_input.len(), s.by_design.len());
         let rest: f64 = s.iter().map(|ds| unless_finite(ds.l1_norm())).sum();
         if rest == 0.0 && self.lambda_is_finite() {
@@ -166,9 +181,9 @@ impl ModeSensitivity {
         match &self.s {
             Some(s) if mode.frequency().is_some() => {
                 let by_input = self.omega_by_input.get_or_insert_default();
-                by_input.assign(s.by_input.iter().map(|ds| ds.im));
+                by_input.set(&s.by_input, |ds| ds.im);
                 let by_design = self.omega_by_design.get_or_insert_default();
-                by_design.assign(s.by_design.iter().map(|ds| ds.im));
+                by_design.set(&s.by_design, |ds| ds.im);
             }
             _ => (self.omega_by_input, self.omega_by_design) = (None, None),
         }

@@ -1,0 +1,103 @@
+//! Partial derivatives of the linearised matrices, as kernels write them.
+
+use core::iter::repeat_n;
+use core::ops::Range;
+
+use super::{Linear, LinearPartials, Sizes};
+use crate::algebra::Matrix;
+use crate::mechanism;
+
+/// Partial derivatives of the linearised matrices by every coordinate, input and design variable, in one block.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartialMatrices {
+    sizes: Sizes,
+    /// Of each variable `Mhat`, `Chat` and `Khat`, row by row.
+    entries: Vec<f64>,
+}
+
+impl PartialMatrices {
+    /// Zeros.
+    #[must_use]
+    pub fn zeros(sizes: Sizes) -> Self {
+        let variables = sizes.coordinates + sizes.inputs + sizes.design;
+        Self {
+            sizes,
+            entries: repeat_n(0.0, variables * entries_of(sizes.coordinates)).collect(),
+        }
+    }
+
+    /// The same as lists of matrices.
+    #[must_use]
+    pub fn to_lists(&self) -> LinearPartials {
+        let n = self.sizes.coordinates;
+        let matrix = |entries: &[f64]| Matrix::from_fn(n, n, |i, j| entries[i * n + j]);
+        let list = |changes: &[f64]| -> Vec<Linear> {
+            let each = changes.chunks_exact(entries_of(n));
+            each.map(|change| parts(change).map(matrix)).collect()
+        };
+        LinearPartials {
+            by_coordinate: list(self.by_coordinate()),
+            by_input: list(self.by_input()),
+            by_design: list(self.by_design()),
+        }
+    }
+
+    /// The derivatives by the coordinates, one after the other, of each [`parts`].
+    #[inline]
+    pub(crate) fn by_coordinate(&self) -> &[f64] {
+        self.of(0..self.sizes.coordinates)
+    }
+
+    /// Those by the inputs.
+    #[inline]
+    pub(crate) fn by_input(&self) -> &[f64] {
+        let first = self.sizes.coordinates;
+        self.of(first..first + self.sizes.inputs)
+    }
+
+    /// Those by the design variables.
+    #[inline]
+    pub(crate) fn by_design(&self) -> &[f64] {
+        let first = self.sizes.coordinates + self.sizes.inputs;
+        self.of(first..first + self.sizes.design)
+    }
+
+    #[inline]
+    fn of(&self, variables: Range<usize>) -> &[f64] {
+        let each = entries_of(self.sizes.coordinates);
+        &self.entries[variables.start * each..variables.end * each]
+    }
+
+    /// The derivatives by each variable, coordinates first, then inputs, then design variables; of each matrix its entries row by
+    /// row.
+    #[inline]
+    pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = mechanism::Linear<&mut [f64]>> {
+        let each = entries_of(self.sizes.coordinates);
+        self.entries.chunks_exact_mut(each.max(1)).map(move |change| {
+            let (mass, rest) = change.split_at_mut(each / 3);
+            let (damping, stiffness) = rest.split_at_mut(each / 3);
+            mechanism::Linear {
+                mass,
+                damping,
+                stiffness,
+            }
+        })
+    }
+}
+
+/// Entries of three matrices of size `n`.
+#[inline(always)]
+pub(crate) fn entries_of(n: usize) -> usize {
+    3 * n * n
+}
+
+/// The derivatives of the three matrices by one variable, row by row.
+#[inline(always)]
+pub(crate) fn parts(change: &[f64]) -> mechanism::Linear<&[f64]> {
+    let size = change.len() / 3;
+    mechanism::Linear {
+        mass: &change[..size],
+        damping: &change[size..2 * size],
+        stiffness: &change[2 * size..3 * size],
+    }
+}
