@@ -43,6 +43,27 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// What a state at these inputs and design variables is written over.
+    #[inline]
+    pub(crate) fn blank(description: &Shared<Description>, inputs: &[f64], design: &[f64]) -> Self {
+        let n = description.coordinates.len();
+        Self {
+            coordinates: Vector::zeros(n),
+            inputs: inputs.into(),
+            design: design.into(),
+            stability: Stability::Undecided,
+            rounding: 0.0,
+            linear: Linear::zeros(n),
+            residual: Vector::zeros(n),
+            relative_residual: f64::INFINITY,
+            iterations: 0,
+            pose: None,
+            constraints: ConstraintState::open(n),
+            left_unstable_region: false,
+            description: description.clone(),
+        }
+    }
+
     /// Names of the constraints that depend on each other: [`ConstraintState::redundant`] of them can go.
     pub fn dependent_constraints(&self) -> impl Iterator<Item = Text> {
         dependent_names(&self.description, &self.constraints.dependent)

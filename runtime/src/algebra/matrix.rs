@@ -37,10 +37,14 @@ pub struct Matrix<T = f64> {
     entries: Buffer<T, FEW>,
 }
 
-impl<T: Copy + Default> Default for Matrix<T> {
+impl<T> Default for Matrix<T> {
     #[inline]
     fn default() -> Self {
-        Self::zeros(0, 0)
+        Self {
+            rows: 0,
+            columns: 0,
+            entries: Buffer::default(),
+        }
     }
 }
 
@@ -58,6 +62,13 @@ impl<T: Copy + Default> Matrix<T> {
 }
 
 impl<T: Copy + Default> Matrix<T> {
+    /// Makes it this large, to be written over in the same room; what stands in it is not said. Gives the entries, row by row.
+    #[inline]
+    pub(crate) fn make_room(&mut self, rows: usize, columns: usize) -> &mut [T] {
+        (self.rows, self.columns) = (rows, columns);
+        self.entries.make_room(rows * columns)
+    }
+
     /// `value(i, j)` in row `i` and column `j`.
     #[inline]
     pub fn from_fn(rows: usize, columns: usize, mut value: impl FnMut(usize, usize) -> T) -> Self {

@@ -7,7 +7,7 @@ use super::closed::Solver;
 use crate::Description;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
-    BatchKernels, Gradient, Linear, LinearPartials, ResidualPartials, Sizes,
+    BatchKernels, Costs, Gradient, Linear, LinearPartials, ResidualPartials, Sizes,
     residual_partials_zeros,
 };
 use crate::modes::Family;
@@ -32,7 +32,7 @@ impl Slopes {
             (matrices, residual_partials_zeros(sizes))
         };
         Self {
-            partials: (Source::cheapest(description, Family::Undamped) == Source::Partials)
+            partials: (Source::cheapest(Costs::of(description), sizes, Family::Undamped) == Source::Partials)
                 .then(partials),
             direct: Gradient::zeros(sizes),
             shift: Gradient::zeros(sizes),

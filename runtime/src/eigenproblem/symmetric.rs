@@ -16,7 +16,7 @@ pub(crate) enum Trouble {
 }
 
 /// Eigenvalues ascending; `shapes[r]` the vector of eigenvalue `r` with `phi^T M phi = 1`, largest component positive.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Pairs {
     pub(crate) lambda: Vector,
     pub(crate) shapes: Matrix,
@@ -44,16 +44,21 @@ const SMALL: f64 = 1e-6;
 
 /// Solves `K phi = lambda M phi`, both matrices symmetric, `M` positive definite.
 pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble> {
+    let mut pairs = Pairs::default();
+    solve_into(stiffness, mass, &mut pairs)?;
+    Ok(pairs)
+}
+
+/// As [`solve`]: writes over other pairs.
+pub(crate) fn solve_into(
+    stiffness: &Matrix,
+    mass: &Matrix,
+    pairs: &mut Pairs,
+) -> Result<(), Trouble> {
     let n = mass.row_count();
     let (k, m) = (stiffness.as_flattened(), mass.as_flattened());
-    let mut pairs = Pairs {
-        lambda: Vector::zeros(n),
-        shapes: Matrix::zeros(n, n),
-        residuals: Vector::zeros(n),
-        errors: Vector::zeros(n),
-    };
-    let lambda = &mut pairs.lambda[..];
-    let shapes = pairs.shapes.as_flattened_mut();
+    let lambda = pairs.lambda.make_room(n);
+    let shapes = pairs.shapes.make_room(n, n);
     match n {
         0 => {}
         1 => one(k, m, lambda, shapes)?,
@@ -66,7 +71,7 @@ pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble>
         8 => small_8(k, m, lambda, shapes)?,
         _ => large(n, k, m, lambda, shapes)?,
     }
-    let (residuals, errors) = (&mut pairs.residuals[..], &mut pairs.errors[..]);
+    let (residuals, errors) = (pairs.residuals.make_room(n), pairs.errors.make_room(n));
     for_size(
         n,
         #[inline(always)]
@@ -76,8 +81,7 @@ pub(crate) fn solve(stiffness: &Matrix, mass: &Matrix) -> Result<Pairs, Trouble>
             let (lambda, shapes) = (&mut lambda[..n], &mut shapes[..n * n]);
             finish(n, &Matrices { n, k, m }, lambda, shapes, sizes)
         },
-    )?;
-    Ok(pairs)
+    )
 }
 
 #[inline]

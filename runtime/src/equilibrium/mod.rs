@@ -69,10 +69,22 @@ pub fn equilibrium(
     start: &[f64],
     policy: Policy,
 ) -> Result<Equilibrium, Error> {
-    let point = OperatingPoint::new(mechanism, u, b)?;
-    point.check_start(start)?;
-    let mut state = point.blank_state();
-    solve_into(&point, start, policy, &mut state)
-        .map_err(|failure| failure.explain(&point.description))?;
+    let mut state = Equilibrium::blank(&mechanism.description(), u, b);
+    equilibrium_into(mechanism, u, b, start, policy, &mut state)?;
     Ok(state)
+}
+
+/// As [`equilibrium`]: writes over a blank state at these inputs and design variables.
+pub(crate) fn equilibrium_into(
+    mechanism: &dyn Kernels,
+    u: &[f64],
+    b: &[f64],
+    start: &[f64],
+    policy: Policy,
+    state: &mut Equilibrium,
+) -> Result<(), Error> {
+    let point = OperatingPoint::unchecked(mechanism, u, b);
+    point.check_values()?;
+    point.check_start(start)?;
+    solve_into(&point, start, policy, state).map_err(|failure| failure.explain(&point.description))
 }

@@ -2,12 +2,12 @@
 
 use crate::algebra::{Matrix, Vector, all_finite, all_finite_matrix};
 use crate::arguments::{check_count, check_finite};
-use crate::constraints::{ConstraintState, Structure, fix_gauge, redundant_rows};
+use crate::constraints::{Structure, fix_gauge, redundant_rows};
 use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
-use crate::{DampingKind, Description, Equilibrium, Error, Role, Shared, Stability};
+use crate::{DampingKind, Description, Equilibrium, Error, Role, Shared};
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
@@ -31,19 +31,25 @@ impl<'a> OperatingPoint<'a> {
         design: &'a [f64],
     ) -> Result<Self, Error> {
         let point = Self::unchecked(mechanism, inputs, design);
-        let names = &point.description;
+        point.check_values()?;
+        Ok(point)
+    }
+
+    /// Checks inputs and design variables as [`Self::new`].
+    pub(super) fn check_values(&self) -> Result<(), Error> {
+        let (names, inputs, design) = (&self.description, self.inputs, self.design);
         check_count("inputs", inputs, names.inputs.len())?;
         check_count("design variables", design, names.design.len())?;
         check_finite("input", |k| &names.inputs[k].name, inputs)?;
         check_finite("design variable", |k| &names.design[k].name, design)?;
-        if let Some(violation) = mechanism.violation(inputs, design) {
-            return Err(Error::Unphysical {
+        match self.mechanism.violation(inputs, design) {
+            None => Ok(()),
+            Some(violation) => Err(Error::Unphysical {
                 quantity: violation.quantity,
                 requirement: violation.requirement,
                 value: violation.value,
-            });
+            }),
         }
-        Ok(point)
     }
 
     /// For values that a caller has checked itself.
@@ -97,22 +103,7 @@ impl<'a> OperatingPoint<'a> {
     /// What its state is written over.
     #[inline]
     pub(crate) fn blank_state(&self) -> Equilibrium {
-        let n = self.size();
-        Equilibrium {
-            coordinates: Vector::zeros(n),
-            inputs: self.inputs.into(),
-            design: self.design.into(),
-            stability: Stability::Undecided,
-            rounding: 0.0,
-            linear: Linear::zeros(n),
-            residual: Vector::zeros(n),
-            relative_residual: f64::INFINITY,
-            iterations: 0,
-            pose: None,
-            constraints: ConstraintState::open(n),
-            left_unstable_region: false,
-            description: self.description.clone(),
-        }
+        Equilibrium::blank(&self.description, self.inputs, self.design)
     }
 
     pub(crate) fn check_start(&self, start: &[f64]) -> Result<(), Error> {

@@ -8,7 +8,7 @@ use super::{DirectionalKernels, Gradient, Linear, LinearPartials, ResidualPartia
 use crate::algebra::Matrix;
 use crate::mechanism::{self, Array, Mechanism, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
-use crate::{DampingKind, Description, Shared};
+use crate::{DampingKind, Description};
 
 /// Unknowns, inputs and design variables of a batch of states.
 #[derive(Clone, Copy, Debug)]
@@ -394,25 +394,5 @@ const fn damped(description: &Description) -> bool {
 
 /// Whether the compiler generated this kernel.
 const fn generated(description: &Description, kernel: &str) -> bool {
-    let Shared::Static(kernels) = &description.kernels else {
-        return false;
-    };
-    let mut k = 0;
-    while k < kernels.len() {
-        if let Shared::Static(name) = &kernels[k].name
-            && same(name.as_bytes(), kernel.as_bytes())
-        {
-            return true;
-        }
-        k += 1;
-    }
-    false
-}
-
-const fn same(a: &[u8], b: &[u8]) -> bool {
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
+    description.static_kernel(kernel).is_some()
 }

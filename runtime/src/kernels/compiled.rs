@@ -2,12 +2,13 @@
 
 use super::interval::Interval;
 use super::{
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels, PartialMatrices,
-    ResidualPartials, RestParts, Sizes,
+    Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
+    PartialMatrices, ResidualPartials, RestParts, Sizes, entries_of,
 };
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
     Array, Description, GradientOf, Mechanism, PartialsOf, PoseMargin, Shared, Square, Violation,
+    few_partials,
 };
 use crate::{Real, mechanism};
 
@@ -17,31 +18,44 @@ const FEW_COORDINATES: usize = 4;
 /// Partial derivatives of the matrices of at most this size, bytes, are passed by value; larger ones would fill the stack.
 const ON_STACK: usize = 1 << 16;
 
+#[inline(always)]
 fn copy_matrix<A: Array<R>, R: Array<f64>>(from: &A, to: &mut Matrix) {
     copy_rows(from, to.as_flattened_mut());
 }
 
-#[inline]
+#[inline(always)]
 fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut Linear) {
     copy_matrix(&from.mass, &mut to.mass);
     copy_matrix(&from.damping, &mut to.damping);
     copy_matrix(&from.stiffness, &mut to.stiffness);
 }
 
+#[inline(always)]
 fn copy_rows<A: Array<R>, R: Array<f64>>(from: &A, to: &mut [f64]) {
     for (to, from) in to.chunks_exact_mut(R::LEN.max(1)).zip(from.as_ref()) {
         to.copy_from_slice(from.as_ref());
     }
 }
 
-fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut PartialMatrices) {
-    let [coordinates, inputs] = [from.by_coordinate.as_ref(), from.by_input.as_ref()];
-    let all = coordinates.iter().chain(inputs).chain(from.by_design.as_ref());
-    for (from, to) in all.zip(to.iter_mut()) {
-        copy_rows(&from.mass, to.mass);
-        copy_rows(&from.damping, to.damping);
-        copy_rows(&from.stiffness, to.stiffness);
+/// Copies the changes of the matrices with some of the variables.
+#[inline(always)]
+fn copy_changes<M: Mechanism>(from: &[mechanism::Linear<Square<M, f64>>], to: &mut [f64]) {
+    let n = M::Coordinates::<f64>::LEN;
+    let (each, size) = (entries_of(n), n * n);
+    let to = &mut to[..each * from.len()];
+    for (from, to) in from.iter().zip(to.chunks_exact_mut(each.max(1))) {
+        copy_rows(&from.mass, &mut to[..size]);
+        copy_rows(&from.damping, &mut to[size..2 * size]);
+        copy_rows(&from.stiffness, &mut to[2 * size..]);
     }
+}
+
+#[inline(always)]
+fn copy_partials<M: Mechanism>(from: &PartialsOf<M, f64>, to: &mut PartialMatrices) {
+    let [by_coordinate, by_input, by_design] = to.lists_mut();
+    copy_changes::<M>(from.by_coordinate.as_ref(), by_coordinate);
+    copy_changes::<M>(from.by_input.as_ref(), by_input);
+    copy_changes::<M>(from.by_design.as_ref(), by_design);
 }
 
 fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
@@ -50,7 +64,8 @@ fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
     to.design.copy_from_slice(from.design.as_ref());
 }
 
-fn copy_vector(from: &impl AsRef<[f64]>, to: &mut Vector) {
+#[inline(always)]
+fn copy_vector(from: &impl AsRef<[f64]>, to: &mut [f64]) {
     to.copy_from_slice(from.as_ref());
 }
 
@@ -99,6 +114,10 @@ impl<M: Mechanism> Kernels for M {
         Shared::Static(const { &M::DESCRIPTION })
     }
 
+    fn costs(&self) -> Costs {
+        const { Costs::of_constant(const { &M::DESCRIPTION }) }
+    }
+
     fn sizes(&self) -> Sizes {
         Sizes {
             coordinates: M::Coordinates::<f64>::LEN,
@@ -129,9 +148,21 @@ impl<M: Mechanism> Kernels for M {
         stiffness: &mut Matrix,
     ) {
         let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::residual_and_stiffness(self, q, u, b);
-        residual.copy_from_slice(found.0.as_ref());
-        copy_matrix(&found.1, stiffness);
+        if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
+            let found = Mechanism::residual_and_stiffness(self, q, u, b);
+            copy_vector(&found.0, residual);
+            copy_matrix(&found.1, stiffness);
+            return;
+        }
+        // Results of few numbers go from registers to their places.
+        <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                let found = self.residual_and_stiffness_inlined(q, u, b);
+                copy_vector(&found.0, residual);
+                copy_matrix(&found.1, stiffness);
+            },
+        );
     }
 
     fn linear_into(&self, q: &[f64], u: &[f64], b: &[f64], linear: &mut Linear) {
@@ -153,16 +184,15 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        let (rest, matrices) = <f64 as Real>::run(
+        <f64 as Real>::run(
             #[inline(always)]
             || {
-                let parts = self.residual_parts_inlined(q, u, b);
-                (parts, self.linear_inlined(q, u, b))
+                let found = self.residual_parts_inlined(q, u, b);
+                copy_vector(&found.inertia, &mut parts.inertia);
+                copy_vector(&found.applied, &mut parts.applied);
+                copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
             },
         );
-        copy_vector(&rest.inertia, &mut parts.inertia);
-        copy_vector(&rest.applied, &mut parts.applied);
-        copy_linear::<M>(&matrices, linear);
     }
 
     fn residual_partials_into(
@@ -201,10 +231,22 @@ impl<M: Mechanism> Kernels for M {
             return;
         }
         let (q, u, b) = point::<M>(q, u, b);
-        let found = Mechanism::partials(self, q, u, b);
-        copy_partials::<M>(&found.0, matrices);
-        copy_matrix(&found.1.0, &mut residual.0);
-        copy_matrix(&found.1.1, &mut residual.1);
+        if const { !few_partials::<M>() } {
+            copy_partials::<M>(&Mechanism::linear_partials(self, q, u, b), matrices);
+            let found = Mechanism::residual_partials(self, q, u, b);
+            copy_matrix(&found.0, &mut residual.0);
+            copy_matrix(&found.1, &mut residual.1);
+            return;
+        }
+        <f64 as Real>::run(
+            #[inline(always)]
+            || {
+                copy_partials::<M>(&self.linear_partials_inlined(q, u, b), matrices);
+                let found = self.residual_partials_inlined(q, u, b);
+                copy_matrix(&found.0, &mut residual.0);
+                copy_matrix(&found.1, &mut residual.1);
+            },
+        );
     }
 
     fn mode_gradient_into(

@@ -10,6 +10,7 @@
 
 mod batch;
 mod compiled;
+mod costs;
 mod curvature;
 mod directional;
 mod interval;
@@ -17,6 +18,7 @@ mod motion;
 mod partial_matrices;
 
 pub use batch::{BatchKernels, BatchPoint};
+pub use costs::Costs;
 pub use curvature::CurvatureKernels;
 pub use directional::DirectionalKernels;
 pub use interval::Interval;
@@ -120,6 +122,11 @@ pub trait Kernels: Sync {
 
     /// How many unknowns, inputs, design variables and outputs there are.
     fn sizes(&self) -> Sizes;
+
+    /// What the kernels cost of which gradients can be made.
+    fn costs(&self) -> Costs {
+        Costs::of(&self.description())
+    }
 
     /// [`Mechanism::residual`](crate::Mechanism::residual).
     fn residual_into(&self, q: &[f64], u: &[f64], b: &[f64], residual: &mut [f64]);

@@ -68,6 +68,15 @@ impl PartialMatrices {
         &self.entries[variables.start * each..variables.end * each]
     }
 
+    /// All three, to be written.
+    #[inline]
+    pub(crate) fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        let each = entries_of(self.sizes.coordinates);
+        let (by_coordinate, rest) = self.entries.split_at_mut(self.sizes.coordinates * each);
+        let (by_input, by_design) = rest.split_at_mut(self.sizes.inputs * each);
+        [by_coordinate, by_input, by_design]
+    }
+
     /// The derivatives by each variable, coordinates first, then inputs, then design variables; of each matrix its entries row by
     /// row.
     #[inline]

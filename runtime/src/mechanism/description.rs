@@ -1,5 +1,7 @@
 //! What a mechanism is made of: names, units, what the compiler proved, what its kernels cost.
 
+#[cfg(feature = "std")]
+use super::shared::Shared;
 use super::shared::{List, Text};
 
 /// What a mechanism is made of, and what the compiler proved about it.
@@ -30,12 +32,39 @@ impl Description {
         self.kernels.iter().find(|kernel| kernel.name == *name)
     }
 
+    /// [`Self::kernel`] of a description that is a constant, where the compiler can tell.
+    #[cfg(feature = "std")]
+    pub(crate) const fn static_kernel(&self, name: &str) -> Option<&KernelInfo> {
+        let Shared::Static(kernels) = &self.kernels else {
+            return None;
+        };
+        let mut k = 0;
+        while k < kernels.len() {
+            if let Shared::Static(own) = &kernels[k].name
+                && same(own.as_bytes(), name.as_bytes())
+            {
+                return Some(&kernels[k]);
+            }
+            k += 1;
+        }
+        None
+    }
+
     /// The name of a coordinate, speed or reaction.
     #[cfg(feature = "std")]
     pub(crate) fn unknown_name(&self, index: usize) -> Text {
         let found = self.coordinates.get(index);
         found.map_or(Text::Static("?"), |info| info.name.clone())
     }
+}
+
+#[cfg(feature = "std")]
+const fn same(a: &[u8], b: &[u8]) -> bool {
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
 }
 
 /// What the compiler proved about `Chat`.

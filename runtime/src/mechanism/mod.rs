@@ -508,7 +508,7 @@ pub trait Mechanism: Clone + Sync + Sized {
 /// Entries of one matrix's derivatives up to which all partials in one function pay: more do not stay in registers.
 const FEW_PARTIALS: usize = 256;
 
-const fn few_partials<M: Mechanism>() -> bool {
+pub(crate) const fn few_partials<M: Mechanism>() -> bool {
     let n = M::Coordinates::<f64>::LEN;
     let variables = M::Inputs::<f64>::LEN + M::Design::<f64>::LEN;
     n * n * (n + variables) <= FEW_PARTIALS

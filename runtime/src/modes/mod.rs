@@ -16,6 +16,7 @@ mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
+use constrained::free_pairs_into;
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
@@ -23,7 +24,7 @@ pub use whirl::{Sense, Whirl, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
-use crate::eigenproblem::{Eigenproblem, Root, Trouble, roots_of};
+use crate::eigenproblem::{Eigenproblem, Pairs, Root, Trouble, roots_of};
 use crate::kernels::Linear;
 use crate::rounding::{Sign, sign};
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
@@ -175,9 +176,8 @@ pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
 
 /// The modes of a family about an equilibrium.
 pub(crate) fn modes_at(at: &Equilibrium, family: Family) -> Result<Modes, Error> {
-    let mut found = solve_modes(&at.linear, family, &at.description, at.rounding)
-        .map_err(|failure| failure.explain(&at.description))?;
-    found.inputs.clone_from(&at.inputs);
+    let mut found = Modes::empty(family, &at.description);
+    found.solve_at(at)?;
     Ok(found)
 }
 
@@ -276,6 +276,14 @@ impl Modes {
         }
     }
 
+    /// Writes the modes about an equilibrium over those there are.
+    pub(crate) fn solve_at(&mut self, at: &Equilibrium) -> Result<(), Error> {
+        self.solve(&at.linear, at.rounding)
+            .map_err(|failure| failure.explain(&at.description))?;
+        self.inputs.set(&at.inputs, |value| *value);
+        Ok(())
+    }
+
     /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
     /// `floor` is zero.
     pub(crate) fn solve(&mut self, linear: &Linear, floor: f64) -> Result<(), ModesFailure> {
@@ -305,8 +313,11 @@ fn undamped(
             return Err(ModesFailure::Asymmetric(asymmetry));
         }
     }
-    let pairs = free_pairs(linear, description).map_err(ModesFailure::Pencil)?;
-    modes.resize_with(pairs.lambda.len(), Mode::blank);
+    let mut pairs = Pairs::default();
+    free_pairs_into(linear, description, &mut pairs).map_err(ModesFailure::Pencil)?;
+    let count = pairs.lambda.len();
+    modes.reserve_exact(count.saturating_sub(modes.len()));
+    modes.resize_with(count, Mode::blank);
     for (r, mode) in modes.iter_mut().enumerate() {
         let (lambda, error) = (pairs.lambda[r], pairs.errors[r].max(floor));
         let shape = pairs.shapes[r].iter().copied();

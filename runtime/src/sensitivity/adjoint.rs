@@ -26,9 +26,10 @@ pub fn sensitivities(
     redundancy::check(mechanism, at)?;
     let factors = Factors::new(at)?;
     let (q, u, b) = (&at.coordinates, &at.inputs, &at.design);
-    let mut residual = residual_partials_zeros(mechanism.sizes());
+    let (costs, sizes) = (mechanism.costs(), mechanism.sizes());
+    let mut residual = residual_partials_zeros(sizes);
     let matrices;
-    let (matrices, residual) = match Source::cheapest(&at.description, modes.family) {
+    let (matrices, residual) = match Source::cheapest(costs, sizes, modes.family) {
         Source::Partials => {
             matrices = mechanism.partials(q, u, b, &mut residual);
             (Some(&matrices), Some(&residual))
@@ -53,14 +54,12 @@ pub fn sensitivities(
             })
         }
         (Family::Undamped, ..) => {
-            let sizes = mechanism.sizes();
             let (mut gradient, mut room) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
             assemble(at, modes, method, |own, mode| {
                 shared.undamped(&mut gradient, &mut room, own, mode);
             })
         }
         (Family::General, ..) => {
-            let sizes = mechanism.sizes();
             let mut gradient = [Gradient::zeros(sizes), Gradient::zeros(sizes)];
             let mut room = Gradient::zeros(sizes);
             assemble(at, modes, method, |own, mode| {

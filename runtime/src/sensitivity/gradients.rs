@@ -3,13 +3,10 @@
 
 use super::pencil::ComplexGradient;
 use crate::algebra::Matrix;
-use crate::kernels::{PartialMatrices, entries_of, parts};
+use crate::kernels::{Costs, PartialMatrices, Sizes, entries_of, parts};
 use crate::mechanism::Linear;
 use crate::modes::Family;
-use crate::{Complex, Description, Mode};
-
-/// What an elementary function costs, in additions and multiplications.
-const FUNCTION: usize = 40;
+use crate::{Complex, Mode};
 
 /// Where the gradients of all modes come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,27 +21,28 @@ pub(crate) enum Source {
 
 impl Source {
     /// The cheapest one for the modes of a mechanism.
-    pub(crate) fn cheapest(description: &Description, family: Family) -> Self {
-        let n = description.coordinates.len();
-        let variables = description.inputs.len() + description.design.len();
-        // What partials take for each mode, and the gradient that it takes without them.
-        let (matrices, form, residual, force) = match family {
+    pub(crate) fn cheapest(costs: Costs, sizes: Sizes, family: Family) -> Self {
+        let n = sizes.coordinates;
+        let variables = sizes.inputs + sizes.design;
+        // What partials take for each mode, and the gradients that it takes without them.
+        let (matrices, form, residual, forces) = match family {
             Family::Undamped => (
                 2 * n * (n + 1) * (n + variables),
-                ("mode_gradient", 1),
+                (costs.mode_gradient, 1),
                 2 * n * variables,
-                ("residual_gradient", 1),
+                1,
             ),
             Family::General => (
                 6 * n * n * (n + variables),
-                ("pencil_gradient", 4),
+                (costs.pencil_gradient, 4),
                 4 * n * variables,
-                ("residual_gradient", 2),
+                2,
             ),
         };
-        if pays(description, ("linear_partials", matrices), form) {
+        let force = (costs.residual_gradient, forces);
+        if pays(n, (costs.linear_partials, matrices), form) {
             Self::Partials
-        } else if pays(description, ("residual_partials", residual), force) {
+        } else if pays(n, (costs.residual_partials, residual), force) {
             Self::ResidualPartials
         } else {
             Self::Reverse
@@ -54,21 +52,14 @@ impl Source {
 
 /// Whether one call of `shared` with `use_of_it` operations for each mode costs less than `calls` of `own` for each mode.
 fn pays(
-    description: &Description,
-    (shared, use_of_it): (&str, usize),
-    (own, calls): (&str, usize),
+    modes: usize,
+    (shared, use_of_it): (Option<usize>, usize),
+    (own, calls): (Option<usize>, usize),
 ) -> bool {
-    let modes = description.coordinates.len();
-    match (cost(description, shared), cost(description, own)) {
+    match (shared, own) {
         (Some(shared), Some(own)) => shared + modes * use_of_it < modes * calls * own,
         _ => false,
     }
-}
-
-/// Additions and multiplications of a kernel; `None` where it is not written out.
-fn cost(description: &Description, name: &str) -> Option<usize> {
-    let kernel = description.kernel(name)?;
-    Some(kernel.operations + FUNCTION * kernel.functions)
 }
 
 /// The changes of matrices of size `n`, one after the other, with each of the variables.

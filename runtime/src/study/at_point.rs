@@ -30,7 +30,9 @@ impl<M: Kernels> Study<M> {
     /// [`Error::Unphysical`], [`Error::OutsideDomain`] for values that no mechanism can have; [`Error::UnknownHandle`]
     /// for a handle that does not exist.
     pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
-        self.settings.equilibrium(&self.mechanism)
+        let mut state = self.settings.blank_state();
+        self.settings.equilibrium_into(&self.mechanism, &mut state)?;
+        Ok(state)
     }
 
     /// The assembled mechanism, with the coordinates held that have a [`Study::start`] ([`equilibrium::assemble`]).
@@ -83,12 +85,9 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`].
     pub fn solve(&self) -> Result<Solved<'_, M>, Error> {
-        let (equilibrium, modes) = self.settings.solve(&self.mechanism)?;
-        Ok(Solved {
-            study: self,
-            equilibrium,
-            modes,
-        })
+        let mut solved = Solved::blank(self);
+        solved.solve()?;
+        Ok(solved)
     }
 
     /// The natural modes ([`modes`](crate::modes::modes)).
@@ -105,7 +104,9 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::equilibrium`]; [`Error::SingularConfiguration`], [`Error::SingularMass`], [`Error::ModesNotFound`],
     /// [`Error::EigenvalueRange`]; of undamped modes [`Error::NonsymmetricStiffness`] and [`Error::NoUndampedModes`].
     pub fn modes(&self) -> Result<Modes, Error> {
-        Ok(self.solve()?.modes)
+        let mut solved = Solved::blank(self);
+        solved.solve()?;
+        Ok(solved.modes)
     }
 
     /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
@@ -153,7 +154,7 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
         let outputs = self.outputs()?;
-        tolerance::output_tolerances(&outputs, &self.tolerances()?)
+        tolerance::output_tolerances(&outputs, self.settings.tolerances()?)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -169,7 +170,9 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::modes`]; [`Error::CriticalState`], [`Error::ClosesHereOnly`], [`Error::OutsideDomain`].
     pub fn sensitivities(&self) -> Result<Sensitivities, Error> {
-        self.solve()?.sensitivities()
+        let mut solved = Solved::blank(self);
+        solved.solve()?;
+        solved.sensitivities()
     }
 
     /// First-order spread of the frequencies ([`tolerance::first_order`]).
@@ -184,7 +187,9 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        self.solve()?.first_order()
+        let mut solved = Solved::blank(self);
+        solved.solve()?;
+        solved.first_order()
     }
 
     /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`](crate::modes::whirls)).

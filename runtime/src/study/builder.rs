@@ -136,14 +136,14 @@ impl<M: Kernels> Study<M> {
     /// Sets how many standard deviations the half-width of a tolerance stands for (3 unless set).
     #[must_use]
     pub fn sigma_level(mut self, level: f64) -> Self {
-        self.settings.sigma_level = level;
+        self.settings.set_sigma_level(level);
         self
     }
 
     /// Sets the correlation matrix of the design variables (independent unless set).
     #[must_use]
     pub fn correlation(mut self, matrix: impl Into<Matrix>) -> Self {
-        self.settings.correlation = Some(matrix.into());
+        self.settings.set_correlation(matrix.into());
         self
     }
 
@@ -323,6 +323,6 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// [`Error::Setting`] where they make no sense; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances, Error> {
-        self.settings.tolerances()
+        self.settings.tolerances().cloned()
     }
 }

@@ -89,10 +89,10 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
-        let tolerances = self.tolerances()?;
+        let tolerances = self.settings.tolerances()?;
         let mut found = Vec::with_capacity(values.len());
         self.sensitivity_sweep(input, values, |point, slopes| {
-            found.push(spread(point, slopes, &tolerances));
+            found.push(spread(point, slopes, tolerances));
         })?;
         Ok(found)
     }
@@ -127,7 +127,7 @@ impl<M: DirectionalKernels> Study<M> {
         let values = settings.values_si(input.any(), values)?;
         let axes = Axes::new(input.any(), &values, &orders);
         let following = settings.following();
-        campbell::campbell(mechanism, u, b, &start, following, &axes, &tolerances)
+        campbell::campbell(mechanism, u, b, &start, following, &axes, tolerances)
     }
 
     /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
@@ -248,7 +248,7 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
-        let tolerances = self.tolerances()?;
+        let tolerances = self.settings.tolerances()?;
         let state = self.critical_state(input, low, high)?;
         Ok(sweep::critical_tolerance(
             &self.mechanism,
@@ -309,9 +309,9 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        let tolerances = self.tolerances()?;
+        let tolerances = self.settings.tolerances()?;
         let found = self.crossings(input, low, high, line)?;
-        Ok(spreads(&self.mechanism, &found, &tolerances))
+        Ok(spreads(&self.mechanism, &found, tolerances))
     }
 
     /// Values of an input between `low` and `high` where an oscillation begins or ceases to grow
@@ -358,9 +358,9 @@ impl<M: Kernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
-        let tolerances = self.tolerances()?;
+        let tolerances = self.settings.tolerances()?;
         let found = self.flutter_onsets(input, low, high)?;
-        Ok(spreads(&self.mechanism, &found, &tolerances))
+        Ok(spreads(&self.mechanism, &found, tolerances))
     }
 }
 

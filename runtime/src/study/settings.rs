@@ -8,7 +8,7 @@ use crate::constraints::Structure;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, Policy};
 use crate::kernels::Kernels;
-use crate::modes::{self, Family};
+use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
 use crate::tolerance::{Sampling, Tolerances};
@@ -23,6 +23,12 @@ pub(super) enum Width {
     Relative(f64),
 }
 
+impl Width {
+    fn is_relative(&self) -> bool {
+        matches!(self, Self::Relative(_))
+    }
+}
+
 /// The operating point, the tolerances and how to solve.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Settings {
@@ -35,8 +41,10 @@ pub(super) struct Settings {
     pub(super) policy: Policy,
     pub(super) family: Option<Family>,
     half_widths: Vec<Width>,
-    pub(super) sigma_level: f64,
-    pub(super) correlation: Option<Matrix>,
+    sigma_level: f64,
+    correlation: Option<Matrix>,
+    /// What the three and the design make.
+    tolerances: Result<Tolerances, Error>,
     pub(super) samples: usize,
     pub(super) seed: u64,
     pub(super) stream: u64,
@@ -53,6 +61,7 @@ impl Settings {
         let (design, unknowns) = (&description.design, description.coordinates.len());
         let half_width = |tolerance| Width::Absolute(tolerance);
         Self {
+            tolerances: Tolerances::declared(&description),
             inputs: Vector::zeros(description.inputs.len()),
             design: design.iter().map(|info| info.nominal).collect(),
             start: Vector::zeros(unknowns),
@@ -87,6 +96,9 @@ impl Settings {
         let value = self.design_si(variable, value);
         let place = self.design.get_mut(variable.index());
         set(place, value, &mut self.fault);
+        if self.half_widths.iter().any(Width::is_relative) {
+            self.make_tolerances();
+        }
     }
 
     pub(super) fn set_start(&mut self, coordinate: Coordinate, value: Value, held: bool) {
@@ -106,12 +118,24 @@ impl Settings {
         let half_width = self.design_si(variable, half_width).map(Width::Absolute);
         let place = self.half_widths.get_mut(variable.index());
         set(place, half_width, &mut self.fault);
+        self.make_tolerances();
     }
 
     pub(super) fn set_relative_tolerance(&mut self, variable: DesignVariable, fraction: f64) {
         let width = self.design_si(variable, Value::Si(fraction));
         let place = self.half_widths.get_mut(variable.index());
         set(place, width.map(Width::Relative), &mut self.fault);
+        self.make_tolerances();
+    }
+
+    pub(super) fn set_sigma_level(&mut self, level: f64) {
+        self.sigma_level = level;
+        self.make_tolerances();
+    }
+
+    pub(super) fn set_correlation(&mut self, matrix: Matrix) {
+        self.correlation = Some(matrix);
+        self.make_tolerances();
     }
 
     /// A value of an input, SI.
@@ -145,15 +169,20 @@ impl Settings {
         }
     }
 
-    pub(super) fn tolerances(&self) -> Result<Tolerances, Error> {
+    pub(super) fn tolerances(&self) -> Result<&Tolerances, Error> {
         self.ready()?;
+        self.tolerances.as_ref().map_err(Error::clone)
+    }
+
+    fn make_tolerances(&mut self) {
         let half_width = |(width, value): (&Width, &f64)| match width {
             Width::Absolute(half_width) => *half_width,
             Width::Relative(fraction) => fraction * value.abs(),
         };
         let half_widths = self.half_widths.iter().zip(&self.design).map(half_width);
         let half_widths: Vector = half_widths.collect();
-        Tolerances::new(half_widths, self.sigma_level, self.correlation.clone())
+        let correlation = self.correlation.clone();
+        self.tolerances = Tolerances::new(half_widths, self.sigma_level, correlation);
     }
 
     pub(super) fn following(&self) -> Following {
@@ -211,23 +240,45 @@ impl Settings {
         Ok(Cow::Owned(assembly.coordinates.into()))
     }
 
-    pub(super) fn equilibrium(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
+    /// What a state at this point is written over.
+    pub(super) fn blank_state(&self) -> Equilibrium {
+        Equilibrium::blank(&self.description, &self.inputs, &self.design)
+    }
+
+    /// Writes the equilibrium over a blank state.
+    pub(super) fn equilibrium_into(
+        &self,
+        mechanism: &dyn Kernels,
+        state: &mut Equilibrium,
+    ) -> Result<(), Error> {
         let start = self.assembled_start(mechanism)?;
-        equilibrium::equilibrium(mechanism, &self.inputs, &self.design, &start, self.policy)
+        let (u, b) = (&self.inputs, &self.design);
+        equilibrium::equilibrium_into(mechanism, u, b, &start, self.policy, state)
     }
 
     /// An equilibrium that has derivatives.
     pub(super) fn regular(&self, mechanism: &dyn Kernels) -> Result<Equilibrium, Error> {
-        let state = self.equilibrium(mechanism)?;
+        let mut state = self.blank_state();
+        self.equilibrium_into(mechanism, &mut state)?;
         state.regular()?;
         Ok(state)
     }
 
-    pub(super) fn solve(&self, mechanism: &dyn Kernels) -> Result<(Equilibrium, Modes), Error> {
-        let state = self.regular(mechanism)?;
-        let family = self.family.unwrap_or(Family::of(&self.description));
-        let found = modes::modes_at(&state, family)?;
-        Ok((state, found))
+    /// The family of the modes that are wanted.
+    pub(super) fn family(&self) -> Family {
+        self.family.unwrap_or(Family::of(&self.description))
+    }
+
+    /// Writes equilibrium and modes over blank ones.
+    pub(super) fn solve_into(
+        &self,
+        mechanism: &dyn Kernels,
+        state: &mut Equilibrium,
+        modes: &mut Modes,
+    ) -> Result<(), Error> {
+        self.equilibrium_into(mechanism, state)?;
+        state.regular()?;
+        modes.solve_at(state)
     }
 }
 

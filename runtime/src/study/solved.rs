@@ -23,7 +23,30 @@ pub struct Solved<'a, M> {
     pub modes: Modes,
 }
 
-impl<M: Kernels> Solved<'_, M> {
+impl<'a, M: Kernels> Solved<'a, M> {
+    /// Not solved yet: solved in place, because what is found is long to move.
+    #[inline]
+    pub(super) fn blank(study: &'a Study<M>) -> Self {
+        let settings = &study.settings;
+        Self {
+            study,
+            equilibrium: settings.blank_state(),
+            modes: Modes::empty(settings.family(), &settings.description),
+        }
+    }
+
+    #[inline]
+    pub(super) fn solve(&mut self) -> Result<(), Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        study
+            .settings
+            .solve_into(&study.mechanism, equilibrium, modes)
+    }
+
     /// How far every input and design variable shifts the equilibrium ([`sensitivity::equilibrium_shift`]).
     ///
     /// ```
@@ -63,8 +86,8 @@ impl<M: Kernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::equilibrium_shift`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
-        let tolerances = self.study.tolerances()?;
-        tolerance::output_tolerances(&self.outputs()?, &tolerances)
+        let tolerances = self.study.settings.tolerances()?;
+        tolerance::output_tolerances(&self.outputs()?, tolerances)
     }
 
     /// Total derivatives of the modes ([`sensitivity::sensitivities`]).
@@ -92,9 +115,9 @@ impl<M: Kernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
-        let tolerances = self.study.tolerances()?;
+        let tolerances = self.study.settings.tolerances()?;
         let slopes = self.sensitivities()?;
-        tolerance::first_order(&self.modes, &slopes, &tolerances)
+        tolerance::first_order(&self.modes, &slopes, tolerances)
     }
 
     /// Whether each mode whirls with the spin, against it or not at all ([`modes::whirls`]).
@@ -174,7 +197,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        clusters::clusters(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        clusters::clusters(&study.mechanism, equilibrium, modes, study.settings.tolerances()?)
     }
 }
 
@@ -215,12 +238,12 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         Ok(second_order::second_order(
             &study.mechanism,
             equilibrium,
             modes,
-            &tolerances,
+            tolerances,
         ))
     }
 
@@ -241,7 +264,7 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        summary::summary(&study.mechanism, equilibrium, modes, &study.tolerances()?)
+        summary::summary(&study.mechanism, equilibrium, modes, study.settings.tolerances()?)
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
@@ -289,14 +312,14 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         let what = (mode, quantity);
         second_order::mode_margin(
             &study.mechanism,
             equilibrium,
             modes,
             what,
-            &tolerances,
+            tolerances,
             band,
         )
     }
@@ -343,7 +366,7 @@ impl<M: BatchKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        let tolerances = study.tolerances()?;
+        let tolerances = study.settings.tolerances()?;
         let sampling = study.settings.sampling(progress);
         tolerance::monte_carlo(&study.mechanism, equilibrium, modes, &tolerances, &sampling)
     }

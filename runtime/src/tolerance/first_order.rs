@@ -50,6 +50,22 @@ pub struct ModeTolerance {
 }
 
 impl ModeTolerance {
+    /// What the spread of a mode is written over.
+    fn blank() -> Self {
+        Self {
+            behaviour: Behaviour::Neutral,
+            lambda: Spread::blank(),
+            frequency: None,
+            natural_frequency: None,
+            damping_ratio: None,
+            growth: None,
+            distance_to_critical: f64::INFINITY,
+            distance_to_instability: f64::INFINITY,
+            distance_to_neighbour: f64::INFINITY,
+            clustered: false,
+        }
+    }
+
     /// Share of each design variable in the variance of the frequency, or of `lambda` for a mode without one.
     #[must_use]
     pub fn variance_shares(&self) -> &[f64] {
@@ -101,12 +117,17 @@ pub fn first_order(
     tolerances: &Tolerances,
 ) -> Result<FirstOrder, Error> {
     tolerances.check_count(sensitivities.description.design.len())?;
+    let count = modes.modes.len().min(sensitivities.modes.len());
+    let mut found: Vec<ModeTolerance> = Vec::new();
+    found.reserve_exact(count);
+    found.resize_with(count, ModeTolerance::blank);
     let of_modes = modes.modes.iter().zip(&sensitivities.modes);
-    let spread = |(mode, own)| match modes.family {
-        Family::Undamped => undamped(mode, own, tolerances),
-        Family::General => general(mode, own, tolerances),
-    };
-    let mut found: Vec<ModeTolerance> = of_modes.map(spread).collect();
+    for (spread, (mode, own)) in found.iter_mut().zip(of_modes) {
+        match modes.family {
+            Family::Undamped => undamped(mode, own, tolerances, spread),
+            Family::General => general(mode, own, tolerances, spread),
+        }
+    }
     for r in 0..found.len() {
         for other in 0..r {
             let own = distances(r, other, modes, sensitivities, tolerances);
@@ -128,46 +149,50 @@ pub fn first_order(
 }
 
 /// The spread of an undamped mode, its neighbours left out: `s` is a root of `lambda`, so that every spread is that of `lambda`, or nothing.
-fn undamped(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> ModeTolerance {
-    let lambda = Spread::new(mode.lambda, own.lambda_by_design.clone(), tolerances);
-    let level = tolerances.sigma_level();
-    let moving = |mean: f64, by_design: Vector| {
-        let sigma = lambda.sigma / (2.0 * greater(mode.s.re, mode.s.im));
-        Spread {
-            mean,
-            by_design,
-            sigma,
-            band: level * sigma,
-            variance_shares: lambda.variance_shares.clone(),
-        }
+fn undamped(
+    mode: &Mode,
+    own: &ModeSensitivity,
+    tolerances: &Tolerances,
+    found: &mut ModeTolerance,
+) {
+    let lambda = &mut found.lambda;
+    lambda.by_design.set(&own.lambda_by_design, |slope| *slope);
+    lambda.finish(mode.lambda, tolerances);
+    let variables = lambda.by_design.len();
+    let sigma = lambda.sigma / (2.0 * greater(mode.s.re, mode.s.im));
+    let moving = |place: &mut Option<Spread>, mean: f64, part: fn(&Complex) -> f64, slopes| {
+        let spread = place.get_or_insert_with(Spread::blank);
+        spread.mean = mean;
+        spread.by_design.set(slopes, part);
+        spread.sigma = sigma;
+        spread.band = tolerances.sigma_level() * sigma;
+        let shares = &lambda.variance_shares;
+        spread.variance_shares.set(shares, |share| *share);
     };
-    let still = |mean: f64| Spread::without_derivatives(mean, 0.0, lambda.by_design.len());
-    let slopes = own.s.as_ref().map(|s| &s.by_design);
-    let frequency =
-        (slopes.zip(mode.frequency())).map(|(slopes, mean)| moving(mean, slopes.map(|ds| ds.im)));
-    let growth = slopes.map(|slopes| match frequency {
-        Some(_) => still(mode.s.re),
-        None => moving(mode.s.re, slopes.map(|ds| ds.re)),
-    });
-    ModeTolerance {
-        behaviour: mode.behaviour,
-        natural_frequency: frequency.clone(),
-        damping_ratio: frequency.is_some().then(|| still(0.0)),
-        frequency,
-        growth,
-        distance_to_critical: match mode.behaviour {
-            Behaviour::Neutral => 0.0,
-            _ => in_sigmas(mode.lambda, lambda.sigma),
-        },
-        lambda,
-        distance_to_instability: f64::INFINITY,
-        distance_to_neighbour: f64::INFINITY,
-        clustered: own.clustered,
+    let still = |place: &mut Option<Spread>, mean: f64| {
+        let spread = place.get_or_insert_with(Spread::blank);
+        spread.set_without_derivatives(mean, 0.0, variables);
+    };
+    match (&own.s, mode.frequency()) {
+        (Some(s), Some(mean)) => {
+            moving(&mut found.frequency, mean, |ds| ds.im, &s.by_design);
+            moving(&mut found.natural_frequency, mean, |ds| ds.im, &s.by_design);
+            still(&mut found.damping_ratio, 0.0);
+            still(&mut found.growth, mode.s.re);
+        }
+        (Some(s), None) => moving(&mut found.growth, mode.s.re, |ds| ds.re, &s.by_design),
+        (None, _) => {}
     }
+    found.behaviour = mode.behaviour;
+    found.distance_to_critical = match mode.behaviour {
+        Behaviour::Neutral => 0.0,
+        _ => in_sigmas(mode.lambda, found.lambda.sigma),
+    };
+    found.clustered = own.clustered;
 }
 
 /// The spread of a general mode, its neighbours left out: that of each quantity by its own derivatives.
-fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> ModeTolerance {
+fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances, found: &mut ModeTolerance) {
     let slopes = &own.lambda_by_design;
     let of = |quantity: Quantity| {
         let slopes = own.of(quantity)?;
@@ -177,27 +202,27 @@ fn general(mode: &Mode, own: &ModeSensitivity, tolerances: &Tolerances) -> ModeT
             tolerances,
         ))
     };
-    let (natural_frequency, growth) = (of(Quantity::NaturalFrequency), of(Quantity::Growth));
-    ModeTolerance {
-        behaviour: mode.behaviour,
-        lambda: match own.s {
-            None => Spread::without_derivatives(mode.lambda, f64::INFINITY, slopes.len()),
-            Some(_) => Spread::new(mode.lambda, slopes.clone(), tolerances),
-        },
-        frequency: of(Quantity::Frequency),
-        damping_ratio: of(Quantity::DampingRatio),
-        distance_to_critical: distance_to_zero(mode, natural_frequency.as_ref(), growth.as_ref()),
-        distance_to_instability: (growth.as_ref())
-            .filter(|spread| !keeps_amplitude(mode, spread))
-            .map_or(f64::INFINITY, |spread| match mode.behaviour {
-                Behaviour::Oscillating(_) => 0.0,
-                _ => in_sigmas(-spread.mean, spread.sigma),
-            }),
-        natural_frequency,
-        growth,
-        distance_to_neighbour: f64::INFINITY,
-        clustered: own.clustered,
+    found.behaviour = mode.behaviour;
+    match own.s {
+        None => {
+            let lambda = &mut found.lambda;
+            lambda.set_without_derivatives(mode.lambda, f64::INFINITY, slopes.len());
+        }
+        Some(_) => found.lambda = Spread::new(mode.lambda, slopes.clone(), tolerances),
     }
+    found.frequency = of(Quantity::Frequency);
+    found.natural_frequency = of(Quantity::NaturalFrequency);
+    found.damping_ratio = of(Quantity::DampingRatio);
+    found.growth = of(Quantity::Growth);
+    let (natural, growth) = (found.natural_frequency.as_ref(), found.growth.as_ref());
+    found.distance_to_critical = distance_to_zero(mode, natural, growth);
+    found.distance_to_instability = growth
+        .filter(|spread| !keeps_amplitude(mode, spread))
+        .map_or(f64::INFINITY, |spread| match mode.behaviour {
+            Behaviour::Oscillating(_) => 0.0,
+            _ => in_sigmas(-spread.mean, spread.sigma),
+        });
+    found.clustered = own.clustered;
 }
 
 /// Whether neither the growth nor what tolerances add to it can be told from zero.

@@ -24,24 +24,39 @@ impl Spread {
     /// The spread of a quantity from its value and its derivatives by the design variables.
     #[must_use]
     pub fn new(mean: f64, by_design: Vector, tolerances: &Tolerances) -> Self {
-        let (sigma, variance_shares) = tolerances.spread(&by_design);
+        let mut found = Self::blank();
+        found.by_design = by_design;
+        found.finish(mean, tolerances);
+        found
+    }
+
+    /// What a spread is written over.
+    #[inline]
+    pub(super) fn blank() -> Self {
         Self {
-            mean,
-            by_design,
-            sigma,
-            band: tolerances.sigma_level() * sigma,
-            variance_shares,
+            mean: 0.0,
+            by_design: Vector::default(),
+            sigma: 0.0,
+            band: 0.0,
+            variance_shares: Vector::default(),
         }
     }
 
-    /// That of a quantity which nothing moves, `sigma` zero, or which moves without bound, `sigma` infinite.
-    pub(super) fn without_derivatives(mean: f64, sigma: f64, variables: usize) -> Self {
-        Self {
-            mean,
-            by_design: Vector::zeros(variables),
-            sigma,
-            band: sigma,
-            variance_shares: Vector::zeros(variables),
-        }
+    /// Goes to a quantity whose derivatives are written.
+    #[inline]
+    pub(super) fn finish(&mut self, mean: f64, tolerances: &Tolerances) {
+        self.mean = mean;
+        self.sigma = tolerances.spread(&self.by_design, &mut self.variance_shares);
+        self.band = tolerances.sigma_level() * self.sigma;
+    }
+
+    /// Goes to a quantity which nothing moves, `sigma` zero, or which moves without bound, `sigma` infinite.
+    #[inline]
+    pub(super) fn set_without_derivatives(&mut self, mean: f64, sigma: f64, variables: usize) {
+        self.mean = mean;
+        self.sigma = sigma;
+        self.band = sigma;
+        self.by_design.make_room(variables).fill(0.0);
+        self.variance_shares.make_room(variables).fill(0.0);
     }
 }

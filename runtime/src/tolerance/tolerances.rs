@@ -138,7 +138,7 @@ impl Tolerances {
     #[must_use]
     #[inline]
     pub fn sigma(&self, slopes: &[f64]) -> f64 {
-        let variance = sum(&self.contributions(&self.parts(slopes, 1.0)));
+        let variance = self.variance(slopes, &mut Vector::default());
         if ORDINARY.contains(&variance) {
             variance.sqrt()
         } else {
@@ -153,16 +153,31 @@ impl Tolerances {
         dot(&a, &self.correlated(&b))
     }
 
-    /// The standard deviation, and the share of each variable in the variance.
+    /// The standard deviation; writes the share of each variable in the variance.
     #[inline]
-    pub(crate) fn spread(&self, slopes: &[f64]) -> (f64, Vector) {
-        let mut shares = self.contributions(&self.parts(slopes, 1.0));
-        let variance = sum(&shares);
-        if !ORDINARY.contains(&variance) {
-            return self.spread_of_any_size(slopes);
+    pub(crate) fn spread(&self, slopes: &[f64], shares: &mut Vector) -> f64 {
+        let variance = self.variance(slopes, shares);
+        if ORDINARY.contains(&variance) {
+            shares.iter_mut().for_each(|share| *share /= variance);
+            return variance.sqrt();
         }
-        shares.iter_mut().for_each(|share| *share /= variance);
-        (variance.sqrt(), shares)
+        let sigma;
+        (sigma, *shares) = self.spread_of_any_size(slopes);
+        sigma
+    }
+
+    /// The variance; writes what each variable adds to it.
+    #[inline]
+    fn variance(&self, slopes: &[f64], contributions: &mut Vector) -> f64 {
+        if self.correlation.is_some() || slopes.len() != self.sigmas.len() {
+            *contributions = self.contributions(&self.parts(slopes, 1.0));
+        } else {
+            contributions.set(slopes, |slope| *slope);
+            for (own, sigma) in contributions.iter_mut().zip(&self.sigmas) {
+                *own = (*own * sigma) * (*own * sigma);
+            }
+        }
+        sum(contributions)
     }
 
     /// What a standard deviation of each variable changes, in units of `1 / unit^2`.

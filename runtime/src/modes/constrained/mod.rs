@@ -12,7 +12,7 @@ mod pairs;
 mod quadratic;
 mod system;
 
-pub(crate) use pairs::free_pairs;
+pub(crate) use pairs::{free_pairs, free_pairs_into};
 
 use super::pencil::pencil_times;
 use crate::algebra::{Matrix, Vector, dot, times, times_complex};

@@ -19,9 +19,20 @@ use crate::rounding::of_form;
 /// # Errors
 /// Of one with speeds or constraints on velocities there are none to be found in this way: none is accurate.
 pub(crate) fn free_pairs(linear: &Linear, description: &Description) -> Result<Pairs, Trouble> {
+    let mut pairs = Pairs::default();
+    free_pairs_into(linear, description, &mut pairs)?;
+    Ok(pairs)
+}
+
+/// As [`free_pairs`]: writes over others.
+pub(crate) fn free_pairs_into(
+    linear: &Linear,
+    description: &Description,
+    pairs: &mut Pairs,
+) -> Result<(), Trouble> {
     let structure = Structure::of(description);
     if structure.open() {
-        return symmetric::solve(&linear.stiffness, &linear.mass);
+        return symmetric::solve_into(&linear.stiffness, &linear.mass, pairs);
     }
     if !structure.holonomic() {
         return Err(Trouble::Inaccurate {
@@ -29,7 +40,8 @@ pub(crate) fn free_pairs(linear: &Linear, description: &Description) -> Result<P
             residual: f64::INFINITY,
         });
     }
-    reduced_pairs(linear, &Tangent::new(linear, structure))
+    *pairs = reduced_pairs(linear, &Tangent::new(linear, structure))?;
+    Ok(())
 }
 
 fn reduced_pairs(linear: &Linear, tangent: &Tangent) -> Result<Pairs, Trouble> {

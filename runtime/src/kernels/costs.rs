@@ -1,0 +1,57 @@
+//! What the kernels cost of which gradients can be made.
+
+use crate::mechanism::KernelInfo;
+use crate::Description;
+
+/// What an elementary function costs, in additions and multiplications.
+const FUNCTION: usize = 40;
+
+/// Costs in additions and multiplications of the kernels that derivatives of modes can come from; `None` where one is not written
+/// out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Costs {
+    /// Of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
+    pub linear_partials: Option<usize>,
+    /// Of [`Kernels::residual_partials_into`](super::Kernels::residual_partials_into).
+    pub residual_partials: Option<usize>,
+    /// Of [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into).
+    pub mode_gradient: Option<usize>,
+    /// Of [`Kernels::pencil_gradient_into`](super::Kernels::pencil_gradient_into).
+    pub pencil_gradient: Option<usize>,
+    /// Of [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
+    pub residual_gradient: Option<usize>,
+}
+
+impl Costs {
+    /// Of a mechanism with this description.
+    #[must_use]
+    pub fn of(description: &Description) -> Self {
+        let of = |name: &str| cost(description.kernel(name));
+        Self {
+            linear_partials: of("linear_partials"),
+            residual_partials: of("residual_partials"),
+            mode_gradient: of("mode_gradient"),
+            pencil_gradient: of("pencil_gradient"),
+            residual_gradient: of("residual_gradient"),
+        }
+    }
+
+    /// The same where the description is a constant: looked up when the program is compiled.
+    pub(super) const fn of_constant(description: &Description) -> Self {
+        Self {
+            linear_partials: cost(description.static_kernel("linear_partials")),
+            residual_partials: cost(description.static_kernel("residual_partials")),
+            mode_gradient: cost(description.static_kernel("mode_gradient")),
+            pencil_gradient: cost(description.static_kernel("pencil_gradient")),
+            residual_gradient: cost(description.static_kernel("residual_gradient")),
+        }
+    }
+}
+
+const fn cost(kernel: Option<&KernelInfo>) -> Option<usize> {
+    match kernel {
+        Some(kernel) => Some(kernel.operations + FUNCTION * kernel.functions),
+        None => None,
+    }
+}
