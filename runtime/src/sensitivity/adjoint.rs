@@ -88,11 +88,7 @@ impl Shared<'_> {
         mode: &Mode,
     ) {
         let symmetric = self.at.description.symmetric_stiffness;
-        let all = [
-            (matrices.by_input(), by_input),
-            (matrices.by_design(), by_design),
-        ];
-        let room = own.make_room(self.at.inputs.len(), self.at.design.len());
+        let [inputs, design] = own.make_room(self.at.inputs.len(), self.at.design.len());
         for_size(
             mode.shape.len(),
             #[inline(always)]
@@ -107,11 +103,13 @@ impl Shared<'_> {
                     *w = slope(change);
                 }
                 self.factors.solve(n, w);
-                for (to, (matrices, residual)) in room.into_iter().zip(all) {
+                let total = |to: &mut [f64], matrices: &[f64], residual: &Matrix| {
                     for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
                         *to = slope(change) - column_times(n, w, residual, k);
                     }
-                }
+                };
+                total(inputs, matrices.by_input(), by_input);
+                total(design, matrices.by_design(), by_design);
             },
         );
         own.finish_undamped(mode);
@@ -194,7 +192,7 @@ impl Factors {
         {
             return Ok(Self::Definite(factors));
         }
-        let factors = Lu::new(&stiffness.transpose());
+        let factors = Lu::of(stiffness.transpose());
         factors.map(Self::General).ok_or(Error::CriticalState)
     }
 
