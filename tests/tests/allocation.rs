@@ -11,7 +11,7 @@ use std::hint::black_box;
 
 use eigentol::equilibrium::equilibrium;
 use eigentol::kernels::{
-    CurvatureKernels, Gradient, Kernels, Linear, PartialMatrices, MotionKernels, RestParts, Sizes,
+    CurvatureKernels, Gradient, Kernels, Linear, MotionKernels, PartialMatrices, RestParts, Sizes,
 };
 use eigentol::modes::{match_modes, modes};
 use eigentol::scalar::Instructions;

@@ -32,7 +32,8 @@ impl Slopes {
             (matrices, residual_partials_zeros(sizes))
         };
         Self {
-            partials: (Source::cheapest(Costs::of(description), sizes, Family::Undamped) == Source::Partials)
+            partials: (Source::cheapest(Costs::of(description), sizes, Family::Undamped)
+                == Source::Partials)
                 .then(partials),
             direct: Gradient::zeros(sizes),
             shift: Gradient::zeros(sizes),

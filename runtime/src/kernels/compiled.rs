@@ -107,7 +107,8 @@ fn partials_by_direction(
             if let Some(to) = to.next() {
                 to.mass.copy_from_slice(change.mass.as_flattened());
                 to.damping.copy_from_slice(change.damping.as_flattened());
-                to.stiffness.copy_from_slice(change.stiffness.as_flattened());
+                to.stiffness
+                    .copy_from_slice(change.stiffness.as_flattened());
             }
         }
     }
@@ -212,7 +213,13 @@ impl<M: Mechanism> Kernels for M {
         copy_matrix(&found.1, &mut partials.1);
     }
 
-    fn linear_partials_into(&self, q: &[f64], u: &[f64], b: &[f64], partials: &mut PartialMatrices) {
+    fn linear_partials_into(
+        &self,
+        q: &[f64],
+        u: &[f64],
+        b: &[f64],
+        partials: &mut PartialMatrices,
+    ) {
         if const { size_of::<PartialsOf<M, f64>>() > ON_STACK } {
             partials_by_direction(self, q, u, b, partials);
             return;

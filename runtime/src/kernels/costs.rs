@@ -1,7 +1,7 @@
 //! What the kernels cost of which gradients can be made.
 
-use crate::mechanism::KernelInfo;
 use crate::Description;
+use crate::mechanism::KernelInfo;
 
 /// What an elementary function costs, in additions and multiplications.
 const FUNCTION: usize = 40;

@@ -56,6 +56,7 @@ pub struct Sizes {
 impl<T: Copy + Default> Linear<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         let zeros = || Matrix::zeros(n, n);
         Self {
@@ -69,6 +70,7 @@ impl<T: Copy + Default> Linear<T> {
 impl<T: Copy + Default> RestParts<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         Self {
             inertia: Vector::zeros(n),
@@ -80,6 +82,7 @@ impl<T: Copy + Default> RestParts<T> {
 impl<T: Copy + Default> Gradient<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         Self {
             coordinates: Vector::zeros(sizes.coordinates),
@@ -92,6 +95,7 @@ impl<T: Copy + Default> Gradient<T> {
 impl<T: Copy + Default> LinearPartials<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         let list = |count: usize| {
             (0..count)
@@ -107,6 +111,7 @@ impl<T: Copy + Default> LinearPartials<T> {
 }
 
 /// Zeros.
+#[inline]
 pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> ResidualPartials<T> {
     let rows = sizes.coordinates;
     (

@@ -82,15 +82,17 @@ impl PartialMatrices {
     #[inline]
     pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = mechanism::Linear<&mut [f64]>> {
         let each = entries_of(self.sizes.coordinates);
-        self.entries.chunks_exact_mut(each.max(1)).map(move |change| {
-            let (mass, rest) = change.split_at_mut(each / 3);
-            let (damping, stiffness) = rest.split_at_mut(each / 3);
-            mechanism::Linear {
-                mass,
-                damping,
-                stiffness,
-            }
-        })
+        self.entries
+            .chunks_exact_mut(each.max(1))
+            .map(move |change| {
+                let (mass, rest) = change.split_at_mut(each / 3);
+                let (damping, stiffness) = rest.split_at_mut(each / 3);
+                mechanism::Linear {
+                    mass,
+                    damping,
+                    stiffness,
+                }
+            })
     }
 }
 

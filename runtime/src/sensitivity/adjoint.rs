@@ -98,18 +98,13 @@ impl Shared<'_> {
                 for (phi, value) in phi.iter_mut().zip(&mode.shape[..n]) {
                     *phi = value.re;
                 }
-                let slope = |change: &[f64]| rate(n, change, phi, mode.lambda, symmetric);
                 for (w, change) in w.iter_mut().zip(changes(n, matrices.by_coordinate())) {
-                    *w = slope(change);
+                    *w = rate(n, change, phi, mode.lambda, symmetric);
                 }
                 self.factors.solve(n, w);
-                let total = |to: &mut [f64], matrices: &[f64], residual: &Matrix| {
-                    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
-                        *to = slope(change) - column_times(n, w, residual, k);
-                    }
-                };
-                total(inputs, matrices.by_input(), by_input);
-                total(design, matrices.by_design(), by_design);
+                let form = (&*phi, mode.lambda, symmetric);
+                total_rates(n, form, matrices.by_input(), (w, by_input), inputs);
+                total_rates(n, form, matrices.by_design(), (w, by_design), design);
             },
         );
         own.finish_undamped(mode);
@@ -203,6 +198,22 @@ impl Factors {
             Self::Definite(factors) => factors.solve_of(n, x),
             Self::General(factors) => x.copy_from_slice(&factors.solve(x)),
         }
+    }
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` with each of some variables, from the derivatives of
+/// matrices and residual by them.
+#[inline(always)]
+fn total_rates(
+    n: usize,
+    (phi, lambda, symmetric): (&[f64], f64, bool),
+    matrices: &[f64],
+    (w, residual): (&[f64], &Matrix),
+    to: &mut [f64],
+) {
+    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
+        let direct = rate(n, change, phi, lambda, symmetric);
+        *to = direct - column_times(n, w, residual, k);
     }
 }
 

@@ -92,11 +92,7 @@ pub(crate) fn rate(n: usize, change: &[f64], phi: &[f64], lambda: f64, symmetric
 }
 
 /// Gradient of `psi^T (s^2 Mhat + s Chat + Khat) phi`, vectors and eigenvalue held fixed, from explicit partials.
-pub(crate) fn of_general(
-    partials: &PartialMatrices,
-    mode: &Mode,
-    gradient: &mut ComplexGradient,
-) {
+pub(crate) fn of_general(partials: &PartialMatrices, mode: &Mode, gradient: &mut ComplexGradient) {
     let n = mode.shape.len();
     let s = mode.s;
     let weights = Matrix::from_fn(n, n, |i, j| mode.left[i] * mode.shape[j]);

@@ -31,7 +31,8 @@ impl<M: Kernels> Study<M> {
     /// for a handle that does not exist.
     pub fn equilibrium(&self) -> Result<Equilibrium, Error> {
         let mut state = self.settings.blank_state();
-        self.settings.equilibrium_into(&self.mechanism, &mut state)?;
+        self.settings
+            .equilibrium_into(&self.mechanism, &mut state)?;
         Ok(state)
     }
 

@@ -197,7 +197,12 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        clusters::clusters(&study.mechanism, equilibrium, modes, study.settings.tolerances()?)
+        clusters::clusters(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            study.settings.tolerances()?,
+        )
     }
 }
 
@@ -264,7 +269,12 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        summary::summary(&study.mechanism, equilibrium, modes, study.settings.tolerances()?)
+        summary::summary(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            study.settings.tolerances()?,
+        )
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band
@@ -314,14 +324,7 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         } = self;
         let tolerances = study.settings.tolerances()?;
         let what = (mode, quantity);
-        second_order::mode_margin(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            what,
-            tolerances,
-            band,
-        )
+        second_order::mode_margin(&study.mechanism, equilibrium, modes, what, tolerances, band)
     }
 }
 
