@@ -16,8 +16,7 @@ mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
-use constrained::free_pairs_into;
-pub(crate) use constrained::{Normalisation, free_pairs};
+pub(crate) use constrained::{Normalisation, free_pairs, free_pairs_into};
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
 pub use whirl::{Sense, Whirl, whirls};
