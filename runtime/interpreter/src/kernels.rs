@@ -1,8 +1,9 @@
 //! The tables of kernels, by interpretation.
 
 use eigentol::kernels::{
-    BatchKernels, BatchPoint, CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels,
-    Linear, LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
+    CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, LinearPartials,
+    MotionKernels, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
@@ -31,6 +32,22 @@ fn linear_buffers<T>(linear: &mut Linear<T>) -> [&mut [T]; 3] {
         linear.mass.as_flattened_mut(),
         linear.damping.as_flattened_mut(),
         linear.stiffness.as_flattened_mut(),
+    ]
+}
+
+fn linear_slices<'a>(linear: &'a mut BatchLinear<'_>) -> [&'a mut [Batch]; 3] {
+    [
+        &mut *linear.mass,
+        &mut *linear.damping,
+        &mut *linear.stiffness,
+    ]
+}
+
+fn gradient_slices<'a>(gradient: &'a mut BatchGradient<'_>) -> [&'a mut [Batch]; 3] {
+    [
+        &mut *gradient.coordinates,
+        &mut *gradient.inputs,
+        &mut *gradient.design,
     ]
 }
 
@@ -468,9 +485,9 @@ impl BatchKernels for Interpreted {
         instructions: Instructions,
         at: BatchPoint<'_>,
         residual: &mut [Batch],
-        stiffness: &mut Matrix<Batch>,
+        stiffness: &mut [Batch],
     ) {
-        let mut to = [residual, stiffness.as_flattened_mut()];
+        let mut to = [residual, stiffness];
         let tape = &self.shared.tapes.residual_and_stiffness;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
@@ -479,9 +496,9 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        linear: &mut Linear<Batch>,
+        linear: &mut BatchLinear<'_>,
     ) {
-        let mut to = linear_buffers(linear);
+        let mut to = linear_slices(linear);
         let tape = &self.shared.tapes.linear;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
@@ -490,10 +507,10 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        parts: &mut RestParts<Batch>,
-        linear: &mut Linear<Batch>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
     ) {
-        let mut to = parts_buffers(parts);
+        let mut to = [&mut *parts.inertia, &mut *parts.applied];
         let tape = &self.shared.tapes.residual_parts;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
         self.linear_batch(instructions, at, linear);
@@ -503,16 +520,20 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        matrices: &mut LinearPartials<Batch>,
-        residual: &mut ResidualPartials<Batch>,
+        matrices: &mut BatchPartials<'_>,
+        residual: [&mut [Batch]; 2],
     ) {
         let arguments = [at.q, at.u, at.b];
-        if let Some(tape) = &self.shared.tapes.linear_partials {
-            batch(tape, instructions, &arguments, |registers| {
-                copy_partials(registers, tape, matrices);
-            });
-        }
-        let mut to = partials_buffers(residual);
+        let BatchPartials {
+            by_coordinate,
+            by_input,
+            by_design,
+        } = matrices;
+        let lists = [by_coordinate, by_input, by_design];
+        let mut to: Vec<&mut [Batch]> = lists.into_iter().flat_map(linear_slices).collect();
+        let tape = &self.shared.tapes.linear_partials;
+        run_batch(tape, instructions, &arguments, &mut to);
+        let mut to = residual;
         let tape = &self.shared.tapes.residual_partials;
         run_batch(tape, instructions, &arguments, &mut to);
     }
@@ -523,7 +544,7 @@ impl BatchKernels for Interpreted {
         at: BatchPoint<'_>,
         phi: &[Batch],
         lambda: &Batch,
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let arguments = [at.q, at.u, at.b, phi, std::slice::from_ref(lambda)];
         let tape = &self.shared.tapes.mode_gradient;
@@ -531,7 +552,7 @@ impl BatchKernels for Interpreted {
             tape,
             instructions,
             &arguments,
-            &mut gradient_buffers(gradient),
+            &mut gradient_slices(gradient),
         );
     }
 
@@ -540,14 +561,14 @@ impl BatchKernels for Interpreted {
         instructions: Instructions,
         at: BatchPoint<'_>,
         w: &[Batch],
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let tape = &self.shared.tapes.residual_gradient;
         run_batch(
             tape,
             instructions,
             &[at.q, at.u, at.b, w],
-            &mut gradient_buffers(gradient),
+            &mut gradient_slices(gradient),
         );
     }
 }
