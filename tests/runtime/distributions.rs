@@ -226,3 +226,100 @@ fn impossible_bodies_are_counted() {
         assert_eq!(run.counts.total(), SAMPLES);
     }
 }
+
+/// A speed that wanders, with a length that varies: of both, first order is exact in the derivatives of the closed form.
+#[test]
+fn a_speed_that_wanders() {
+    let exact = Study::new(Pendulum)
+        .input(Pendulum::omega, SPEED)
+        .start(Pendulum::theta, 1.0)
+        .tolerance(LENGTH, 0.03);
+    let study = exact.clone().tolerance(Pendulum::omega, 0.3);
+    assert_eq!(study.tolerances().unwrap().sigmas(), [0.0, 0.01, 0.3 / 3.0]);
+    let slopes = study.sensitivities().unwrap();
+    let by_speed = slopes.modes[0].omega_by_input.as_ref().unwrap()[0];
+    let spread = |study: &Study<Pendulum>| {
+        let first = study.first_order().unwrap();
+        first.modes[0].frequency.clone().unwrap()
+    };
+    let (with, without) = (spread(&study), spread(&exact));
+    close(with.sigma, without.sigma.hypot(0.1 * by_speed), 1e-14);
+    close(
+        with.variance_shares[2],
+        (0.1 * by_speed / with.sigma).powi(2),
+        1e-12,
+    );
+
+    let run = study.clone().samples(SAMPLES).monte_carlo().unwrap();
+    let found = run.modes[0].unwrap();
+    assert!((found.sigma.unwrap() / with.sigma - 1.0).abs() < 0.03);
+    assert!(run.side_by_side && run.counts.stable == SAMPLES);
+
+    let all = study.solve().unwrap();
+    close(
+        all.second_order().unwrap().modes[0]
+            .as_ref()
+            .unwrap()
+            .frequency
+            .moments
+            .first_order_sigma,
+        with.sigma,
+        1e-13,
+    );
+    assert!(all.summary().is_ok() && all.clusters().unwrap().is_empty());
+    let swept = study
+        .first_order_sweep(Pendulum::omega, &[4.5, SPEED])
+        .unwrap();
+    let last = swept[1].as_ref().unwrap().modes[0]
+        .frequency
+        .clone()
+        .unwrap();
+    close(last.sigma, with.sigma, 1e-12);
+    // The speed at which the mechanism becomes critical is the same: the one to be set is less by the deviation.
+    let critical = study.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
+    let plain = exact.critical_tolerance(Pendulum::omega, 0.0, 6.0).unwrap();
+    close(
+        critical.sigma().unwrap(),
+        plain.sigma().unwrap().hypot(0.1),
+        1e-12,
+    );
+    assert!(study.campbell(Pendulum::omega, &[4.0, 5.0], &[1.0]).is_ok());
+}
+
+mod declared {
+    use super::*;
+
+    mechanism! {
+        mechanism Declared {
+            input omega: rad/s +/- 2% uniform;
+            design m = 3.0 kg;
+            design l = 1000 mm +20 -10 mm triangular;
+            gravity 9.81 m/s^2 along -z;
+            body shaft: massless;
+            body bar: rod(mass: m, length: l, along: -z);
+            joint spin: revolute(z) from ground to shaft, driven at omega;
+            joint theta: revolute(y) from shaft to bar;
+        }
+    }
+
+    /// What is declared is what a study takes: the tolerance of the speed follows it.
+    #[test]
+    fn tolerances_of_the_language() {
+        let study = Study::new(Declared)
+            .input(Declared::omega, SPEED)
+            .start(Declared::theta, 1.0);
+        let tolerances = study.tolerances().unwrap();
+        let uniform = |half_width: f64| half_width / 3.0_f64.sqrt();
+        close(tolerances.sigmas()[2], uniform(0.02 * SPEED), 1e-14);
+        close(tolerances.sigmas()[1], 0.015 / 6.0_f64.sqrt(), 1e-12);
+        close(tolerances.shifts()[1], 5e-3, 1e-12);
+        let faster = study.clone().input(Declared::omega, 2.0 * SPEED);
+        close(
+            faster.tolerances().unwrap().sigmas()[2],
+            uniform(0.04 * SPEED),
+            1e-14,
+        );
+        let run = study.samples(500).monte_carlo().unwrap();
+        assert_eq!(run.counts.stable, 500);
+    }
+}

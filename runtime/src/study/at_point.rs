@@ -1,5 +1,6 @@
 //! What a study can be asked at one operating point.
 
+use super::deviating::deviating;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
@@ -154,6 +155,9 @@ impl<M: Kernels> Study<M> {
     /// # Errors
     /// As [`Study::outputs`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
+        if let Some(wide) = deviating!(self, Kernels) {
+            return wide.output_tolerances();
+        }
         let outputs = self.outputs()?;
         tolerance::output_tolerances(&outputs, self.settings.tolerances()?)
     }

@@ -3,6 +3,7 @@
 // The documentation of `Study` shows its methods in the order of these modules: `Study::new` first.
 mod at_point;
 mod builder;
+mod deviating;
 mod over_input;
 mod parameter;
 mod settings;

@@ -1,5 +1,6 @@
 //! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
 
+use super::deviating::deviating;
 use super::{Study, Value};
 use crate::branches::{self, Branches, Continuation};
 use crate::campbell::{self, Axes, Campbell};
@@ -89,6 +90,9 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Vec<Result<FirstOrder, Error>>, Error> {
+        if let Some(wide) = deviating!(self, BatchKernels) {
+            return wide.first_order_sweep(Input::new(input.index()), values);
+        }
         let tolerances = self.settings.tolerances()?;
         let mut found = Vec::with_capacity(values.len());
         self.sensitivity_sweep(input, values, |point, slopes| {
@@ -116,6 +120,9 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
+        if let Some(wide) = deviating!(self, DirectionalKernels) {
+            return wide.campbell(Input::new(input.index()), values, orders);
+        }
         let Self {
             mechanism,
             settings,
@@ -248,6 +255,9 @@ impl<M: DirectionalKernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<EventTolerance, Error> {
+        if let Some(wide) = deviating!(self, DirectionalKernels) {
+            return wide.critical_tolerance(Input::new(input.index()), low, high);
+        }
         let tolerances = self.settings.tolerances()?;
         let state = self.critical_state(input, low, high)?;
         Ok(sweep::critical_tolerance(
@@ -309,6 +319,9 @@ impl<M: Kernels> Study<M> {
         high: impl Into<Value>,
         line: impl Into<Line>,
     ) -> Result<Vec<EventTolerance>, Error> {
+        if let Some(wide) = deviating!(self, Kernels) {
+            return wide.crossing_tolerances(Input::new(input.index()), low, high, line);
+        }
         let tolerances = self.settings.tolerances()?;
         let found = self.crossings(input, low, high, line)?;
         Ok(spreads(&self.mechanism, &found, tolerances))
@@ -358,6 +371,9 @@ impl<M: Kernels> Study<M> {
         low: impl Into<Value>,
         high: impl Into<Value>,
     ) -> Result<Vec<EventTolerance>, Error> {
+        if let Some(wide) = deviating!(self, Kernels) {
+            return wide.flutter_onset_tolerances(Input::new(input.index()), low, high);
+        }
         let tolerances = self.settings.tolerances()?;
         let found = self.flutter_onsets(input, low, high)?;
         Ok(spreads(&self.mechanism, &found, tolerances))

@@ -10,6 +10,7 @@ use crate::constraints::Structure;
 use crate::equilibrium;
 use crate::equilibrium::{Assembly, Policy};
 use crate::kernels::Kernels;
+use crate::mechanism::ToleranceInfo;
 use crate::modes::Family;
 use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
@@ -232,6 +233,18 @@ impl Settings {
         let values: Vec<Distribution> = values.collect::<Result<_, _>>()?;
         let nominal: Vector = all.map(|(_, value)| *value).collect();
         Tolerances::distributed(&nominal, values, level, correlation)
+    }
+
+    /// The same of a mechanism of which deviations of inputs are further design variables. Tolerances stay as they stand; the inputs
+    /// themselves do not vary.
+    pub(super) fn widened(&self, description: Shared<Description>, design: Vector) -> Self {
+        let none = Variation::About(ToleranceInfo::NONE);
+        let mut settings = self.clone();
+        settings.input_variations.fill(none.clone());
+        settings.design_variations.resize(design.len(), none);
+        settings.design = design;
+        settings.description = description;
+        settings
     }
 
     /// The inputs that have a tolerance.

@@ -1,6 +1,7 @@
 //! A study with its equilibrium and modes, which are solved once for all questions.
 
 use super::Study;
+use super::deviating::deviating;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
 use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
 use crate::modes::{self, Whirl};
@@ -86,6 +87,9 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// # Errors
     /// As [`Solved::equilibrium_shift`] and [`Study::tolerances`].
     pub fn output_tolerances(&self) -> Result<OutputTolerances, Error> {
+        if let Some(wide) = deviating!(self.study, Kernels) {
+            return self.in_study(&wide).output_tolerances();
+        }
         let tolerances = self.study.settings.tolerances()?;
         tolerance::output_tolerances(&self.outputs()?, tolerances)
     }
@@ -115,6 +119,9 @@ impl<'a, M: Kernels> Solved<'a, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn first_order(&self) -> Result<FirstOrder, Error> {
+        if let Some(wide) = deviating!(self.study, Kernels) {
+            return self.in_study(&wide).first_order();
+        }
         let tolerances = self.study.settings.tolerances()?;
         let slopes = self.sensitivities()?;
         tolerance::first_order(&self.modes, &slopes, tolerances)
@@ -192,6 +199,9 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn clusters(&self) -> Result<Vec<ClusterTolerance>, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).clusters();
+        }
         let Self {
             study,
             equilibrium,
@@ -238,6 +248,9 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).second_order();
+        }
         let Self {
             study,
             equilibrium,
@@ -264,6 +277,9 @@ impl<M: CurvatureKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Solved::sensitivities`] and [`Study::tolerances`].
     pub fn summary(&self) -> Result<Summary, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).summary();
+        }
         let Self {
             study,
             equilibrium,
@@ -317,6 +333,9 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         quantity: Quantity,
         band: Band,
     ) -> Result<ModeMargin, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).margin_of(mode, quantity, band);
+        }
         let Self {
             study,
             equilibrium,
@@ -364,6 +383,9 @@ impl<M: BatchKernels> Solved<'_, M> {
     }
 
     fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo, Error> {
+        if let Some(wide) = deviating!(self.study, BatchKernels) {
+            return self.in_study(&wide).sample(progress);
+        }
         let Self {
             study,
             equilibrium,
