@@ -21,7 +21,8 @@ pub(super) fn together(modes: &Modes) -> bool {
 pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
     let description = &modes.description;
     let n = description.coordinates.len() as f64;
-    let kernels = STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
+    let kernels =
+        STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
     // Of n^3: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and right.
     match (together, modes.family) {
         (true, _) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),

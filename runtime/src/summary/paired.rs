@@ -93,6 +93,11 @@ impl Paired {
         self.total().found.count as usize
     }
 
+    /// How many samples there are.
+    pub(super) fn samples(&self) -> usize {
+        self.samples
+    }
+
     /// Mean of what was found.
     pub(super) fn mean(&self) -> Option<f64> {
         self.total().found.mean()
@@ -176,7 +181,10 @@ mod tests {
         let n = (2 * GROUPS) as f64;
         let expected = 2.0 * (4.0 * (2.0 * n + 1.0) / (2.0 * (n + 1.0))).sqrt();
         let ratio = paired.first_ratio().map_or(0.0, |ratio| ratio.value);
-        assert!((ratio * ratio - expected * expected).abs() < 1e-9, "{ratio}");
+        assert!(
+            (ratio * ratio - expected * expected).abs() < 1e-9,
+            "{ratio}"
+        );
     }
 
     #[test]
