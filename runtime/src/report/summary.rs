@@ -147,9 +147,10 @@ impl fmt::Display for Summary {
         undamped(f, self.first.family, d)?;
         self.sentences(f)?;
         self.about_samples(f)?;
-        self.clusters
-            .iter()
-            .try_for_each(|cluster| write!(f, "{cluster}"))
+        let mixed = |cluster: &&ClusterTolerance| {
+            cluster.modes.iter().any(|mode| self.cluster_of(*mode).is_some())
+        };
+        (self.clusters.iter().filter(mixed)).try_for_each(|cluster| write!(f, "{cluster}"))
     }
 }
 

@@ -57,6 +57,8 @@ pub(super) struct About<'a> {
 pub(super) struct Found {
     pub(super) checks: Vec<Option<Check>>,
     pub(super) counts: Vec<usize>,
+    /// Samples in which modes of each group stand in another order than the nominal ones.
+    pub(super) exchanged: Vec<usize>,
     pub(super) sampling: Sampling,
 }
 
@@ -65,10 +67,13 @@ impl About<'_> {
     pub(super) fn sample(
         &self,
         predictions: &[Prediction<'_>],
+        groups: &[&[usize]],
         budget: f64,
     ) -> Result<Found, Error> {
+        let mut exchanged = vec![0; groups.len()];
         let mut pairs = vec![Paired::new(); predictions.len()];
-        let found = |pairs: &[Paired], sampling| Found {
+        let found = |pairs: &[Paired], exchanged, sampling| Found {
+            exchanged,
             checks: (predictions.iter().zip(pairs))
                 .map(|(prediction, paired)| check(prediction, paired))
                 .collect(),
@@ -77,7 +82,7 @@ impl About<'_> {
         };
         let still = self.tolerances.sigmas().iter().all(|sigma| *sigma == 0.0);
         if predictions.is_empty() || still {
-            return Ok(found(&pairs, Sampling::NotNeeded));
+            return Ok(found(&pairs, exchanged, Sampling::NotNeeded));
         }
         let mut each = operations(self.modes, together(self.modes));
         let mut counts = Counts::default();
@@ -105,6 +110,9 @@ impl About<'_> {
                 for sample in run.all.iter().flatten() {
                     self.look_at(sample, predictions, &mut pairs);
                     self.follow(sample, &mut branches);
+                    for (group, exchanged) in groups.iter().zip(&mut exchanged) {
+                        *exchanged += usize::from(!self.in_order(group, sample));
+                    }
                 }
             }
             let open = |(prediction, paired): (&Prediction<'_>, &Paired)| {
@@ -118,14 +126,14 @@ impl About<'_> {
         let samples = counts.total();
         if samples == 0 {
             let operations = STAGES[0] as f64 * each;
-            return Ok(found(&pairs, Sampling::TooDear { operations, budget }));
+            return Ok(found(&pairs, exchanged, Sampling::TooDear { operations, budget }));
         }
         let other_branch = branches
             .filter(|(_, samples)| *samples > 0)
             .map(|(count, samples)| Chance::new(count, samples))
             .transpose()?;
         let sampled = Sampled::new(&counts, other_branch)?;
-        Ok(found(&pairs, Sampling::Done(sampled)))
+        Ok(found(&pairs, exchanged, Sampling::Done(sampled)))
     }
 
     fn look_at(&self, sample: &Sample, predictions: &[Prediction<'_>], pairs: &mut [Paired]) {
@@ -145,6 +153,20 @@ impl About<'_> {
             let second = prediction.second.map_or(0.0, |model| model.change(&change));
             paired.add(found.map(|value| value - prediction.nominal), first, second);
         }
+    }
+
+    /// Whether the frequencies that a sample has of some modes stand in the order of the nominal ones.
+    fn in_order(&self, group: &[usize], sample: &Sample) -> bool {
+        let both = |mode: &usize| {
+            let nominal = self.modes.modes.get(*mode)?.frequency().unwrap_or(0.0);
+            Some((nominal, sample.frequencies.get(*mode).copied().flatten()?))
+        };
+        let found: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
+        let pairs = (0..found.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let turned = |(i, j): (usize, usize)| {
+            (found[i].0 < found[j].0) != (found[i].1 < found[j].1)
+        };
+        !pairs.into_iter().any(turned)
     }
 
     /// Counts the first samples on another branch, and all that were asked.
