@@ -19,7 +19,7 @@ mod motion;
 mod partial_matrices;
 mod summary;
 
-pub use batch::{BatchKernels, BatchPoint};
+pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
 pub use curvature::CurvatureKernels;
 pub use deviating_inputs::DeviatingInputs;
