@@ -148,7 +148,10 @@ impl fmt::Display for Summary {
         self.sentences(f)?;
         self.about_samples(f)?;
         let mixed = |cluster: &&ClusterTolerance| {
-            cluster.modes.iter().any(|mode| self.cluster_of(*mode).is_some())
+            cluster
+                .modes
+                .iter()
+                .any(|mode| self.cluster_of(*mode).is_some())
         };
         (self.clusters.iter().filter(mixed)).try_for_each(|cluster| write!(f, "{cluster}"))
     }

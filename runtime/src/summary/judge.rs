@@ -96,7 +96,10 @@ impl<'a> Judge<'a> {
         let Sampling::Done(sampled) = &found.sampling else {
             return Findings::default();
         };
-        let cluster = self.clusters.iter().position(|cluster| cluster.modes.contains(&mode));
+        let cluster = self
+            .clusters
+            .iter()
+            .position(|cluster| cluster.modes.contains(&mode));
         let separate = cluster.is_some_and(|cluster| found.exchanged[cluster] == 0);
         if cluster.is_some() && !(separate && self.may_be_separate(mode)) {
             return Findings::default();

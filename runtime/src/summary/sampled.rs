@@ -126,7 +126,11 @@ impl About<'_> {
         let samples = counts.total();
         if samples == 0 {
             let operations = STAGES[0] as f64 * each;
-            return Ok(found(&pairs, exchanged, Sampling::TooDear { operations, budget }));
+            return Ok(found(
+                &pairs,
+                exchanged,
+                Sampling::TooDear { operations, budget },
+            ));
         }
         let other_branch = branches
             .filter(|(_, samples)| *samples > 0)
@@ -163,9 +167,8 @@ impl About<'_> {
         };
         let found: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
         let pairs = (0..found.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let turned = |(i, j): (usize, usize)| {
-            (found[i].0 < found[j].0) != (found[i].1 < found[j].1)
-        };
+        let turned =
+            |(i, j): (usize, usize)| (found[i].0 < found[j].0) != (found[i].1 < found[j].1);
         !pairs.into_iter().any(turned)
     }
 
