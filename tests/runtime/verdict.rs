@@ -87,6 +87,9 @@ fn judged(summary: &Summary, mode: usize, exact: f64, known: f64, at: &str) {
     } else {
         assert!(first.abs() >= 0.01 - known, "refused {}", says());
     }
+    if trust.advice == Advice::Cluster {
+        return;
+    }
     let check = trust.check(Quantity::Frequency);
     let check = check.unwrap_or_else(|| panic!("{}", says()));
     let found = check.first_order_error.unwrap();

@@ -32,7 +32,7 @@ struct Findings {
     right: bool,
     /// Values of a quantity of too few samples.
     missing: Option<Doubt>,
-    /// The modes of its cluster do not mix.
+    /// It belongs to a cluster by distances, but samples keep the modes in their order.
     separate: bool,
 }
 
@@ -77,7 +77,10 @@ impl<'a> Judge<'a> {
                 doubts.push(Doubt::Inaccurate { quantity, error });
             }
         }
-        doubts.extend(said.missing);
+        let unstable = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
+        if !doubts.iter().any(unstable) {
+            doubts.extend(said.missing);
+        }
         Trust {
             mode,
             advice: self.advice(&doubts, &said.checks),
@@ -133,6 +136,9 @@ impl<'a> Judge<'a> {
         let are = |finding| move |error: &(_, _, Finding)| error.2 == finding;
         said.wrong = said.errors.iter().any(are(Finding::Wrong));
         said.right &= said.errors.iter().all(are(Finding::Right));
+        if cluster.is_some() && !said.right {
+            return Findings::default();
+        }
         said
     }
 
@@ -144,7 +150,7 @@ impl<'a> Judge<'a> {
             doubts.push(Doubt::NoFrequency);
         }
         let decided = said.wrong || said.right;
-        let cluster = (self.cluster(mode)).filter(|_| !(said.separate && decided));
+        let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
         if let Some(cluster) = cluster {
             doubts.push(Doubt::Clustered {
                 modes: cluster.modes.clone(),

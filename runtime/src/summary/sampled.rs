@@ -13,7 +13,10 @@ use crate::tolerance::{self, Counts, Outcome, Sample, Tolerances, monte_carlo};
 use crate::{Equilibrium, Error, Modes, Stability};
 
 /// Numbers of samples, of which the next is taken where the last did not decide.
-const STAGES: [usize; 4] = [1024, 4096, 16_384, 65_536];
+const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
+/// As many decide, unless no quantity has values, and more where rare samples matter.
+const DECISIVE: usize = 1024;
+const DECISIVE_IN_DOUBT: usize = 4096;
 /// Samples that are drawn together.
 const TOGETHER: usize = 8192;
 /// Samples whose branch is asked for.
@@ -89,7 +92,7 @@ impl About<'_> {
         let mut branches = (self.at.stability == Stability::Stable).then_some((0, 0));
         let mut stream = 0;
         for stage in STAGES {
-            if stage as f64 * each > budget {
+            if stage.max(DECISIVE) as f64 * each > budget {
                 break;
             }
             while counts.total() < stage {
@@ -116,8 +119,13 @@ impl About<'_> {
                 }
             }
             let open = |(prediction, paired): (&Prediction<'_>, &Paired)| {
-                (prediction.doubtful && stage == STAGES[0])
-                    || !check(prediction, paired).is_none_or(|check| decided(&check))
+                let decisive = if prediction.doubtful {
+                    DECISIVE_IN_DOUBT
+                } else {
+                    DECISIVE
+                };
+                let found = check(prediction, paired);
+                found.is_some_and(|check| stage < decisive || !decided(&check))
             };
             if !predictions.iter().zip(&pairs).any(open) {
                 break;
@@ -125,7 +133,7 @@ impl About<'_> {
         }
         let samples = counts.total();
         if samples == 0 {
-            let operations = STAGES[0] as f64 * each;
+            let operations = DECISIVE as f64 * each;
             return Ok(found(
                 &pairs,
                 exchanged,

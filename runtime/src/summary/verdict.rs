@@ -122,7 +122,7 @@ pub enum Doubt {
         /// By how much, as [`Check::first_order_error`].
         error: Measured,
     },
-    /// Not half of the samples have the quantity.
+    /// Not half of the samples have the quantity, for another reason than an instability nearby.
     Missing {
         /// Of what.
         quantity: Quantity,

@@ -1,6 +1,7 @@
 //! Verdicts: each doubt where its cause is, none where there is none, and a sentence for each.
 
 use eigentol::summary::{Doubt, Summary};
+use eigentol::tolerance::Outcome;
 use eigentol::{Coordinate, DesignVariable, Family, Input, Quantity, Study};
 
 use super::close;
@@ -219,12 +220,27 @@ fn mixed_modes_have_no_sigma_of_their_own() {
 #[test]
 fn a_vibration_about_to_grow_says_so() {
     let summary = plate(0.5, 0.02, 0.01);
+    // The damping ratio of the stable samples is normal, cut off at two standard deviations.
+    let hazard = (-2.0_f64).exp() / std::f64::consts::TAU.sqrt() / 0.977_249_868;
+    let cut = (1.0 - 2.0 * hazard - hazard * hazard).sqrt();
     for trust in &summary.trust {
-        let [Doubt::NearInstability { distance }] = trust.doubts[..] else {
+        let [
+            Doubt::NearInstability { distance },
+            Doubt::Inaccurate {
+                quantity: Quantity::DampingRatio,
+                error,
+            },
+        ] = trust.doubts[..]
+        else {
             panic!("{trust:?}")
         };
         close(distance, 2.0, 1e-3);
+        assert!((error.value - (1.0 / cut - 1.0)).abs() < 4.0 * error.standard_error);
     }
+    let unstable = summary.sampled().unwrap().chance(Outcome::Flutter).unwrap();
+    let (share, samples) = (0.022_75_f64, unstable.samples as f64);
+    let error = 4.0 * (share * (1.0 - share) / samples).sqrt();
+    assert!((unstable.value() - share).abs() < error, "{unstable:?}");
     says(&summary.to_string(), &["begins to grow 2.0"]);
     let growing = plate(0.5, -0.02, 0.01);
     says(&growing.to_string(), &["the vibration grows"]);
