@@ -24,3 +24,4 @@ mod study;
 mod sweeps;
 mod tolerance;
 mod trigonometry;
+mod verdict;

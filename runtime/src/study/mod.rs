@@ -8,6 +8,7 @@ mod over_input;
 mod parameter;
 mod settings;
 mod solved;
+mod summary;
 mod value;
 mod variation;
 
