@@ -74,6 +74,8 @@ pub mod scalar;
 #[cfg(feature = "std")]
 mod algebra;
 #[cfg(feature = "std")]
+pub mod allocation;
+#[cfg(feature = "std")]
 mod arguments;
 #[cfg(feature = "std")]
 mod batched;
@@ -99,6 +101,8 @@ pub mod modes;
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod report;
+#[cfg(feature = "std")]
+pub mod requirement;
 #[cfg(feature = "std")]
 pub mod response;
 #[cfg(feature = "std")]

@@ -1,0 +1,1 @@
+//! The cheapest tolerances that meet requirements.
