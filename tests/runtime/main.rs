@@ -17,6 +17,7 @@ mod lanes;
 mod modes;
 mod quadratic;
 mod range;
+mod reliable;
 mod rounding;
 mod sensitivity;
 mod side_by_side;

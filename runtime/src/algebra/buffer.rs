@@ -53,10 +53,17 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
             Self::Few(own, _) if count <= FEW => *own = count,
-            Self::Many(many) if many.capacity() > 0 => many.resize(count, T::default()),
-            _ => *self = Self::filled(count, T::default()),
+            _ => self.make_room_for_many(count),
         }
         self
+    }
+
+    #[inline(never)]
+    fn make_room_for_many(&mut self, count: usize) {
+        match self {
+            Self::Many(many) => many.resize(count, T::default()),
+            Self::Few(..) => *self = Self::filled(count, T::default()),
+        }
     }
 
     /// Writes these values over what there is, in the same room where they fit.
@@ -65,11 +72,11 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
         let values = values.into_iter();
         match self {
             Self::Few(count, few) if at_most(&values, FEW) => *count = fill(few, values),
-            Self::Many(many) if many.capacity() > 0 => {
+            Self::Many(many) => {
                 many.clear();
                 many.extend(values);
             }
-            other => *other = values.collect(),
+            Self::Few(..) => *self = values.collect(),
         }
     }
 }
@@ -127,11 +134,10 @@ impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
     }
 }
 
-/// Nothing, which is quick to write: places are made when there is something to put in them.
-impl<T, const FEW: usize> Default for Buffer<T, FEW> {
+impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
     #[inline]
     fn default() -> Self {
-        Self::Many(Vec::new())
+        Self::filled(0, T::default())
     }
 }
 

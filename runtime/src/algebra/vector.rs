@@ -16,7 +16,7 @@ pub struct Vector<T = f64> {
     entries: Buffer<T, FEW>,
 }
 
-impl<T> Default for Vector<T> {
+impl<T: Copy + Default> Default for Vector<T> {
     #[inline]
     fn default() -> Self {
         Self {

@@ -58,6 +58,7 @@ pub struct Sizes {
 impl<T: Copy + Default> Linear<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         let zeros = || Matrix::zeros(n, n);
         Self {
@@ -71,6 +72,7 @@ impl<T: Copy + Default> Linear<T> {
 impl<T: Copy + Default> RestParts<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         Self {
             inertia: Vector::zeros(n),
@@ -82,6 +84,7 @@ impl<T: Copy + Default> RestParts<T> {
 impl<T: Copy + Default> Gradient<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         Self {
             coordinates: Vector::zeros(sizes.coordinates),
@@ -94,6 +97,7 @@ impl<T: Copy + Default> Gradient<T> {
 impl<T: Copy + Default> LinearPartials<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         let list = |count: usize| {
             (0..count)
@@ -109,6 +113,7 @@ impl<T: Copy + Default> LinearPartials<T> {
 }
 
 /// Zeros.
+#[inline]
 pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> ResidualPartials<T> {
     let rows = sizes.coordinates;
     (
@@ -246,6 +251,14 @@ pub trait Kernels: Sync {
 }
 
 impl dyn Kernels + '_ {
+    /// What an input deviates by, SI.
+    pub(crate) fn deviation(&self, input: usize, b: &[f64]) -> f64 {
+        let of_input =
+            |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
+        let own = b.iter().enumerate().filter(of_input);
+        own.map(|(_, deviation)| deviation).sum()
+    }
+
     /// Residual at rest.
     pub fn residual(&self, q: &[f64], u: &[f64], b: &[f64]) -> Vector {
         let mut residual = Vector::zeros(q.len());

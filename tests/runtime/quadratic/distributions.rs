@@ -82,7 +82,7 @@ fn a_uniform_variable() {
 /// uniform one, whose limits are nearer.
 #[test]
 fn a_band_sees_the_distribution() {
-    let model = quadratic(0.0, &[1.0, 1.0], &[&[0.0, 0.0], &[0.0, 0.0]]);
+    let model = quadratic(0.0, &[1.0, 1.0], &[&[0.0; 2], &[0.0; 2]]);
     let uniform = || Distribution::uniform(-1.0, 1.0).unwrap();
     let values = vec![uniform(), uniform()];
     let tolerances = Tolerances::distributed(&[0.0; 2], values, 3.0, None).unwrap();
