@@ -116,7 +116,9 @@ fn a_linear_limit_is_exact() {
                 1e-9,
             );
         }
-        let samples = study.samples(20_000).chances(&[Requirement::at_most(gap(), 40.5e-3)]);
+        let samples = study
+            .samples(20_000)
+            .chances(&[Requirement::at_most(gap(), 40.5e-3)]);
         let interval = samples.unwrap().all.clopper_pearson(0.9999).unwrap();
         let exact = normal::cdf(-0.5 * beta);
         assert!(interval.lower < exact && exact < interval.upper);
@@ -162,7 +164,9 @@ fn a_series_system() {
         .sum();
     let system = found.system.unwrap();
     close(system.probability.value, 1.0 - met, 1e-4);
-    assert!(system.bounds.lower <= 1.0 - met && 1.0 - met <= system.bounds.upper);
+    let bounds = system.bounds;
+    // Those of pairs are exact but for failing all three; 1e-8 is the error of the integral.
+    assert!(bounds.lower <= 1.0 - met + 1e-8 && 1.0 - met <= bounds.upper + 1e-8);
     let chances = stack().samples(20_000).chances(&wanted).unwrap();
     let interval = chances.all.wilson(0.9999).unwrap();
     assert!(interval.lower < 1.0 - met && 1.0 - met < interval.upper);
@@ -197,7 +201,7 @@ fn the_pendulum_in_a_band() {
         Distribution::uniform(0.97, 1.03).unwrap(),
         Distribution::lognormal(1.0, 0.02).unwrap(),
     ] {
-        let (low, high) = (3.98, 4.12);
+        let (low, high) = (3.98, 4.09);
         let band = Requirement::Within {
             response: FREQUENCY,
             low,
@@ -213,6 +217,7 @@ fn the_pendulum_in_a_band() {
                 close(own.probability().unwrap(), exact, 1e-8);
                 let at = &own.design_points.as_ref().unwrap()[0];
                 assert!(at.verified);
+                assert!(at.second_order.is_some(), "{values:?} {mass} {at:?}");
                 close(at.second_order.unwrap(), exact, 1e-6);
                 assert!((at.importance[1] - 1.0).abs() < 1e-9 && at.importance[0].abs() < 1e-9);
                 assert!(at.by_nominal[0].beta.abs() < 1e-9);
@@ -272,7 +277,7 @@ fn small_probabilities_of_a_curved_limit() {
         .tolerance(Pendulum::l, 0.03)
         .tolerance(Pendulum::omega, 0.15)
         .tolerance(Pendulum::m, 0.5);
-    let low = 3.76;
+    let low = 3.6;
     let lengths = Distribution::normal(1.0, 0.01).unwrap();
     let steps = 4000;
     let exact: f64 = (0..steps)
@@ -379,11 +384,12 @@ fn derivatives_are_those_of_samples() {
 #[test]
 fn what_makes_no_sense_is_refused() {
     let study = pendulum().tolerance(Pendulum::l, 0.03);
-    let setting = |study: &Study<Pendulum>, wanted: &[Requirement]| {
-        match (study.reliability(wanted), study.chances(wanted)) {
-            (Err(Error::Setting { setting, .. }), other) => (setting, other.is_ok()),
-            other => panic!("{other:?}"),
-        }
+    let setting = |study: &Study<Pendulum>, wanted: &[Requirement]| match (
+        study.reliability(wanted),
+        study.chances(wanted),
+    ) {
+        (Err(Error::Setting { setting, .. }), other) => (setting, other.is_ok()),
+        other => panic!("{other:?}"),
     };
     let band = |low, high| Requirement::Within {
         response: FREQUENCY,
@@ -399,10 +405,16 @@ fn what_makes_no_sense_is_refused() {
     ] {
         assert_eq!(setting(&study, &[good, wrong]), ("requirement", false));
     }
-    assert_eq!(setting(&study, &[Requirement::Stable]), ("requirements", true));
+    assert_eq!(
+        setting(&study, &[Requirement::Stable]),
+        ("requirements", true)
+    );
     assert_eq!(setting(&pendulum(), &[good]), ("tolerances", true));
     let measured = Distribution::empirical(&[0.98, 1.0, 1.01]).unwrap();
-    assert_eq!(setting(&distributed(measured), &[good]), ("distribution", true));
+    assert_eq!(
+        setting(&distributed(measured), &[good]),
+        ("distribution", true)
+    );
     assert!(study.clone().samples(0).chances(&[good]).is_err());
     let mode = Response::Mode {
         mode: 3,
@@ -466,7 +478,10 @@ fn reports_name_what_they_are_about() {
     ];
     let study = stack().samples(100);
     let text = study.chances(&wanted).unwrap().to_string();
-    assert!(text.starts_with("Stack: requirements, 100 samples\n"), "{text}");
+    assert!(
+        text.starts_with("Stack: requirements, 100 samples\n"),
+        "{text}"
+    );
     let text = study.reliability(&wanted).unwrap().to_string();
     assert!(text.contains("gap at least 0.0395000 m"), "{text}");
     assert!(text.contains("a [mm]"), "{text}");

@@ -57,31 +57,56 @@ impl DesignPoint {
         normal: reliability::DesignPoint,
     ) -> Result<Self, Error> {
         let z = &normal.point;
-        let (_, by_design) = limit.by_design(z).map_err(|reason| {
-            Error::from(eigentol_statistics::Error::NoLimitValue {
-                place: "at the design point",
-                reason,
-            })
-        })?;
-        let by_half_width = deviations.by_half_width(z);
-        let along = by_design.iter().zip(&by_half_width);
+        let slopes = slopes_at(limit, deviations, &normal)?;
         let second = sorm(limit, &normal).ok();
         Ok(Self {
             design: deviations.design(z),
-            importance: deviations.shares(z, &by_design),
-            by_nominal: by_design
-                .iter()
-                .map(|slope| normal.sensitivity(*slope))
-                .collect(),
-            by_half_width: along
-                .map(|(slope, rate)| normal.sensitivity(slope * rate))
-                .collect(),
+            importance: deviations.shares(z, &slopes.by_design),
+            by_nominal: slopes.by_nominal,
+            by_half_width: slopes.by_half_width,
             curvatures: second.as_ref().map(|found| found.curvatures().to_vec()),
             second_order: second.and_then(|found| found.tvedt().ok()),
             verified: crosses(limit, &normal),
             normal,
         })
     }
+}
+
+/// Derivatives at a design point, by each design variable.
+pub(crate) struct Slopes {
+    /// Of the distance from failure.
+    by_design: Vec<f64>,
+    /// Of the reliability index and the probability, by nominal values.
+    pub(crate) by_nominal: Vec<FormSensitivity>,
+    /// The same by half-widths.
+    pub(crate) by_half_width: Vec<FormSensitivity>,
+}
+
+/// # Errors
+/// [`Error::NoReliability`] where the point has no derivatives.
+pub(crate) fn slopes_at(
+    limit: &LimitAt<'_>,
+    deviations: &Deviations<'_>,
+    at: &reliability::DesignPoint,
+) -> Result<Slopes, Error> {
+    let (_, by_design) = limit.by_design(&at.point).map_err(|reason| {
+        Error::from(eigentol_statistics::Error::NoLimitValue {
+            place: "at the design point",
+            reason,
+        })
+    })?;
+    let rates = deviations.by_half_width(&at.point);
+    let along = by_design.iter().zip(&rates);
+    Ok(Slopes {
+        by_nominal: by_design
+            .iter()
+            .map(|slope| at.sensitivity(*slope))
+            .collect(),
+        by_half_width: along
+            .map(|(slope, rate)| at.sensitivity(slope * rate))
+            .collect(),
+        by_design,
+    })
 }
 
 /// Whether the limit lies at this point.

@@ -27,6 +27,7 @@ pub use requirement::Requirement;
 pub use requirements::Requirements;
 
 pub(crate) use chances::chances_of;
+pub(crate) use design_point::slopes_at;
 pub(crate) use deviations::Deviations;
 pub(crate) use limit::LimitAt;
-pub(crate) use reliability::reliability_of;
+pub(crate) use reliability::{check, reliability_of};
