@@ -3,6 +3,7 @@
 
 mod common;
 
+mod allocation;
 mod branches;
 mod clusters;
 mod constrained_modes;

@@ -1,8 +1,9 @@
-//! Requirements of a study: chances of meeting them.
+//! Requirements of a study: chances of meeting them, and the cheapest tolerances that do.
 
 use super::deviating::deviating;
 use super::{Solved, Study};
 use crate::Error;
+use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::DirectionalKernels;
 use crate::requirement::{
     Chances, FormSettings, RareFailure, Reliability, Requirement, Requirements, SamplingSettings,
@@ -95,6 +96,41 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         requirements.rare_failure(&about, &settings, own.threads)
     }
 
+    /// The cheapest tolerances that meet requirements, checked by as many samples as the study takes
+    /// ([`allocation::allocate`](crate::allocation::allocate)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::allocation::{Choices, Cost, HalfWidth};
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let length = HalfWidth {
+    ///     variable: Pendulum::l.index(),
+    ///     limits: (1e-3, 0.1),
+    ///     cost: Cost::reciprocal(0.0, 1.0, 1.0),
+    /// };
+    /// let choices = Choices { half_widths: vec![length], nominals: vec![], failure: vec![1e-3] };
+    /// println!("{}", study.solve()?.allocation(&[Requirement::at_least(first, 4.0)], &choices)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::tolerances`], [`Requirements::new`] and [`allocation::allocate`](crate::allocation::allocate).
+    pub fn allocation(
+        &self,
+        wanted: &[Requirement],
+        choices: &Choices<'_>,
+    ) -> Result<Allocation, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).allocation(wanted, choices);
+        }
+        let sampling = self.study.settings.sampling(None);
+        allocate(&self.requirements(wanted)?, choices, &sampling)
+    }
+
     fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
         let Self {
             study,
@@ -139,5 +175,17 @@ impl<M: DirectionalKernels> Study<M> {
         settings: &SamplingSettings,
     ) -> Result<RareFailure, Error> {
         self.solve()?.rare_failure(wanted, settings)
+    }
+
+    /// The cheapest tolerances that meet requirements, as [`Solved::allocation`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::allocation`].
+    pub fn allocation(
+        &self,
+        wanted: &[Requirement],
+        choices: &Choices<'_>,
+    ) -> Result<Allocation, Error> {
+        self.solve()?.allocation(wanted, choices)
     }
 }
