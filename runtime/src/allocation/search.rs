@@ -14,6 +14,8 @@ use crate::{Description, Error, Shared, Vector};
 
 /// A reliability index that falls short by this is reached.
 const ENOUGH: f64 = 1e-6;
+/// What is missing of a reliability index of 1 counts as so many times the cost.
+const PENALTY: f64 = 1e3;
 /// Evaluations of the optimiser.
 const EVALUATIONS: usize = 500;
 /// Samples refute an allocation when the interval of this confidence lies above the allowed probability.
@@ -158,7 +160,8 @@ fn search(problem: &Problem<'_>) -> Result<(Vec<f64>, Evaluated, f64, usize), Er
         xtol_abs: vec![1e-10; start.len()],
         ..StopTols::default()
     };
-    let (Ok((_, end, _)) | Err((_, end, _))) = minimize(
+    // Whatever it ends with, the best choice on the way counts: the library takes rounding for a violated constraint.
+    let _ = minimize(
         objective,
         &start,
         &bounds,
@@ -167,12 +170,8 @@ fn search(problem: &Problem<'_>) -> Result<(Vec<f64>, Evaluated, f64, usize), Er
         EVALUATIONS,
         Some(stop),
     );
-    let mut progress = progress.into_inner();
-    let at_end = progress.at(problem, &end).cloned();
-    let (x, best) = match at_end {
-        Some(found) if found.shortfall() <= ENOUGH => (end, found),
-        _ => progress.best,
-    };
+    let progress = progress.into_inner();
+    let (x, best) = progress.best;
     Ok((x, best, before, progress.tried))
 }
 
@@ -207,9 +206,13 @@ impl Progress {
     }
 }
 
+/// Of two choices that are reliable enough the cheaper one, what is missing counted at more than it can save.
 fn better(new: &Evaluated, old: &Evaluated) -> bool {
     match (new.shortfall() <= ENOUGH, old.shortfall() <= ENOUGH) {
-        (true, true) => new.cost < old.cost,
+        (true, true) => {
+            let unit = PENALTY * new.cost.abs().max(old.cost.abs());
+            new.cost + unit * new.shortfall().max(0.0) < old.cost + unit * old.shortfall().max(0.0)
+        }
         (false, false) => new.shortfall() < old.shortfall(),
         (new, _) => new,
     }
