@@ -49,34 +49,22 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     }
 
     /// Makes it `count` long, to be written over; what stands in it is not said.
-    #[inline]
+    #[inline(always)]
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
             Self::Few(own, _) if count <= FEW => *own = count,
-            _ => self.make_room_for_many(count),
+            Self::Many(many) if many.len() == count => {}
+            _ => self.renew(count),
         }
-        self
+        &mut self[..count]
     }
 
+    #[cold]
     #[inline(never)]
-    fn make_room_for_many(&mut self, count: usize) {
+    fn renew(&mut self, count: usize) {
         match self {
             Self::Many(many) => many.resize(count, T::default()),
             Self::Few(..) => *self = Self::filled(count, T::default()),
-        }
-    }
-
-    /// Writes these values over what there is, in the same room where they fit.
-    #[inline]
-    pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        let values = values.into_iter();
-        match self {
-            Self::Few(count, few) if at_most(&values, FEW) => *count = fill(few, values),
-            Self::Many(many) => {
-                many.clear();
-                many.extend(values);
-            }
-            Self::Few(..) => *self = values.collect(),
         }
     }
 }

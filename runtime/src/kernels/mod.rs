@@ -18,7 +18,7 @@ mod interval;
 mod motion;
 mod partial_matrices;
 
-pub use batch::{BatchKernels, BatchPoint};
+pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
 pub use curvature::CurvatureKernels;
 pub use deviating_inputs::DeviatingInputs;

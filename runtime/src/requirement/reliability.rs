@@ -145,12 +145,7 @@ pub(crate) fn check(
                 .to_owned(),
         });
     }
-    if deviations
-        .tolerances()
-        .sigmas()
-        .iter()
-        .all(|sigma| *sigma == 0.0)
-    {
+    if deviations.tolerances().normal_dimensions().is_empty() {
         return Err(Error::Setting {
             setting: "tolerances",
             reason: "nothing varies: at least one tolerance must be positive".to_owned(),

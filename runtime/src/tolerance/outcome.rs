@@ -25,20 +25,6 @@ pub enum Outcome {
     NoModes,
 }
 
-impl Outcome {
-    /// All outcomes, in the order of their numbers.
-    pub(crate) const ALL: [Self; 8] = [
-        Self::Stable,
-        Self::Divergent,
-        Self::Flutter,
-        Self::Undecided,
-        Self::NoEquilibrium,
-        Self::NotAssembled,
-        Self::Unphysical,
-        Self::NoModes,
-    ];
-}
-
 impl From<&Failure> for Outcome {
     fn from(failure: &Failure) -> Self {
         match failure {
