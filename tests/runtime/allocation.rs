@@ -19,6 +19,7 @@ mechanism! {
         joint theta: revolute(y) from ground to bar;
         output gap = a - 2 * b + c;
         output other = a + b;
+        output third = d;
     }
 }
 

@@ -73,11 +73,9 @@ impl Choices<'_> {
             }
             in_order("half-width", (low, high))?;
         }
-        let nominals = self.nominals.iter().map(|own| (own.variable, own.limits));
+        let mut nominals = self.nominals.iter().map(|own| (own.variable, own.limits));
         distinct(requirements, nominals.clone())?;
-        nominals
-            .map(|(_, limits)| in_order("nominal value", limits))
-            .collect()
+        nominals.try_for_each(|(_, limits)| in_order("nominal value", limits))
     }
 
     /// Where the search starts: the design and the half-widths as they are, within the limits.

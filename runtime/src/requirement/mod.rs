@@ -8,10 +8,10 @@
 mod chances;
 mod design_point;
 mod deviations;
+mod kinds;
 mod limit;
 mod rare;
 mod reliability;
-mod requirement;
 mod requirements;
 
 pub use chances::{Chances, Tally};
@@ -20,10 +20,10 @@ pub use eigentol_statistics::reliability::sampling::{
     Estimate, Interval, SampledProbability, SamplingSettings,
 };
 pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
+pub use kinds::Requirement;
 pub use limit::{Edge, Limit};
 pub use rare::RareFailure;
 pub use reliability::{LimitReliability, Reliability, SystemFailure};
-pub use requirement::Requirement;
 pub use requirements::Requirements;
 
 pub(crate) use chances::chances_of;

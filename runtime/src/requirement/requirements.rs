@@ -1,8 +1,8 @@
 //! All requirements of a design.
 
 use super::deviations::Deviations;
+use super::kinds::Requirement;
 use super::limit::Limit;
-use super::requirement::Requirement;
 use crate::kernels::DirectionalKernels;
 use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;

@@ -263,7 +263,7 @@ impl<M: DirectionalKernels> Study<M> {
         Ok(sweep::critical_tolerance(
             &self.mechanism,
             &state,
-            &tolerances,
+            tolerances,
         ))
     }
 }

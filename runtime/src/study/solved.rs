@@ -393,6 +393,6 @@ impl<M: BatchKernels> Solved<'_, M> {
         } = self;
         let tolerances = study.settings.tolerances()?;
         let sampling = study.settings.sampling(progress);
-        tolerance::monte_carlo(&study.mechanism, equilibrium, modes, &tolerances, &sampling)
+        tolerance::monte_carlo(&study.mechanism, equilibrium, modes, tolerances, &sampling)
     }
 }

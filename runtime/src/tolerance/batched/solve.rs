@@ -68,7 +68,7 @@ fn through<V: Lanes>(
         for at in (0..WIDTH).step_by(V::WIDTH) {
             stages::draw::<V>(prepared, batch, at);
         }
-        stages::distribute(prepared, &mut batch.design);
+        stages::distribute(prepared, batch.design);
         for at in (0..WIDTH).step_by(V::WIDTH) {
             stages::predict::<V>(n, prepared, batch, at);
         }

@@ -1,4 +1,4 @@
-//! One requirement.
+//! The kinds of requirements.
 
 use super::limit::Edge;
 use crate::Error;
