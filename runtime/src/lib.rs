@@ -54,6 +54,8 @@
 //! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
 //! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
+//! | How probable is it that requirements are met, and what changes that? | [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
+//! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
 //! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance) | [`sweep::critical_state`], [`sweep::critical_tolerance`] |
 //! | Where does it resonate, where does it begin to flutter? | [`crossings`](Study::crossings), [`crossing_tolerances`](Study::crossing_tolerances), [`flutter_onsets`](Study::flutter_onsets), [`flutter_onset_tolerances`](Study::flutter_onset_tolerances) | [`sweep::crossings`], [`sweep::flutter_onsets`], [`sweep::crossing_tolerance`] |
@@ -73,6 +75,8 @@ pub mod scalar;
 
 #[cfg(feature = "std")]
 mod algebra;
+#[cfg(feature = "std")]
+pub mod allocation;
 #[cfg(feature = "std")]
 mod arguments;
 #[cfg(feature = "std")]
@@ -99,6 +103,8 @@ pub mod modes;
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod report;
+#[cfg(feature = "std")]
+pub mod requirement;
 #[cfg(feature = "std")]
 pub mod response;
 #[cfg(feature = "std")]

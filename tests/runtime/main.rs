@@ -3,6 +3,7 @@
 
 mod common;
 
+mod allocation;
 mod branches;
 mod clusters;
 mod constrained_modes;
@@ -17,6 +18,7 @@ mod lanes;
 mod modes;
 mod quadratic;
 mod range;
+mod reliable;
 mod rounding;
 mod sensitivity;
 mod side_by_side;

@@ -259,6 +259,26 @@ pub enum Error {
         /// The names that exist.
         known: Vec<Text>,
     },
+    /// There is no probability by way of a design point.
+    #[error("{0}. Sampling needs no design point")]
+    NoReliability(Box<eigentol_statistics::Error>),
+    /// No tolerances within their limits meet the requirements.
+    #[error(
+        "no tolerances within the limits meet the requirements: at the best ones found, requirement {requirement} fails with \
+         probability {probability:.3e} where {wanted:.3e} is allowed"
+    )]
+    Infeasible {
+        /// The best nominal values that were found, SI.
+        nominal: Vec<f64>,
+        /// The best half-widths, SI.
+        half_widths: Vec<f64>,
+        /// Position of the requirement that is missed most.
+        requirement: usize,
+        /// Its probability of failure to first order.
+        probability: f64,
+        /// The one that is allowed.
+        wanted: f64,
+    },
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),
@@ -294,6 +314,9 @@ impl From<eigentol_statistics::Error> for Error {
                 found,
                 expected,
             },
+            error @ (eigentol_statistics::Error::NoLimitValue { .. }
+            | eigentol_statistics::Error::NoDesignPoint { .. }
+            | eigentol_statistics::Error::Curvature { .. }) => Self::NoReliability(Box::new(error)),
             other => Self::Setting {
                 setting: "statistics",
                 reason: other.to_string(),

@@ -103,7 +103,7 @@ impl Counts {
         *self.place(outcome)
     }
 
-    pub(super) fn add(&mut self, outcome: Outcome, number: usize) {
+    pub(crate) fn add(&mut self, outcome: Outcome, number: usize) {
         *self.place(outcome) += number;
     }
 

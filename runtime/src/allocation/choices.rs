@@ -1,0 +1,134 @@
+//! What may be chosen, and what is allowed to fail.
+
+use super::cost::Cost;
+use crate::requirement::Requirements;
+use crate::{Error, Vector};
+
+/// A half-width that may be chosen.
+#[derive(Debug)]
+pub struct HalfWidth<'a> {
+    /// Position among the design variables; tolerances of inputs follow those of the design.
+    pub variable: usize,
+    /// Least and greatest half-width, SI.
+    pub limits: (f64, f64),
+    /// What it costs.
+    pub cost: Cost<'a>,
+}
+
+/// A nominal value that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nominal {
+    /// Position among the design variables.
+    pub variable: usize,
+    /// Least and greatest value, SI.
+    pub limits: (f64, f64),
+}
+
+/// What may be chosen. Half-widths that are not named stay as they are; those that are named scale the distribution of their
+/// variable about its mean.
+#[derive(Debug)]
+pub struct Choices<'a> {
+    /// Half-widths.
+    pub half_widths: Vec<HalfWidth<'a>>,
+    /// Nominal values.
+    pub nominals: Vec<Nominal>,
+    /// Greatest probability of failing each requirement.
+    pub failure: Vec<f64>,
+}
+
+impl Choices<'_> {
+    pub(super) fn check(&self, requirements: &Requirements<'_>) -> Result<(), Error> {
+        let own = requirements.deviations().tolerances().half_widths();
+        if self.half_widths.is_empty() {
+            return refuse("allocation", "no half-width may be chosen".to_owned());
+        }
+        let (found, expected) = (self.failure.len(), requirements.wanted().len());
+        if found != expected {
+            return Err(Error::WrongLength {
+                kind: "allowed probabilities of failure",
+                found,
+                expected,
+            });
+        }
+        if let Some(wrong) = self.failure.iter().find(|p| !(**p > 0.0 && **p < 1.0)) {
+            return refuse(
+                "failure",
+                format!("{wrong} is no probability inside (0, 1)"),
+            );
+        }
+        let half_widths = self
+            .half_widths
+            .iter()
+            .map(|own| (own.variable, own.limits));
+        distinct(requirements, half_widths.clone())?;
+        for (variable, (low, high)) in half_widths {
+            if low.is_nan() || low <= 0.0 {
+                return refuse("half-width", format!("{low} must be positive"));
+            }
+            if own[variable] == 0.0 {
+                let reason = format!(
+                    "design variable {variable} does not vary: give it any tolerance, which says how it is distributed"
+                );
+                return refuse("half-width", reason);
+            }
+            in_order("half-width", (low, high))?;
+        }
+        let mut nominals = self.nominals.iter().map(|own| (own.variable, own.limits));
+        distinct(requirements, nominals.clone())?;
+        nominals.try_for_each(|(_, limits)| in_order("nominal value", limits))
+    }
+
+    /// Where the search starts: the design and the half-widths as they are, within the limits.
+    pub(super) fn start(&self, nominal: &[f64], half_widths: &[f64]) -> (Vector, Vector) {
+        let (mut nominal, mut wide) = (Vector::from(nominal), Vector::from(half_widths));
+        for own in &self.nominals {
+            nominal[own.variable] = nominal[own.variable].clamp(own.limits.0, own.limits.1);
+        }
+        for own in &self.half_widths {
+            wide[own.variable] = wide[own.variable].clamp(own.limits.0, own.limits.1);
+        }
+        (nominal, wide)
+    }
+}
+
+fn in_order(setting: &'static str, (low, high): (f64, f64)) -> Result<(), Error> {
+    if low < high && (high - low).is_finite() {
+        return Ok(());
+    }
+    refuse(
+        setting,
+        format!("limits {low} and {high} must be finite and in order"),
+    )
+}
+
+fn distinct(
+    requirements: &Requirements<'_>,
+    all: impl Iterator<Item = (usize, (f64, f64))>,
+) -> Result<(), Error> {
+    let state = requirements.responses().nominal();
+    let mut seen = vec![false; state.design.len()];
+    for (variable, _) in all {
+        match seen.get_mut(variable) {
+            None => {
+                return Err(Error::UnknownHandle {
+                    kind: "design variable",
+                    index: variable,
+                    mechanism: state.description.name.clone(),
+                    count: state.design.len(),
+                });
+            }
+            Some(true) => {
+                return refuse(
+                    "allocation",
+                    format!("design variable {variable} is named twice"),
+                );
+            }
+            Some(place) => *place = true,
+        }
+    }
+    Ok(())
+}
+
+fn refuse<T>(setting: &'static str, reason: String) -> Result<T, Error> {
+    Err(Error::Setting { setting, reason })
+}

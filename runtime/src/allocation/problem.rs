@@ -1,0 +1,216 @@
+//! Cost and reliability as functions of what may be chosen: logarithms of half-widths, which make reciprocal costs convex, and nominal
+//! values as parts of the way between their limits.
+
+use eigentol_statistics::normal;
+use eigentol_statistics::reliability::form;
+
+use super::choices::Choices;
+use crate::requirement::{Deviations, FormSettings, Limit, LimitAt, Requirements, slopes_at};
+use crate::{Error, Vector};
+
+/// Everything at one choice.
+#[derive(Clone, Debug)]
+pub(super) struct Evaluated {
+    pub(super) cost: f64,
+    pub(super) cost_slopes: Vec<f64>,
+    /// Of each requirement with a limit.
+    pub(super) requirements: Vec<Reached>,
+}
+
+/// What a requirement comes to.
+#[derive(Clone, Debug)]
+pub(super) struct Reached {
+    pub(super) requirement: usize,
+    /// Reliability index; infinite where no design within reach fails.
+    pub(super) beta: f64,
+    pub(super) slopes: Vec<f64>,
+    pub(super) wanted: f64,
+}
+
+impl Reached {
+    /// By how much the reliability index falls short.
+    pub(super) fn shortfall(&self) -> f64 {
+        self.wanted - self.beta
+    }
+}
+
+impl Evaluated {
+    /// The requirement that is missed most, or met most narrowly.
+    pub(super) fn worst(&self) -> Option<&Reached> {
+        let by_shortfall = |a: &&Reached, b: &&Reached| a.shortfall().total_cmp(&b.shortfall());
+        self.requirements.iter().max_by(by_shortfall)
+    }
+
+    pub(super) fn shortfall(&self) -> f64 {
+        self.worst().map_or(f64::NEG_INFINITY, Reached::shortfall)
+    }
+}
+
+pub(super) struct Problem<'a> {
+    pub(super) requirements: &'a Requirements<'a>,
+    pub(super) choices: &'a Choices<'a>,
+    pub(super) limits: Vec<(usize, Limit)>,
+    pub(super) nominal: Vector,
+    pub(super) half_widths: Vector,
+}
+
+/// One search from the middle of all designs is enough from one step of the optimiser to the next.
+fn settings() -> FormSettings {
+    FormSettings {
+        restarts: 0,
+        tolerance: 1e-10,
+        ..FormSettings::default()
+    }
+}
+
+impl Problem<'_> {
+    /// Nominal values and half-widths of a choice.
+    pub(super) fn design(&self, x: &[f64]) -> (Vector, Vector) {
+        let (mut nominal, mut wide) = (self.nominal.clone(), self.half_widths.clone());
+        let (logarithms, parts) = x.split_at(self.choices.half_widths.len());
+        for (own, logarithm) in self.choices.half_widths.iter().zip(logarithms) {
+            wide[own.variable] = logarithm.exp().clamp(own.limits.0, own.limits.1);
+        }
+        for (own, part) in self.choices.nominals.iter().zip(parts) {
+            let (low, high) = own.limits;
+            nominal[own.variable] = (low + part * (high - low)).clamp(low, high);
+        }
+        (nominal, wide)
+    }
+
+    /// Where the search starts, and the bounds of what may be chosen.
+    pub(super) fn start(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let logarithms = self.choices.half_widths.iter();
+        let mut x: Vec<f64> = (logarithms
+            .clone()
+            .map(|own| self.half_widths[own.variable].ln()))
+        .collect();
+        let bounds = logarithms.map(|own| (own.limits.0.ln(), own.limits.1.ln()));
+        let mut bounds: Vec<(f64, f64)> = bounds.collect();
+        for own in &self.choices.nominals {
+            let (low, high) = own.limits;
+            x.push((self.nominal[own.variable] - low) / (high - low));
+            bounds.push((0.0, 1.0));
+        }
+        (x, bounds)
+    }
+
+    pub(super) fn evaluate(&self, x: &[f64]) -> Result<Evaluated, Error> {
+        let (nominal, wide) = self.design(x);
+        let deviations = self.requirements.deviations().moved(&nominal, &wide);
+        let (cost, cost_slopes) = self.cost(x.len(), &wide)?;
+        let mut reached: Vec<Reached> = Vec::new();
+        for (requirement, failure) in self.choices.failure.iter().enumerate() {
+            let own = self
+                .limits
+                .iter()
+                .filter(|(_, limit)| limit.requirement == requirement);
+            let parts = own.map(|limit| self.limit(&deviations, &wide, limit));
+            let parts: Vec<(f64, Vec<f64>)> = parts.collect::<Result<_, _>>()?;
+            if !parts.is_empty() {
+                let (beta, slopes) = joined(&parts, x.len());
+                reached.push(Reached {
+                    requirement,
+                    beta,
+                    slopes,
+                    wanted: -normal::quantile(*failure),
+                });
+            }
+        }
+        Ok(Evaluated {
+            cost,
+            cost_slopes,
+            requirements: reached,
+        })
+    }
+
+    fn cost(&self, size: usize, wide: &[f64]) -> Result<(f64, Vec<f64>), Error> {
+        let (mut sum, mut slopes) = (0.0, vec![0.0; size]);
+        for (own, place) in self.choices.half_widths.iter().zip(&mut slopes) {
+            let half_width = wide[own.variable];
+            let (cost, slope) = own.cost.of(half_width);
+            if !(cost.is_finite() && slope.is_finite()) {
+                return Err(Error::Setting {
+                    setting: "cost",
+                    reason: format!("half-width {half_width} costs {cost} with derivative {slope}"),
+                });
+            }
+            sum += cost;
+            *place = slope * half_width;
+        }
+        Ok((sum, slopes))
+    }
+
+    /// Reliability index of a limit and its derivatives by what may be chosen.
+    fn limit(
+        &self,
+        deviations: &Deviations<'_>,
+        wide: &[f64],
+        (place, limit): &(usize, Limit),
+    ) -> Result<(f64, Vec<f64>), Error> {
+        let limit = LimitAt::new(
+            self.requirements.responses(),
+            *place,
+            limit.edge,
+            deviations,
+        );
+        let at = match form(&limit, &settings()) {
+            Ok(found) => found.design_point,
+            Err(error) if out_of_reach(&error) => return Ok((f64::INFINITY, Vec::new())),
+            Err(error) => return Err(error.into()),
+        };
+        let slopes = slopes_at(&limit, deviations, &at)?;
+        let half_widths = self
+            .choices
+            .half_widths
+            .iter()
+            .map(|own| slopes.by_half_width[own.variable].beta * wide[own.variable]);
+        let nominals = self
+            .choices
+            .nominals
+            .iter()
+            .map(|own| slopes.by_nominal[own.variable].beta * (own.limits.1 - own.limits.0));
+        Ok((at.beta, half_widths.chain(nominals).collect()))
+    }
+}
+
+/// Whether nothing that the search came across fails, or has no value.
+fn out_of_reach(error: &eigentol_statistics::Error) -> bool {
+    match error {
+        eigentol_statistics::Error::NoDesignPoint { closest, .. } => {
+            closest.value > 0.0 && closest.evaluations.without_value == 0
+        }
+        _ => false,
+    }
+}
+
+/// Reliability index of the summed probabilities of failure, `-Phi^-1(sum Phi(-beta_i))`.
+fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
+    let finite: Vec<&(f64, Vec<f64>)> = parts.iter().filter(|(beta, _)| beta.is_finite()).collect();
+    match finite[..] {
+        [] => (f64::INFINITY, vec![0.0; size]),
+        [(beta, slopes)] => (*beta, slopes.clone()),
+        _ => {
+            let sum: f64 = finite.iter().map(|(beta, _)| normal::cdf(-beta)).sum();
+            let least = finite
+                .iter()
+                .map(|(beta, _)| *beta)
+                .fold(f64::INFINITY, f64::min);
+            // Beyond the range of a double, and where several fail for certain, the least index is as good.
+            let inverted = -normal::quantile(sum);
+            let beta = if inverted.is_finite() {
+                inverted
+            } else {
+                least
+            };
+            let mut slopes = vec![0.0; size];
+            for (own, by) in &finite {
+                let weight = (0.5 * (beta - own) * (beta + own)).exp();
+                for (sum, slope) in slopes.iter_mut().zip(by) {
+                    *sum += weight * slope;
+                }
+            }
+            (beta, slopes)
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Chances of meeting requirements, and design points, as text.
+
+use core::fmt;
+
+use super::table::{Table, cells, heading, in_unit, number, optional};
+use super::title::title;
+use crate::requirement::{
+    Chances, DesignPoint, Edge, Limit, LimitReliability, RareFailure, Reliability, Tally,
+};
+use crate::response::Response;
+use crate::{Description, Quantity};
+
+/// How sure the intervals are.
+const CONFIDENCE: f64 = 0.95;
+
+impl fmt::Display for Chances {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let samples = self.all.samples();
+        let subject = title(&self.description, &self.inputs);
+        writeln!(f, "{subject}: requirements, {samples} samples")?;
+        let mut table = Table::new(cells([
+            "requirement",
+            "met",
+            "failed",
+            "untold",
+            "P(failed)",
+            "95% interval (Clopper-Pearson)",
+        ]));
+        for (k, tally) in self.each.iter().enumerate() {
+            table.row(row((k + 1).to_string(), tally));
+        }
+        table.row(row("all".to_owned(), &self.all));
+        write!(f, "{table}")?;
+        let stable = self.counts.stable;
+        if stable < samples {
+            writeln!(
+                f,
+                "  {} samples are not stable: {:?}",
+                samples - stable,
+                self.counts
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn row(name: String, tally: &Tally) -> Vec<String> {
+    let interval = tally.clopper_pearson(CONFIDENCE).map_or_else(
+        |_| "-".to_owned(),
+        |found| format!("{} to {}", number(found.lower), number(found.upper)),
+    );
+    vec![
+        name,
+        tally.met.to_string(),
+        tally.failed.to_string(),
+        tally.untold.to_string(),
+        number(tally.failure()),
+        interval,
+    ]
+}
+
+impl fmt::Display for Reliability {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = &self.description;
+        writeln!(f, "{}: reliability", title(d, &self.inputs))?;
+        for own in &self.limits {
+            limit(f, own, d)?;
+        }
+        for k in &self.left_out {
+            writeln!(f, "  Requirement {} has no design point: sample it.", k + 1)?;
+        }
+        if let Some(system) = &self.system {
+            writeln!(
+                f,
+                "  Any of these fails with probability {} to first order (bounds {} to {}).",
+                number(system.probability.value),
+                number(system.bounds.lower),
+                number(system.bounds.upper)
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn limit(f: &mut fmt::Formatter<'_>, own: &LimitReliability, d: &Description) -> fmt::Result {
+    write!(
+        f,
+        "  Requirement {}: {}",
+        own.limit.requirement + 1,
+        text(&own.limit, d)
+    )?;
+    match &own.design_points {
+        Err(error) => writeln!(f, ": {error}."),
+        Ok(points) => {
+            writeln!(f)?;
+            points.iter().try_for_each(|at| point(f, at, d))
+        }
+    }
+}
+
+fn point(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::Result {
+    writeln!(
+        f,
+        "  beta {}, probability of failure {} (first order), {} (second order); design point {}",
+        number(at.beta()),
+        number(at.probability()),
+        optional(at.second_order),
+        if at.verified {
+            "verified"
+        } else {
+            "not verified"
+        }
+    )?;
+    let mut table = Table::new(cells([
+        "variable",
+        "design point",
+        "importance",
+        "beta by nominal value",
+        "by half-width",
+    ]));
+    for (k, info) in d.design.iter().enumerate() {
+        let scale = info.unit.scale;
+        table.row(vec![
+            heading(&info.name, &info.unit),
+            in_unit(at.design[k], &info.unit),
+            number(at.importance[k]),
+            number(at.by_nominal[k].beta * scale),
+            number(at.by_half_width[k].beta * scale),
+        ]);
+    }
+    write!(f, "{table}")
+}
+
+/// `frequency 1 at least 4.00000 rad/s`.
+fn text(limit: &Limit, d: &Description) -> String {
+    let one = |end: f64| match limit.response {
+        Response::Mode { quantity, .. } => match quantity {
+            Quantity::DampingRatio => number(end),
+            Quantity::Growth => format!("{} 1/s", number(end)),
+            _ => format!("{} rad/s", number(end)),
+        },
+        Response::Output(output) => match d.outputs.get(output.index()) {
+            Some(info) => format!("{} {}", in_unit(end, &info.unit), info.unit.symbol),
+            None => number(end),
+        },
+        Response::Critical(range) => match d.inputs.get(range.input.index()) {
+            Some(info) => format!("{} {}", in_unit(end, &info.unit), info.unit.symbol),
+            None => number(end),
+        },
+    };
+    let name = match limit.response {
+        Response::Mode { mode, quantity } => {
+            let quantity = match quantity {
+                Quantity::Frequency => "frequency",
+                Quantity::NaturalFrequency => "natural frequency",
+                Quantity::DampingRatio => "damping ratio",
+                Quantity::Growth => "growth",
+            };
+            format!("{quantity} {}", mode + 1)
+        }
+        Response::Output(output) => {
+            let info = d.outputs.get(output.index());
+            info.map_or_else(String::new, |info| info.name.to_string())
+        }
+        Response::Critical(range) => {
+            let info = d.inputs.get(range.input.index());
+            info.map_or_else(String::new, |info| format!("critical {}", info.name))
+        }
+    };
+    match limit.edge {
+        Edge::AtLeast(low) => format!("{name} at least {}", one(low)),
+        Edge::AtMost(high) => format!("{name} at most {}", one(high)),
+        Edge::Outside { low, high } => format!("{name} outside {} to {}", one(low), one(high)),
+    }
+}
+
+impl fmt::Display for RareFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let subject = title(&self.description, &self.inputs);
+        let found = &self.failure;
+        writeln!(
+            f,
+            "{subject}: {} importance samples about {} design points",
+            found.samples, self.centres
+        )?;
+        writeln!(
+            f,
+            "  Some requirement fails with probability {} +- {} ({} samples failed, {} cannot tell).",
+            number(found.probability.value),
+            number(found.probability.standard_error),
+            found.failures,
+            found.without_value
+        )
+    }
+}

@@ -1,0 +1,200 @@
+//! Chances of meeting requirements, from samples.
+
+use eigentol_statistics::reliability::sampling::{Interval, clopper_pearson, wilson};
+
+use super::deviations::Deviations;
+use super::requirements::{Requirements, all_met};
+use crate::algebra::{Matrix, Vector};
+use crate::response::Workspace;
+use crate::tolerance::{Counts, Draw, Sampling, Tolerances, pool};
+use crate::{Description, Error, Shared};
+
+/// Samples worked on by one thread at a time.
+const CHUNK: usize = 64;
+
+/// How many samples met a requirement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Tally {
+    /// Those that met it.
+    pub met: usize,
+    /// Those that did not.
+    pub failed: usize,
+    /// Those that have no response to tell.
+    pub untold: usize,
+}
+
+impl Tally {
+    /// Number of samples.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.met + self.failed + self.untold
+    }
+
+    /// Part of the samples that met it.
+    #[must_use]
+    pub fn yield_of(&self) -> f64 {
+        self.met as f64 / self.samples() as f64
+    }
+
+    /// Part of the samples that failed.
+    #[must_use]
+    pub fn failure(&self) -> f64 {
+        self.failed as f64 / self.samples() as f64
+    }
+
+    /// Wilson's interval of the probability of failure.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for a confidence that is not inside (0, 1).
+    pub fn wilson(&self, confidence: f64) -> Result<Interval, Error> {
+        Ok(wilson(
+            self.failed as u64,
+            self.samples() as u64,
+            confidence,
+        )?)
+    }
+
+    /// The interval of Clopper and Pearson of the probability of failure: it holds the confidence for certain.
+    ///
+    /// # Errors
+    /// As [`Self::wilson`].
+    pub fn clopper_pearson(&self, confidence: f64) -> Result<Interval, Error> {
+        let (failed, samples) = (self.failed as u64, self.samples() as u64);
+        Ok(clopper_pearson(failed, samples, confidence)?)
+    }
+
+    fn add(&mut self, met: Option<bool>) {
+        *match met {
+            Some(true) => &mut self.met,
+            Some(false) => &mut self.failed,
+            None => &mut self.untold,
+        } += 1;
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.met += other.met;
+        self.failed += other.failed;
+        self.untold += other.untold;
+    }
+}
+
+/// Chances of meeting requirements, from samples.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Chances {
+    /// Of all requirements at once.
+    pub all: Tally,
+    /// Of each requirement.
+    pub each: Vec<Tally>,
+    /// What became of the samples.
+    pub counts: Counts,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+impl Requirements<'_> {
+    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Of `sampling`, what is kept
+    /// and which vectors are used does not matter.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for no sample, [`Error::Threads`].
+    pub fn chances(&self, sampling: &Sampling<'_>) -> Result<Chances, Error> {
+        chances_of(self, self.deviations(), sampling)
+    }
+}
+
+/// The same of other deviations.
+pub(crate) fn chances_of(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+    sampling: &Sampling<'_>,
+) -> Result<Chances, Error> {
+    if sampling.samples == 0 {
+        return Err(Error::Setting {
+            setting: "samples",
+            reason: "at least one is needed".to_owned(),
+        });
+    }
+    let state = requirements.responses().nominal();
+    let variables = deviations.dimension();
+    let normal = Standard::new(variables)?;
+    let room = || requirements.responses().workspace();
+    let work = |room: &mut Workspace, index: usize| {
+        let first = index * CHUNK;
+        let number = CHUNK.min(sampling.samples - first);
+        let mut piece = Piece::new(requirements.wanted().len());
+        let mut draw = normal.from((sampling.seed, sampling.stream), first as u64);
+        for _ in 0..number {
+            let design = deviations.design(draw.next());
+            let found = requirements.responses().at(room, &design)?;
+            piece.counts.add(found.outcome, 1);
+            let each = requirements.each_met(&found);
+            piece.all.add(all_met(&each));
+            for (tally, met) in piece.each.iter_mut().zip(each) {
+                tally.add(met);
+            }
+        }
+        if let Some(progress) = sampling.progress {
+            progress(number);
+        }
+        Ok(piece)
+    };
+    let pieces = sampling.samples.div_ceil(CHUNK);
+    let size = (state.coordinates.len(), variables);
+    let pieces: Vec<Result<Piece, Error>> = pool::run(sampling.threads, size, pieces, room, work)?;
+    let mut sum = Piece::new(requirements.wanted().len());
+    for piece in pieces {
+        let piece = piece?;
+        sum.counts.merge(&piece.counts);
+        sum.all.merge(&piece.all);
+        for (own, other) in sum.each.iter_mut().zip(&piece.each) {
+            own.merge(other);
+        }
+    }
+    Ok(Chances {
+        all: sum.all,
+        each: sum.each,
+        counts: sum.counts,
+        inputs: state.inputs.clone(),
+        description: state.description.clone(),
+    })
+}
+
+/// Independent standard normal numbers, the same that [`Draw`] makes designs of.
+struct Standard {
+    zeros: Vector,
+    ones: Tolerances,
+}
+
+impl Standard {
+    fn new(variables: usize) -> Result<Self, Error> {
+        let ones = Vector::filled(variables, 1.0);
+        Ok(Self {
+            zeros: Vector::zeros(variables),
+            ones: Tolerances::new(ones, 1.0, None::<Matrix>)?,
+        })
+    }
+
+    fn from(&self, sequence: (u64, u64), first: u64) -> Draw<'_> {
+        Draw::from(sequence, first, &self.zeros, &self.ones)
+    }
+}
+
+struct Piece {
+    counts: Counts,
+    all: Tally,
+    each: Vec<Tally>,
+}
+
+impl Piece {
+    fn new(requirements: usize) -> Self {
+        Self {
+            counts: Counts::default(),
+            all: Tally::default(),
+            each: vec![Tally::default(); requirements],
+        }
+    }
+}

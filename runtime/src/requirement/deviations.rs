@@ -1,0 +1,156 @@
+//! Designs as functions of independent standard normal numbers: nominal values moved, tolerances scaled about their means.
+
+use eigentol_statistics::{Distribution, semidefinite_factor};
+
+use crate::algebra::Vector;
+use crate::tolerance::Tolerances;
+use crate::{Description, Error};
+
+/// How designs deviate from a nominal one.
+#[derive(Clone, Debug)]
+pub(crate) struct Deviations<'a> {
+    tolerances: &'a Tolerances,
+    nominal: Vector,
+    /// Of each half-width, relative to the tolerances.
+    scales: Vector,
+    /// Standard normal values by unit half-width of the variables whose half-width is zero, row by row.
+    root: Vec<f64>,
+}
+
+impl<'a> Deviations<'a> {
+    /// Deviations of `tolerances` about a nominal design.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a correlation that has no factor.
+    pub(crate) fn new(tolerances: &'a Tolerances, nominal: &[f64]) -> Result<Self, Error> {
+        tolerances.check_count(nominal.len())?;
+        let size = nominal.len();
+        let root = match (tolerances.correlation(), tolerances.joint()) {
+            (Some(matrix), None) => semidefinite_factor(matrix.as_flattened(), size)?,
+            _ => Vec::new(),
+        };
+        Ok(Self {
+            tolerances,
+            nominal: nominal.into(),
+            scales: Vector::filled(size, 1.0),
+            root,
+        })
+    }
+
+    /// Refuses variables without a density: they are no smooth functions of normal ones.
+    pub(crate) fn check_densities(&self, description: &Description) -> Result<(), Error> {
+        let all = self.tolerances.joint().map(|(joint, _)| joint.variables());
+        let discrete =
+            all.and_then(|all| all.iter().position(|own| !Distribution::is_continuous(own)));
+        let Some(k) = discrete else {
+            return Ok(());
+        };
+        let name = description.design.get(k).map_or("", |info| &*info.name);
+        Err(Error::Setting {
+            setting: "distribution",
+            reason: format!(
+                "`{name}` takes discrete values: a design point needs a density, sampling does not"
+            ),
+        })
+    }
+
+    /// The same about another nominal design, with other half-widths; those that are zero stay zero.
+    pub(crate) fn moved(&self, nominal: &[f64], half_widths: &[f64]) -> Self {
+        let own = half_widths.iter().zip(self.tolerances.half_widths());
+        let scales = own.map(|(new, old)| if *old > 0.0 { new / old } else { 1.0 });
+        Self {
+            nominal: nominal.into(),
+            scales: scales.collect(),
+            ..self.clone()
+        }
+    }
+
+    pub(crate) fn dimension(&self) -> usize {
+        self.nominal.len()
+    }
+
+    pub(crate) fn tolerances(&self) -> &'a Tolerances {
+        self.tolerances
+    }
+
+    fn mean(&self, k: usize) -> f64 {
+        self.nominal[k] + self.tolerances.shifts()[k]
+    }
+
+    fn unscaled(&self, z: &[f64]) -> Vector {
+        let mut design = Vector::zeros(self.dimension());
+        self.tolerances
+            .design_from_normal(&self.nominal, z, &mut design);
+        design
+    }
+
+    /// The design, SI, that belongs to independent standard normal numbers.
+    pub(crate) fn design(&self, z: &[f64]) -> Vector {
+        let mut design = self.unscaled(z);
+        for (k, (value, scale)) in design.iter_mut().zip(&self.scales).enumerate() {
+            if *scale != 1.0 {
+                *value = self.mean(k) + scale * (*value - self.mean(k));
+            }
+        }
+        design
+    }
+
+    /// Derivatives by the standard normal numbers of a function with these derivatives by the design variables.
+    pub(crate) fn gradient(&self, z: &[f64], by_design: &[f64]) -> Vec<f64> {
+        let scaled: Vec<f64> = by_design
+            .iter()
+            .zip(&self.scales)
+            .map(|(a, s)| a * s)
+            .collect();
+        let mut by_normal = vec![0.0; self.dimension()];
+        match self.tolerances.joint() {
+            Some((joint, _)) => joint.gradient_by_normal(z, &scaled, &mut by_normal),
+            None => {
+                for (slope, row) in scaled.iter().zip(self.tolerances.factor().iter()) {
+                    for (sum, l) in by_normal.iter_mut().zip(row) {
+                        *sum += slope * l;
+                    }
+                }
+            }
+        }
+        by_normal
+    }
+
+    /// Derivative of each design variable by its own half-width, distribution scaled about its mean.
+    pub(crate) fn by_half_width(&self, z: &[f64]) -> Vector {
+        let design = self.unscaled(z);
+        let all = self.tolerances.half_widths().iter().enumerate();
+        all.map(|(k, half_width)| match *half_width > 0.0 {
+            true => (design[k] - self.mean(k)) / half_width,
+            false => self.own_normal(k, z) / self.tolerances.sigma_level(),
+        })
+        .collect()
+    }
+
+    /// The standard normal variable behind a variable that does not vary.
+    fn own_normal(&self, k: usize, z: &[f64]) -> f64 {
+        let size = self.dimension();
+        let element = |j: usize| match self.tolerances.joint() {
+            Some((joint, _)) => joint.normal_factor(k, j),
+            None if self.root.is_empty() => f64::from(u8::from(j == k)),
+            None => self.root[k * size + j],
+        };
+        (0..size).map(|j| element(j) * z[j]).sum()
+    }
+
+    /// The part of each design variable in the variance of a function linearised at `z`: `s_k (Sigma s)_k / (s Sigma s)` with its
+    /// slopes `s` and the covariance `Sigma` of the equivalent normal variables. They sum to 1; of independent variables they are
+    /// the squares of the direction cosines.
+    pub(crate) fn shares(&self, z: &[f64], by_design: &[f64]) -> Vector {
+        let by_normal = self.gradient(z, by_design);
+        let square: f64 = by_normal.iter().map(|slope| slope * slope).sum();
+        let size = self.dimension();
+        let own = |k: usize| {
+            let mut alone = vec![0.0; size];
+            alone[k] = by_design[k];
+            let each = self.gradient(z, &alone);
+            each.iter().zip(&by_normal).map(|(a, b)| a * b).sum::<f64>() / square
+        };
+        (0..size).map(own).collect()
+    }
+}

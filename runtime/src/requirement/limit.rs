@@ -1,0 +1,135 @@
+//! Limits of failure as functions of independent standard normal numbers.
+
+use core::cell::RefCell;
+
+use eigentol_statistics::reliability::{LimitState, LimitValue};
+
+use super::deviations::Deviations;
+use crate::response::{Realisation, Response, Responses, Workspace};
+
+/// Where a response fails, in its SI unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Edge {
+    /// Below this.
+    AtLeast(f64),
+    /// Above this.
+    AtMost(f64),
+    /// Between these.
+    Outside {
+        /// Low end of the forbidden band.
+        low: f64,
+        /// High end of the forbidden band.
+        high: f64,
+    },
+}
+
+impl Edge {
+    pub(super) fn is_finite(&self) -> bool {
+        match self {
+            Self::AtLeast(end) | Self::AtMost(end) => end.is_finite(),
+            Self::Outside { .. } => true,
+        }
+    }
+
+    /// How far a value is from failing, negative in failure, and the derivative of that by the value.
+    pub(super) fn distance(&self, value: f64) -> (f64, f64) {
+        match *self {
+            Self::AtLeast(low) => (value - low, 1.0),
+            Self::AtMost(high) => (high - value, -1.0),
+            Self::Outside { low, high } if low - value > value - high => (low - value, -1.0),
+            Self::Outside { high, .. } => (value - high, 1.0),
+        }
+    }
+}
+
+/// A limit that a requirement puts to a response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Limit {
+    /// Position of the requirement.
+    pub requirement: usize,
+    /// The response.
+    pub response: Response,
+    /// Where it fails.
+    pub edge: Edge,
+}
+
+/// A limit of the designs that deviate from a nominal one.
+pub(crate) struct LimitAt<'a> {
+    responses: &'a Responses<'a>,
+    place: usize,
+    edge: Edge,
+    deviations: &'a Deviations<'a>,
+    room: RefCell<Workspace>,
+}
+
+impl<'a> LimitAt<'a> {
+    /// A limit of the response at a place among the others.
+    pub(crate) fn new(
+        responses: &'a Responses<'a>,
+        place: usize,
+        edge: Edge,
+        deviations: &'a Deviations<'a>,
+    ) -> Self {
+        Self {
+            room: RefCell::new(responses.workspace()),
+            responses,
+            place,
+            edge,
+            deviations,
+        }
+    }
+
+    /// Distance from failure and its derivatives by the design variables.
+    pub(super) fn by_design(&self, z: &[f64]) -> Result<(f64, Vec<f64>), String> {
+        let found = self.at(z, true)?;
+        let value = self.value_of(&found)?;
+        let gradient = found.gradients.get(self.place).cloned().flatten();
+        let gradient = gradient.ok_or("the response has no derivatives there")?;
+        let (distance, sign) = self.edge.distance(value);
+        Ok((
+            distance,
+            gradient.iter().map(|slope| sign * slope).collect(),
+        ))
+    }
+
+    fn at(&self, z: &[f64], slopes: bool) -> Result<Realisation, String> {
+        let design = self.deviations.design(z);
+        let mut room = self.room.borrow_mut();
+        let found = match slopes {
+            true => self.responses.with_gradients(&mut room, &design),
+            false => self.responses.at(&mut room, &design),
+        };
+        found.map_err(|error| error.to_string())
+    }
+
+    fn value_of(&self, found: &Realisation) -> Result<f64, String> {
+        let value = found.values.get(self.place).copied().flatten();
+        value.ok_or_else(|| {
+            format!(
+                "the design has no such response (outcome {:?})",
+                found.outcome
+            )
+        })
+    }
+}
+
+impl LimitState for LimitAt<'_> {
+    type Error = String;
+
+    fn dimension(&self) -> usize {
+        self.deviations.dimension()
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String> {
+        let (value, by_design) = self.by_design(z)?;
+        let gradient = self.deviations.gradient(z, &by_design);
+        Ok(LimitValue { value, gradient })
+    }
+
+    fn value(&self, z: &[f64]) -> Result<f64, String> {
+        let value = self.value_of(&self.at(z, false)?)?;
+        Ok(self.edge.distance(value).0)
+    }
+}

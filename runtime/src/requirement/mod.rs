@@ -1,0 +1,33 @@
+//! What a design has to meet, and how probable it is that tolerances let it: by samples, by design points in standard normal
+//! space, and by samples about these where failure is rare.
+//!
+//! First-order reliability (A. M. Hasofer and N. C. Lind, *Exact and invariant second-moment code format*, J. Eng. Mech. 1974)
+//! looks for the most probable design that just fails, with exact total derivatives of the responses
+//! ([`Responses`](crate::response::Responses)). The methods themselves are those of [`eigentol_statistics::reliability`].
+
+mod chances;
+mod design_point;
+mod deviations;
+mod kinds;
+mod limit;
+mod rare;
+mod reliability;
+mod requirements;
+
+pub use chances::{Chances, Tally};
+pub use design_point::DesignPoint;
+pub use eigentol_statistics::reliability::sampling::{
+    Estimate, Interval, SampledProbability, SamplingSettings,
+};
+pub use eigentol_statistics::reliability::{FormSensitivity, FormSettings};
+pub use kinds::Requirement;
+pub use limit::{Edge, Limit};
+pub use rare::RareFailure;
+pub use reliability::{LimitReliability, Reliability, SystemFailure};
+pub use requirements::Requirements;
+
+pub(crate) use chances::chances_of;
+pub(crate) use design_point::slopes_at;
+pub(crate) use deviations::Deviations;
+pub(crate) use limit::LimitAt;
+pub(crate) use reliability::{check, reliability_of};

@@ -1,0 +1,154 @@
+//! Small probabilities of failure: importance sampling about design points.
+
+use core::cell::{Cell, RefCell};
+
+use eigentol_statistics::reliability::sampling::{
+    Failure, Proposal, SampleSums, SampledProbability, Sampler, SamplingSettings,
+};
+use eigentol_statistics::reliability::{self, LimitState, LimitValue};
+
+use super::reliability::Reliability;
+use super::requirements::{Requirements, all_met};
+use crate::algebra::Vector;
+use crate::response::Workspace;
+use crate::tolerance::{Counts, Outcome, pool};
+use crate::{Description, Error, Shared};
+
+/// Samples worked on by one thread at a time, and how often that between two looks at the result.
+const CHUNK: u64 = 64;
+const CHUNKS: u64 = 16;
+
+/// Probability of failing any requirement, by importance sampling. Its derivatives are by mean and standard deviation of the
+/// standard normal variables.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RareFailure {
+    /// What the samples say. Samples without a response to tell are counted and do not count as failures.
+    pub failure: SampledProbability,
+    /// What became of the samples; they are not distributed like the designs, so these are no chances.
+    pub counts: Counts,
+    /// Number of design points that they were drawn about.
+    pub centres: usize,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl Requirements<'_> {
+    /// Probability of failing any requirement, by samples about the design points of `about`, on so many threads (0 for as many as
+    /// the machine has); the same for any number. Unbiased wherever failure is; it knows of no region of failure that is far from
+    /// all design points.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where `about` has no design point, for no samples and for a wished coefficient of variation that makes
+    /// no sense; [`Error::Threads`].
+    pub fn rare_failure(
+        &self,
+        about: &Reliability,
+        settings: &SamplingSettings,
+        threads: usize,
+    ) -> Result<RareFailure, Error> {
+        let found = about
+            .limits
+            .iter()
+            .filter_map(|own| own.design_points.as_ref().ok());
+        let centres: Vec<reliability::DesignPoint> =
+            found.flatten().map(|point| point.normal.clone()).collect();
+        if centres.is_empty() {
+            return Err(Error::Setting {
+                setting: "design points",
+                reason: "there is none to sample about: sample plainly".to_owned(),
+            });
+        }
+        let proposal = Proposal::around(&centres)?;
+        let state = self.responses().nominal();
+        let size = (state.coordinates.len(), self.deviations().dimension());
+        let whole = [self.whole()];
+        let all = Sampler::new(&whole, Failure::Any, &proposal, settings)?;
+        let mut sums: Option<SampleSums> = None;
+        let mut counts = Counts::default();
+        let mut first = 0;
+        loop {
+            let left = settings.samples - first;
+            let number = left.min(CHUNK * CHUNKS);
+            let piece = |(): &mut (), index: usize| -> Result<(SampleSums, Counts), Error> {
+                let start = first + CHUNK * index as u64;
+                let end = (start + CHUNK).min(first + number);
+                let limits = [self.whole()];
+                let sampler = Sampler::new(&limits, Failure::Any, &proposal, settings)?;
+                Ok((sampler.sums(start..end), limits[0].counts.get()))
+            };
+            let chunks = number.div_ceil(CHUNK) as usize;
+            for part in pool::run(threads, size, chunks, || (), piece)? {
+                let (part, own) = part?;
+                counts.merge(&own);
+                match &mut sums {
+                    Some(sums) => sums.join(&part),
+                    None => sums = Some(part),
+                }
+            }
+            first += number;
+            let estimate = sums.as_ref().map(|sums| all.estimate(sums));
+            if let Some(failure) = estimate.filter(|now| now.reached || first >= settings.samples) {
+                return Ok(RareFailure {
+                    failure,
+                    counts,
+                    centres: centres.len(),
+                    inputs: state.inputs.clone(),
+                    description: state.description.clone(),
+                });
+            }
+        }
+    }
+
+    fn whole(&self) -> Whole<'_> {
+        Whole {
+            requirements: self,
+            room: RefCell::new(self.responses().workspace()),
+            counts: Cell::new(Counts::default()),
+        }
+    }
+}
+
+/// All requirements as one limit state that only says whether they are met.
+struct Whole<'a> {
+    requirements: &'a Requirements<'a>,
+    room: RefCell<Workspace>,
+    counts: Cell<Counts>,
+}
+
+impl Whole<'_> {
+    fn count(&self, outcome: Outcome) {
+        let mut counts = self.counts.get();
+        counts.add(outcome, 1);
+        self.counts.set(counts);
+    }
+}
+
+impl LimitState for Whole<'_> {
+    type Error = String;
+
+    fn dimension(&self) -> usize {
+        self.requirements.deviations().dimension()
+    }
+
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String> {
+        let value = self.value(z)?;
+        let gradient = vec![0.0; z.len()];
+        Ok(LimitValue { value, gradient })
+    }
+
+    fn value(&self, z: &[f64]) -> Result<f64, String> {
+        let design = self.requirements.deviations().design(z);
+        let responses = self.requirements.responses();
+        let found = responses.at(&mut self.room.borrow_mut(), &design);
+        let found = found.map_err(|error| error.to_string())?;
+        self.count(found.outcome);
+        match all_met(&self.requirements.each_met(&found)) {
+            Some(true) => Ok(1.0),
+            Some(false) => Ok(-1.0),
+            None => Err("the design has no response to tell".to_owned()),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Probabilities of failure by design points.
+
+use eigentol_statistics::normal;
+use eigentol_statistics::reliability::sampling::{Estimate, Interval};
+use eigentol_statistics::reliability::system::{FirstOrderSystem, QuadratureSettings};
+use eigentol_statistics::reliability::{self, FormSettings, failure_regions};
+
+use super::design_point::DesignPoint;
+use super::deviations::Deviations;
+use super::limit::{Limit, LimitAt};
+use super::requirements::Requirements;
+use crate::algebra::Vector;
+use crate::{Description, Error, Shared};
+
+/// One limit and its design points.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LimitReliability {
+    /// The limit.
+    pub limit: Limit,
+    /// Its design points, the most probable one first, at least one; or why there is none, for example because no design within
+    /// reach fails.
+    pub design_points: Result<Vec<DesignPoint>, Error>,
+}
+
+impl LimitReliability {
+    /// Probability of failure to first order: of all regions of failure one after the other, at most their sum; `None` without
+    /// design points.
+    #[must_use]
+    pub fn probability(&self) -> Option<f64> {
+        let points = self.design_points.as_ref().ok()?;
+        let first = points.first()?;
+        if first.beta() < 0.0 {
+            return Some(first.probability());
+        }
+        let sum: f64 = points.iter().map(DesignPoint::probability).sum();
+        Some(sum.min(1.0))
+    }
+
+    /// The reliability index of the most probable design point.
+    #[must_use]
+    pub fn beta(&self) -> Option<f64> {
+        Some(self.design_points.as_ref().ok()?.first()?.beta())
+    }
+}
+
+/// Probability that at least one of several limits is passed, each replaced by its tangent plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SystemFailure {
+    /// The probability, with the error of its integration.
+    pub probability: Estimate,
+    /// Bounds from the probabilities of pairs (Ditlevsen 1979).
+    pub bounds: Interval,
+}
+
+/// Reliability of a design.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Reliability {
+    /// Every limit that the requirements put to responses.
+    pub limits: Vec<LimitReliability>,
+    /// Failure of any of the limits that have design points; `None` where none has, or where the middle of all designs fails at a
+    /// forbidden band, which is no plane.
+    pub system: Option<SystemFailure>,
+    /// Requirements without a limit: [`Requirement::Stable`](super::Requirement::Stable).
+    pub left_out: Vec<usize>,
+    /// The inputs it belongs to, SI.
+    pub inputs: Vector,
+    /// The mechanism it belongs to.
+    pub description: Shared<Description>,
+}
+
+impl Reliability {
+    /// Reliability index of failing a requirement to first order, `-Phi^-1` of the summed probabilities of its limits; `None`
+    /// where it has no design point.
+    #[must_use]
+    pub fn beta_of(&self, requirement: usize) -> Option<f64> {
+        let own = self
+            .limits
+            .iter()
+            .filter(|own| own.limit.requirement == requirement);
+        let parts: Vec<f64> = own.filter_map(LimitReliability::probability).collect();
+        (!parts.is_empty()).then(|| -normal::quantile(parts.iter().sum::<f64>().min(1.0)))
+    }
+
+    /// Whether every limit has a design point and all of these are verified.
+    #[must_use]
+    pub fn verified(&self) -> bool {
+        let verified = |own: &LimitReliability| match &own.design_points {
+            Ok(points) => points.iter().all(|point| point.verified),
+            Err(_) => false,
+        };
+        self.left_out.is_empty() && self.limits.iter().all(verified)
+    }
+}
+
+impl Requirements<'_> {
+    /// Probabilities of failure by first- and second-order reliability, with design points and exact derivatives.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where no requirement puts a limit to a response, where nothing varies, and for variables without a
+    /// density. A limit without a design point carries its own error.
+    pub fn reliability(&self, settings: &FormSettings) -> Result<Reliability, Error> {
+        reliability_of(self, self.deviations(), settings)
+    }
+}
+
+/// The same of other deviations.
+pub(crate) fn reliability_of(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+    settings: &FormSettings,
+) -> Result<Reliability, Error> {
+    let state = requirements.responses().nominal();
+    let limits = requirements.limits();
+    check(requirements, deviations)?;
+    let found = limits.iter().map(|(place, limit)| LimitReliability {
+        limit: *limit,
+        design_points: design_points(requirements, deviations, (*place, limit), settings),
+    });
+    let found: Vec<LimitReliability> = found.collect();
+    let has_limit = |k: &usize| limits.iter().any(|(_, limit)| limit.requirement == *k);
+    Ok(Reliability {
+        system: system(&found)?,
+        limits: found,
+        left_out: (0..requirements.wanted().len())
+            .filter(|k| !has_limit(k))
+            .collect(),
+        inputs: state.inputs.clone(),
+        description: state.description.clone(),
+    })
+}
+
+/// Refuses what has no design point for certain.
+pub(crate) fn check(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+) -> Result<(), Error> {
+    deviations.check_densities(&requirements.responses().nominal().description)?;
+    if requirements.limits().is_empty() {
+        return Err(Error::Setting {
+            setting: "requirements",
+            reason: "stability alone has no design point: require a critical value beyond the operating point, or sample"
+                .to_owned(),
+        });
+    }
+    if deviations.tolerances().normal_dimensions().is_empty() {
+        return Err(Error::Setting {
+            setting: "tolerances",
+            reason: "nothing varies: at least one tolerance must be positive".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn design_points(
+    requirements: &Requirements<'_>,
+    deviations: &Deviations<'_>,
+    (place, limit): (usize, &Limit),
+    settings: &FormSettings,
+) -> Result<Vec<DesignPoint>, Error> {
+    let limit = LimitAt::new(requirements.responses(), place, limit.edge, deviations);
+    let regions = failure_regions(&limit, settings)?.design_points;
+    let points = regions
+        .into_iter()
+        .map(|point| DesignPoint::new(&limit, deviations, point));
+    points.collect()
+}
+
+fn system(limits: &[LimitReliability]) -> Result<Option<SystemFailure>, Error> {
+    let mut points: Vec<reliability::DesignPoint> = Vec::new();
+    for own in limits
+        .iter()
+        .filter_map(|own| own.design_points.as_ref().ok())
+    {
+        if own.len() > 1 && own.iter().any(|point| point.beta() < 0.0) {
+            return Ok(None);
+        }
+        points.extend(own.iter().map(|point| point.normal.clone()));
+    }
+    if points.is_empty() {
+        return Ok(None);
+    }
+    let system = FirstOrderSystem::of(&points)?;
+    Ok(Some(SystemFailure {
+        probability: system.series_probability(&QuadratureSettings::default())?,
+        bounds: system.series_bounds(),
+    }))
+}

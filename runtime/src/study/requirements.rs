@@ -1,0 +1,191 @@
+//! Requirements of a study: chances of meeting them, and the cheapest tolerances that do.
+
+use super::deviating::deviating;
+use super::{Solved, Study};
+use crate::Error;
+use crate::allocation::{Allocation, Choices, allocate};
+use crate::kernels::DirectionalKernels;
+use crate::requirement::{
+    Chances, FormSettings, RareFailure, Reliability, Requirement, Requirements, SamplingSettings,
+};
+
+impl<M: DirectionalKernels> Solved<'_, M> {
+    /// Chances of meeting requirements all at once, and of each by itself, from as many samples as the study takes
+    /// ([`Requirements::chances`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let wanted = [Requirement::at_least(first, 4.0), Requirement::Stable];
+    /// println!("{}", study.solve()?.chances(&wanted)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::tolerances`], [`Requirements::new`] and [`Requirements::chances`].
+    pub fn chances(&self, wanted: &[Requirement]) -> Result<Chances, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).chances(wanted);
+        }
+        let sampling = self.study.settings.sampling(None);
+        self.requirements(wanted)?.chances(&sampling)
+    }
+
+    /// Probabilities of failure by design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let found = study.solve()?.reliability(&[Requirement::at_least(first, 4.0)])?;
+    /// assert!(found.verified());
+    /// println!("{found}");
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::tolerances`], [`Requirements::new`] and [`Requirements::reliability`].
+    pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).reliability(wanted);
+        }
+        self.requirements(wanted)?
+            .reliability(&FormSettings::default())
+    }
+
+    /// A small probability of failing any requirement, by importance sampling about the design points
+    /// ([`Requirements::rare_failure`]), with seed, stream and threads of the study.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::{Requirement, SamplingSettings};
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let settings = SamplingSettings::default();
+    /// println!("{}", study.solve()?.rare_failure(&[Requirement::at_least(first, 3.9)], &settings)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::reliability`] and [`Requirements::rare_failure`].
+    pub fn rare_failure(
+        &self,
+        wanted: &[Requirement],
+        settings: &SamplingSettings,
+    ) -> Result<RareFailure, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).rare_failure(wanted, settings);
+        }
+        let own = &self.study.settings;
+        let settings = SamplingSettings {
+            seed: own.seed,
+            stream: own.stream,
+            ..settings.clone()
+        };
+        let requirements = self.requirements(wanted)?;
+        let about = requirements.reliability(&FormSettings::default())?;
+        requirements.rare_failure(&about, &settings, own.threads)
+    }
+
+    /// The cheapest tolerances that meet requirements, checked by as many samples as the study takes
+    /// ([`allocation::allocate`](crate::allocation::allocate)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::allocation::{Choices, Cost, HalfWidth};
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let length = HalfWidth {
+    ///     variable: Pendulum::l.index(),
+    ///     limits: (1e-3, 0.1),
+    ///     cost: Cost::reciprocal(0.0, 1.0, 1.0),
+    /// };
+    /// let choices = Choices { half_widths: vec![length], nominals: vec![], failure: vec![1e-3] };
+    /// println!("{}", study.solve()?.allocation(&[Requirement::at_least(first, 4.0)], &choices)?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::tolerances`], [`Requirements::new`] and [`allocation::allocate`](crate::allocation::allocate).
+    pub fn allocation(
+        &self,
+        wanted: &[Requirement],
+        choices: &Choices<'_>,
+    ) -> Result<Allocation, Error> {
+        if let Some(wide) = deviating!(self.study, DirectionalKernels) {
+            return self.in_study(&wide).allocation(wanted, choices);
+        }
+        let sampling = self.study.settings.sampling(None);
+        allocate(&self.requirements(wanted)?, choices, &sampling)
+    }
+
+    fn requirements(&self, wanted: &[Requirement]) -> Result<Requirements<'_>, Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        let tolerances = study.settings.tolerances()?;
+        Requirements::new(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            tolerances,
+            wanted.to_vec(),
+        )
+    }
+}
+
+impl<M: DirectionalKernels> Study<M> {
+    /// Chances of meeting requirements, as [`Solved::chances`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::chances`].
+    pub fn chances(&self, wanted: &[Requirement]) -> Result<Chances, Error> {
+        self.solve()?.chances(wanted)
+    }
+
+    /// Probabilities of failure by design points, as [`Solved::reliability`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::reliability`].
+    pub fn reliability(&self, wanted: &[Requirement]) -> Result<Reliability, Error> {
+        self.solve()?.reliability(wanted)
+    }
+
+    /// A small probability of failing any requirement, as [`Solved::rare_failure`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::rare_failure`].
+    pub fn rare_failure(
+        &self,
+        wanted: &[Requirement],
+        settings: &SamplingSettings,
+    ) -> Result<RareFailure, Error> {
+        self.solve()?.rare_failure(wanted, settings)
+    }
+
+    /// The cheapest tolerances that meet requirements, as [`Solved::allocation`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::allocation`].
+    pub fn allocation(
+        &self,
+        wanted: &[Requirement],
+        choices: &Choices<'_>,
+    ) -> Result<Allocation, Error> {
+        self.solve()?.allocation(wanted, choices)
+    }
+}
