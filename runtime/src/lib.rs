@@ -98,6 +98,8 @@ pub mod modes;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
+pub mod propagation;
+#[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]
 pub mod response;

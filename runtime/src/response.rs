@@ -98,6 +98,11 @@ impl<'a> Responses<'a> {
         &self.wanted
     }
 
+    /// The design about which responses are asked for, and its equilibrium.
+    pub(crate) fn nominal(&self) -> &'a Equilibrium {
+        self.nominal
+    }
+
     /// Room for evaluations by one thread.
     #[must_use]
     pub fn workspace(&self) -> Workspace {

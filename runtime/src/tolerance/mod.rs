@@ -7,10 +7,11 @@ mod monte_carlo;
 mod normal_sampling;
 mod outcome;
 mod outputs;
-mod pool;
+pub(crate) mod pool;
 mod sample;
 mod sampling;
 mod spread;
+mod standard_normal;
 mod statistics;
 mod tolerances;
 

@@ -1,7 +1,5 @@
 //! Monte Carlo: every sample solves its own equilibrium and its own eigenproblem, and every failure is counted.
 
-use rayon::prelude::*;
-
 use super::batched::{Solved, Sums, TOGETHER, TaylorModel};
 use super::pool;
 use super::sample::Solution;
@@ -127,17 +125,9 @@ pub fn monte_carlo(
     };
     let room = || run.room();
     let chunk = |room: &mut Room, index: usize| run.chunk(room, index);
-    let chunks = 0..sampling.samples.div_ceil(CHUNK);
-    let size = pool::stack(nominal.coordinates.len(), nominal.design.len());
-    let pieces: Vec<Piece> = match (sampling.threads, size) {
-        (1, _) => {
-            let mut room = room();
-            chunks.map(|index| chunk(&mut room, index)).collect()
-        }
-        (0, None) => chunks.into_par_iter().map_init(room, chunk).collect(),
-        (threads, size) => pool::of(threads, size)?
-            .install(|| chunks.into_par_iter().map_init(room, chunk).collect()),
-    };
+    let chunks = sampling.samples.div_ceil(CHUNK);
+    let size = (nominal.coordinates.len(), nominal.design.len());
+    let pieces = pool::run(sampling.threads, size, chunks, room, chunk)?;
     let mut sum = Piece::empty(modes.modes.len());
     sum.samples = Vec::with_capacity(run.kept(sampling.samples));
     for piece in pieces {

@@ -25,6 +25,20 @@ pub enum Outcome {
     NoModes,
 }
 
+impl Outcome {
+    /// All outcomes, in the order of their numbers.
+    pub(crate) const ALL: [Self; 8] = [
+        Self::Stable,
+        Self::Divergent,
+        Self::Flutter,
+        Self::Undecided,
+        Self::NoEquilibrium,
+        Self::NotAssembled,
+        Self::Unphysical,
+        Self::NoModes,
+    ];
+}
+
 impl From<&Failure> for Outcome {
     fn from(failure: &Failure) -> Self {
         match failure {
@@ -83,7 +97,7 @@ impl Counts {
             + self.no_modes
     }
 
-    pub(super) fn add(&mut self, outcome: Outcome, number: usize) {
+    pub(crate) fn add(&mut self, outcome: Outcome, number: usize) {
         *match outcome {
             Outcome::Stable => &mut self.stable,
             Outcome::Divergent => &mut self.divergent,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::Error;
@@ -15,7 +16,7 @@ const STACK: usize = 16 << 20;
 const STACK_PER_ELEMENT: usize = 4 << 10;
 
 /// Stack for samples of a mechanism of `n` unknowns and `p` design variables; `None` where that of any thread will do.
-pub(super) const fn stack(n: usize, p: usize) -> Option<usize> {
+const fn stack(n: usize, p: usize) -> Option<usize> {
     let elements = n * (n + p);
     if elements <= SMALL || cfg!(target_family = "wasm") {
         None
@@ -34,7 +35,7 @@ static POOLS: Mutex<Pools> = Mutex::new(BTreeMap::new());
 
 /// The pool of this many threads, as many as the machine has for 0 and [`MOST`] where more are asked for, each with this stack or
 /// the usual one; started when first asked for, then idle between runs until the program ends.
-pub(super) fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
+fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>, Error> {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.min(MOST.max(processors));
     // Nothing that can panic changes the map, so a poisoned one is as good as any.
@@ -52,6 +53,28 @@ pub(super) fn of(threads: usize, stack: Option<usize>) -> Result<Arc<ThreadPool>
     let pool = Arc::new(pool);
     pools.insert((threads, stack), Arc::clone(&pool));
     Ok(pool)
+}
+
+/// Does so many pieces of work on a mechanism of `n` unknowns and `p` design variables, each thread in a room of its own, and
+/// returns what they give in order. 0 threads are as many as the machine has.
+pub(crate) fn run<R, T: Send>(
+    threads: usize,
+    (n, p): (usize, usize),
+    pieces: usize,
+    room: impl Fn() -> R + Sync + Send,
+    work: impl Fn(&mut R, usize) -> T + Sync + Send,
+) -> Result<Vec<T>, Error> {
+    match (threads, stack(n, p)) {
+        (1, _) => {
+            let mut room = room();
+            Ok((0..pieces).map(|index| work(&mut room, index)).collect())
+        }
+        (0, None) => Ok((0..pieces).into_par_iter().map_init(room, work).collect()),
+        (threads, size) => Ok(of(threads, size)?.install(|| {
+            let pieces = (0..pieces).into_par_iter();
+            pieces.map_init(room, work).collect()
+        })),
+    }
 }
 
 #[cfg(test)]

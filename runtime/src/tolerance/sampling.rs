@@ -61,27 +61,9 @@ impl<'a> Draw<'a> {
                 }
             }
         }
-        match self.tolerances.joint() {
-            None => self.combine(),
-            Some((joint, about)) => {
-                joint.from_normal(&self.standard, &mut self.design);
-                let moved = self.nominal.iter().zip(about);
-                for (value, (nominal, about)) in self.design.iter_mut().zip(moved) {
-                    *value += nominal - about;
-                }
-            }
-        }
+        self.tolerances
+            .design_from_normal(self.nominal, &self.standard, &mut self.design);
         &self.design
-    }
-
-    /// Normal variables: mean and what each of the standard ones adds.
-    fn combine(&mut self) {
-        let means = self.nominal.iter().zip(self.tolerances.shifts());
-        let rows = self.tolerances.factor().iter().zip(means);
-        for (i, (value, (row, (nominal, shift)))) in self.design.iter_mut().zip(rows).enumerate() {
-            let parts = row[..=i].iter().zip(&self.standard);
-            *value = parts.fold(nominal + shift, |sum, (l, normal)| sum + l * normal);
-        }
     }
 }
 
