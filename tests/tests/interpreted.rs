@@ -104,10 +104,11 @@ fn twins_answer_alike() {
 #[test]
 fn twins_have_the_same_tolerances() {
     const DESCRIPTION: Description = Fits::DESCRIPTION;
+    let compiled = DESCRIPTION;
     let twin = Interpreted::from_text(fits::DECLARATION).expect("a declaration");
     let twin = Study::new(twin);
-    assert_eq!(twin.description().inputs, DESCRIPTION.inputs);
-    assert_eq!(twin.description().design, DESCRIPTION.design);
+    assert_eq!(twin.description().inputs, compiled.inputs);
+    assert_eq!(twin.description().design, compiled.design);
     let limits = |lower, upper, law| ToleranceInfo {
         lower,
         upper,
@@ -118,13 +119,13 @@ fn twins_have_the_same_tolerances() {
         relative: true,
         ..ToleranceInfo::half_width(0.01)
     };
-    let inputs = DESCRIPTION.inputs.iter().map(|info| info.tolerance);
+    let inputs = compiled.inputs.iter().map(|info| info.tolerance);
     let expected = [
         one_percent,
         limits(0.0, 0.5, Law::Uniform),
         ToleranceInfo::NONE,
     ];
-    assert!(inputs.eq(expected), "{:?}", DESCRIPTION.inputs);
+    assert!(inputs.eq(expected), "{:?}", compiled.inputs);
     let beta = Law::Beta {
         alpha: 2.0,
         beta: 3.5,
@@ -139,7 +140,7 @@ fn twins_have_the_same_tolerances() {
         limits(-2e-3, 2e-3, Law::TruncatedNormal),
     ];
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs();
-    for (info, expected) in DESCRIPTION.design.iter().zip(expected) {
+    for (info, expected) in compiled.design.iter().zip(expected) {
         let ToleranceInfo {
             lower, upper, law, ..
         } = info.tolerance;

@@ -246,6 +246,14 @@ pub trait Kernels: Sync {
 }
 
 impl dyn Kernels + '_ {
+    /// What an input deviates by, SI.
+    pub(crate) fn deviation(&self, input: usize, b: &[f64]) -> f64 {
+        let of_input =
+            |(design, _): &(usize, &f64)| self.input_of_deviation(*design) == Some(input);
+        let own = b.iter().enumerate().filter(of_input);
+        own.map(|(_, deviation)| deviation).sum()
+    }
+
     /// Residual at rest.
     pub fn residual(&self, q: &[f64], u: &[f64], b: &[f64]) -> Vector {
         let mut residual = Vector::zeros(q.len());

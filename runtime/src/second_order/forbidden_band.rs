@@ -46,7 +46,7 @@ impl Band {
     }
 
     /// Ends of the band, rad/s, low end first.
-    fn ends(self, at: &Equilibrium) -> Result<(f64, f64), Error> {
+    fn ends(self, mechanism: &dyn Kernels, at: &Equilibrium) -> Result<(f64, f64), Error> {
         match self {
             Self::Between { low, high } => Ok((low, high)),
             Self::Around {
@@ -55,7 +55,7 @@ impl Band {
                 fraction,
             } => {
                 check_input(input, &at.description)?;
-                let centre = (order * at.inputs[input.index()]).abs();
+                let centre = (order * actual(mechanism, at, input.index())).abs();
                 Ok((centre * (1.0 - fraction), centre * (1.0 + fraction)))
             }
         }
@@ -89,14 +89,14 @@ impl Band {
     }
 
     /// How the ends move with an input.
-    fn slopes(self, inputs: &[f64], input: usize) -> (f64, f64) {
+    fn slopes(self, mechanism: &dyn Kernels, at: &Equilibrium, input: usize) -> (f64, f64) {
         match self {
             Self::Around {
                 input: own,
                 order,
                 fraction,
             } if own.index() == input => {
-                let rate = order * (order * inputs[input]).signum();
+                let rate = order * (order * actual(mechanism, at, input)).signum();
                 (rate * (1.0 - fraction), rate * (1.0 + fraction))
             }
             _ => (0.0, 0.0),
@@ -104,11 +104,16 @@ impl Band {
     }
 }
 
+/// What an input really is: its deviation is added.
+fn actual(mechanism: &dyn Kernels, at: &Equilibrium, input: usize) -> f64 {
+    at.inputs[input] + mechanism.deviation(input, &at.design)
+}
+
 /// How the reciprocal of what a band is around moves with each design variable, relative to it: by deviations `d` of the input
-/// it is `u / (u + d)`.
+/// it is `u / (u + d)`, `u` what the input is now.
 fn reciprocal_slopes(mechanism: &dyn Kernels, at: &Equilibrium, band: Band) -> Vector {
     let slope = |design: usize| match mechanism.input_of_deviation(design) {
-        Some(input) if band.is_around(input) => -at.inputs[input].recip(),
+        Some(input) if band.is_around(input) => -actual(mechanism, at, input).recip(),
         _ => 0.0,
     };
     Vector::from_fn(at.design.len(), slope)
@@ -167,7 +172,7 @@ pub fn mode_margin(
     tolerances: &Tolerances,
     band: Band,
 ) -> Result<ModeMargin, Error> {
-    let ends = band.ends(at)?;
+    let ends = band.ends(mechanism, at)?;
     band.check(ends)?;
     let curvature = mode_curvature(mechanism, at, modes, mode)?;
     let lambda = modes.modes[mode].lambda;
@@ -180,7 +185,7 @@ pub fn mode_margin(
     let margin = margin(&model, tolerances, ends)?;
     let by_input = margin.derivatives.as_ref().map(|derivatives| {
         Vector::from_fn(at.inputs.len(), |k| {
-            let (low, high) = band.slopes(&at.inputs, k);
+            let (low, high) = band.slopes(mechanism, at, k);
             // The reciprocal `u / (u + d)` has the slope `r = -1/u` by `d`, and that the slope `r^2` by `u`.
             let bend = if band.is_around(k) { model.value } else { 0.0 };
             let slopes = Vector::from_fn(reciprocal.len(), |j| {

@@ -1,6 +1,6 @@
 //! Safety margin of a forbidden band: how probable it is that tolerances bring a quantity into it, and what changes that.
 
-use super::probability::{Probability, check_interval, normal_probability};
+use super::probability::{Probability, check_interval};
 use super::quadratic::Quadratic;
 use crate::Error;
 use crate::algebra::{Vector, all_finite, dot};
@@ -17,14 +17,15 @@ pub struct Margin {
     pub value: f64,
     /// First-order standard deviation.
     pub sigma: f64,
-    /// Distance of the nominal value to the nearest end of the band in standard deviations: negative inside, infinite when
+    /// Distance of the first-order mean to the nearest end of the band in standard deviations: negative inside, infinite when
     /// nothing varies.
     pub distance: f64,
-    /// Probability of the band at first order (a normal distribution).
+    /// Probability of the band at first order; of normal variables, that of a normal distribution.
     pub first_order: f64,
-    /// Probability of the band, exact for the second-order model.
+    /// Probability of the band by the second-order model ([`Quadratic::probability`]).
     pub corrected: Probability,
-    /// Derivatives of the first-order probability; `None` when nothing varies or one exceeds the range of a double.
+    /// Derivatives of the first-order probability; `None` when nothing varies, when variables are not normal, or when one exceeds the
+    /// range of a double.
     pub derivatives: Option<MarginDerivatives>,
 }
 
@@ -75,14 +76,17 @@ pub fn margin(
     check_interval(band)?;
     let sigma = quadratic.sigma(tolerances)?;
     let value = quadratic.value;
+    let mean = value + tolerances.mean_shift(&quadratic.slopes);
     Ok(Margin {
         band,
         value,
         sigma,
-        distance: distance(value, sigma, band),
-        first_order: normal_probability(value, sigma, band),
+        distance: distance(mean, sigma, band),
+        first_order: quadratic.probability_first_order(tolerances, band)?,
         corrected: quadratic.probability(tolerances, band)?,
-        derivatives: derivatives(quadratic, tolerances, sigma, band),
+        derivatives: (tolerances.is_normal())
+            .then(|| derivatives(quadratic, tolerances, (mean, sigma), band))
+            .flatten(),
     })
 }
 
@@ -94,14 +98,14 @@ fn distance(value: f64, sigma: f64, (low, high): (f64, f64)) -> f64 {
 fn derivatives(
     quadratic: &Quadratic,
     tolerances: &Tolerances,
-    sigma: f64,
+    (mean, sigma): (f64, f64),
     (low, high): (f64, f64),
 ) -> Option<MarginDerivatives> {
     if sigma == 0.0 {
         return None;
     }
     let [at_low, at_high] = [low, high].map(|end| {
-        let z = (end - quadratic.value) / sigma;
+        let z = (end - mean) / sigma;
         let height = density(z);
         // z density(z) vanishes at infinity.
         let moment = if height > 0.0 { z * height } else { 0.0 };

@@ -1,6 +1,6 @@
 //! Moments of a second-order model.
 
-use super::distribution::Standard;
+use super::distribution::{Sampled, Standard};
 use super::quadratic::{ModelMoments, Quadratic, beyond_range};
 use crate::Error;
 use crate::tolerance::Tolerances;
@@ -16,8 +16,18 @@ impl Quadratic {
     /// [`Error::NotFinite`] for a model that is not finite, [`Error::WrongLength`] for one of another number of design variables
     /// than the tolerances have, [`Error::Setting`] for a spread beyond the range of a double.
     pub fn moments(&self, tolerances: &Tolerances) -> Result<ModelMoments, Error> {
-        let standard = Standard::new(self, tolerances)?;
-        let moments = standard.moments(self.value);
+        self.check(tolerances)?;
+        let central = self.about_means(tolerances);
+        let mut moments = Standard::new(&central, tolerances)?.moments(central.value);
+        if let Some((joint, about)) = tolerances.joint() {
+            let sampled = Sampled::new(self, joint, about)?;
+            let (variance, skewness, kurtosis) = sampled.moments(moments.mean - self.value);
+            let linear = moments.first_order_sigma.powi(2);
+            moments.curvature_sigma = (variance - linear).abs().sqrt();
+            moments.sigma = variance.sqrt();
+            moments.skewness = skewness;
+            moments.excess_kurtosis = kurtosis;
+        }
         if moments.mean.is_finite() && moments.sigma.is_finite() {
             Ok(moments)
         } else {

@@ -54,7 +54,7 @@ pub struct Crossing {
 }
 
 impl Condition {
-    /// What is zero where the condition is met.
+    /// What is zero where the condition is met; `value` is what the input really is.
     fn excess(self, modes: &Modes, label: usize, value: f64) -> Option<f64> {
         let mode = modes.modes.iter().find(|mode| mode.label == label)?;
         let omega = mode.frequency()?;
@@ -181,8 +181,8 @@ pub(crate) fn between(
 ) {
     for label in before.modes.modes.iter().map(|mode| mode.label) {
         let (Some(at_low), Some(at_high)) = (
-            condition.excess(&before.modes, label, before.value),
-            condition.excess(&after.modes, label, after.value),
+            condition.excess(&before.modes, label, tracker.actual(before.value)),
+            condition.excess(&after.modes, label, tracker.actual(after.value)),
         ) else {
             continue;
         };
@@ -197,18 +197,19 @@ pub(crate) fn between(
         };
         let root = refine(bracket, |trial| {
             let point = tracker.near(trial, before).ok()?;
-            let excess = condition.excess(&point.modes, label, trial)?;
+            let excess = condition.excess(&point.modes, label, tracker.actual(trial))?;
             let slope = condition.slope(tracker.mechanism, &point, label, tracker.input);
             Some((excess, slope))
         });
         let Ok(point) = tracker.near(root, before) else {
             continue;
         };
+        let actual = tracker.actual(root);
         let position = point
             .modes
             .modes
             .iter()
-            .position(|mode| mode.label == label && condition.is_met(mode, root));
+            .position(|mode| mode.label == label && condition.is_met(mode, actual));
         if let Some(mode) = position {
             found.push(Crossing {
                 input: tracker.input,

@@ -85,6 +85,22 @@ fn crossings_move_back_by_the_deviation() {
     for line in [Line::from(1.0), Line::from(0.9), fixed, shifted] {
         let met = crossings(&deviating, &[0.0], &b, &[1.0], Policy::Stable, range, line).unwrap();
         assert!(!met.is_empty());
+        let mut moved = b.clone();
+        moved[2] = 0.2;
+        let again = crossings(
+            &deviating,
+            &[0.0],
+            &moved,
+            &[1.0],
+            Policy::Stable,
+            range,
+            line,
+        );
+        let again = again.unwrap();
+        assert_eq!(again.len(), met.len());
+        for (met, again) in met.iter().zip(&again) {
+            close(again.value, met.value - 0.2, 1e-11);
+        }
         for crossing in &met {
             let slopes = crossing_sensitivity(&deviating, crossing).unwrap();
             assert!((slopes[2] + 1.0).abs() < 1e-14, "{}", slopes[2]);

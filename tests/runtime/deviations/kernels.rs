@@ -52,6 +52,20 @@ fn same_rows(found: &Matrix, by_input: &Matrix, by_design: &Matrix) {
     }
 }
 
+/// Both partial derivatives from the kernel that computes them together.
+fn partials_of(
+    kernels: &dyn Kernels,
+    q: &[f64],
+    u: &[f64],
+    b: &[f64],
+) -> (LinearPartials, ResidualPartials) {
+    let mut residual = kernels.residual_partials(q, u, b);
+    residual.0.as_flattened_mut().fill(f64::NAN);
+    residual.1.as_flattened_mut().fill(f64::NAN);
+    let matrices = kernels.partials(q, u, b, &mut residual);
+    (matrices.to_lists(), residual)
+}
+
 fn same_partials(found: &LinearPartials, expected: &LinearPartials) {
     assert_eq!(found.by_coordinate, expected.by_coordinate);
     assert_eq!(found.by_input, expected.by_input);
@@ -107,9 +121,10 @@ fn one_state<K: CurvatureKernels + MotionKernels>(machine: &K) {
         &found.linear_partials(q, u, b),
         &plain.linear_partials(q, v, p),
     );
-    let ((matrices, residual), expected) = (found.partials(q, u, b), plain.partials(q, v, p));
-    same_partials(&matrices, &expected.0);
-    same_rows(&residual.1, &expected.1.0, &expected.1.1);
+    let (matrices, residual) = partials_of(found, q, u, b);
+    let (expected, (by_input, by_design)) = partials_of(plain, q, v, p);
+    same_partials(&matrices, &expected);
+    same_rows(&residual.1, &by_input, &by_design);
     let (outputs, expected) = (
         found.output_partials(q, u, b),
         plain.output_partials(q, v, p),
@@ -375,7 +390,7 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
         same_linear(&linear_too, state, &expected, damped);
         same_batch(&parts.inertia, state, &expected_parts.inertia);
         same_batch(&parts.applied, state, &expected_parts.applied);
-        let (expected, of_residual_expected) = alone.partials(&q, &u, &b);
+        let (expected, of_residual_expected) = partials_of(alone, &q, &u, &b);
         for (found, expected) in [
             (&matrices.by_coordinate, &expected.by_coordinate),
             (&matrices.by_input, &expected.by_input),

@@ -63,31 +63,34 @@ fn its_derivatives_are_what_differences_show() {
     let probability = |speed: f64| margin(speed, 0.0, SIGMA, band).unwrap().margin.first_order;
     let expected = (probability(5.6 + step) - probability(5.6 - step)) / (2.0 * step);
     assert!(expected.abs() > 0.1);
-    close(found.by_input.unwrap()[0], expected, 1e-6);
-    // A mean deviation at a set speed is that speed, less the deviation.
-    let moved = margin(
-        5.6,
-        0.02,
-        SIGMA,
-        Band::Between {
-            low: 5.0,
-            high: 6.0,
-        },
-    );
-    let other = margin(
-        5.62,
-        0.0,
-        SIGMA,
-        Band::Between {
-            low: 5.0,
-            high: 6.0,
-        },
-    );
-    close(
-        moved.unwrap().margin.corrected.value,
-        other.unwrap().margin.corrected.value,
-        1e-9,
-    );
+    close(found.by_input.as_ref().unwrap()[0], expected, 1e-6);
+    let by_deviation = found.margin.derivatives.unwrap().by_design[2];
+    close(by_deviation, expected, 1e-6);
+}
+
+/// A mean deviation of a set speed is that speed.
+#[test]
+fn a_mean_deviation_moves_the_speed() {
+    let beside = Band::Between {
+        low: 5.0,
+        high: 6.0,
+    };
+    for band in [Band::around(OMEGA, 0.1), beside] {
+        let [moved, other] = [(5.5, 0.12), (5.62, 0.0)].map(|(speed, deviation)| {
+            let found = margin(speed, deviation, SIGMA, band).unwrap();
+            let derivatives = found.margin.derivatives.unwrap();
+            let probabilities = [found.margin.first_order, found.margin.corrected.value];
+            [
+                probabilities,
+                [derivatives.by_design[2], found.by_input.unwrap()[0]],
+            ]
+            .concat()
+        });
+        for (moved, other) in moved.iter().zip(&other) {
+            close(*moved, *other, 1e-9);
+        }
+        assert!(moved[0] > 1e-3 && moved[3].abs() > 0.01);
+    }
 }
 
 /// Without a tolerance of the input nothing changes, and a band about zero has no fractions to deviate by.

@@ -1,5 +1,6 @@
 //! Statistics of a quantity known to second order: against quadrature, closed forms, sampling and reference numbers.
 
+mod distributions;
 mod margin;
 mod moments;
 mod probability;

@@ -16,7 +16,10 @@ use crate::{DesignVariable, Error};
 /// Its design variables are those of the mechanism, and after them a deviation of each chosen input, nominally zero. Where the
 /// mechanism takes the input, it gets the sum of the set value and the deviation. Derivatives by a deviation are therefore
 /// those by its input, and every question about tolerances of design variables answers for tolerances of inputs as well, also
-/// where the input itself is swept.
+/// where the input itself is swept. What is located along an input is the value that it is set to.
+///
+/// A deviation has the name and the unit of its input, and its declared tolerance, unless that is a fraction of the value, which
+/// is not known here: then it has none, and [`Tolerances`](crate::Tolerances) have to be given.
 ///
 /// It is a table of kernels of every kind that `K` is, also where `K` is such a table itself: `dyn BatchKernels`.
 ///
@@ -105,12 +108,11 @@ impl<'a, K: Kernels + ?Sized> DeviatingInputs<'a, K> {
     }
 }
 
-/// A deviation has the name and the unit of its input. It has its tolerance too, unless that is a fraction of the value, which
-/// is not known here.
 fn deviation_of(input: &InputInfo) -> DesignInfo {
-    let tolerance = match input.tolerance.relative {
-        true => ToleranceInfo::NONE,
-        false => input.tolerance,
+    let tolerance = if input.tolerance.relative {
+        ToleranceInfo::NONE
+    } else {
+        input.tolerance
     };
     DesignInfo {
         name: input.name.clone(),

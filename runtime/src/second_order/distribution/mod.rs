@@ -1,13 +1,16 @@
-//! The exact distribution of a quadratic form in normal variables: its normal form and three ways to its probabilities.
+//! The distribution of a quadratic form. In normal variables exactly: its normal form and three ways to its probabilities; in others
+//! from the form at many points.
 
 mod contour;
 mod davies;
 mod interval;
 pub(super) mod normal_cdf;
+mod sampled;
 mod single;
 mod standard;
 mod terms;
 
+pub(super) use sampled::Sampled;
 pub(super) use standard::Standard;
 pub(super) use terms::Terms;
 

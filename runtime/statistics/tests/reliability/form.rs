@@ -111,11 +111,13 @@ fn a_limit_through_the_origin_has_beta_zero() {
 /// Nothing fails within reach: an error that says so, not a probability.
 #[test]
 fn no_failure_is_an_error() {
-    let cases: [Box<dyn Fn(&[f64]) -> (f64, Vec<f64>)>; 4] = [
+    type Function = dyn Fn(&[f64]) -> (f64, Vec<f64>);
+    let cases: [Box<Function>; 5] = [
         Box::new(|z| (1.0 + z[0] * z[0], vec![2.0 * z[0], 0.0])),
         Box::new(|_| (1.0, vec![0.0, 0.0])),
         Box::new(|z| ((-z[0]).exp(), vec![-(-z[0]).exp(), 0.0])),
         Box::new(|z| (1e4 - z[0], vec![-1.0, 0.0])),
+        Box::new(|z| (150.0 - z[0], vec![-1.0, 0.0])),
     ];
     for (case, function) in cases.into_iter().enumerate() {
         let error = form(&limit(2, function), &FormSettings::default()).unwrap_err();

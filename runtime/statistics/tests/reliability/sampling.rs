@@ -117,6 +117,22 @@ fn nothing_failed() {
     assert!(clopper_pearson(0, found.samples, 0.95).unwrap().upper < 2e-3);
 }
 
+/// A coefficient of variation of one failure says nothing.
+#[test]
+fn a_few_failures_are_not_enough() {
+    let limits = [linear(1.0, vec![-1.0])];
+    let proposal = Proposal::standard(1);
+    let settings = SamplingSettings {
+        batch: 1,
+        ..settings(100.0)
+    };
+    let found = Sampler::new(&limits, Failure::Any, &proposal, &settings)
+        .unwrap()
+        .run();
+    assert!(found.reached);
+    assert_eq!(found.failures, 10);
+}
+
 /// Probabilities whose squares, and which themselves, are below the least number.
 #[test]
 fn extreme_tails() {
