@@ -53,6 +53,9 @@
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
 //! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
+//! | How far do they spread any responses together, by whatever method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses), [`controlled`](Study::controlled) | [`propagation::propagate`], [`propagation::sampled`], [`propagation::quadrature`] |
+//! | Which variables does the scatter come from? | [`influence`](Study::influence) | [`propagation::influence`] |
+//! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
 //! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
 //! | What happens along an input? | [`sweep`](Study::sweep), [`sensitivity_sweep`](Study::sensitivity_sweep), [`first_order_sweep`](Study::first_order_sweep), [`campbell`](Study::campbell) | [`sweep::sweep`], [`sweep::sensitivity_sweep`], [`campbell::campbell`] |
 //! | Where is it critical, and how far do tolerances move that? | [`critical_state`](Study::critical_state), [`critical_tolerance`](Study::critical_tolerance) | [`sweep::critical_state`], [`sweep::critical_tolerance`] |

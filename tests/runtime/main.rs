@@ -15,6 +15,7 @@ mod events;
 mod handwritten;
 mod lanes;
 mod modes;
+mod propagate;
 mod quadratic;
 mod range;
 mod rounding;

@@ -160,6 +160,16 @@ impl Gathered {
         Ok(Covariance::of(&all).and_then(|all| all.covariance))
     }
 
+    /// Samples that have a quantity.
+    pub(super) fn count(&self, quantity: usize) -> Result<u64, Error> {
+        Ok(self.moments(quantity)?.count())
+    }
+
+    /// Mean of a quantity; `None` where no sample has it.
+    pub(super) fn mean(&self, quantity: usize) -> Result<Option<f64>, Error> {
+        Ok(self.moments(quantity)?.mean())
+    }
+
     fn moments(&self, quantity: usize) -> Result<Moments, Error> {
         let mut all = Moments::default();
         for part in &self.parts {

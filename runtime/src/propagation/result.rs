@@ -69,6 +69,10 @@ pub struct ResponseSpread {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
+    /// [`first_order`](super::first_order).
+    FirstOrder,
+    /// [`second_order`](super::second_order).
+    SecondOrder,
     /// [`sampled`](super::sampled).
     Sampled(Points),
     /// [`quadrature`](super::quadrature) on the tensor product of rules of so many nodes.

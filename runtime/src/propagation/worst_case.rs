@@ -13,6 +13,9 @@ const ALL_CORNERS: usize = 10;
 /// A variable that changes a response by less than this share of what the most important one does has no sign.
 const NO_SIGN: f64 = 1e-9;
 
+/// Values that differ by less than this share of them are equal.
+const ROUNDING: f64 = 1e-13;
+
 /// Where a response is least or greatest of all designs that were looked at.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -247,8 +250,15 @@ impl Search<'_> {
     fn extreme(&self, response: usize, way: i8) -> Option<Extreme> {
         let all = self.seen.iter();
         let all = all.filter_map(|(corner, found)| Some((corner, found.values[response]?)));
-        let (corner, value) =
-            all.max_by(|(_, a), (_, b)| (f64::from(way) * a).total_cmp(&(f64::from(way) * b)))?;
+        let all: Vec<(&Corner, f64)> = all.collect();
+        let worst = |most: f64, (_, value): &(_, f64)| most.max(f64::from(way) * value);
+        let most = all.iter().fold(f64::NEG_INFINITY, worst);
+        let equal = all
+            .into_iter()
+            .filter(|(_, value)| most - f64::from(way) * value <= ROUNDING * most.abs());
+        // Variables that do not matter stay nominal.
+        let moved = |corner: &Corner| corner.iter().filter(|side| **side != 0).count();
+        let (corner, value) = equal.min_by_key(|(corner, _)| moved(corner))?;
         let signs = self.signs(corner, response);
         let outwards = |signs: &Corner| {
             let pairs = corner.iter().zip(signs);

@@ -6,6 +6,7 @@ mod campbell;
 mod equilibrium;
 mod margin;
 mod modes;
+mod propagation;
 mod second_order;
 mod sensitivity;
 mod shares;
