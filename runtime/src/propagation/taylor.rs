@@ -19,7 +19,8 @@ const SAMPLES: u64 = 1 << 15;
 
 /// First order, for any distribution: mean and standard deviation exact for the linear model, skewness too unless dependent variables are
 /// not normal; quantiles, and what else has no closed form, from samples of the model. Errors are the difference to second order,
-/// where second derivatives exist: of quantities of modes.
+/// where second derivatives exist: of quantities of modes. To that of the standard deviation comes what third derivatives may add
+/// ([`second_order`]).
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -45,9 +46,9 @@ pub fn first_order(
 /// are not normal; skewness, quantiles and covariances come from samples of the model. Responses without second derivatives have
 /// no spread: outputs, critical values, quantities of modes that lie too close together.
 ///
-/// Errors go on from the difference to first order as a series does: smaller by the ratio of what curvature and slopes add to the
-/// standard deviation. That of the standard deviation itself is the whole difference, because third derivatives, which are left out,
-/// add terms of the same order. Near a critical state the series does not converge, and no such error holds.
+/// Errors go on from the difference to first order as a series does: smaller by the ratio `r` of what curvature and slopes add to the
+/// standard deviation. That of the standard deviation itself is the whole difference and `r^2` of it, because third derivatives,
+/// which are left out, add terms of this order. Near a critical state the series does not converge, and no such error holds.
 ///
 /// ```
 #[doc = include_str!("example.txt")]
@@ -173,19 +174,24 @@ impl Models<'_> {
     fn spread(&self, i: usize, own: &Expansion, second: bool) -> Result<ResponseSpread, Error> {
         let first = self.model(i, own, None)?;
         let Some(curvature) = &own.curvature else {
-            return Ok(first);
+            return Ok(without_errors(first));
         };
         let other = self.model(i, own, Some(curvature))?;
-        Ok(if second {
-            let share = self.share(own, curvature);
-            compared(other, &first, share)
-        } else {
-            compared(first, &other, 1.0)
-        })
+        let ratio = self.ratio(own, curvature);
+        let (mut found, other, share) = match second {
+            true => (other, first, ratio),
+            false => (first, other, 1.0),
+        };
+        add_difference(&mut found, &other, share);
+        let sigma = found.sigma.as_mut();
+        if let Some((sigma, error)) = sigma.and_then(|own| Some((own.value, own.error.as_mut()?))) {
+            *error += ratio * ratio * sigma;
+        }
+        Ok(found)
     }
 
     /// What curvature adds to the standard deviation and, where means are shifted, to slopes, against what slopes do; at most 1.
-    fn share(&self, own: &Expansion, curvature: &Matrix) -> f64 {
+    fn ratio(&self, own: &Expansion, curvature: &Matrix) -> f64 {
         let columns = self.tolerances.factor().transpose();
         let curved = columns.iter().map(|row| times(curvature, row));
         let squares: f64 = curved
@@ -195,8 +201,8 @@ impl Models<'_> {
         let bent = self
             .tolerances
             .sigma(&times(curvature, self.tolerances.shifts()));
-        let share = (squares.sqrt() + bent) / self.tolerances.sigma(&own.slopes);
-        if share < 1.0 { share } else { 1.0 }
+        let ratio = (squares.sqrt() + bent) / self.tolerances.sigma(&own.slopes);
+        if ratio < 1.0 { ratio } else { 1.0 }
     }
 
     /// The spread of an expansion, with the errors of sampling it.
@@ -251,8 +257,20 @@ fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
     each.into()
 }
 
+/// Without second derivatives nothing is known of how far the model holds.
+fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
+    own.mean.error = None;
+    for one in [&mut own.sigma, &mut own.skewness].into_iter().flatten() {
+        one.error = None;
+    }
+    for quantile in &mut own.quantiles {
+        quantile.error = None;
+    }
+    own
+}
+
 /// Adds a share of the difference to another spread to each error, and the whole of it to that of the standard deviation.
-fn compared(mut own: ResponseSpread, other: &ResponseSpread, share: f64) -> ResponseSpread {
+fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
     let further = |own: &mut Estimated, other: Option<Estimated>, share: f64| {
         let difference = other.map(|other| share * (own.value - other.value).abs());
         own.error = own.error.zip(difference).map(|(a, b)| a + b);
@@ -268,5 +286,4 @@ fn compared(mut own: ResponseSpread, other: &ResponseSpread, share: f64) -> Resp
         let difference = share * (own.value - other.value).abs();
         own.error = own.error.map(|error| error + difference);
     }
-    own
 }
