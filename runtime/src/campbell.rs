@@ -161,12 +161,9 @@ fn diagram(
     let mut smooth = Vec::with_capacity(values.len());
     for &value in values {
         let before = tracker.last.clone();
-        let (equilibrium, modes) = match tracker.advance(value) {
-            Ok((state, modes)) => (Ok(state), modes),
-            Err(error) => (Err(error.clone()), Err(error)),
-        };
-        smooth.push(tracker.smooth && modes.is_ok());
-        if let (Some(before), Some(after), true) = (&before, &tracker.last, modes.is_ok()) {
+        let failed = tracker.advance(value);
+        smooth.push(tracker.smooth && failed.is_none());
+        if let (Some(before), Some(after), None) = (&before, &tracker.last, &failed) {
             for &condition in &conditions {
                 let mut found = Vec::new();
                 between(&tracker, before, after, condition, &mut found);
@@ -182,16 +179,14 @@ fn diagram(
                 }));
             }
         }
-        let modes = match (&equilibrium, modes) {
-            (Ok(state), Ok(modes)) => Ok(describe(mechanism, state, &modes, tolerances)),
-            (_, Err(error)) => Err(error),
-            (Err(error), Ok(_)) => Err(error.clone()),
-        };
-        points.push(CampbellPoint {
-            value,
-            equilibrium,
-            modes,
-        });
+        if let Some(point) = failed.as_ref().or(tracker.last.as_ref()) {
+            let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
+            points.push(CampbellPoint {
+                value,
+                equilibrium: point.equilibrium.clone(),
+                modes: point.solved().map(describe).map_err(Error::clone),
+            });
+        }
     }
     // Engine order by engine order; stable, so onsets stay as they were found.
     let order = |event: &EventTolerance| match event.event {

@@ -428,7 +428,11 @@ fn compiler_runtime_and_oracle_never_import_each_other() {
     );
     assert_eq!(
         dependencies("runtime/Cargo.toml"),
-        BTreeSet::from(["eigentol-macros".to_owned()])
+        BTreeSet::from(["eigentol-macros", "eigentol-statistics"].map(str::to_owned))
+    );
+    assert_eq!(
+        dependencies("runtime/statistics/Cargo.toml"),
+        BTreeSet::new()
     );
     assert_eq!(dependencies("tests/oracle/Cargo.toml"), BTreeSet::new());
     for file in sources(&root().join("runtime/src")) {

@@ -1,8 +1,9 @@
 //! The tables of kernels, by interpretation.
 
 use eigentol::kernels::{
-    BatchKernels, BatchPoint, CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels,
-    Linear, LinearPartials, MotionKernels, PartialMatrices, ResidualPartials, RestParts, Sizes,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
+    CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
+    PartialMatrices, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
 use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
@@ -475,9 +476,9 @@ impl BatchKernels for Interpreted {
         instructions: Instructions,
         at: BatchPoint<'_>,
         residual: &mut [Batch],
-        stiffness: &mut Matrix<Batch>,
+        stiffness: &mut [Batch],
     ) {
-        let mut to = [residual, stiffness.as_flattened_mut()];
+        let mut to = [residual, stiffness];
         let tape = &self.shared.tapes.residual_and_stiffness;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
@@ -486,9 +487,13 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        linear: &mut Linear<Batch>,
+        linear: &mut BatchLinear<'_>,
     ) {
-        let mut to = linear_buffers(linear);
+        let mut to = [
+            &mut *linear.mass,
+            &mut *linear.damping,
+            &mut *linear.stiffness,
+        ];
         let tape = &self.shared.tapes.linear;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
     }
@@ -497,10 +502,10 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        parts: &mut RestParts<Batch>,
-        linear: &mut Linear<Batch>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
     ) {
-        let mut to = parts_buffers(parts);
+        let mut to = [&mut *parts.inertia, &mut *parts.applied];
         let tape = &self.shared.tapes.residual_parts;
         run_batch(tape, instructions, &[at.q, at.u, at.b], &mut to);
         self.linear_batch(instructions, at, linear);
@@ -510,26 +515,27 @@ impl BatchKernels for Interpreted {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        matrices: &mut LinearPartials<Batch>,
-        residual: &mut ResidualPartials<Batch>,
+        matrices: &mut BatchPartials<'_>,
+        mut residual: [&mut [Batch]; 2],
     ) {
         let arguments = [at.q, at.u, at.b];
         if let Some(tape) = &self.shared.tapes.linear_partials {
             batch(tape, instructions, &arguments, |registers| {
-                let LinearPartials {
+                let BatchPartials {
                     by_coordinate,
                     by_input,
                     by_design,
                 } = matrices;
-                let counts = [by_coordinate.len(), by_input.len(), by_design.len()];
-                let changes = by_coordinate.iter_mut().chain(by_input).chain(by_design);
-                let changes = changes.map(linear_buffers);
+                let counts = [at.q.len(), at.u.len(), at.b.len()];
+                let entries = at.q.len() * at.q.len();
+                let changes = changes(by_coordinate, entries)
+                    .chain(changes(by_input, entries))
+                    .chain(changes(by_design, entries));
                 copy_partials(registers, tape, counts, changes);
             });
         }
-        let mut to = partials_buffers(residual);
         let tape = &self.shared.tapes.residual_partials;
-        run_batch(tape, instructions, &arguments, &mut to);
+        run_batch(tape, instructions, &arguments, &mut residual);
     }
 
     fn mode_gradient_batch(
@@ -538,7 +544,7 @@ impl BatchKernels for Interpreted {
         at: BatchPoint<'_>,
         phi: &[Batch],
         lambda: &Batch,
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let arguments = [at.q, at.u, at.b, phi, std::slice::from_ref(lambda)];
         let tape = &self.shared.tapes.mode_gradient;
@@ -546,7 +552,11 @@ impl BatchKernels for Interpreted {
             tape,
             instructions,
             &arguments,
-            &mut gradient_buffers(gradient),
+            &mut [
+                &mut *gradient.coordinates,
+                &mut *gradient.inputs,
+                &mut *gradient.design,
+            ],
         );
     }
 
@@ -555,14 +565,30 @@ impl BatchKernels for Interpreted {
         instructions: Instructions,
         at: BatchPoint<'_>,
         w: &[Batch],
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let tape = &self.shared.tapes.residual_gradient;
         run_batch(
             tape,
             instructions,
             &[at.q, at.u, at.b, w],
-            &mut gradient_buffers(gradient),
+            &mut [
+                &mut *gradient.coordinates,
+                &mut *gradient.inputs,
+                &mut *gradient.design,
+            ],
         );
     }
+}
+
+/// The derivatives of the three matrices by one variable after the other; of a damping without room nothing.
+fn changes<'a>(
+    matrices: &'a mut BatchLinear<'_>,
+    entries: usize,
+) -> impl Iterator<Item = [&'a mut [Batch]; 3]> {
+    let size = entries.max(1);
+    let mut damping = matrices.damping.chunks_exact_mut(size);
+    let stiffness = matrices.stiffness.chunks_exact_mut(size);
+    let both = matrices.mass.chunks_exact_mut(size).zip(stiffness);
+    both.map(move |(mass, stiffness)| [mass, damping.next().unwrap_or_default(), stiffness])
 }

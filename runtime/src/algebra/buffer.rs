@@ -49,27 +49,22 @@ impl<T: Copy + Default, const FEW: usize> Buffer<T, FEW> {
     }
 
     /// Makes it `count` long, to be written over; what stands in it is not said.
-    #[inline]
+    #[inline(always)]
     pub(super) fn make_room(&mut self, count: usize) -> &mut [T] {
         match self {
             Self::Few(own, _) if count <= FEW => *own = count,
-            Self::Many(many) if many.capacity() > 0 => many.resize(count, T::default()),
-            _ => *self = Self::filled(count, T::default()),
+            Self::Many(many) if many.len() == count => {}
+            _ => self.renew(count),
         }
-        self
+        &mut self[..count]
     }
 
-    /// Writes these values over what there is, in the same room where they fit.
-    #[inline]
-    pub(super) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        let values = values.into_iter();
+    #[cold]
+    #[inline(never)]
+    fn renew(&mut self, count: usize) {
         match self {
-            Self::Few(count, few) if at_most(&values, FEW) => *count = fill(few, values),
-            Self::Many(many) if many.capacity() > 0 => {
-                many.clear();
-                many.extend(values);
-            }
-            other => *other = values.collect(),
+            Self::Many(many) => many.resize(count, T::default()),
+            Self::Few(..) => *self = Self::filled(count, T::default()),
         }
     }
 }
@@ -127,11 +122,10 @@ impl<T: Copy, const FEW: usize> From<Buffer<T, FEW>> for Vec<T> {
     }
 }
 
-/// Nothing, which is quick to write: places are made when there is something to put in them.
-impl<T, const FEW: usize> Default for Buffer<T, FEW> {
+impl<T: Copy + Default, const FEW: usize> Default for Buffer<T, FEW> {
     #[inline]
     fn default() -> Self {
-        Self::Many(Vec::new())
+        Self::filled(0, T::default())
     }
 }
 

@@ -1,5 +1,6 @@
 //! Triangular factors of a general matrix.
 
+use super::for_size;
 use super::matrix::Matrix;
 use super::vector::Vector;
 use crate::Complex;
@@ -43,38 +44,59 @@ pub(crate) struct Lu<T = f64> {
 impl<T: Field> Lu<T> {
     /// Factors `matrix`; `None` when a pivot does not rise above the rounding of its own row.
     pub(crate) fn new(matrix: &Matrix<T>) -> Option<Self> {
+        Self::of(matrix.clone())
+    }
+
+    /// As [`Self::new`], in the place of the matrix.
+    pub(crate) fn of(matrix: Matrix<T>) -> Option<Self> {
         let n = matrix.row_count();
+        let mut lu = Self {
+            factors: matrix,
+            order: (0..n).collect(),
+            odd: false,
+        };
+        let regular = for_size(
+            n,
+            #[inline(always)]
+            |n| lu.factor(n),
+        );
+        regular.then_some(lu)
+    }
+
+    /// Factors the matrix of size `n` that stands in the place of the factors; see [`for_size`]. Whether it is regular.
+    #[inline(always)]
+    fn factor(&mut self, n: usize) -> bool {
         let threshold = 8.0 * n as f64 * f64::EPSILON;
-        let mut factors = matrix.clone();
-        let mut order: Vector<usize> = (0..n).collect();
-        let mut size: Vector = matrix
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .fold(0.0, |most: f64, value| most.max(value.size()))
-            })
-            .collect();
-        let mut odd = false;
+        let factors = &mut self.factors.as_flattened_mut()[..n * n];
+        let order = &mut self.order[..n];
+        let mut size = Vector::zeros(n);
+        let size = &mut size[..n];
+        for i in 0..n {
+            let row = factors[i * n..(i + 1) * n].iter();
+            size[i] = row.fold(0.0, |most: f64, value| most.max(value.size()));
+        }
         for k in 0..n {
             let mut best = k;
             let mut most = -1.0;
             for i in k..n {
-                let relative = factors[i][k].size() / size[i];
+                let relative = factors[i * n + k].size() / size[i];
                 if relative > most {
                     best = i;
                     most = relative;
                 }
             }
             if most <= threshold || !most.is_finite() {
-                return None;
+                return false;
             }
             if best != k {
-                factors.swap(k, best);
+                for j in 0..n {
+                    factors.swap(k * n + j, best * n + j);
+                }
                 order.swap(k, best);
                 size.swap(k, best);
-                odd = !odd;
+                self.odd = !self.odd;
             }
-            let (above, below) = factors.as_flattened_mut().split_at_mut((k + 1) * n);
+            let (above, below) = factors.split_at_mut((k + 1) * n);
             let pivot = &above[k * n..];
             for row in below.chunks_exact_mut(n) {
                 let factor = row[k] / pivot[k];
@@ -84,30 +106,37 @@ impl<T: Field> Lu<T> {
                 }
             }
         }
-        Some(Self {
-            factors,
-            order,
-            odd,
-        })
+        true
     }
 
     pub(crate) fn solve(&self, right: &[T]) -> Vector<T> {
-        let n = right.len();
-        let mut x: Vector<T> = self.order.iter().map(|&i| right[i]).collect();
+        let mut x = Vector::zeros(right.len());
+        for_size(
+            right.len(),
+            #[inline(always)]
+            |n| self.solve_into(n, right, &mut x),
+        );
+        x
+    }
+
+    #[inline(always)]
+    fn solve_into(&self, n: usize, right: &[T], x: &mut [T]) {
+        let (factors, order) = (&self.factors.as_flattened()[..n * n], &self.order[..n]);
+        let (right, x) = (&right[..n], &mut x[..n]);
         for i in 0..n {
-            let row = &self.factors[i];
+            x[i] = right[order[i]];
+        }
+        for i in 0..n {
             for k in 0..i {
-                x[i] = x[i] - row[k] * x[k];
+                x[i] = x[i] - factors[i * n + k] * x[k];
             }
         }
         for i in (0..n).rev() {
-            let row = &self.factors[i];
             for k in i + 1..n {
-                x[i] = x[i] - row[k] * x[k];
+                x[i] = x[i] - factors[i * n + k] * x[k];
             }
-            x[i] = x[i] / row[i];
+            x[i] = x[i] / factors[i * n + i];
         }
-        x
     }
 }
 

@@ -37,7 +37,7 @@ pub struct Matrix<T = f64> {
     entries: Buffer<T, FEW>,
 }
 
-impl<T> Default for Matrix<T> {
+impl<T: Copy + Default> Default for Matrix<T> {
     #[inline]
     fn default() -> Self {
         Self {

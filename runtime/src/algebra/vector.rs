@@ -16,7 +16,7 @@ pub struct Vector<T = f64> {
     entries: Buffer<T, FEW>,
 }
 
-impl<T> Default for Vector<T> {
+impl<T: Copy + Default> Default for Vector<T> {
     #[inline]
     fn default() -> Self {
         Self {
@@ -64,7 +64,7 @@ impl<T: Copy + Default> Vector<T> {
 
 impl<T: Copy + Default> Vector<T> {
     /// Makes it `n` long, to be written over in the same room; what stands in it is not said.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn make_room(&mut self, n: usize) -> &mut [T] {
         self.entries.make_room(n)
     }
@@ -79,8 +79,10 @@ impl<T: Copy + Default> Vector<T> {
 
     /// Writes other values over these, in the same room.
     #[inline]
-    pub(crate) fn assign(&mut self, values: impl IntoIterator<Item = T>) {
-        self.entries.assign(values);
+    pub(crate) fn assign(&mut self, values: impl ExactSizeIterator<Item = T>) {
+        for (place, value) in self.make_room(values.len()).iter_mut().zip(values) {
+            *place = value;
+        }
     }
 }
 

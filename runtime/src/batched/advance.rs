@@ -1,71 +1,87 @@
 //! The next block: predicted, solved, checked, lane by lane.
 
-use super::block::{Block, Past, sizes};
+use super::algebra::Square;
+use super::block::{Block, Past};
 use super::continuity::Continuity;
 use super::newton::newton;
+use super::room::Room;
 use super::slopes::{Slopes, slopes};
 use super::state::{Scratch, state};
-use crate::algebra::Matrix;
-use crate::kernels::BatchKernels;
+use crate::Input;
+use crate::kernels::{BatchKernels, Kernels, Sizes};
 use crate::scalar::{Batch, Instructions, WIDTH};
-use crate::{Description, Input};
 
-/// What is written on the way to a block, and over again.
-pub(crate) struct Workspace {
-    scratch: Scratch,
+/// A block, and what is written on the way to it over and over again.
+pub(crate) struct Workspace<'a> {
+    pub(crate) block: Block<'a>,
+    scratch: Scratch<'a>,
     /// For derivatives of the modes, where they are wanted.
-    slopes: Option<Slopes>,
+    slopes: Option<Slopes<'a>>,
 }
 
-impl Workspace {
-    /// For blocks of a mechanism.
-    pub(crate) fn new(description: &Description, with_slopes: bool) -> Self {
-        let sizes = sizes(description);
+impl<'a> Workspace<'a> {
+    /// Memory for one.
+    pub(crate) fn memory(sizes: Sizes, with_slopes: bool) -> Vec<Batch> {
+        let slopes = if with_slopes { Slopes::size(sizes) } else { 0 };
+        let size = Block::size(sizes) + Scratch::size(sizes.coordinates) + slopes;
+        vec![Batch::default(); size]
+    }
+
+    /// One for a design and inputs of which one will vary, in memory of its size.
+    pub(crate) fn new(
+        memory: &'a mut [Batch],
+        kernels: &dyn Kernels,
+        (inputs, design): (&[f64], &[f64]),
+        with_slopes: bool,
+    ) -> Self {
+        let sizes = kernels.sizes();
+        let room = &mut Room::new(memory);
         Self {
-            scratch: Scratch::new(sizes.coordinates),
-            slopes: with_slopes.then(|| Slopes::new(description, sizes)),
+            block: Block::new(room, inputs, design, sizes.coordinates),
+            scratch: Scratch::new(room, sizes.coordinates),
+            slopes: with_slopes.then(|| Slopes::new(room, &kernels.description(), sizes)),
         }
     }
-}
 
-impl Block {
     /// Solves the first of `values`, as many as there is room for, from where the way leads. `shapes` are the modes of the last
     /// state, one in each row. Returns how many of the states in a row passed every check; if wanted, their modes have
     /// derivatives.
     pub(crate) fn solve(
         &mut self,
-        workspace: &mut Workspace,
         (kernels, instructions): (&dyn BatchKernels, Instructions),
         (input, values): (Input, &[f64]),
         past: &Past,
-        shapes: &Matrix,
+        shapes: &Square<f64>,
     ) -> usize {
+        let Self {
+            block,
+            scratch,
+            slopes: derivatives,
+        } = self;
         let number = values.len().min(WIDTH);
         let Some(&last) = values[..number].last() else {
             return 0;
         };
         // Lanes without a value of their own repeat the last.
-        self.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
-        self.inputs[input.index()] = self.values;
-        self.predict(past);
-        let Workspace {
-            scratch,
-            slopes: derivatives,
-        } = workspace;
-        newton(kernels, instructions, self, scratch);
-        instructions.run(Continuity { past, block: self });
-        if self.flags.0[0] == 1.0 {
-            state(kernels, instructions, self, scratch, shapes);
+        block.values = Batch::from_fn(|k| if k < number { values[k] } else { last });
+        block.inputs[input.index()] = block.values;
+        block.predict(past);
+        newton(kernels, instructions, block, scratch);
+        instructions.run(Continuity { past, block });
+        if block.flags.0[0] == 1.0 {
+            state(kernels, instructions, block, scratch, shapes);
             if let Some(derivatives) = derivatives {
-                slopes(kernels, instructions, self, derivatives);
+                slopes(kernels, instructions, block, derivatives);
             }
         }
-        let passed = self.flags.0[..number]
+        let passed = block.flags.0[..number]
             .iter()
             .take_while(|flag| **flag == 1.0);
         passed.count()
     }
+}
 
+impl Block<'_> {
     /// The parabola through the last states.
     fn predict(&mut self, past: &Past) {
         let [(u0, q0), (u1, q1), (u2, q2)] = past;

@@ -45,11 +45,11 @@ pub(crate) fn load<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Row<V> {
     row
 }
 
-/// The same of a matrix.
+/// The same of a matrix, row by row.
 #[inline(always)]
-pub(crate) fn load_matrix<V: Lanes>(n: usize, from: &Matrix<Batch>, at: usize) -> Square<V> {
+pub(crate) fn load_matrix<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Square<V> {
     let mut rows = [[V::constant(0.0); LARGEST]; LARGEST];
-    let from = &from.as_flattened()[..n * n];
+    let from = &from[..n * n];
     for i in 0..n {
         for j in 0..n {
             rows[i][j] = V::load(&from[i * n + j], at);

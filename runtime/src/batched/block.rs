@@ -1,9 +1,10 @@
 //! Neighbouring values of an input, solved side by side.
 
 use super::algebra::LARGEST;
-use crate::algebra::{Matrix, Vector};
+use super::room::Room;
+use crate::algebra::Vector;
 use crate::constraints::Structure;
-use crate::kernels::{BatchPoint, Linear, Sizes};
+use crate::kernels::{BatchLinear, BatchPoint, Sizes};
 use crate::scalar::Batch;
 use crate::{DampingKind, Description};
 
@@ -13,35 +14,28 @@ pub(crate) const POSITIVE: f64 = 1e-10;
 /// The last three values of the input and the states there, the latest first.
 pub(crate) type Past = [(f64, Vector); 3];
 
-/// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input.
-pub(crate) struct Block {
+/// Equilibria, undamped modes and their total derivatives at [`WIDTH`](crate::scalar::WIDTH) values of an input. Matrices stand
+/// row by row.
+pub(crate) struct Block<'a> {
     pub(crate) values: Batch,
-    pub(super) inputs: Vector<Batch>,
-    pub(super) design: Vector<Batch>,
-    pub(super) coordinates: Vector<Batch>,
+    pub(super) inputs: &'a mut [Batch],
+    pub(super) design: &'a mut [Batch],
+    pub(super) coordinates: &'a mut [Batch],
     pub(super) iterations: Batch,
-    pub(super) residual: Vector<Batch>,
+    pub(super) residual: &'a mut [Batch],
     pub(super) relative_residual: Batch,
-    pub(super) linear: Linear<Batch>,
-    pub(super) lambda: Vector<Batch>,
+    /// Without damping.
+    pub(super) linear: BatchLinear<'a>,
+    pub(super) lambda: &'a mut [Batch],
     /// By mode.
-    pub(super) shapes: Matrix<Batch>,
-    pub(super) mode_residuals: Vector<Batch>,
-    pub(super) mode_errors: Vector<Batch>,
+    pub(super) shapes: &'a mut [Batch],
+    pub(super) mode_residuals: &'a mut [Batch],
+    pub(super) mode_errors: &'a mut [Batch],
     /// `dlambda` by mode.
-    pub(super) by_input: Matrix<Batch>,
-    pub(super) by_design: Matrix<Batch>,
+    pub(super) by_input: &'a mut [Batch],
+    pub(super) by_design: &'a mut [Batch],
     /// One where a lane has passed every check.
     pub(super) flags: Batch,
-}
-
-pub(super) fn sizes(description: &Description) -> Sizes {
-    Sizes {
-        coordinates: description.coordinates.len(),
-        inputs: description.inputs.len(),
-        design: description.design.len(),
-        outputs: description.outputs.len(),
-    }
 }
 
 /// Whether the mechanism's kind allows it: generated code, undamped modes, no constraints, few coordinates.
@@ -65,36 +59,43 @@ pub(crate) const KERNELS: [&str; 5] = [
     "residual_gradient",
 ];
 
-impl Block {
+impl<'a> Block<'a> {
+    /// How many batches one takes.
+    pub(super) fn size(sizes: Sizes) -> usize {
+        let (n, variables) = (sizes.coordinates, sizes.inputs + sizes.design);
+        variables + 5 * n + 3 * n * n + n * variables
+    }
+
     /// One for a design and inputs of which one will vary.
-    pub(crate) fn new(description: &Description, inputs: &[f64], design: &[f64]) -> Self {
-        let sizes = sizes(description);
-        let n = sizes.coordinates;
-        let zero = Batch::default();
+    pub(super) fn new(room: &mut Room<'a>, inputs: &[f64], design: &[f64], n: usize) -> Self {
         Self {
-            values: zero,
-            inputs: inputs.iter().copied().map(Batch::all).collect(),
-            design: design.iter().copied().map(Batch::all).collect(),
-            coordinates: Vector::zeros(n),
-            iterations: zero,
-            residual: Vector::zeros(n),
-            relative_residual: zero,
-            linear: Linear::zeros(n),
-            lambda: Vector::zeros(n),
-            shapes: Matrix::zeros(n, n),
-            mode_residuals: Vector::zeros(n),
-            mode_errors: Vector::zeros(n),
-            by_input: Matrix::zeros(n, sizes.inputs),
-            by_design: Matrix::zeros(n, sizes.design),
-            flags: zero,
+            values: Batch::default(),
+            inputs: room.constants(inputs),
+            design: room.constants(design),
+            coordinates: room.take(n),
+            iterations: Batch::default(),
+            residual: room.take(n),
+            relative_residual: Batch::default(),
+            linear: BatchLinear {
+                mass: room.take(n * n),
+                damping: &mut [],
+                stiffness: room.take(n * n),
+            },
+            lambda: room.take(n),
+            shapes: room.take(n * n),
+            mode_residuals: room.take(n),
+            mode_errors: room.take(n),
+            by_input: room.take(n * inputs.len()),
+            by_design: room.take(n * design.len()),
+            flags: Batch::default(),
         }
     }
 
     pub(super) fn point(&self) -> BatchPoint<'_> {
         BatchPoint {
-            q: &self.coordinates,
-            u: &self.inputs,
-            b: &self.design,
+            q: self.coordinates,
+            u: self.inputs,
+            b: self.design,
         }
     }
 }

@@ -7,12 +7,12 @@ use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
 /// Keeps the flags of lanes whose state is near to the parabola through the three states before it, much nearer than to the last of
 /// them: what [`confirmed`](crate::equilibrium::confirmed) asks of one state.
-pub(super) struct Continuity<'a> {
+pub(super) struct Continuity<'a, 'b> {
     pub(super) past: &'a Past,
-    pub(super) block: &'a mut Block,
+    pub(super) block: &'a mut Block<'b>,
 }
 
-impl Task for Continuity<'_> {
+impl Task for Continuity<'_, '_> {
     type Output = ();
 
     #[inline(always)]

@@ -12,6 +12,7 @@ pub(crate) mod closed;
 mod continuity;
 mod newton;
 mod reading;
+pub(crate) mod room;
 mod slopes;
 mod state;
 

@@ -15,11 +15,11 @@ const RADIUS: f64 = 1.0;
 
 /// Takes the coordinates of a block to the equilibria next to them. Flags the lanes that came to rest, the stiffness positive
 /// definite all the way.
-pub(super) fn newton(
+pub(super) fn newton<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,
-    block: &mut Block,
-    scratch: &mut Scratch,
+    block: &mut Block<'m>,
+    scratch: &mut Scratch<'m>,
 ) {
     let mut resting = Batch::all(0.0);
     block.flags = Batch::all(1.0);
@@ -28,8 +28,8 @@ pub(super) fn newton(
         kernels.residual_and_stiffness_batch(
             instructions,
             block.point(),
-            &mut scratch.residual,
-            &mut scratch.stiffness,
+            scratch.residual,
+            scratch.stiffness,
         );
         let resting = &mut resting;
         instructions.run(Step {
@@ -47,13 +47,13 @@ pub(super) fn newton(
 }
 
 /// One step in every lane.
-struct Step<'a> {
-    scratch: &'a Scratch,
-    block: &'a mut Block,
+struct Step<'a, 'b> {
+    scratch: &'a Scratch<'b>,
+    block: &'a mut Block<'b>,
     resting: &'a mut Batch,
 }
 
-impl Task for Step<'_> {
+impl Task for Step<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -69,9 +69,9 @@ impl Task for Step<'_> {
             #[inline(always)]
             |n| {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let stiffness = load_matrix::<V>(n, &scratch.stiffness, at);
+                    let stiffness = load_matrix::<V>(n, scratch.stiffness, at);
                     let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
-                    let step = solver.solve(n, &algebra::load(n, &scratch.residual, at));
+                    let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
                     // Lanes at rest stay where they are, so that none depends on the others.
                     let rested = V::load(resting, at);
                     let moving = rested.at_most(zero);

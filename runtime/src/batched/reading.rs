@@ -1,26 +1,34 @@
 //! One lane of a block in the words of a state that was solved alone.
 
+use super::algebra::for_size;
 use super::block::Block;
-use crate::algebra::{Matrix, Vector};
+use crate::algebra::Vector;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, WIDTH};
 use crate::{Equilibrium, Modes, Sensitivities, Stability};
 
-impl Block {
+impl Block<'_> {
     /// The coordinates.
     pub(crate) fn state_of(&self, lane: usize) -> Vector {
-        self.coordinates.iter().map(|batch| batch.0[lane]).collect()
+        of(self.coordinates, lane).collect()
     }
 
-    /// The equilibrium; inputs and design are already there.
+    /// The equilibrium; inputs and design are already there, and there is no damping.
     pub(crate) fn read_state(&self, lane: usize, kernels: &dyn Kernels, state: &mut Equilibrium) {
-        read(&self.coordinates, lane, &mut state.coordinates);
+        for_size(
+            self.coordinates.len(),
+            #[inline(always)]
+            |n| {
+                read(n, self.coordinates, lane, &mut state.coordinates);
+                read(n, self.residual, lane, &mut state.residual);
+                let mass = state.linear.mass.as_flattened_mut();
+                read(n * n, self.linear.mass, lane, mass);
+                let stiffness = state.linear.stiffness.as_flattened_mut();
+                read(n * n, self.linear.stiffness, lane, stiffness);
+            },
+        );
         state.stability = Stability::Stable;
         state.rounding = 0.0;
-        read_matrix(&self.linear.mass, lane, &mut state.linear.mass);
-        read_matrix(&self.linear.stiffness, lane, &mut state.linear.stiffness);
-        state.linear.damping.as_flattened_mut().fill(0.0);
-        read(&self.residual, lane, &mut state.residual);
         state.relative_residual = self.relative_residual.0[lane];
         state.iterations = self.iterations.0[lane] as usize;
         state.pose = kernels.pose_margin(&state.coordinates, &state.inputs, &state.design);
@@ -29,32 +37,45 @@ impl Block {
 
     /// The modes, in the order and with the labels that these have.
     pub(crate) fn read_modes(&self, lane: usize, modes: &mut Modes) {
-        for (r, mode) in modes.modes.iter_mut().enumerate() {
-            let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
-            let shape = self.shapes[r].iter().map(|batch| batch.0[lane % WIDTH]);
-            let residual = self.mode_residuals[r].0[lane];
-            mode.set_undamped(mode.label, lambda, shape, residual);
-        }
+        for_size(
+            self.lambda.len(),
+            #[inline(always)]
+            |n| {
+                for (r, mode) in modes.modes.iter_mut().enumerate() {
+                    let lambda = (self.lambda[r].0[lane], self.mode_errors[r].0[lane]);
+                    let shape = of(&self.shapes[r * n..][..n], lane);
+                    let residual = self.mode_residuals[r].0[lane];
+                    mode.set_undamped(mode.label, lambda, shape, residual);
+                }
+            },
+        );
     }
 
     /// The derivatives of these modes.
     pub(crate) fn read_slopes(&self, lane: usize, modes: &Modes, slopes: &mut Sensitivities) {
+        let (inputs, design) = (self.inputs.len(), self.design.len());
         for (r, (own, mode)) in slopes.modes.iter_mut().zip(&modes.modes).enumerate() {
-            let by_input = self.by_input[r].iter().map(|batch| batch.0[lane % WIDTH]);
-            let by_design = self.by_design[r].iter().map(|batch| batch.0[lane % WIDTH]);
-            own.set_undamped(mode, by_input, by_design);
+            let [by_input, by_design] = own.make_room(inputs, design);
+            read(inputs, &self.by_input[r * inputs..], lane, by_input);
+            read(design, &self.by_design[r * design..], lane, by_design);
+            own.finish_undamped(mode);
         }
     }
 }
 
+/// The numbers of a lane.
 #[inline]
-fn read(batches: &[Batch], lane: usize, to: &mut [f64]) {
+fn of(batches: &[Batch], lane: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
     let lane = lane % WIDTH;
-    for (to, batch) in to.iter_mut().zip(batches) {
-        *to = batch.0[lane];
-    }
+    batches.iter().map(move |batch| batch.0[lane])
 }
 
-fn read_matrix(batches: &Matrix<Batch>, lane: usize, to: &mut Matrix) {
-    read(batches.as_flattened(), lane, to.as_flattened_mut());
+/// The first numbers of a lane.
+#[inline(always)]
+fn read(count: usize, from: &[Batch], lane: usize, to: &mut [f64]) {
+    let lane = lane % WIDTH;
+    let (from, to) = (&from[..count], &mut to[..count]);
+    for k in 0..count {
+        to[k] = from[k].0[lane];
+    }
 }

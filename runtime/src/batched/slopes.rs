@@ -4,134 +4,201 @@
 use super::algebra::{self, LARGEST, Row, Square, for_size, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
+use super::room::Room;
 use crate::Description;
-use crate::algebra::{Matrix, Vector};
-use crate::kernels::{
-    BatchKernels, Costs, Gradient, Linear, LinearPartials, ResidualPartials, Sizes,
-    residual_partials_zeros,
-};
+use crate::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, Costs, Sizes};
 use crate::modes::Family;
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::sensitivity::Source;
 
 /// What kernels write on the way.
-pub(super) struct Slopes {
-    /// Where the partial derivatives, which all modes share, cost less than a gradient for each.
-    partials: Option<(LinearPartials<Batch>, ResidualPartials<Batch>)>,
-    direct: Gradient<Batch>,
-    shift: Gradient<Batch>,
-    adjoint: Vector<Batch>,
-    /// Sum of the sizes of all derivatives.
-    total: Batch,
+pub(super) enum Slopes<'a> {
+    /// Partial derivatives, which all modes share, where they cost less than a gradient for each.
+    Partials(Partials<'a>),
+    /// Gradients of `a` and of `w^T g` by reverse differentiation, for one mode after the other.
+    Gradients(Gradients<'a>),
 }
 
-impl Slopes {
-    pub(super) fn new(description: &Description, sizes: Sizes) -> Self {
-        let partials = || {
-            let matrices = LinearPartials::zeros(sizes);
-            (matrices, residual_partials_zeros(sizes))
-        };
-        Self {
-            partials: (Source::cheapest(Costs::of(description), sizes, Family::Undamped)
-                == Source::Partials)
-                .then(partials),
-            direct: Gradient::zeros(sizes),
-            shift: Gradient::zeros(sizes),
-            adjoint: Vector::zeros(sizes.coordinates),
-            total: Batch::default(),
+/// Of the matrices, and of the residual by inputs and by design variables.
+pub(super) struct Partials<'a> {
+    matrices: BatchPartials<'a>,
+    residual: [&'a mut [Batch]; 2],
+}
+
+pub(super) struct Gradients<'a> {
+    direct: BatchGradient<'a>,
+    shift: BatchGradient<'a>,
+    /// `w`.
+    adjoint: &'a mut [Batch],
+}
+
+impl<'a> Slopes<'a> {
+    /// How many batches they take at most.
+    pub(super) fn size(sizes: Sizes) -> usize {
+        let (n, variables) = (sizes.coordinates, sizes.inputs + sizes.design);
+        let partials = 2 * n * n * (n + variables) + n * variables;
+        let gradients = 2 * (n + variables) + n;
+        partials.max(gradients)
+    }
+
+    pub(super) fn new(room: &mut Room<'a>, description: &Description, sizes: Sizes) -> Self {
+        let n = sizes.coordinates;
+        if Source::cheapest(Costs::of(description), sizes, Family::Undamped) == Source::Partials {
+            let mut matrices = |count| BatchLinear {
+                mass: room.take(count * n * n),
+                damping: &mut [],
+                stiffness: room.take(count * n * n),
+            };
+            let matrices = BatchPartials {
+                by_coordinate: matrices(n),
+                by_input: matrices(sizes.inputs),
+                by_design: matrices(sizes.design),
+            };
+            let residual = [sizes.inputs, sizes.design].map(|columns| room.take(n * columns));
+            Self::Partials(Partials { matrices, residual })
+        } else {
+            let mut gradient = || BatchGradient {
+                coordinates: room.take(n),
+                inputs: room.take(sizes.inputs),
+                design: room.take(sizes.design),
+            };
+            Self::Gradients(Gradients {
+                direct: gradient(),
+                shift: gradient(),
+                adjoint: room.take(n),
+            })
         }
     }
 }
 
 /// Adds the derivatives of the modes of a block. Keeps the flags of lanes where they are finite.
-pub(super) fn slopes(
+pub(super) fn slopes<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,
-    block: &mut Block,
-    slopes: &mut Slopes,
+    block: &mut Block<'m>,
+    slopes: &mut Slopes<'m>,
 ) {
-    slopes.total = Batch::all(0.0);
-    if let Some((matrices, residual)) = &mut slopes.partials {
-        kernels.partials_batch(instructions, block.point(), matrices, residual);
-    }
-    for mode in 0..block.coordinates.len() {
-        if slopes.partials.is_none() {
-            let (phi, lambda) = (&block.shapes[mode], &block.lambda[mode]);
-            let direct = &mut slopes.direct;
-            kernels.mode_gradient_batch(instructions, block.point(), phi, lambda, direct);
+    match slopes {
+        Slopes::Partials(partials) => {
+            let Partials { matrices, residual } = partials;
+            let residual = residual.each_mut().map(|list| &mut **list);
+            kernels.partials_batch(instructions, block.point(), matrices, residual);
+            instructions.run(FromPartials { block, partials });
         }
-        instructions.run(Adjoint {
-            block,
-            slopes,
-            mode,
-        });
-        if slopes.partials.is_none() {
-            let (w, shift) = (&slopes.adjoint, &mut slopes.shift);
-            kernels.residual_gradient_batch(instructions, block.point(), w, shift);
+        Slopes::Gradients(gradients) => {
+            for mode in 0..block.lambda.len() {
+                let Gradients { direct, .. } = gradients;
+                let phi = &block.shapes[mode * block.lambda.len()..][..block.lambda.len()];
+                let lambda = &block.lambda[mode];
+                kernels.mode_gradient_batch(instructions, block.point(), phi, lambda, direct);
+                instructions.run(Adjoint { block, gradients });
+                let Gradients { shift, adjoint, .. } = gradients;
+                kernels.residual_gradient_batch(instructions, block.point(), adjoint, shift);
+                instructions.run(Difference {
+                    block,
+                    gradients,
+                    mode,
+                });
+            }
         }
-        instructions.run(Difference {
-            block,
-            slopes,
-            mode,
-        });
-    }
-    for (flag, total) in block.flags.0.iter_mut().zip(slopes.total.0) {
-        *flag = if total <= f64::MAX { *flag } else { 0.0 };
     }
 }
 
-/// `w` of a mode, and with partial derivatives the gradients of `a` and of `w^T g`.
-struct Adjoint<'a> {
-    block: &'a Block,
-    slopes: &'a mut Slopes,
-    mode: usize,
+/// The derivatives of all modes from partial derivatives.
+struct FromPartials<'a, 'b> {
+    block: &'a mut Block<'b>,
+    partials: &'a Partials<'b>,
 }
 
-impl Task for Adjoint<'_> {
+impl Task for FromPartials<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            block,
-            slopes,
-            mode,
-        } = self;
+        let Self { block, partials } = self;
         for_size(
             block.coordinates.len(),
             #[inline(always)]
             |n| {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    if let Some((matrices, _)) = &slopes.partials {
-                        let phi: Row<V> = algebra::load(n, &block.shapes[mode], at);
-                        let lambda = V::load(&block.lambda[mode], at);
-                        let mut products = [[V::constant(0.0); LARGEST]; LARGEST];
-                        for i in 0..n {
-                            for j in 0..n {
-                                products[i][j] = phi[i] * phi[j];
-                            }
-                        }
-                        let form = (&products, lambda);
-                        let direct = &mut slopes.direct;
-                        rates(
-                            n,
-                            &matrices.by_coordinate,
-                            form,
-                            &mut direct.coordinates,
-                            at,
-                        );
-                        rates(n, &matrices.by_input, form, &mut direct.inputs, at);
-                        rates(n, &matrices.by_design, form, &mut direct.design, at);
-                    }
-                    let stiffness = load_matrix::<V>(n, &block.linear.stiffness, at);
+                    from_partials::<V>(n, partials, block, at);
+                }
+            },
+        );
+    }
+}
+
+#[inline(always)]
+fn from_partials<V: Lanes>(n: usize, partials: &Partials<'_>, block: &mut Block<'_>, at: usize) {
+    let Partials { matrices, residual } = partials;
+    let stiffness = load_matrix::<V>(n, block.linear.stiffness, at);
+    let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
+    let (inputs, design) = (block.inputs.len(), block.design.len());
+    let mut finite = Finite::new();
+    for mode in 0..n {
+        let phi: Row<V> = algebra::load(n, &block.shapes[mode * n..], at);
+        let lambda = V::load(&block.lambda[mode], at);
+        let mut products = [[V::constant(0.0); LARGEST]; LARGEST];
+        for i in 0..n {
+            for j in 0..n {
+                products[i][j] = phi[i] * phi[j];
+            }
+        }
+        let form = (&products, lambda);
+        let mut right = [V::constant(0.0); LARGEST];
+        for k in 0..n {
+            right[k] = rate(n, &matrices.by_coordinate, k, form, at);
+        }
+        let w = solver.solve(n, &right);
+        for (count, changes, forces, to) in [
+            (
+                inputs,
+                &matrices.by_input,
+                &residual[0],
+                &mut *block.by_input,
+            ),
+            (
+                design,
+                &matrices.by_design,
+                &residual[1],
+                &mut *block.by_design,
+            ),
+        ] {
+            let to = &mut to[mode * count..][..count];
+            for k in 0..count {
+                let direct = rate(n, changes, k, form, at);
+                let shift = combined(n, &w, forces, (k, count), at);
+                let slope = direct - shift;
+                finite.see(slope);
+                slope.store(&mut to[k], at);
+            }
+        }
+    }
+    finite.keep(&mut block.flags, at);
+}
+
+/// `w` of a mode.
+struct Adjoint<'a, 'b> {
+    block: &'a Block<'b>,
+    gradients: &'a mut Gradients<'b>,
+}
+
+impl Task for Adjoint<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) {
+        let Self { block, gradients } = self;
+        for_size(
+            block.coordinates.len(),
+            #[inline(always)]
+            |n| {
+                for at in (0..WIDTH).step_by(V::WIDTH) {
+                    let stiffness = load_matrix::<V>(n, block.linear.stiffness, at);
                     let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
-                    let right = algebra::load(n, &slopes.direct.coordinates, at);
+                    let right = algebra::load(n, gradients.direct.coordinates, at);
                     let w = solver.solve(n, &right);
-                    algebra::store(n, &w, &mut slopes.adjoint, at);
-                    if let Some((_, (by_input, by_design))) = &slopes.partials {
-                        combined(n, &w, by_input, &mut slopes.shift.inputs, at);
-                        combined(n, &w, by_design, &mut slopes.shift.design, at);
-                    }
+                    algebra::store(n, &w, gradients.adjoint, at);
                 }
             },
         );
@@ -139,92 +206,101 @@ impl Task for Adjoint<'_> {
 }
 
 /// The derivatives of a mode by inputs and design variables.
-struct Difference<'a> {
-    block: &'a mut Block,
-    slopes: &'a mut Slopes,
+struct Difference<'a, 'b> {
+    block: &'a mut Block<'b>,
+    gradients: &'a Gradients<'b>,
     mode: usize,
 }
 
-impl Task for Difference<'_> {
+impl Task for Difference<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Slopes {
-            direct,
-            shift,
-            total,
-            ..
-        } = self.slopes;
+        let Self {
+            block,
+            gradients: Gradients { direct, shift, .. },
+            mode,
+        } = self;
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let mut sum = V::load(total, at);
-            let inputs = &mut self.block.by_input[self.mode];
-            difference::<V>(&direct.inputs, &shift.inputs, inputs, &mut sum, at);
-            let design = &mut self.block.by_design[self.mode];
-            difference::<V>(&direct.design, &shift.design, design, &mut sum, at);
-            sum.store(total, at);
-        }
-    }
-}
-
-/// `phi^T (dKhat - lambda dMhat) phi` of each change, all matrices symmetric.
-#[inline(always)]
-fn rates<V: Lanes>(
-    n: usize,
-    changes: &[Linear<Batch>],
-    (products, lambda): (&Square<V>, V),
-    rates: &mut [Batch],
-    at: usize,
-) {
-    for (rate, change) in rates.iter_mut().zip(changes) {
-        let stiffness = &change.stiffness.as_flattened()[..n * n];
-        let mass = &change.mass.as_flattened()[..n * n];
-        let (mut own, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
-        for i in 0..n {
-            for j in 0..=i {
-                let stiffness = V::load(&stiffness[i * n + j], at);
-                let change = stiffness - lambda * V::load(&mass[i * n + j], at);
-                if i == j {
-                    own = own + products[i][j] * change;
-                } else {
-                    mixed = mixed + products[i][j] * change;
+            let mut finite = Finite::new();
+            for (direct, shift, to) in [
+                (&direct.inputs, &shift.inputs, &mut *block.by_input),
+                (&direct.design, &shift.design, &mut *block.by_design),
+            ] {
+                let count = direct.len();
+                let (shift, to) = (&shift[..count], &mut to[mode * count..][..count]);
+                for k in 0..count {
+                    let slope = V::load(&direct[k], at) - V::load(&shift[k], at);
+                    finite.see(slope);
+                    slope.store(&mut to[k], at);
                 }
             }
+            finite.keep(&mut block.flags, at);
         }
-        (own + (mixed + mixed)).store(rate, at);
     }
 }
 
-/// `w^T partials`.
+/// Sum of the sizes of what was seen.
+struct Finite<V>(V);
+
+impl<V: Lanes> Finite<V> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self(V::constant(0.0))
+    }
+
+    #[inline(always)]
+    fn see(&mut self, value: V) {
+        self.0 = self.0 + value.abs();
+    }
+
+    /// Keeps the flags of lanes in which all was finite.
+    #[inline(always)]
+    fn keep(self, flags: &mut Batch, at: usize) {
+        let finite = self.0.at_most(V::constant(f64::MAX));
+        algebra::keep(V::load(flags, at), finite).store(flags, at);
+    }
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi` of change `k`, all matrices symmetric.
+#[inline(always)]
+fn rate<V: Lanes>(
+    n: usize,
+    changes: &BatchLinear<'_>,
+    k: usize,
+    (products, lambda): (&Square<V>, V),
+    at: usize,
+) -> V {
+    let stiffness = &changes.stiffness[k * n * n..][..n * n];
+    let mass = &changes.mass[k * n * n..][..n * n];
+    let (mut own, mut mixed) = (V::constant(-0.0), V::constant(-0.0));
+    for i in 0..n {
+        for j in 0..=i {
+            let stiffness = V::load(&stiffness[i * n + j], at);
+            let change = stiffness - lambda * V::load(&mass[i * n + j], at);
+            if i == j {
+                own = own + products[i][j] * change;
+            } else {
+                mixed = mixed + products[i][j] * change;
+            }
+        }
+    }
+    own + (mixed + mixed)
+}
+
+/// `w^T partials` of column `k` of `count`.
 #[inline(always)]
 fn combined<V: Lanes>(
     n: usize,
     w: &Row<V>,
-    partials: &Matrix<Batch>,
-    combined: &mut [Batch],
+    partials: &[Batch],
+    (k, count): (usize, usize),
     at: usize,
-) {
-    for (k, to) in combined.iter_mut().enumerate() {
-        let mut sum = V::constant(-0.0);
-        for i in 0..n {
-            sum = sum + w[i] * V::load(&partials[i][k], at);
-        }
-        sum.store(to, at);
+) -> V {
+    let mut sum = V::constant(-0.0);
+    for i in 0..n {
+        sum = sum + w[i] * V::load(&partials[i * count + k], at);
     }
-}
-
-/// `direct - shift`; adds its sizes to `total`.
-#[inline(always)]
-fn difference<V: Lanes>(
-    direct: &[Batch],
-    shift: &[Batch],
-    difference: &mut [Batch],
-    total: &mut V,
-    at: usize,
-) {
-    for ((to, direct), shift) in difference.iter_mut().zip(direct).zip(shift) {
-        let own = V::load(direct, at) - V::load(shift, at);
-        *total = *total + own.abs();
-        own.store(to, at);
-    }
+    sum
 }

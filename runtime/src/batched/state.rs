@@ -1,50 +1,57 @@
 //! What there is at the equilibrium in every lane: what remains of the residual, the linearised mechanism, its modes.
 
-use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix, small};
+use super::algebra::{self, LARGEST, Row, Square, congruent, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::{self, Solver};
-use crate::algebra::{Matrix, Vector};
+use super::room::Room;
 use crate::eigenproblem::INACCURATE;
 use crate::equilibrium::{ROUNDED, ROUNDING, SMALL_MOTION, TOLERANCE};
-use crate::kernels::{BatchKernels, BatchPoint, RestParts};
+use crate::kernels::{BatchKernels, BatchParts, BatchPoint};
 use crate::modes::CLUSTER_GAP;
 use crate::rounding::{SLOW, of_elements};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 
 /// What kernels write on the way.
-pub(super) struct Scratch {
-    pub(super) residual: Vector<Batch>,
-    pub(super) stiffness: Matrix<Batch>,
-    pub(super) parts: RestParts<Batch>,
+pub(super) struct Scratch<'a> {
+    pub(super) residual: &'a mut [Batch],
+    pub(super) stiffness: &'a mut [Batch],
+    pub(super) parts: BatchParts<'a>,
 }
 
-impl Scratch {
-    pub(super) fn new(n: usize) -> Self {
+impl<'a> Scratch<'a> {
+    /// How many batches it takes.
+    pub(super) fn size(n: usize) -> usize {
+        3 * n + n * n
+    }
+
+    pub(super) fn new(room: &mut Room<'a>, n: usize) -> Self {
         Self {
-            residual: Vector::zeros(n),
-            stiffness: Matrix::zeros(n, n),
-            parts: RestParts::zeros(n),
+            residual: room.take(n),
+            stiffness: room.take(n * n),
+            parts: BatchParts {
+                inertia: room.take(n),
+                applied: room.take(n),
+            },
         }
     }
 }
 
 /// Completes the states of a block. `shapes` are modes near by, one in each row, that tell the modes apart. Keeps the flags of
 /// lanes that are solved to rounding, a clear minimum, each mode recognised, oscillating and apart from the others.
-pub(super) fn state(
+pub(super) fn state<'m>(
     kernels: &dyn BatchKernels,
     instructions: Instructions,
-    block: &mut Block,
-    scratch: &mut Scratch,
-    shapes: &Matrix,
+    block: &mut Block<'m>,
+    scratch: &mut Scratch<'m>,
+    shapes: &Square<f64>,
 ) {
     let parts = &mut scratch.parts;
     let point = BatchPoint {
-        q: &block.coordinates,
-        u: &block.inputs,
-        b: &block.design,
+        q: block.coordinates,
+        u: block.inputs,
+        b: block.design,
     };
     kernels.parts_and_linear_batch(instructions, point, parts, &mut block.linear);
-    let shapes = &small(shapes);
     instructions.run(State {
         shapes,
         parts,
@@ -52,13 +59,13 @@ pub(super) fn state(
     });
 }
 
-struct State<'a> {
+struct State<'a, 'b> {
     shapes: &'a Square<f64>,
-    parts: &'a RestParts<Batch>,
-    block: &'a mut Block,
+    parts: &'a BatchParts<'b>,
+    block: &'a mut Block<'b>,
 }
 
-impl Task for State<'_> {
+impl Task for State<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -74,11 +81,11 @@ impl Task for State<'_> {
             #[inline(always)]
             |n| {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let q: Row<V> = algebra::load(n, &block.coordinates, at);
-                    let inertia = algebra::load(n, &parts.inertia, at);
-                    let applied = algebra::load(n, &parts.applied, at);
-                    let mass = load_matrix(n, &block.linear.mass, at);
-                    let stiffness = load_matrix(n, &block.linear.stiffness, at);
+                    let q: Row<V> = algebra::load(n, block.coordinates, at);
+                    let inertia = algebra::load(n, parts.inertia, at);
+                    let applied = algebra::load(n, parts.applied, at);
+                    let mass = load_matrix(n, block.linear.mass, at);
+                    let stiffness = load_matrix(n, block.linear.stiffness, at);
                     let mut residual = inertia;
                     for i in 0..n {
                         residual[i] = residual[i] - applied[i];
@@ -89,16 +96,16 @@ impl Task for State<'_> {
                     flag = keep(flag, one.at_most(closed::definite(n, &mass, POSITIVE)));
                     let (lambda, vectors, found) = modes(n, &mass, &stiffness, shapes);
                     flag = keep(flag, one.at_most(found));
-                    algebra::store(n, &residual, &mut block.residual, at);
+                    algebra::store(n, &residual, block.residual, at);
                     relative.store(&mut block.relative_residual, at);
-                    algebra::store(n, &lambda, &mut block.lambda, at);
+                    algebra::store(n, &lambda, block.lambda, at);
                     for r in 0..n {
                         let (most, error, accurate) =
                             mode_residual(n, &mass, &stiffness, lambda[r], &vectors[r]);
                         flag = keep(flag, one.at_most(accurate));
                         most.store(&mut block.mode_residuals[r], at);
                         error.store(&mut block.mode_errors[r], at);
-                        algebra::store(n, &vectors[r], &mut block.shapes[r], at);
+                        algebra::store(n, &vectors[r], &mut block.shapes[r * n..], at);
                     }
                     flag.store(&mut block.flags, at);
                 }

@@ -26,7 +26,7 @@ impl<const B: usize> Bordered<B> {
             (false, true) => rows[i - n][j],
             (false, false) => corner[i - n][j - n],
         });
-        Lu::new(&whole).map(|factors| Self { factors })
+        Lu::of(whole).map(|factors| Self { factors })
     }
 
     pub(crate) fn solve(&self, right: &[f64], border: [f64; B]) -> (Vector, [f64; B]) {

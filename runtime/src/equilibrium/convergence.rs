@@ -4,7 +4,7 @@
 //! constraint is measured by motions too, and a reaction by the largest.
 
 use super::operating_point::OperatingPoint;
-use crate::algebra::{Matrix, Values, Vector, greater, largest};
+use crate::algebra::{Matrix, Vector, greater, largest};
 use crate::kernels::RestParts;
 
 /// Relative residual that counts as solved once it no longer falls.
@@ -167,25 +167,46 @@ pub(crate) fn relative_to(
     residual: &[f64],
     stiffness: &Matrix,
 ) -> f64 {
-    let motions = point.motions();
+    let forces = [&parts.inertia[..], &parts.applied];
+    let stiffness = stiffness.as_flattened();
+    relative_of((q.len(), point.motions()), forces, q, residual, stiffness)
+}
+
+/// The same of `n` unknowns of which so many are motions; `forces` are inertia and applied forces. See
+/// [`for_size`](crate::algebra::for_size).
+#[inline(always)]
+pub(crate) fn relative_of(
+    (n, motions): (usize, usize),
+    [inertia, applied]: [&[f64]; 2],
+    q: &[f64],
+    residual: &[f64],
+    stiffness: &[f64],
+) -> f64 {
+    let (q, residual, stiffness) = (&q[..n], &residual[..n], &stiffness[..n * n]);
+    let (inertia, applied) = (&inertia[..n], &applied[..n]);
     let reaction = largest_of(&q[motions..]);
-    let small: Vector = q.map(small_motion);
+    let mut small = Vector::zeros(n);
+    let small = &mut small[..n];
+    for (small, q) in small.iter_mut().zip(q) {
+        *small = small_motion(*q);
+    }
     let mut most = 0.0;
-    for i in 0..q.len() {
+    for i in 0..n {
+        let row = &stiffness[i * n..(i + 1) * n];
         let mut force = 0.0;
         if i < motions {
-            force = greater(parts.inertia[i].abs(), parts.applied[i].abs());
-            for j in motions..q.len() {
+            force = greater(inertia[i].abs(), applied[i].abs());
+            for j in motions..n {
                 let size = greater(SMALL_MOTION * reaction, q[j].abs());
-                force = greater(force, stiffness[i][j].abs() * size);
+                force = greater(force, row[j].abs() * size);
             }
         }
-        let scale = (0..motions).fold(force, |sum, j| sum + stiffness[i][j].abs() * small[j]);
+        let scale = (0..motions).fold(force, |sum, j| sum + row[j].abs() * small[j]);
         let own = if scale > 0.0 && scale < f64::INFINITY {
             residual[i].abs() / scale
         } else {
             let force = if force.is_finite() { force } else { 0.0 };
-            relative(residual[i], force, &q[..motions], &stiffness[i])
+            relative(residual[i], force, &q[..motions], row)
         };
         most = greater(most, own);
     }

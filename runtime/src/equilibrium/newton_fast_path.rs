@@ -3,7 +3,7 @@
 //! goes on with all that it has for hard cases.
 
 use super::Equilibrium;
-use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_to};
+use super::convergence::{StepsLeft, TOLERANCE, is_rounding, last, relative_of};
 use super::descent::{GROWTH, LineModel, SearchState};
 use super::operating_point::OperatingPoint;
 use crate::algebra::{Cholesky, Matrix, Vector, all_finite, dot, for_size, form, largest};
@@ -129,7 +129,9 @@ fn ends(
     if !(all_finite(residual) && point.check(q, linear).is_ok()) {
         return false;
     }
-    state.relative_residual = relative_to(point, &parts, q, residual, &linear.stiffness);
+    let forces = [&parts.inertia[..], &parts.applied];
+    let stiffness = linear.stiffness.as_flattened();
+    state.relative_residual = relative_of((n, n), forces, q, residual, stiffness);
     let fell = largest(residual) <= 1e-3 * largest(before) || {
         let mut displacement = Vector::from(&*residual);
         factors.solve_of(n, &mut displacement[..n]);

@@ -4,9 +4,8 @@
 //! number that comes out is, bit for bit, what the kernel gives for that state alone, whatever the processor: the operations
 //! are the same, one rounding each, and none are fused.
 
-use super::{DirectionalKernels, Gradient, Linear, LinearPartials, ResidualPartials, RestParts};
-use crate::algebra::Matrix;
-use crate::mechanism::{self, Array, Mechanism, Square};
+use super::DirectionalKernels;
+use crate::mechanism::{Array, Gradient, Linear, LinearPartials, Mechanism, RestParts, Square};
 use crate::scalar::{Batch, Instructions, Lanes, Task, WIDTH};
 use crate::{DampingKind, Description};
 
@@ -21,7 +20,17 @@ pub struct BatchPoint<'a> {
     pub b: &'a [Batch],
 }
 
-/// The kernels that sweeps and Monte Carlo need, at every state of a batch.
+/// Room for the residual in two parts.
+pub type BatchParts<'a> = RestParts<&'a mut [Batch]>;
+/// Room for mass, damping and stiffness, row by row. A damping matrix that is always zero is not written: its room may be empty.
+pub type BatchLinear<'a> = Linear<&'a mut [Batch]>;
+/// Room for derivatives of the three matrices: of each matrix by one variable after the other.
+pub type BatchPartials<'a> = LinearPartials<BatchLinear<'a>>;
+/// Room for derivatives of one number.
+pub type BatchGradient<'a> = Gradient<&'a mut [Batch]>;
+
+/// The kernels that sweeps and Monte Carlo need, at every state of a batch. Results go to slices that are as long as they are;
+/// matrices row by row.
 pub trait BatchKernels: DirectionalKernels {
     /// [`Kernels::residual_and_stiffness_into`](super::Kernels::residual_and_stiffness_into).
     fn residual_and_stiffness_batch(
@@ -29,7 +38,7 @@ pub trait BatchKernels: DirectionalKernels {
         instructions: Instructions,
         at: BatchPoint<'_>,
         residual: &mut [Batch],
-        stiffness: &mut Matrix<Batch>,
+        stiffness: &mut [Batch],
     );
 
     /// [`Kernels::linear_into`](super::Kernels::linear_into).
@@ -37,7 +46,7 @@ pub trait BatchKernels: DirectionalKernels {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        linear: &mut Linear<Batch>,
+        linear: &mut BatchLinear<'_>,
     );
 
     /// [`Kernels::parts_and_linear_into`](super::Kernels::parts_and_linear_into).
@@ -45,17 +54,17 @@ pub trait BatchKernels: DirectionalKernels {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        parts: &mut RestParts<Batch>,
-        linear: &mut Linear<Batch>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
     );
 
-    /// [`Kernels::partials_into`](super::Kernels::partials_into).
+    /// [`Kernels::partials_into`](super::Kernels::partials_into); those of the residual by inputs and by design variables.
     fn partials_batch(
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        matrices: &mut LinearPartials<Batch>,
-        residual: &mut ResidualPartials<Batch>,
+        matrices: &mut BatchPartials<'_>,
+        residual: [&mut [Batch]; 2],
     );
 
     /// [`Kernels::mode_gradient_into`](super::Kernels::mode_gradient_into), each state with a mode of its own.
@@ -65,7 +74,7 @@ pub trait BatchKernels: DirectionalKernels {
         at: BatchPoint<'_>,
         phi: &[Batch],
         lambda: &Batch,
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     );
 
     /// [`Kernels::residual_gradient_into`](super::Kernels::residual_gradient_into).
@@ -74,7 +83,7 @@ pub trait BatchKernels: DirectionalKernels {
         instructions: Instructions,
         at: BatchPoint<'_>,
         w: &[Batch],
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     );
 }
 
@@ -97,36 +106,30 @@ fn store<V: Lanes>(from: &[V], to: &mut [Batch], at: usize) {
     }
 }
 
+/// A matrix row by row.
 #[inline(always)]
-fn store_matrix<V: Lanes, R: Array<V>>(from: &[R], to: &mut Matrix<Batch>, at: usize) {
-    let to = &mut to.as_flattened_mut()[..R::LEN * from.len()];
+fn store_rows<V: Lanes, R: Array<V>>(from: &[R], to: &mut [Batch], at: usize) {
+    let to = &mut to[..R::LEN * from.len()];
     for (i, from) in from.iter().enumerate() {
         store(from.as_ref(), &mut to[R::LEN * i..], at);
     }
 }
 
-/// A damping matrix that is always zero is not read, so that the kernel need not write it.
-#[inline(always)]
-fn store_linear<V: Lanes, M: Mechanism>(
-    from: &mechanism::Linear<Square<M, V>>,
-    to: &mut Linear<Batch>,
-    at: usize,
-) {
-    store_matrix(from.mass.as_ref(), &mut to.mass, at);
-    store_matrix(from.stiffness.as_ref(), &mut to.stiffness, at);
-    if const { damped(const { &M::DESCRIPTION }) } {
-        store_matrix(from.damping.as_ref(), &mut to.damping, at);
-    }
-}
-
+/// Matrices one after the other; a damping that is always zero is not read, so that the kernel need not write it.
 #[inline(always)]
 fn store_linears<V: Lanes, M: Mechanism>(
-    from: &[mechanism::Linear<Square<M, V>>],
-    to: &mut [Linear<Batch>],
+    from: &[Linear<Square<M, V>>],
+    to: &mut BatchLinear<'_>,
     at: usize,
 ) {
-    for (from, to) in from.iter().zip(to) {
-        store_linear::<V, M>(from, to, at);
+    let size = M::Coordinates::<V>::LEN * M::Coordinates::<V>::LEN;
+    for (k, from) in from.iter().enumerate() {
+        let first = k * size;
+        store_rows(from.mass.as_ref(), &mut to.mass[first..], at);
+        store_rows(from.stiffness.as_ref(), &mut to.stiffness[first..], at);
+        if const { damped(const { &M::DESCRIPTION }) } {
+            store_rows(from.damping.as_ref(), &mut to.damping[first..], at);
+        }
     }
 }
 
@@ -165,12 +168,12 @@ impl<M: Mechanism, F: Kernel<M>> Task for Call<'_, M, F> {
 
 /// A kernel and its buffers.
 macro_rules! kernel {
-    ($task:ident { $($field:ident: $kind:ty),* }, $m:ident, ($q:ident, $u:ident, $b:ident), $at:ident, $v:ident => $body:block) => {
-        struct $task<'a> {
+    ($task:ident<$($life:lifetime),+> { $($field:ident: $kind:ty),* }, $m:ident, ($q:ident, $u:ident, $b:ident), $at:ident, $v:ident => $body:block) => {
+        struct $task<$($life),+> {
             $($field: $kind,)*
         }
 
-        impl<M: Mechanism> Kernel<M> for $task<'_> {
+        impl<$($life,)+ M: Mechanism> Kernel<M> for $task<$($life),+> {
             #[inline(always)]
             fn run<$v: Lanes>(
                 &mut self,
@@ -197,56 +200,58 @@ macro_rules! call {
 }
 
 kernel! {
-    ResidualAndStiffness { residual: &'a mut [Batch], stiffness: &'a mut Matrix<Batch> },
+    ResidualAndStiffness<'a> { residual: &'a mut [Batch], stiffness: &'a mut [Batch] },
     m, (q, u, b), at, V => {
         let found = call!(m.residual_and_stiffness or residual_and_stiffness_inlined(q, u, b));
         store(found.0.as_ref(), residual, at);
-        store_matrix(found.1.as_ref(), stiffness, at);
+        store_rows(found.1.as_ref(), stiffness, at);
     }
 }
 kernel! {
-    LinearTask { linear: &'a mut Linear<Batch> },
+    LinearTask<'a, 'b> { linear: &'a mut BatchLinear<'b> },
     m, (q, u, b), at, V => {
-        store_linear::<V, M>(&call!(m.linear or linear_inlined(q, u, b)), linear, at);
+        let found = call!(m.linear or linear_inlined(q, u, b));
+        store_linears::<V, M>(&[found], linear, at);
     }
 }
 kernel! {
-    PartsAndLinear { parts: &'a mut RestParts<Batch>, linear: &'a mut Linear<Batch> },
+    PartsAndLinear<'a, 'b, 'c> { parts: &'a mut BatchParts<'b>, linear: &'a mut BatchLinear<'c> },
     m, (q, u, b), at, V => {
         let found = call!(m.residual_parts or residual_parts_inlined(q, u, b));
-        store(found.inertia.as_ref(), &mut parts.inertia, at);
-        store(found.applied.as_ref(), &mut parts.applied, at);
-        store_linear::<V, M>(&call!(m.linear or linear_inlined(q, u, b)), linear, at);
+        store(found.inertia.as_ref(), parts.inertia, at);
+        store(found.applied.as_ref(), parts.applied, at);
+        let found = call!(m.linear or linear_inlined(q, u, b));
+        store_linears::<V, M>(&[found], linear, at);
     }
 }
 kernel! {
-    Partials { matrices: &'a mut LinearPartials<Batch>, residual: &'a mut ResidualPartials<Batch> },
+    Partials<'a, 'b> { matrices: &'a mut BatchPartials<'b>, residual: [&'a mut [Batch]; 2] },
     m, (q, u, b), at, V => {
         let found = call!(m.linear_partials or linear_partials_inlined(q, u, b));
         store_linears::<V, M>(found.by_coordinate.as_ref(), &mut matrices.by_coordinate, at);
         store_linears::<V, M>(found.by_input.as_ref(), &mut matrices.by_input, at);
         store_linears::<V, M>(found.by_design.as_ref(), &mut matrices.by_design, at);
         let found = call!(m.residual_partials or residual_partials_inlined(q, u, b));
-        store_matrix(found.0.as_ref(), &mut residual.0, at);
-        store_matrix(found.1.as_ref(), &mut residual.1, at);
+        store_rows(found.0.as_ref(), residual[0], at);
+        store_rows(found.1.as_ref(), residual[1], at);
     }
 }
 kernel! {
-    ModeGradient { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut Gradient<Batch> },
+    ModeGradient<'a, 'b> { phi: &'a [Batch], lambda: &'a Batch, gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(m.mode_gradient or mode_gradient_inlined(q, u, b, &load(phi, at), V::load(lambda, at)));
-        store(found.coordinates.as_ref(), &mut gradient.coordinates, at);
-        store(found.inputs.as_ref(), &mut gradient.inputs, at);
-        store(found.design.as_ref(), &mut gradient.design, at);
+        store(found.coordinates.as_ref(), gradient.coordinates, at);
+        store(found.inputs.as_ref(), gradient.inputs, at);
+        store(found.design.as_ref(), gradient.design, at);
     }
 }
 kernel! {
-    ResidualGradient { w: &'a [Batch], gradient: &'a mut Gradient<Batch> },
+    ResidualGradient<'a, 'b> { w: &'a [Batch], gradient: &'a mut BatchGradient<'b> },
     m, (q, u, b), at, V => {
         let found = call!(m.residual_gradient or residual_gradient_inlined(q, u, b, &load(w, at)));
-        store(found.coordinates.as_ref(), &mut gradient.coordinates, at);
-        store(found.inputs.as_ref(), &mut gradient.inputs, at);
-        store(found.design.as_ref(), &mut gradient.design, at);
+        store(found.coordinates.as_ref(), gradient.coordinates, at);
+        store(found.inputs.as_ref(), gradient.inputs, at);
+        store(found.design.as_ref(), gradient.design, at);
     }
 }
 
@@ -286,7 +291,7 @@ impl<M: Mechanism> BatchKernels for M {
         instructions: Instructions,
         at: BatchPoint<'_>,
         residual: &mut [Batch],
-        stiffness: &mut Matrix<Batch>,
+        stiffness: &mut [Batch],
     ) {
         let kernel = ResidualAndStiffness {
             residual,
@@ -305,7 +310,7 @@ impl<M: Mechanism> BatchKernels for M {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        linear: &mut Linear<Batch>,
+        linear: &mut BatchLinear<'_>,
     ) {
         run(
             self,
@@ -320,8 +325,8 @@ impl<M: Mechanism> BatchKernels for M {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        parts: &mut RestParts<Batch>,
-        linear: &mut Linear<Batch>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
     ) {
         run(
             self,
@@ -336,8 +341,8 @@ impl<M: Mechanism> BatchKernels for M {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        matrices: &mut LinearPartials<Batch>,
-        residual: &mut ResidualPartials<Batch>,
+        matrices: &mut BatchPartials<'_>,
+        residual: [&mut [Batch]; 2],
     ) {
         let kernel = Partials { matrices, residual };
         run(
@@ -355,7 +360,7 @@ impl<M: Mechanism> BatchKernels for M {
         at: BatchPoint<'_>,
         phi: &[Batch],
         lambda: &Batch,
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let kernel = ModeGradient {
             phi,
@@ -376,7 +381,7 @@ impl<M: Mechanism> BatchKernels for M {
         instructions: Instructions,
         at: BatchPoint<'_>,
         w: &[Batch],
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         run(
             self,

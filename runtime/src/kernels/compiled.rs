@@ -32,8 +32,17 @@ fn copy_linear<M: Mechanism>(from: &mechanism::Linear<Square<M, f64>>, to: &mut 
 
 #[inline(always)]
 fn copy_rows<A: Array<R>, R: Array<f64>>(from: &A, to: &mut [f64]) {
+    let to = &mut to[..A::LEN * R::LEN];
     for (to, from) in to.chunks_exact_mut(R::LEN.max(1)).zip(from.as_ref()) {
-        to.copy_from_slice(from.as_ref());
+        copy_array(from, to);
+    }
+}
+
+/// One by one: few numbers go from registers to their places.
+#[inline(always)]
+fn copy_array<A: Array<f64>>(from: &A, to: &mut [f64]) {
+    for (to, from) in to[..A::LEN].iter_mut().zip(from.as_ref()) {
+        *to = *from;
     }
 }
 
@@ -62,11 +71,6 @@ fn copy_gradient<M: Mechanism>(from: &GradientOf<M, f64>, to: &mut Gradient) {
     to.coordinates.copy_from_slice(from.coordinates.as_ref());
     to.inputs.copy_from_slice(from.inputs.as_ref());
     to.design.copy_from_slice(from.design.as_ref());
-}
-
-#[inline(always)]
-fn copy_vector(from: &impl AsRef<[f64]>, to: &mut [f64]) {
-    to.copy_from_slice(from.as_ref());
 }
 
 /// Unknowns, inputs and design variables as the mechanism takes them.
@@ -136,8 +140,8 @@ impl<M: Mechanism> Kernels for M {
     fn residual_parts_into(&self, q: &[f64], u: &[f64], b: &[f64], parts: &mut RestParts) {
         let (q, u, b) = point::<M>(q, u, b);
         let found = Mechanism::residual_parts(self, q, u, b);
-        copy_vector(&found.inertia, &mut parts.inertia);
-        copy_vector(&found.applied, &mut parts.applied);
+        copy_array(&found.inertia, &mut parts.inertia);
+        copy_array(&found.applied, &mut parts.applied);
     }
 
     fn residual_and_stiffness_into(
@@ -151,7 +155,7 @@ impl<M: Mechanism> Kernels for M {
         let (q, u, b) = point::<M>(q, u, b);
         if const { M::Coordinates::<f64>::LEN > FEW_COORDINATES } {
             let found = Mechanism::residual_and_stiffness(self, q, u, b);
-            copy_vector(&found.0, residual);
+            copy_array(&found.0, residual);
             copy_matrix(&found.1, stiffness);
             return;
         }
@@ -160,7 +164,7 @@ impl<M: Mechanism> Kernels for M {
             #[inline(always)]
             || {
                 let found = self.residual_and_stiffness_inlined(q, u, b);
-                copy_vector(&found.0, residual);
+                copy_array(&found.0, residual);
                 copy_matrix(&found.1, stiffness);
             },
         );
@@ -189,8 +193,8 @@ impl<M: Mechanism> Kernels for M {
             #[inline(always)]
             || {
                 let found = self.residual_parts_inlined(q, u, b);
-                copy_vector(&found.inertia, &mut parts.inertia);
-                copy_vector(&found.applied, &mut parts.applied);
+                copy_array(&found.inertia, &mut parts.inertia);
+                copy_array(&found.applied, &mut parts.applied);
                 copy_linear::<M>(&self.linear_inlined(q, u, b), linear);
             },
         );

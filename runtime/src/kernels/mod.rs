@@ -18,7 +18,7 @@ mod interval;
 mod motion;
 mod partial_matrices;
 
-pub use batch::{BatchKernels, BatchPoint};
+pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
 pub use curvature::CurvatureKernels;
 pub use deviating_inputs::DeviatingInputs;
@@ -58,6 +58,7 @@ pub struct Sizes {
 impl<T: Copy + Default> Linear<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         let zeros = || Matrix::zeros(n, n);
         Self {
@@ -71,6 +72,7 @@ impl<T: Copy + Default> Linear<T> {
 impl<T: Copy + Default> RestParts<T> {
     /// Zeros for `n` unknowns.
     #[must_use]
+    #[inline]
     pub fn zeros(n: usize) -> Self {
         Self {
             inertia: Vector::zeros(n),
@@ -82,6 +84,7 @@ impl<T: Copy + Default> RestParts<T> {
 impl<T: Copy + Default> Gradient<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         Self {
             coordinates: Vector::zeros(sizes.coordinates),
@@ -94,6 +97,7 @@ impl<T: Copy + Default> Gradient<T> {
 impl<T: Copy + Default> LinearPartials<T> {
     /// Zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(sizes: Sizes) -> Self {
         let list = |count: usize| {
             (0..count)
@@ -109,6 +113,7 @@ impl<T: Copy + Default> LinearPartials<T> {
 }
 
 /// Zeros.
+#[inline]
 pub(crate) fn residual_partials_zeros<T: Copy + Default>(sizes: Sizes) -> ResidualPartials<T> {
     let rows = sizes.coordinates;
     (

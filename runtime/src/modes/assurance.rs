@@ -215,14 +215,20 @@ pub fn clusters(modes: &Modes, gap: f64) -> Vec<bool> {
 /// Whether the eigenvalue of mode `i` lies within `gap` of another one, relative to the larger of the two.
 #[inline(always)]
 pub(crate) fn near_another(modes: &Modes, i: usize, gap: f64) -> bool {
-    (0..modes.modes.len()).any(|j| j != i && near(modes, i, j, gap))
+    let own = &modes.modes[i];
+    let mut others = modes.modes.iter().enumerate().filter(|(j, _)| *j != i);
+    others.any(|(_, other)| near_each_other(modes.family, own, other, gap))
 }
 
 /// Whether two eigenvalues are within `gap`, relative to the larger of the two.
 #[inline(always)]
 pub(crate) fn near(modes: &Modes, i: usize, j: usize, gap: f64) -> bool {
-    let (a, b) = (&modes.modes[i], &modes.modes[j]);
-    match modes.family {
+    near_each_other(modes.family, &modes.modes[i], &modes.modes[j], gap)
+}
+
+#[inline(always)]
+fn near_each_other(family: Family, a: &Mode, b: &Mode, gap: f64) -> bool {
+    match family {
         Family::Undamped => {
             (a.lambda - b.lambda).abs() <= gap * greater(a.lambda.abs(), b.lambda.abs())
         }

@@ -16,7 +16,6 @@ mod whirl;
 
 pub use assurance::{assurance, clusters, match_modes};
 pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
-use constrained::free_pairs_into;
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};
@@ -323,7 +322,7 @@ fn undamped(
         }
     }
     let mut pairs = Pairs::default();
-    free_pairs_into(linear, description, &mut pairs).map_err(ModesFailure::Pencil)?;
+    constrained::free_pairs_into(linear, description, &mut pairs).map_err(ModesFailure::Pencil)?;
     let count = pairs.lambda.len();
     modes.reserve_exact(count.saturating_sub(modes.len()));
     modes.resize_with(count, Mode::blank);

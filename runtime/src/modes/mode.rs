@@ -107,11 +107,12 @@ impl Mode {
     }
 
     /// Writes an undamped mode with an eigenvalue and its error over this one, whose vectors are used again.
+    #[inline]
     pub(crate) fn set_undamped(
         &mut self,
         label: usize,
         (lambda, error): (f64, f64),
-        shape: impl Iterator<Item = f64> + Clone,
+        shape: impl ExactSizeIterator<Item = f64>,
         residual: f64,
     ) {
         let rate = lambda.abs().sqrt();
@@ -121,8 +122,14 @@ impl Mode {
             Sign::Zero => (Complex::ZERO, Behaviour::Neutral),
         };
         self.lambda = lambda;
-        self.shape.assign(shape.clone().map(Complex::from));
-        self.left.assign(shape.map(Complex::from));
+        let (right, left) = (
+            self.shape.make_room(shape.len()),
+            self.left.make_room(shape.len()),
+        );
+        for ((right, left), value) in right.iter_mut().zip(left).zip(shape) {
+            *right = value.into();
+            *left = *right;
+        }
         self.residual = residual;
         // `sqrt(error)`, or `error / rate` where that is less.
         self.error = if rate * rate > error {

@@ -88,11 +88,7 @@ impl Shared<'_> {
         mode: &Mode,
     ) {
         let symmetric = self.at.description.symmetric_stiffness;
-        let all = [
-            (matrices.by_input(), by_input),
-            (matrices.by_design(), by_design),
-        ];
-        let room = own.make_room(self.at.inputs.len(), self.at.design.len());
+        let [inputs, design] = own.make_room(self.at.inputs.len(), self.at.design.len());
         for_size(
             mode.shape.len(),
             #[inline(always)]
@@ -102,16 +98,13 @@ impl Shared<'_> {
                 for (phi, value) in phi.iter_mut().zip(&mode.shape[..n]) {
                     *phi = value.re;
                 }
-                let slope = |change: &[f64]| rate(n, change, phi, mode.lambda, symmetric);
                 for (w, change) in w.iter_mut().zip(changes(n, matrices.by_coordinate())) {
-                    *w = slope(change);
+                    *w = rate(n, change, phi, mode.lambda, symmetric);
                 }
                 self.factors.solve(n, w);
-                for (to, (matrices, residual)) in room.into_iter().zip(all) {
-                    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
-                        *to = slope(change) - column_times(n, w, residual, k);
-                    }
-                }
+                let form = (&*phi, mode.lambda, symmetric);
+                total_rates(n, form, matrices.by_input(), (w, by_input), inputs);
+                total_rates(n, form, matrices.by_design(), (w, by_design), design);
             },
         );
         own.finish_undamped(mode);
@@ -194,7 +187,7 @@ impl Factors {
         {
             return Ok(Self::Definite(factors));
         }
-        let factors = Lu::new(&stiffness.transpose());
+        let factors = Lu::of(stiffness.transpose());
         factors.map(Self::General).ok_or(Error::CriticalState)
     }
 
@@ -205,6 +198,22 @@ impl Factors {
             Self::Definite(factors) => factors.solve_of(n, x),
             Self::General(factors) => x.copy_from_slice(&factors.solve(x)),
         }
+    }
+}
+
+/// `phi^T (dKhat - lambda dMhat) phi - w^T dg` with each of some variables, from the derivatives of
+/// matrices and residual by them.
+#[inline(always)]
+fn total_rates(
+    n: usize,
+    (phi, lambda, symmetric): (&[f64], f64, bool),
+    matrices: &[f64],
+    (w, residual): (&[f64], &Matrix),
+    to: &mut [f64],
+) {
+    for (k, (to, change)) in to.iter_mut().zip(changes(n, matrices)).enumerate() {
+        let direct = rate(n, change, phi, lambda, symmetric);
+        *to = direct - column_times(n, w, residual, k);
     }
 }
 

@@ -104,8 +104,8 @@ impl ModeSensitivity {
     pub(crate) fn set_undamped(
         &mut self,
         mode: &Mode,
-        by_input: impl IntoIterator<Item = f64>,
-        by_design: impl IntoIterator<Item = f64>,
+        by_input: impl ExactSizeIterator<Item = f64>,
+        by_design: impl ExactSizeIterator<Item = f64>,
     ) {
         self.lambda_by_input.assign(by_input);
         self.lambda_by_design.assign(by_design);
@@ -114,7 +114,7 @@ impl ModeSensitivity {
 
     /// Room for the derivatives of `lambda` by so many inputs and design variables. Once they are written,
     /// [`Self::finish_undamped`] adds what follows from them.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn make_room(&mut self, inputs: usize, design: usize) -> [&mut [f64]; 2] {
         [
             self.lambda_by_input.make_room(inputs),
@@ -123,34 +123,38 @@ impl ModeSensitivity {
     }
 
     /// Goes to an undamped mode, apart from all others, whose derivatives of `lambda` are written.
+    #[inline]
     pub(crate) fn finish_undamped(&mut self, mode: &Mode) {
         // ds = -dlambda / (2 s), `s` real or imaginary
         if mode.s.im > 0.0 {
+            let s = self.s.get_or_insert_with(Slopes::empty);
             let rate = 0.5 / mode.s.im;
-            self.set_s_by_lambda(|dlambda| Complex::new(0.0, rate * dlambda));
-        } else if mode.s.re > 0.0 {
+            let omega = self.omega_by_input.get_or_insert_default();
+            oscillating(rate, &self.lambda_by_input, &mut s.by_input, omega);
+            let omega = self.omega_by_design.get_or_insert_default();
+            oscillating(rate, &self.lambda_by_design, &mut s.by_design, omega);
+            self.clustered = false;
+            self.value = mode.s;
+            return;
+        }
+        if mode.s.re > 0.0 {
+            let s = self.s.get_or_insert_with(Slopes::empty);
             let rate = -0.5 / mode.s.re;
-            self.set_s_by_lambda(|dlambda| Complex::new(rate * dlambda, 0.0));
+            let slope = |dlambda: &f64| Complex::new(rate * dlambda, 0.0);
+            s.by_input.assign(self.lambda_by_input.iter().map(slope));
+            s.by_design.assign(self.lambda_by_design.iter().map(slope));
         } else {
             self.s = None;
         }
         self.finish(mode, false);
     }
 
-    #[inline]
-    fn set_s_by_lambda(&mut self, slope: impl Fn(f64) -> Complex) {
-        let s = self.s.get_or_insert_with(Slopes::empty);
-        let slope = |dlambda: &f64| slope(*dlambda);
-        s.by_input.set(&self.lambda_by_input, slope);
-        s.by_design.set(&self.lambda_by_design, slope);
-    }
-
     /// Goes to a general mode with these derivatives of `s`; where they are not finite, it has merged with another.
     pub(crate) fn set_general(
         &mut self,
         mode: &Mode,
-        by_input: impl IntoIterator<Item = Complex>,
-        by_design: impl IntoIterator<Item = Complex>,
+        by_input: impl ExactSizeIterator<Item = Complex>,
+        by_design: impl ExactSizeIterator<Item = Complex>,
     ) {
         let s = self.s.get_or_insert_with(Slopes::empty);
         s.by_input.assign(by_input);
@@ -205,5 +209,16 @@ impl ModeSensitivity {
             }
             None => self.lambda_is_finite(),
         }
+    }
+}
+
+/// `domega = rate dlambda` of an undamped mode that oscillates, and `ds`.
+#[inline(always)]
+fn oscillating(rate: f64, dlambda: &[f64], ds: &mut Vector<Complex>, domega: &mut Vector) {
+    let count = dlambda.len();
+    let (ds, domega) = (ds.make_room(count), domega.make_room(count));
+    for ((ds, domega), dlambda) in ds.iter_mut().zip(domega).zip(dlambda) {
+        *domega = rate * dlambda;
+        *ds = Complex::new(0.0, *domega);
     }
 }

@@ -25,17 +25,15 @@ impl<M: Kernels> Study<M> {
 
 impl<M: Kernels> Solved<'_, M> {
     /// The same state, of the study of the mechanism whose inputs deviate.
-    pub(super) fn in_study<'s, W: Kernels>(&self, study: &'s Study<W>) -> Solved<'s, W> {
-        let mut moved = Solved {
+    pub(super) fn in_study<'s, 'k, K: Kernels + ?Sized>(
+        &self,
+        study: &'s Study<DeviatingInputs<'k, K>>,
+    ) -> Solved<'s, DeviatingInputs<'k, K>> {
+        Solved {
             study,
-            equilibrium: self.equilibrium.clone(),
-            modes: self.modes.clone(),
-        };
-        let settings = &study.settings;
-        moved.equilibrium.design = settings.design.clone();
-        moved.equilibrium.description = settings.description.clone();
-        moved.modes.description = settings.description.clone();
-        moved
+            equilibrium: self.equilibrium.with_deviations(&study.mechanism),
+            modes: self.modes.with_deviations(&study.mechanism),
+        }
     }
 }
 

@@ -1,8 +1,9 @@
 //! Values of an input where a mode meets a condition: its frequency equals a multiple of the input (resonance, critical
 //! speed of a rotor), or its oscillation stops decaying (onset of flutter). Located by Newton's method with exact slopes.
 
+use super::points::SweepPoint;
 use super::range::Range;
-use super::track::{Following, Tracked, Tracker};
+use super::track::{Following, Tracker};
 use crate::equilibrium::{Bracket, refine};
 use crate::kernels::Kernels;
 use crate::modes::Family;
@@ -95,12 +96,12 @@ impl Condition {
     fn slope(
         self,
         mechanism: &dyn Kernels,
-        at: &Tracked,
+        (state, modes): (&Equilibrium, &Modes),
         label: usize,
         input: Input,
     ) -> Option<f64> {
-        let position = at.modes.modes.iter().position(|mode| mode.label == label)?;
-        let all = sensitivities(mechanism, &at.equilibrium, &at.modes).ok()?;
+        let position = modes.modes.iter().position(|mode| mode.label == label)?;
+        let all = sensitivities(mechanism, state, modes).ok()?;
         let own = all.modes.get(position).filter(|own| !own.clustered)?;
         let (quantity, other) = self.sides();
         Some(own.of(quantity)?.by_input.get(input.index())? - other)
@@ -157,11 +158,13 @@ fn meetings(
 ) -> Result<Vec<Crossing>, Error> {
     range.check(&mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, values, start, following, range.input);
-    tracker.advance(range.low)?.1?;
+    if let Some(failed) = tracker.advance(range.low) {
+        failed.modes?;
+    }
     let mut found = Vec::new();
     for value in range.values() {
         let before = tracker.last.clone();
-        if !matches!(tracker.advance(value), Ok((_, Ok(_)))) {
+        if tracker.advance(value).is_some() {
             continue;
         }
         if let (Some(before), Some(after)) = (&before, &tracker.last) {
@@ -174,15 +177,18 @@ fn meetings(
 /// Adds the meetings between two neighbouring points, by label of the modes.
 pub(crate) fn between(
     tracker: &Tracker<'_>,
-    before: &Tracked,
-    after: &Tracked,
+    before: &SweepPoint,
+    after: &SweepPoint,
     condition: Condition,
     found: &mut Vec<Crossing>,
 ) {
-    for label in before.modes.modes.iter().map(|mode| mode.label) {
+    let (Ok(solved), Ok(after_modes)) = (before.solved(), &after.modes) else {
+        return;
+    };
+    for label in solved.1.modes.iter().map(|mode| mode.label) {
         let (Some(at_low), Some(at_high)) = (
-            condition.excess(&before.modes, label, tracker.actual(before.value)),
-            condition.excess(&after.modes, label, tracker.actual(after.value)),
+            condition.excess(solved.1, label, tracker.actual(before.value)),
+            condition.excess(after_modes, label, tracker.actual(after.value)),
         ) else {
             continue;
         };
@@ -196,17 +202,16 @@ pub(crate) fn between(
             at_high,
         };
         let root = refine(bracket, |trial| {
-            let point = tracker.near(trial, before).ok()?;
-            let excess = condition.excess(&point.modes, label, tracker.actual(trial))?;
-            let slope = condition.slope(tracker.mechanism, &point, label, tracker.input);
+            let (state, modes) = tracker.near(trial, solved).ok()?;
+            let excess = condition.excess(&modes, label, tracker.actual(trial))?;
+            let slope = condition.slope(tracker.mechanism, (&state, &modes), label, tracker.input);
             Some((excess, slope))
         });
-        let Ok(point) = tracker.near(root, before) else {
+        let Ok((equilibrium, modes)) = tracker.near(root, solved) else {
             continue;
         };
         let actual = tracker.actual(root);
-        let position = point
-            .modes
+        let position = modes
             .modes
             .iter()
             .position(|mode| mode.label == label && condition.is_met(mode, actual));
@@ -216,8 +221,8 @@ pub(crate) fn between(
                 value: root,
                 condition,
                 mode,
-                equilibrium: point.equilibrium,
-                modes: point.modes,
+                equilibrium,
+                modes,
             });
         }
     }

@@ -52,6 +52,18 @@ pub struct SweepPoint {
     pub modes: Result<Modes, Error>,
 }
 
+impl SweepPoint {
+    /// Equilibrium and modes, or why there are not both.
+    pub(crate) fn solved(&self) -> Result<(&Equilibrium, &Modes), &Error> {
+        Ok((self.equilibrium.as_ref()?, self.modes.as_ref()?))
+    }
+
+    /// The same, to be written over.
+    pub(super) fn solved_mut(&mut self) -> Result<(&mut Equilibrium, &mut Modes), &mut Error> {
+        Ok((self.equilibrium.as_mut()?, self.modes.as_mut()?))
+    }
+}
+
 /// A state where `Khat` is singular.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -27,8 +27,8 @@ pub fn sensitivity_sweep(
     check_input(input, &mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
     follow(&mut tracker, mechanism, values, true, |station| {
-        if let Some(slopes) = &station.slopes {
-            each(&station.point, slopes);
+        if let Some(slopes) = station.slopes {
+            each(station.point, slopes);
         }
     });
     Ok(())

@@ -3,13 +3,14 @@
 
 use super::points::SweepPoint;
 use crate::algebra::Vector;
-use crate::batched::{Block, Workspace};
+use crate::batched::algebra::{Square, small};
+use crate::batched::{Block, KERNELS, Workspace, possible};
 use crate::equilibrium::{OperatingPoint, Path, Policy, solve, solve_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{
     CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
 };
-use crate::scalar::{Instructions, WIDTH};
+use crate::scalar::{Batch, Instructions, WIDTH};
 use crate::setters::setters;
 use crate::{Description, Equilibrium, Error, Input, Modes, Shared, Stability};
 
@@ -51,14 +52,6 @@ impl From<Policy> for Following {
     }
 }
 
-/// An equilibrium and its modes at a value of the input.
-#[derive(Clone)]
-pub(crate) struct Tracked {
-    pub(crate) value: f64,
-    pub(crate) equilibrium: Equilibrium,
-    pub(crate) modes: Modes,
-}
-
 /// Follows an equilibrium along an input.
 pub(crate) struct Tracker<'a> {
     pub(crate) mechanism: &'a dyn Kernels,
@@ -78,7 +71,7 @@ pub(crate) struct Tracker<'a> {
     /// The last advance ended where the way before led, and no stiffness came near to zero: it passed no critical state.
     pub(crate) smooth: bool,
     /// The last point that has modes.
-    pub(crate) last: Option<Tracked>,
+    pub(crate) last: Option<SweepPoint>,
 }
 
 impl<'a> Tracker<'a> {
@@ -148,21 +141,33 @@ impl<'a> Tracker<'a> {
             .map_err(|failure| failure.explain(&operating_point.description))
     }
 
-    /// Equilibrium and modes near a point, in the order and with the labels of its modes.
-    pub(crate) fn near(&self, value: f64, point: &Tracked) -> Result<Tracked, Error> {
-        let (equilibrium, _) = self.equilibrium(value, &point.equilibrium.coordinates, None)?;
+    /// Equilibrium and modes at a value, near to others, in the order and with the labels of their modes.
+    pub(crate) fn near(
+        &self,
+        value: f64,
+        (state, modes): (&Equilibrium, &Modes),
+    ) -> Result<(Equilibrium, Modes), Error> {
+        let (equilibrium, _) = self.equilibrium(value, &state.coordinates, None)?;
         let found = modes_at(&equilibrium, self.family)?;
-        Ok(Tracked {
-            value,
-            modes: found.continuing(&point.modes, &equilibrium.linear, self.unused),
-            equilibrium,
-        })
+        let modes = found.continuing(modes, &equilibrium.linear, self.unused);
+        Ok((equilibrium, modes))
     }
 
-    /// Room for values that are solved side by side.
-    pub(super) fn block(&self, with_slopes: bool) -> (Block, Workspace) {
-        let block = Block::new(&self.description, &self.inputs, &self.design);
-        (block, Workspace::new(&self.description, with_slopes))
+    /// Whether values may be solved side by side, as far as is known before any of them.
+    pub(super) fn side_by_side(&self) -> bool {
+        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
+        wanted && self.vectors.is_some() && possible(&self.description, &KERNELS)
+    }
+
+    /// What values are solved side by side in.
+    pub(super) fn workspace<'m>(
+        &self,
+        memory: &'m mut Vec<Batch>,
+        with_slopes: bool,
+    ) -> Workspace<'m> {
+        let values = (&*self.inputs, &*self.design);
+        *memory = Workspace::memory(self.mechanism.sizes(), with_slopes);
+        Workspace::new(memory, self.mechanism, values, with_slopes)
     }
 
     /// Solves the first of `values` side by side where the way so far is smooth: how many of them in a row are what solving
@@ -170,21 +175,22 @@ impl<'a> Tracker<'a> {
     pub(super) fn solve_block(
         &self,
         kernels: &dyn BatchKernels,
-        (block, workspace): &mut (Block, Workspace),
+        workspace: &mut Workspace<'_>,
         values: &[f64],
     ) -> usize {
-        let wanted = self.policy == Policy::Stable && self.family == Family::Undamped;
-        let (Some(vectors), Some(last), Some(past), true) =
-            (self.vectors, &self.last, self.path.last_three(), wanted)
+        let (Some(vectors), Some(last), Some(past)) =
+            (self.vectors, &self.last, self.path.last_three())
         else {
             return 0;
         };
-        let sound = last.equilibrium.stability == Stability::Stable
-            && last.modes.modes.len() == self.from.len()
-            && last.value == past[0].0;
-        if !sound {
+        let sound = |(state, modes): &(&Equilibrium, &Modes)| {
+            state.stability == Stability::Stable
+                && modes.modes.len() == self.from.len()
+                && last.value == past[0].0
+        };
+        let Some((_, modes)) = last.solved().ok().filter(sound) else {
             return 0;
-        }
+        };
         let mut inputs = self.inputs.clone();
         let possible = |value: &&f64| {
             inputs[self.input.index()] = **value;
@@ -192,53 +198,36 @@ impl<'a> Tracker<'a> {
         };
         let number = values.iter().take(WIDTH).take_while(possible).count();
         let values = (self.input, &values[..number]);
-        let shapes = last.modes.real_shapes();
-        block.solve(workspace, (kernels, vectors), values, past, &shapes)
+        let shapes: Square<f64> = small(&modes.real_shapes());
+        workspace.solve((kernels, vectors), values, past, &shapes)
     }
 
-    /// Goes on to the last of the first `number` states of a block, which `point` holds.
-    pub(super) fn commit(&mut self, point: SweepPoint, block: &Block, number: usize) {
+    /// The way goes on to the last of the first `number` states of a block, which is the last point already.
+    pub(super) fn commit(&mut self, block: &Block<'_>, number: usize) {
         for lane in number.saturating_sub(3)..number {
-            self.path.go(block.values.0[lane], &block.state_of(lane));
-        }
-        if let Ok(state) = &point.equilibrium {
-            self.from.copy_from_slice(&state.coordinates);
-        }
-        self.put_back(point);
-    }
-
-    /// Makes a point that has modes the last one.
-    pub(super) fn put_back(&mut self, point: SweepPoint) {
-        if let (Ok(equilibrium), Ok(modes)) = (point.equilibrium, point.modes) {
-            self.last = Some(Tracked {
-                value: point.value,
-                equilibrium,
-                modes,
-            });
+            let state = block.state_of(lane);
+            self.path.go(block.values.0[lane], &state);
+            self.from.clone_from(&state);
         }
     }
 
-    /// Goes on to a value of the input; the equilibrium comes back even where its modes fail. Modes that are not
-    /// recognised at once are followed in smaller steps.
-    pub(crate) fn advance(
-        &mut self,
-        value: f64,
-    ) -> Result<(Equilibrium, Result<Modes, Error>), Error> {
-        Ok(match self.go(value)? {
-            Ok(last) => {
-                let copies = (last.equilibrium.clone(), Ok(last.modes.clone()));
-                self.last = Some(last);
-                copies
-            }
-            Err((state, error)) => (*state, Err(error)),
+    /// Goes on to a value of the input; modes that are not recognised at once are followed in smaller steps. The point is
+    /// [`Self::last`]; one without modes comes back instead.
+    pub(crate) fn advance(&mut self, value: f64) -> Option<SweepPoint> {
+        let (equilibrium, error) = match self.go(value) {
+            Ok(None) => return None,
+            Ok(Some((state, error))) => (Ok(*state), error),
+            Err(error) => (Err(error.clone()), error),
+        };
+        Some(SweepPoint {
+            value,
+            equilibrium,
+            modes: Err(error),
         })
     }
 
-    /// As [`Self::advance`]; the point is [`Self::last`], taken from there to be put back, or a state whose modes fail.
-    pub(super) fn go(
-        &mut self,
-        value: f64,
-    ) -> Result<Result<Tracked, (Box<Equilibrium>, Error)>, Error> {
+    /// As [`Self::advance`]: a state whose modes fail comes back.
+    fn go(&mut self, value: f64) -> Result<Option<(Box<Equilibrium>, Error)>, Error> {
         // Where to go next, how often the way may still be halved, and what comes after it.
         let (mut next, mut halvings) = (value, HALVINGS);
         let mut after = Vec::new();
@@ -255,12 +244,10 @@ impl<'a> Tracker<'a> {
                         next = middle;
                     }
                     (_, Some(place)) => (next, halvings) = place,
-                    (Step::WithoutModes(state, error), None) => return Ok(Err((state, error))),
+                    (Step::WithoutModes(state, error), None) => return Ok(Some((state, error))),
                     (Step::Arrived, None) => {
                         self.smooth = smooth;
-                        if let Some(last) = self.last.take() {
-                            return Ok(Ok(last));
-                        }
+                        return Ok(None);
                     }
                 },
                 Err(error) => match after.pop() {
@@ -284,11 +271,13 @@ impl<'a> Tracker<'a> {
             }
         };
         self.smooth = false;
-        if let Some(last) = &self.last {
+        if let Some(last) = &self.last
+            && let Ok(modes) = &last.modes
+        {
             self.smooth = confirmed
                 && self.family == Family::Undamped
-                && even(last.modes.least_lambda(), found.least_lambda());
-            let order = match_with_assurance(&last.modes, &found, &state.linear);
+                && even(modes.least_lambda(), found.least_lambda());
+            let order = match_with_assurance(modes, &found, &state.linear);
             // Modes with equal eigenvalues have no shapes of their own: no step is small enough to recognise them.
             let repeated = |r: usize| merged(&found, r) || near_another(&found, r, CLUSTER_GAP);
             let doubtful = order
@@ -301,16 +290,16 @@ impl<'a> Tracker<'a> {
                 return Ok(Step::TooFar(middle));
             }
             let order = order.map(position);
-            found.arrange(&last.modes, &order, self.unused);
+            found.arrange(modes, &order, self.unused);
         }
         self.from.clone_from(&state.coordinates);
         self.path.go(value, &state.coordinates);
         let labels = found.modes.iter().map(|mode| mode.label + 1);
         self.unused = labels.fold(self.unused, usize::max);
-        self.last = Some(Tracked {
+        self.last = Some(SweepPoint {
             value,
-            equilibrium: state,
-            modes: found,
+            equilibrium: Ok(state),
+            modes: Ok(found),
         });
         Ok(Step::Arrived)
     }

@@ -1,6 +1,6 @@
 //! Monte Carlo: every sample solves its own equilibrium and its own eigenproblem, and every failure is counted.
 
-use super::batched::{Solved, Sums, TOGETHER, TaylorModel};
+use super::batched::{Memory, Solved, Sums, TOGETHER, TaylorModel};
 use super::pool;
 use super::sample::Solution;
 use super::sampling::{Batches, Draw};
@@ -186,8 +186,8 @@ impl Piece {
 
 /// What one thread solves samples in.
 struct Room {
-    /// Those solved together; none where samples are solved one by one.
-    batches: Vec<Solved>,
+    /// For those solved together; none where samples are solved one by one.
+    together: Memory,
     alone: Solution,
 }
 
@@ -215,7 +215,7 @@ impl Run<'_> {
         let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
         let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
         Room {
-            batches: (0..count).map(|_| Solved::new(n, p)).collect(),
+            together: Memory::new(count, n, p),
             alone: Solution::about(self.nominal, self.modes),
         }
     }
@@ -254,15 +254,17 @@ impl Run<'_> {
         number: usize,
         piece: &mut Piece,
     ) {
-        let mut sums = Sums::new(prepared.frequencies.len());
+        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
+        let mut sums = Sums::new(n);
+        let mut together = room.together.batches(TOGETHER, n, p);
         let mut left = number;
         while left > 0 {
             let used = TOGETHER.min(left.div_ceil(WIDTH));
-            let batches = &mut room.batches[..used];
+            let batches = &mut together[..used];
             for batch in &mut *batches {
                 batch.members = WIDTH.min(left);
                 left -= batch.members;
-                draw.next(&mut batch.bits);
+                draw.next(batch.bits);
             }
             prepared.solve(batches, &mut sums);
             for batch in &*batches {
@@ -276,7 +278,7 @@ impl Run<'_> {
     }
 
     /// Counts what a batch accepted, and solves the others alone.
-    fn decided(&self, batch: &Solved, alone: &mut Solution, piece: &mut Piece) {
+    fn decided(&self, batch: &Solved<'_>, alone: &mut Solution, piece: &mut Piece) {
         let accepted = batch.accepted.count_ones() as usize;
         piece.counts.add(Outcome::Stable, accepted);
         if accepted == batch.members && !self.sampling.keep_samples {
@@ -284,7 +286,7 @@ impl Run<'_> {
         }
         for member in 0..batch.members {
             if batch.accepted >> member & 1 == 0 {
-                self.alone(alone, &member_of(&batch.design, member), piece);
+                self.alone(alone, &member_of(batch.design, member), piece);
             } else if self.sampling.keep_samples {
                 piece.samples.push(Self::accepted(batch, member));
             }
@@ -313,13 +315,13 @@ impl Run<'_> {
     }
 
     /// A sample that passed the checks of its batch.
-    fn accepted(solved: &Solved, member: usize) -> Sample {
-        let frequencies = member_of(&solved.frequencies, member);
+    fn accepted(solved: &Solved<'_>, member: usize) -> Sample {
+        let frequencies = member_of(solved.frequencies, member);
         let eigenvalue = |omega: &f64| Some(Complex::new(0.0, *omega));
         Sample {
-            design: member_of(&solved.design, member),
+            design: member_of(solved.design, member),
             outcome: Outcome::Stable,
-            coordinates: Some(member_of(&solved.coordinates, member)),
+            coordinates: Some(member_of(solved.coordinates, member)),
             eigenvalues: frequencies.iter().map(eigenvalue).collect(),
             damping_ratios: vec![Some(0.0); frequencies.len()],
             frequencies: frequencies.into_iter().map(Some).collect(),

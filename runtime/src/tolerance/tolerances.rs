@@ -239,9 +239,9 @@ impl Tolerances {
         if self.correlation.is_some() || slopes.len() != self.sigmas.len() {
             *contributions = self.contributions(&self.parts(slopes, 1.0));
         } else {
-            contributions.set(slopes, |slope| *slope);
-            for (own, sigma) in contributions.iter_mut().zip(&self.sigmas) {
-                *own = (*own * sigma) * (*own * sigma);
+            let places = contributions.make_room(slopes.len()).iter_mut();
+            for ((own, slope), sigma) in places.zip(slopes).zip(&self.sigmas) {
+                *own = (slope * sigma) * (slope * sigma);
             }
         }
         sum(contributions)

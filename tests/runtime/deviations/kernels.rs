@@ -6,8 +6,9 @@ use crate::common::derived::Derived;
 use crate::common::models::{Follower, Plate};
 use crate::common::pendulum::Pendulum;
 use eigentol::kernels::{
-    BatchKernels, BatchPoint, CurvatureKernels, DeviatingInputs, DirectionalKernels, Gradient,
-    Kernels, Linear, LinearPartials, MotionKernels, ResidualPartials, RestParts, Sizes,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
+    CurvatureKernels, DeviatingInputs, DirectionalKernels, Gradient, Kernels, Linear,
+    LinearPartials, MotionKernels, ResidualPartials, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{DampingKind, Error, Input, Law, Matrix, ToleranceInfo, Vector};
@@ -309,17 +310,42 @@ fn list(from: &[Batch], state: usize) -> Vector {
     from.iter().map(|batch| batch.0[state]).collect()
 }
 
-fn fill(matrix: &mut Matrix<Batch>) {
-    matrix.as_flattened_mut().fill(BEFORE);
-}
-
 fn same_batch(found: &[Batch], state: usize, expected: &[f64]) {
     assert_eq!(list(found, state), expected);
 }
 
-fn same_linear(found: &Linear<Batch>, state: usize, expected: &Linear, damped: bool) {
-    let matrix = |found: &Matrix<Batch>, expected: &Matrix| {
-        same_batch(found.as_flattened(), state, expected.as_flattened());
+/// Room for three matrices, row by row, of each of so many variables.
+fn room(entries: usize) -> eigentol::Linear<Vec<Batch>> {
+    eigentol::Linear {
+        mass: vec![BEFORE; entries],
+        damping: vec![BEFORE; entries],
+        stiffness: vec![BEFORE; entries],
+    }
+}
+
+fn lend(room: &mut eigentol::Linear<Vec<Batch>>) -> BatchLinear<'_> {
+    eigentol::Linear {
+        mass: &mut room.mass,
+        damping: &mut room.damping,
+        stiffness: &mut room.stiffness,
+    }
+}
+
+/// The matrices of variable `k`.
+fn same_linear(
+    found: &eigentol::Linear<Vec<Batch>>,
+    k: usize,
+    state: usize,
+    expected: &Linear,
+    damped: bool,
+) {
+    let matrix = |found: &[Batch], expected: &Matrix| {
+        let expected = expected.as_flattened();
+        same_batch(
+            &found[k * expected.len()..][..expected.len()],
+            state,
+            expected,
+        );
     };
     matrix(&found.mass, &expected.mass);
     matrix(&found.stiffness, &expected.stiffness);
@@ -351,59 +377,67 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
         u: &u,
         b: &b,
     };
-    let (mut residual, mut stiffness) = (vec![BEFORE; n], Matrix::zeros(n, n));
-    fill(&mut stiffness);
+    let (mut residual, mut stiffness) = (vec![BEFORE; n], vec![BEFORE; n * n]);
     batches.residual_and_stiffness_batch(instructions, at, &mut residual, &mut stiffness);
-    let mut linear = Linear::zeros(n);
-    fill(&mut linear.mass);
-    batches.linear_batch(instructions, at, &mut linear);
-    let (mut parts, mut linear_too) = (RestParts::zeros(n), Linear::zeros(n));
-    parts.inertia.fill(BEFORE);
-    batches.parts_and_linear_batch(instructions, at, &mut parts, &mut linear_too);
-    let mut matrices = LinearPartials::zeros(sizes);
-    let mut partials: ResidualPartials<Batch> = (
-        Matrix::zeros(n, sizes.inputs),
-        Matrix::zeros(n, sizes.design),
-    );
-    for linear in &mut matrices.by_design {
-        fill(&mut linear.mass);
-        fill(&mut linear.stiffness);
-    }
-    fill(&mut partials.1);
-    batches.partials_batch(instructions, at, &mut matrices, &mut partials);
-    let gradients = [(); 2].map(|()| {
-        let mut gradient = Gradient::<Batch>::zeros(sizes);
-        gradient.design.fill(BEFORE);
-        gradient
-    });
-    let [mut of_mode, mut of_residual] = gradients;
-    batches.mode_gradient_batch(instructions, at, &phi, &lambda[0], &mut of_mode);
-    batches.residual_gradient_batch(instructions, at, &phi, &mut of_residual);
+    let (mut linear, mut linear_too) = (room(n * n), room(n * n));
+    batches.linear_batch(instructions, at, &mut lend(&mut linear));
+    let (mut inertia, mut applied) = (vec![BEFORE; n], vec![BEFORE; n]);
+    let mut parts = BatchParts {
+        inertia: &mut inertia,
+        applied: &mut applied,
+    };
+    batches.parts_and_linear_batch(instructions, at, &mut parts, &mut lend(&mut linear_too));
+    let counts = [n, sizes.inputs, sizes.design];
+    let [mut by_coordinate, mut by_input, mut by_design] = counts.map(|count| room(count * n * n));
+    let mut matrices = BatchPartials {
+        by_coordinate: lend(&mut by_coordinate),
+        by_input: lend(&mut by_input),
+        by_design: lend(&mut by_design),
+    };
+    let mut partials = [sizes.inputs, sizes.design].map(|count| vec![BEFORE; n * count]);
+    let [first, second] = &mut partials;
+    batches.partials_batch(instructions, at, &mut matrices, [first, second]);
+    let [mut of_mode, mut of_residual] = [(); 2].map(|()| counts.map(|count| vec![BEFORE; count]));
+    let gradient = |[coordinates, inputs, design]: &mut [Vec<Batch>; 3], residual: bool| {
+        let mut gradient = BatchGradient {
+            coordinates,
+            inputs,
+            design,
+        };
+        match residual {
+            true => batches.residual_gradient_batch(instructions, at, &phi, &mut gradient),
+            false => {
+                batches.mode_gradient_batch(instructions, at, &phi, &lambda[0], &mut gradient);
+            }
+        }
+    };
+    gradient(&mut of_mode, false);
+    gradient(&mut of_residual, true);
 
     for state in 0..WIDTH {
         let [q, u, b, phi] = [&q, &u, &b, &phi].map(|values| list(values, state));
         let expected = alone.residual_and_stiffness(&q, &u, &b);
         same_batch(&residual, state, &expected.0);
-        same_batch(stiffness.as_flattened(), state, expected.1.as_flattened());
+        same_batch(&stiffness, state, expected.1.as_flattened());
         let (expected_parts, expected) = alone.parts_and_linear(&q, &u, &b);
-        same_linear(&linear, state, &expected, damped);
-        same_linear(&linear_too, state, &expected, damped);
-        same_batch(&parts.inertia, state, &expected_parts.inertia);
-        same_batch(&parts.applied, state, &expected_parts.applied);
+        same_linear(&linear, 0, state, &expected, damped);
+        same_linear(&linear_too, 0, state, &expected, damped);
+        same_batch(&inertia, state, &expected_parts.inertia);
+        same_batch(&applied, state, &expected_parts.applied);
         let (expected, of_residual_expected) = partials_of(alone, &q, &u, &b);
         for (found, expected) in [
-            (&matrices.by_coordinate, &expected.by_coordinate),
-            (&matrices.by_input, &expected.by_input),
-            (&matrices.by_design, &expected.by_design),
+            (&by_coordinate, &expected.by_coordinate),
+            (&by_input, &expected.by_input),
+            (&by_design, &expected.by_design),
         ] {
-            assert_eq!(found.len(), expected.len());
-            for (found, expected) in found.iter().zip(expected) {
-                same_linear(found, state, expected, damped);
+            assert_eq!(found.mass.len(), n * n * expected.len());
+            for (k, expected) in expected.iter().enumerate() {
+                same_linear(found, k, state, expected, damped);
             }
         }
         let (by_input, by_design) = &of_residual_expected;
-        same_batch(partials.0.as_flattened(), state, by_input.as_flattened());
-        same_batch(partials.1.as_flattened(), state, by_design.as_flattened());
+        same_batch(&partials[0], state, by_input.as_flattened());
+        same_batch(&partials[1], state, by_design.as_flattened());
         let pairs = [
             (
                 &of_mode,
@@ -412,9 +446,9 @@ fn eight_states<K: BatchKernels>(machine: &K, instructions: Instructions) {
             (&of_residual, alone.residual_gradient(&q, &u, &b, &phi)),
         ];
         for (found, expected) in pairs {
-            same_batch(&found.coordinates, state, &expected.coordinates);
-            same_batch(&found.inputs, state, &expected.inputs);
-            same_batch(&found.design, state, &expected.design);
+            same_batch(&found[0], state, &expected.coordinates);
+            same_batch(&found[1], state, &expected.inputs);
+            same_batch(&found[2], state, &expected.design);
         }
     }
 }

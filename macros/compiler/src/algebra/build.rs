@@ -1,6 +1,7 @@
 //! Building expressions: every new one is simplified by the rules.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use super::rules;
 use crate::base::ids::ExprId;
 use crate::base::operators::{Operator, Unary};
@@ -53,13 +54,15 @@ impl Graph {
 
     /// An operator of two operands, simplified.
     pub fn binary(&mut self, operator: Operator, a: ExprId, b: ExprId) -> ExprId {
-        if let Some(simpler) = rules::simplify_binary(self, operator, a, b) {
-            return simpler;
-        }
-        let (a, b) = match operator {
+        let (first, second) = match operator {
             Operator::Add | Operator::Multiply if b < a => (b, a),
             _ => (a, b),
         };
-        self.intern(Node::Binary(operator, a, b))
+        let node = Node::Binary(operator, first, second);
+        // what is known could not be simplified
+        if let Some(known) = self.find(node) {
+            return known;
+        }
+        rules::simplify_binary(self, operator, a, b).unwrap_or_else(|| self.intern(node))
     }
 }

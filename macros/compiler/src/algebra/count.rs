@@ -1,6 +1,7 @@
 //! What an evaluation costs.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use crate::base::ids::ExprId;
 use crate::base::operators::{Operator, Unary};
 
@@ -51,7 +52,20 @@ fn gathered(graph: &Graph, roots: &[ExprId], wanted: impl Fn(ExprId) -> bool) ->
             }
         }
     }
-    found.sort_unstable();
+    in_order(&seen, found)
+}
+
+/// `found` in order of the ids, which `seen` has a bit for. Sorting takes a fifth of the macro's time where nothing optimises it.
+fn in_order(seen: &[u64], mut found: Vec<ExprId>) -> Vec<ExprId> {
+    let mut next = 0;
+    for (word, &bits) in seen.iter().enumerate() {
+        let mut rest = bits;
+        while rest != 0 {
+            found[next] = ExprId::new(word * 64 + rest.trailing_zeros() as usize);
+            next += 1;
+            rest &= rest - 1;
+        }
+    }
     found
 }
 

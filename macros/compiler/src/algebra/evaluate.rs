@@ -2,7 +2,8 @@
 
 use super::count::reachable;
 use super::evaluation::{Evaluation, combined, unary};
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use crate::base::ids::{ExprId, SymbolId};
 
 /// Values of `roots` for the given symbol values.
@@ -19,15 +20,14 @@ pub fn evaluate_with_error(
     roots: &[ExprId],
     symbol: impl Fn(SymbolId) -> f64,
 ) -> Vec<Evaluation> {
-    let mut done = vec![
-        Evaluation {
-            value: 0.0,
-            error: 0.0
-        };
-        graph.len()
-    ];
+    // of zeros, which take no time to make
+    let (mut values, mut errors) = (vec![0.0; graph.len()], vec![0.0; graph.len()]);
+    let read = |values: &[f64], errors: &[f64], id: ExprId| Evaluation {
+        value: values[id.index()],
+        error: errors[id.index()],
+    };
     for id in reachable(graph, roots) {
-        done[id.index()] = match graph.node(id) {
+        let result = match graph.node(id) {
             Node::Constant(bits) => {
                 let number = graph.number(id);
                 number.unwrap_or(Evaluation::nearest(f64::from_bits(bits)))
@@ -36,9 +36,18 @@ pub fn evaluate_with_error(
                 value: symbol(s),
                 error: 0.0,
             },
-            Node::Unary(operator, a) => unary(operator, done[a.index()]),
-            Node::Binary(operator, a, b) => combined(operator, done[a.index()], done[b.index()]),
+            Node::Unary(operator, a) => unary(operator, read(&values, &errors, a)),
+            Node::Binary(operator, a, b) => combined(
+                operator,
+                read(&values, &errors, a),
+                read(&values, &errors, b),
+            ),
         };
+        values[id.index()] = result.value;
+        errors[id.index()] = result.error;
     }
-    roots.iter().map(|root| done[root.index()]).collect()
+    roots
+        .iter()
+        .map(|&root| read(&values, &errors, root))
+        .collect()
 }

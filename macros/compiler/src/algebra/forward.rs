@@ -1,7 +1,9 @@
 //! Forward differentiation: the derivative of many expressions along one direction.
 
 use super::count::dependent;
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
+use super::node_map::NodeMap;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::{Operator, Unary};
 
@@ -45,13 +47,13 @@ pub fn derivatives_along(
     let mask = Graph::mask(direction.rates.iter().map(|(symbol, _)| *symbol));
     let zero = graph.zero();
     let known = graph.len();
-    let mut tangents = vec![zero; known];
+    let mut tangents = NodeMap::new(known);
     for id in dependent(graph, roots, mask) {
         let tangent = match graph.node(id) {
             Node::Constant(_) => zero,
             Node::Symbol(symbol) => direction.rate(symbol).unwrap_or(zero),
             Node::Unary(operator, a) => {
-                let da = tangents[a.index()];
+                let da = tangents.get(a).unwrap_or(zero);
                 if da == zero {
                     zero
                 } else {
@@ -59,7 +61,7 @@ pub fn derivatives_along(
                 }
             }
             Node::Binary(operator, a, b) => {
-                let (da, db) = (tangents[a.index()], tangents[b.index()]);
+                let [da, db] = [a, b].map(|operand| tangents.get(operand).unwrap_or(zero));
                 binary_tangent(graph, operator, id, (a, da), (b, db))
             }
         };
@@ -68,9 +70,12 @@ pub fn derivatives_along(
             let name = format!("{}{}", graph.name(id).unwrap_or_default(), direction.suffix);
             graph.set_name(tangent, || name);
         }
-        tangents[id.index()] = tangent;
+        tangents.set(id, tangent);
     }
-    roots.iter().map(|root| tangents[root.index()]).collect()
+    roots
+        .iter()
+        .map(|&root| tangents.get(root).unwrap_or(zero))
+        .collect()
 }
 
 fn unary_tangent(g: &mut Graph, operator: Unary, id: ExprId, a: ExprId, da: ExprId) -> ExprId {

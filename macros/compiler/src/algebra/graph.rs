@@ -1,10 +1,10 @@
 //! The expression graph: equal expressions are one node, and operands are always older than what uses them.
 
-use rustc_hash::FxHashMap;
-
 use super::evaluation::Evaluation;
+use super::interner::Interner;
+use super::node::Node;
 use crate::base::ids::{ExprId, SymbolId};
-use crate::base::operators::{Operator, Unary};
+use crate::base::operators::Unary;
 
 /// When a symbol's value becomes known: an evaluation redoes only what comes after the stage that moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -30,31 +30,18 @@ pub struct Symbol {
     pub stage: Stage,
 }
 
-/// A node. Constants are held by their bits so that nodes compare and hash exactly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Node {
-    /// A number, as `f64::to_bits`.
-    Constant(u64),
-    /// A free variable.
-    Symbol(SymbolId),
-    /// One operand.
-    Unary(Unary, ExprId),
-    /// Two operands; those of commutative operators are in order of id.
-    Binary(Operator, ExprId, ExprId),
-}
-
 /// The graph. Nodes are only ever added; an id stays valid and its operands have smaller ids.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     /// Which symbols a node depends on: one bit per symbol modulo 128, so a clear bit is a proof of independence.
     support: Vec<u128>,
-    interned: FxHashMap<Node, ExprId>,
+    interned: Interner,
     symbols: Vec<Symbol>,
-    names: FxHashMap<ExprId, String>,
+    names: Vec<Option<Box<str>>>,
     /// How far rounding may have moved a constant that was computed from others. What is left of larger ones that should cancel
     /// looks like any other number.
-    rounding: FxHashMap<ExprId, f64>,
+    rounding: Vec<Option<f64>>,
 }
 
 impl Graph {
@@ -112,11 +99,11 @@ impl Graph {
                         Some(positive) => positive.to_owned(),
                         None => format!("minus_{name}"),
                     };
-                    self.names.insert(operand, positive);
+                    self.names[operand.index()] = Some(positive.into());
                 }
             }
             _ => {
-                self.names.entry(id).or_insert_with(name);
+                self.names[id.index()].get_or_insert_with(|| name().into());
             }
         }
     }
@@ -125,7 +112,7 @@ impl Graph {
     pub fn name(&self, id: ExprId) -> Option<&str> {
         match self.node(id) {
             Node::Symbol(symbol) => Some(&self.symbols[symbol.index()].name),
-            _ => self.names.get(&id).map(String::as_str),
+            _ => self.names[id.index()].as_deref(),
         }
     }
 
@@ -145,8 +132,8 @@ impl Graph {
     /// A constant node with the bound on its rounding error.
     pub(super) fn number(&self, id: ExprId) -> Option<Evaluation> {
         let number = Evaluation::nearest(self.constant_value(id)?);
-        Some(match self.rounding.get(&id) {
-            Some(&error) => Evaluation { error, ..number },
+        Some(match self.rounding[id.index()] {
+            Some(error) => Evaluation { error, ..number },
             None => number,
         })
     }
@@ -154,7 +141,7 @@ impl Graph {
     /// A number; negative zero becomes zero.
     pub fn constant(&mut self, value: f64) -> ExprId {
         let id = self.intern(Node::Constant((value + 0.0).to_bits()));
-        self.rounding.remove(&id);
+        self.rounding[id.index()] = None;
         id
     }
 
@@ -162,9 +149,10 @@ impl Graph {
     pub(super) fn computed(&mut self, number: Evaluation) -> ExprId {
         let known = self.len();
         let id = self.intern(Node::Constant((number.value + 0.0).to_bits()));
+        let rounding = &mut self.rounding[id.index()];
         if id.index() == known {
-            self.rounding.insert(id, number.error);
-        } else if let Some(error) = self.rounding.get_mut(&id) {
+            *rounding = Some(number.error);
+        } else if let Some(error) = rounding {
             *error = error.min(number.error);
         }
         id
@@ -201,12 +189,12 @@ impl Graph {
 
     /// The id of a node that exists already.
     pub(super) fn find(&self, node: Node) -> Option<ExprId> {
-        self.interned.get(&node).copied()
+        self.interned.find(&self.nodes, node)
     }
 
     /// The node, made if there is none yet. Nothing is simplified.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(&id) = self.interned.get(&node) {
+        if let Some(id) = self.find(node) {
             return id;
         }
         let id = ExprId::new(self.nodes.len());
@@ -218,7 +206,9 @@ impl Graph {
         };
         self.nodes.push(node);
         self.support.push(support);
-        self.interned.insert(node, id);
+        self.names.push(None);
+        self.rounding.push(None);
+        self.interned.enter_last(&self.nodes);
         id
     }
 }

@@ -2,7 +2,9 @@
 
 use super::count::dependent;
 use super::forward::{slope, slopes};
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
+use super::node_map::NodeMap;
 use crate::base::ids::{ExprId, SymbolId};
 use crate::base::operators::{Operator, Unary};
 
@@ -11,11 +13,11 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
     let mask = Graph::mask(symbols.iter().copied());
     let zero = graph.zero();
     let known = graph.len();
-    let mut adjoints = vec![zero; root.index() + 1];
-    adjoints[root.index()] = graph.constant(1.0);
+    let mut adjoints = NodeMap::new(root.index() + 1);
+    adjoints.set(root, graph.constant(1.0));
     let mut by_symbol = vec![zero; graph.symbol_count()];
     for id in dependent(graph, &[root], mask).into_iter().rev() {
-        let adjoint = adjoints[id.index()];
+        let adjoint = adjoints.get(id).unwrap_or(zero);
         if adjoint == zero {
             continue;
         }
@@ -27,8 +29,8 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
         let mut accumulate = |graph: &mut Graph, operand: ExprId, slope: ExprId| {
             if graph.may_depend(operand, mask) {
                 let share = graph.mul(slope, adjoint);
-                let slot = &mut adjoints[operand.index()];
-                *slot = graph.add(*slot, share);
+                let sum = graph.add(adjoints.get(operand).unwrap_or(zero), share);
+                adjoints.set(operand, sum);
             }
         };
         match graph.node(id) {
@@ -45,13 +47,13 @@ pub fn gradient(graph: &mut Graph, root: ExprId, symbols: &[SymbolId]) -> Vec<Ex
             Node::Binary(Operator::Divide, a, b) => {
                 let share = graph.div(adjoint, b);
                 if graph.may_depend(a, mask) {
-                    let slot = &mut adjoints[a.index()];
-                    *slot = graph.add(*slot, share);
+                    let sum = graph.add(adjoints.get(a).unwrap_or(zero), share);
+                    adjoints.set(a, sum);
                 }
                 if graph.may_depend(b, mask) {
                     let loss = graph.mul(id, share);
-                    let slot = &mut adjoints[b.index()];
-                    *slot = graph.sub(*slot, loss);
+                    let rest = graph.sub(adjoints.get(b).unwrap_or(zero), loss);
+                    adjoints.set(b, rest);
                 }
             }
             Node::Binary(operator, a, b) => {

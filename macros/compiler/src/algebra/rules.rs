@@ -4,7 +4,8 @@
 //! numerically by a test that also checks that it fires.
 
 use super::evaluation::{Evaluation, combined, folded};
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use crate::base::ids::ExprId;
 use crate::base::operators::{Operator, Unary};
 

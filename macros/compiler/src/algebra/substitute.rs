@@ -1,7 +1,9 @@
 //! Replacing symbols: the graph is rebuilt above them and simplifies as it goes.
 
 use super::count::dependent;
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
+use super::node_map::NodeMap;
 use crate::base::ids::{ExprId, SymbolId};
 
 /// `roots` with each listed symbol replaced.
@@ -12,7 +14,7 @@ pub fn substitute(
 ) -> Vec<ExprId> {
     let mask = Graph::mask(replacements.iter().map(|(symbol, _)| *symbol));
     let known = graph.len();
-    let mut image: Vec<ExprId> = (0..known).map(ExprId::new).collect();
+    let mut image = NodeMap::new(known);
     for id in dependent(graph, roots, mask) {
         let replaced = match graph.node(id) {
             Node::Constant(_) => id,
@@ -21,11 +23,11 @@ pub fn substitute(
                 .find(|(s, _)| *s == symbol)
                 .map_or(id, |(_, replacement)| *replacement),
             Node::Unary(operator, a) => {
-                let a = image[a.index()];
+                let a = image.get(a).unwrap_or(a);
                 graph.unary(operator, a)
             }
             Node::Binary(operator, a, b) => {
-                let (a, b) = (image[a.index()], image[b.index()]);
+                let (a, b) = (image.get(a).unwrap_or(a), image.get(b).unwrap_or(b));
                 graph.binary(operator, a, b)
             }
         };
@@ -34,7 +36,10 @@ pub fn substitute(
         {
             graph.set_name(replaced, || name);
         }
-        image[id.index()] = replaced;
+        image.set(id, replaced);
     }
-    roots.iter().map(|root| image[root.index()]).collect()
+    roots
+        .iter()
+        .map(|&root| image.get(root).unwrap_or(root))
+        .collect()
 }

@@ -59,8 +59,9 @@ pub fn lower(graph: &Graph, functions: &[Function]) -> Program {
 struct Lowering<'a> {
     graph: &'a Graph,
     symbols: Vec<Option<(usize, usize)>>,
-    done: Vec<Option<usize>>,
-    count: usize,
+    /// By node: the number of its instruction, counted from one, or zero.
+    done: Vec<u32>,
+    count: u32,
 }
 
 impl<'a> Lowering<'a> {
@@ -74,7 +75,7 @@ impl<'a> Lowering<'a> {
         Self {
             graph,
             symbols,
-            done: vec![None; graph.len()],
+            done: vec![0; graph.len()],
             count: 0,
         }
     }
@@ -87,8 +88,8 @@ impl<'a> Lowering<'a> {
             }
             Node::Constant(_) | Node::Symbol(_) => unreachable!("leaves are operands"),
         };
-        self.done[id.index()] = Some(self.count);
         self.count += 1;
+        self.done[id.index()] = self.count;
         Instruction {
             name: self.graph.name(id).map(str::to_owned),
             stage,
@@ -100,9 +101,10 @@ impl<'a> Lowering<'a> {
         match self.graph.node(id) {
             Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
             Node::Symbol(symbol) => self.parameter(symbol),
-            _ => Operand::Instruction(
-                self.done[id.index()].expect("operands come before their users"),
-            ),
+            _ => {
+                let number = self.done[id.index()].checked_sub(1);
+                Operand::Instruction(number.expect("operands come before their users") as usize)
+            }
         }
     }
 

@@ -1,9 +1,10 @@
 //! The kernels for several states at once.
 
 use super::DeviatingInputs;
-use crate::algebra::{Matrix, Vector};
+use super::deviations::Deviations;
+use crate::algebra::Vector;
 use crate::kernels::{
-    BatchKernels, BatchPoint, Gradient, Linear, LinearPartials, ResidualPartials, RestParts,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
 };
 use crate::scalar::{Batch, Instructions};
 
@@ -38,7 +39,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         instructions: Instructions,
         at: BatchPoint<'_>,
         residual: &mut [Batch],
-        stiffness: &mut Matrix<Batch>,
+        stiffness: &mut [Batch],
     ) {
         let at = self.applied_batch(at);
         self.kernels
@@ -49,7 +50,7 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        linear: &mut Linear<Batch>,
+        linear: &mut BatchLinear<'_>,
     ) {
         let at = self.applied_batch(at);
         self.kernels.linear_batch(instructions, at.point(), linear);
@@ -59,8 +60,8 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        parts: &mut RestParts<Batch>,
-        linear: &mut Linear<Batch>,
+        parts: &mut BatchParts<'_>,
+        linear: &mut BatchLinear<'_>,
     ) {
         let at = self.applied_batch(at);
         self.kernels
@@ -71,16 +72,19 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         &self,
         instructions: Instructions,
         at: BatchPoint<'_>,
-        matrices: &mut LinearPartials<Batch>,
-        residual: &mut ResidualPartials<Batch>,
+        matrices: &mut BatchPartials<'_>,
+        [by_input, by_design]: [&mut [Batch]; 2],
     ) {
+        let n = at.q.len();
         let at = self.applied_batch(at);
-        self.deviations.linear_partials(matrices, |matrices| {
-            self.deviations.residual_partials(residual, |residual| {
-                self.kernels
-                    .partials_batch(instructions, at.point(), matrices, residual);
-            });
+        let mut residual = vec![Batch::default(); n * self.deviations.design()];
+        self.deviations.batch_partials(n * n, matrices, |matrices| {
+            let residual = [&mut *by_input, &mut residual[..]];
+            self.kernels
+                .partials_batch(instructions, at.point(), matrices, residual);
         });
+        self.deviations
+            .batch_rows(n, by_design, by_input, &residual);
     }
 
     fn mode_gradient_batch(
@@ -89,10 +93,10 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         at: BatchPoint<'_>,
         phi: &[Batch],
         lambda: &Batch,
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let at = self.applied_batch(at);
-        self.deviations.gradient(gradient, |gradient| {
+        self.deviations.batch_gradient(gradient, |gradient| {
             self.kernels
                 .mode_gradient_batch(instructions, at.point(), phi, lambda, gradient);
         });
@@ -103,12 +107,85 @@ impl<K: BatchKernels + ?Sized> BatchKernels for DeviatingInputs<'_, K> {
         instructions: Instructions,
         at: BatchPoint<'_>,
         w: &[Batch],
-        gradient: &mut Gradient<Batch>,
+        gradient: &mut BatchGradient<'_>,
     ) {
         let at = self.applied_batch(at);
-        self.deviations.gradient(gradient, |gradient| {
+        self.deviations.batch_gradient(gradient, |gradient| {
             self.kernels
                 .residual_gradient_batch(instructions, at.point(), w, gradient);
         });
+    }
+}
+
+impl Deviations {
+    /// A gradient, from that of the mechanism.
+    fn batch_gradient(
+        &self,
+        gradient: &mut BatchGradient<'_>,
+        kernel: impl FnOnce(&mut BatchGradient<'_>),
+    ) {
+        let (own, deviations) = gradient.design.split_at_mut(self.design());
+        kernel(&mut BatchGradient {
+            coordinates: &mut *gradient.coordinates,
+            inputs: &mut *gradient.inputs,
+            design: own,
+        });
+        for (to, &input) in deviations.iter_mut().zip(self.inputs()) {
+            *to = gradient.inputs[input];
+        }
+    }
+
+    /// Derivatives of matrices of this many entries, from those of the mechanism.
+    fn batch_partials(
+        &self,
+        entries: usize,
+        partials: &mut BatchPartials<'_>,
+        kernel: impl FnOnce(&mut BatchPartials<'_>),
+    ) {
+        fn again<'b>(of: &'b mut BatchLinear<'_>) -> BatchLinear<'b> {
+            BatchLinear {
+                mass: &mut *of.mass,
+                damping: &mut *of.damping,
+                stiffness: &mut *of.stiffness,
+            }
+        }
+        let design = self.design() * entries;
+        let by_design = &mut partials.by_design;
+        let (mass, mass_deviations) = by_design.mass.split_at_mut(design);
+        let (stiffness, stiffness_deviations) = by_design.stiffness.split_at_mut(design);
+        // A damping that is always zero has no room.
+        let damping = design.min(by_design.damping.len());
+        let (damping, damping_deviations) = by_design.damping.split_at_mut(damping);
+        kernel(&mut BatchPartials {
+            by_coordinate: again(&mut partials.by_coordinate),
+            by_input: again(&mut partials.by_input),
+            by_design: BatchLinear {
+                mass,
+                damping,
+                stiffness,
+            },
+        });
+        let by_input = &partials.by_input;
+        for (to, from) in [
+            (mass_deviations, &*by_input.mass),
+            (damping_deviations, &*by_input.damping),
+            (stiffness_deviations, &*by_input.stiffness),
+        ] {
+            for (to, &input) in to.chunks_exact_mut(entries.max(1)).zip(self.inputs()) {
+                to.copy_from_slice(&from[input * entries..][..entries]);
+            }
+        }
+    }
+
+    /// Derivatives of the residual by design variables and deviations, row by row, from those by inputs and by design variables.
+    fn batch_rows(&self, rows: usize, to: &mut [Batch], by_input: &[Batch], by_design: &[Batch]) {
+        let (inputs, design) = (by_input.len() / rows.max(1), self.design());
+        let width = design + self.inputs().len();
+        for (i, to) in to.chunks_exact_mut(width.max(1)).enumerate() {
+            to[..design].copy_from_slice(&by_design[i * design..][..design]);
+            for (to, &input) in to[design..].iter_mut().zip(self.inputs()) {
+                *to = by_input[i * inputs + input];
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use core::mem::replace;
 
 use crate::algebra::{Matrix, Vector};
-use crate::kernels::{Gradient, Linear, LinearPartials, PartialMatrices, ResidualPartials};
+use crate::kernels::{Gradient, PartialMatrices, ResidualPartials};
 
 /// Deviations of inputs, which stand behind the mechanism's own design variables.
 #[derive(Debug)]
@@ -85,20 +85,6 @@ impl Deviations {
     }
 
     /// Derivatives of the matrices, from those of the mechanism.
-    pub(super) fn linear_partials<T: Copy + Default>(
-        &self,
-        partials: &mut LinearPartials<T>,
-        kernel: impl FnOnce(&mut LinearPartials<T>),
-    ) {
-        let mut by_deviation = partials.by_design.split_off(self.design);
-        kernel(partials);
-        for (to, &input) in by_deviation.iter_mut().zip(&self.inputs) {
-            copy(&partials.by_input[input], to);
-        }
-        partials.by_design.append(&mut by_deviation);
-    }
-
-    /// The same in one block.
     pub(super) fn partial_matrices(&self, own: &PartialMatrices, joined: &mut PartialMatrices) {
         let [by_coordinate, by_input, by_design] = joined.lists_mut();
         by_coordinate.copy_from_slice(own.by_coordinate());
@@ -129,15 +115,5 @@ impl Deviations {
         for i in 0..joined.row_count() {
             self.join(&mut joined[i], &by_input[i], &by_design[i]);
         }
-    }
-}
-
-fn copy<T: Copy>(from: &Linear<T>, to: &mut Linear<T>) {
-    for (from, to) in [
-        (&from.mass, &mut to.mass),
-        (&from.damping, &mut to.damping),
-        (&from.stiffness, &mut to.stiffness),
-    ] {
-        to.as_flattened_mut().copy_from_slice(from.as_flattened());
     }
 }

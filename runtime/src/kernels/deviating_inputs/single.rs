@@ -5,7 +5,7 @@ use core::ops::Add;
 use super::DeviatingInputs;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
-    CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
+    Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
     PartialMatrices, ResidualPartials, RestParts, Sizes,
 };
 use crate::mechanism::{Description, PoseMargin, Shared, Violation};
@@ -19,6 +19,10 @@ impl<K: ?Sized> DeviatingInputs<'_, K> {
 impl<K: Kernels + ?Sized> Kernels for DeviatingInputs<'_, K> {
     fn description(&self) -> Shared<Description> {
         self.description.clone()
+    }
+
+    fn costs(&self) -> Costs {
+        self.kernels.costs()
     }
 
     fn sizes(&self) -> Sizes {

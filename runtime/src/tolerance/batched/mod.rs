@@ -16,7 +16,7 @@ mod stages;
 mod sums;
 mod taylor_model;
 
-pub(super) use samples::Solved;
+pub(super) use samples::{Memory, Solved};
 pub(super) use solve::TOGETHER;
 pub(super) use sums::Sums;
 pub(super) use taylor_model::TaylorModel;

@@ -15,7 +15,7 @@ pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 impl TaylorModel<'_> {
     /// Solves the members of some batches from their random bits, and adds them to `sums`.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved], sums: &mut Sums) {
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>], sums: &mut Sums) {
         self.instructions.run(Work {
             prepared: self,
             batches,
@@ -32,13 +32,13 @@ impl TaylorModel<'_> {
     }
 }
 
-struct Work<'a> {
+struct Work<'a, 'b> {
     prepared: &'a TaylorModel<'a>,
-    batches: &'a mut [Solved],
+    batches: &'a mut [Solved<'b>],
     sums: &'a mut Sums,
 }
 
-impl Task for Work<'_> {
+impl Task for Work<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -60,7 +60,7 @@ impl Task for Work<'_> {
 fn through<V: Lanes>(
     n: usize,
     prepared: &TaylorModel<'_>,
-    batches: &mut [Solved],
+    batches: &mut [Solved<'_>],
     sums: &mut Sums,
 ) {
     let one = V::constant(1.0);
@@ -77,7 +77,7 @@ fn through<V: Lanes>(
         batch.flags = if all {
             Batch::all(1.0)
         } else {
-            stages::possible(prepared, &batch.design, batch.members)
+            stages::possible(prepared, batch.design, batch.members)
         };
     }
     for _ in 0..STEPS {
@@ -85,12 +85,12 @@ fn through<V: Lanes>(
         for batch in &mut *batches {
             if !batch.rests() {
                 moving = true;
-                let point = prepared.point(&batch.coordinates, &batch.design);
+                let point = prepared.point(batch.coordinates, batch.design);
                 prepared.kernels.residual_and_stiffness_batch(
                     prepared.instructions,
                     point,
-                    &mut batch.residual,
-                    &mut batch.stiffness,
+                    batch.residual,
+                    batch.stiffness,
                 );
             }
         }
@@ -106,7 +106,7 @@ fn through<V: Lanes>(
         }
     }
     for batch in &mut *batches {
-        let point = prepared.point(&batch.coordinates, &batch.design);
+        let point = prepared.point(batch.coordinates, batch.design);
         let linear = &mut batch.linear;
         prepared
             .kernels

@@ -23,7 +23,7 @@ pub(super) const FAR: f64 = 6.0;
 
 /// `b = b_mean + L z`, `z` standard normal; of other distributions the normal numbers behind them.
 #[inline(always)]
-pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved, at: usize) {
+pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved<'_>, at: usize) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
     let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
     for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
@@ -83,7 +83,7 @@ pub(super) fn possible(prepared: &TaylorModel<'_>, design: &[Batch], members: us
 pub(super) fn predict<V: Lanes>(
     n: usize,
     prepared: &TaylorModel<'_>,
-    batch: &mut Solved,
+    batch: &mut Solved<'_>,
     at: usize,
 ) {
     let coordinates = &prepared.nominal.coordinates[..n];
@@ -112,7 +112,7 @@ pub(super) fn predict<V: Lanes>(
             q[i] = q[i] + slope[i] * change;
         }
     }
-    algebra::store(n, &q, &mut batch.coordinates, at);
+    algebra::store(n, &q, batch.coordinates, at);
 }
 
 /// A step of Newton's method; a sample fails where the stiffness is not positive definite on the way.
@@ -120,14 +120,14 @@ pub(super) fn predict<V: Lanes>(
 pub(super) fn improve<V: Lanes>(
     n: usize,
     prepared: &TaylorModel<'_>,
-    batch: &mut Solved,
+    batch: &mut Solved<'_>,
     at: usize,
 ) {
     let one = V::constant(1.0);
-    let mut q: Row<V> = algebra::load(n, &batch.coordinates, at);
-    let stiffness = load_matrix(n, &batch.stiffness, at);
+    let mut q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let stiffness = load_matrix(n, batch.stiffness, at);
     let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
-    let step = solver.solve(n, &algebra::load(n, &batch.residual, at));
+    let step = solver.solve(n, &algebra::load(n, batch.residual, at));
     let correction = solver.solve(n, &curved(n, &prepared.curvature, &step));
     // Samples at rest stay where they are, so that none depends on the others.
     let rested = V::load(&batch.resting, at);
@@ -141,7 +141,7 @@ pub(super) fn improve<V: Lanes>(
         resting = keep(resting, correction[i].abs().at_most(scale));
         q[i] = V::choose(moving, q[i] - (step[i] + correction[i]), q[i]);
     }
-    algebra::store(n, &q, &mut batch.coordinates, at);
+    algebra::store(n, &q, batch.coordinates, at);
     V::choose(moving, resting, rested).store(&mut batch.resting, at);
 }
 
@@ -150,16 +150,16 @@ pub(super) fn improve<V: Lanes>(
 pub(super) fn between_modes<V: Lanes>(
     n: usize,
     prepared: &TaylorModel<'_>,
-    batch: &mut Solved,
+    batch: &mut Solved<'_>,
     at: usize,
 ) {
     for (from, to) in [
-        (&batch.linear.mass, &mut batch.mass),
-        (&batch.linear.stiffness, &mut batch.stiffness),
+        (&*batch.linear.mass, &mut *batch.mass),
+        (&*batch.linear.stiffness, &mut *batch.stiffness),
     ] {
         let matrix: Square<V> = load_matrix(n, from, at);
         let matrix = congruent(n, &matrix, &prepared.shapes);
-        let to = &mut to.as_flattened_mut()[..n * n];
+        let to = &mut to[..n * n];
         for i in 0..n {
             for j in 0..=i {
                 matrix[i][j].store(&mut to[i * n + j], at);
@@ -175,13 +175,13 @@ pub(super) fn between_modes<V: Lanes>(
 pub(super) fn modes<V: Lanes>(
     n: usize,
     prepared: &TaylorModel<'_>,
-    batch: &Solved,
+    batch: &Solved<'_>,
     at: usize,
 ) -> (Row<V>, V) {
     let one = V::constant(1.0);
-    let q: Row<V> = algebra::load(n, &batch.coordinates, at);
-    let mass: Square<V> = load_matrix(n, &batch.mass, at);
-    let stiffness: Square<V> = load_matrix(n, &batch.stiffness, at);
+    let q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let mass: Square<V> = load_matrix(n, batch.mass, at);
+    let stiffness: Square<V> = load_matrix(n, batch.stiffness, at);
     let at_rest = one.at_most(V::load(&batch.resting, at));
     let mut flag = keep(V::load(&batch.flags, at), at_rest);
     let mut nearby = stiffness;

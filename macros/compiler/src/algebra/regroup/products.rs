@@ -5,8 +5,10 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::super::graph::{Graph, Node};
-use super::rebuild::{product, rebuild};
+use super::super::graph::Graph;
+use super::super::node::Node;
+use super::super::node_map::NodeMap;
+use super::rebuild::{image, product, rebuild};
 use super::uses::Uses;
 use crate::base::ids::ExprId;
 use crate::base::operators::Operator;
@@ -120,12 +122,12 @@ impl Products {
         }
     }
 
-    fn build(&self, graph: &mut Graph, factor: Factor, image: &[ExprId]) -> ExprId {
+    fn build(&self, graph: &mut Graph, factor: Factor, images: &NodeMap) -> ExprId {
         match (factor as usize).checked_sub(self.nodes) {
-            None => image[factor as usize],
+            None => image(images, ExprId(factor)),
             Some(k) => {
                 let (a, b) = self.pairs[k];
-                let (a, b) = (self.build(graph, a, image), self.build(graph, b, image));
+                let (a, b) = (self.build(graph, a, images), self.build(graph, b, images));
                 graph.mul(a, b)
             }
         }
@@ -138,7 +140,7 @@ pub(super) fn share_products(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId>
     let mut products = Products::new(graph, &uses);
     products.share();
     let mut next = 0;
-    rebuild(graph, roots, &uses, |graph, id, image| {
+    rebuild(graph, roots, &uses, |graph, id, images| {
         let (head, factors) = products.lists.get(next)?;
         if *head != id {
             return None;
@@ -146,7 +148,7 @@ pub(super) fn share_products(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId>
         next += 1;
         let factors: Vec<ExprId> = factors
             .iter()
-            .map(|&factor| products.build(graph, factor, image))
+            .map(|&factor| products.build(graph, factor, images))
             .collect();
         Some(product(graph, &factors))
     })

@@ -1,6 +1,8 @@
 //! Building nodes anew.
 
-use super::super::graph::{Graph, Node};
+use super::super::graph::Graph;
+use super::super::node::Node;
+use super::super::node_map::NodeMap;
 use super::uses::Uses;
 use crate::base::ids::ExprId;
 
@@ -9,18 +11,18 @@ pub(super) fn rebuild(
     graph: &mut Graph,
     roots: &[ExprId],
     uses: &Uses,
-    mut special: impl FnMut(&mut Graph, ExprId, &[ExprId]) -> Option<ExprId>,
+    mut special: impl FnMut(&mut Graph, ExprId, &NodeMap) -> Option<ExprId>,
 ) -> Vec<ExprId> {
-    let mut image: Vec<ExprId> = (0..uses.count.len()).map(ExprId::new).collect();
+    let mut images = NodeMap::new(uses.count.len());
     for &id in &uses.order {
         let node = graph.node(id);
-        let built = match special(graph, id, &image) {
+        let built = match special(graph, id, &images) {
             Some(built) => built,
             None => match node {
                 Node::Constant(_) | Node::Symbol(_) => id,
-                Node::Unary(operator, a) => graph.unary(operator, image[a.index()]),
+                Node::Unary(operator, a) => graph.unary(operator, image(&images, a)),
                 Node::Binary(operator, a, b) => {
-                    graph.binary(operator, image[a.index()], image[b.index()])
+                    graph.binary(operator, image(&images, a), image(&images, b))
                 }
             },
         };
@@ -29,9 +31,14 @@ pub(super) fn rebuild(
         {
             graph.set_name(built, || name);
         }
-        image[id.index()] = built;
+        images.set(id, built);
     }
-    roots.iter().map(|root| image[root.index()]).collect()
+    roots.iter().map(|&root| image(&images, root)).collect()
+}
+
+/// What has become of an operand.
+pub(super) fn image(images: &NodeMap, id: ExprId) -> ExprId {
+    images.get(id).expect("operands are older than their users")
 }
 
 /// The product of some factors, from the first to the last.

@@ -2,15 +2,16 @@
 
 use std::cmp::Reverse;
 
-use super::super::graph::{Graph, Node};
-use super::rebuild::{product, rebuild};
+use super::super::graph::Graph;
+use super::super::node::Node;
+use super::rebuild::{image, product, rebuild};
 use super::uses::{Uses, is_sum};
 use crate::base::ids::ExprId;
 
 /// Takes common factors out of the sums below `roots`.
 pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
     let uses = Uses::new(graph, roots);
-    rebuild(graph, roots, &uses, |graph, id, image| {
+    rebuild(graph, roots, &uses, |graph, id, images| {
         let Node::Binary(operator, ..) = graph.node(id) else {
             return None;
         };
@@ -27,7 +28,7 @@ pub(super) fn factor_sums(graph: &mut Graph, roots: &[ExprId]) -> Vec<ExprId> {
                     true => uses.factors(graph, term, &mut factors),
                     false => factors.push(term),
                 }
-                let factors = factors.iter().map(|f| image[f.index()]).collect();
+                let factors = factors.iter().map(|&f| image(images, f)).collect();
                 Term { minus, factors }
             })
             .collect();

@@ -1,7 +1,8 @@
 //! How often nodes are used, and in what.
 
 use super::super::count::reachable;
-use super::super::graph::{Graph, Node};
+use super::super::graph::Graph;
+use super::super::node::Node;
 use crate::base::ids::ExprId;
 use crate::base::operators::Operator;
 
@@ -39,7 +40,7 @@ impl Uses {
                 }
             }
         }
-        for k in 0..size {
+        for k in this.order.iter().map(|id| id.index()) {
             this.in_sum[k] &= this.count[k] == 1;
             this.in_product[k] &= this.count[k] == 1;
         }
