@@ -150,14 +150,27 @@ impl Gathered {
     /// Covariance of two quantities, the first of them a response; `None` where no two samples have both.
     pub(super) fn covariance(&self, first: usize, second: usize) -> Result<Option<f64>, Error> {
         if first == second {
-            let sigma = Statistics::of(&self.moments(first)?, None).and_then(|all| all.sigma);
-            return Ok(sigma.map(|sigma| sigma * sigma));
+            let all = Statistics::of(&self.moments(first)?, None);
+            let variance = |all: Statistics| Some(all.sigma?.powi(2) * self.divisor(all.count));
+            return Ok(all.and_then(variance));
         }
         let mut all = Comoments::default();
         for part in &self.parts {
             all.merge(&part.comoments(first, second)?);
         }
-        Ok(Covariance::of(&all).and_then(|all| all.covariance))
+        let covariance = |all: Covariance| Some(all.covariance? * self.divisor(all.count));
+        Ok(Covariance::of(&all).and_then(covariance))
+    }
+
+    /// What turns a divisor `n - 1` into that of these points. A mean over random points takes one degree of freedom from a variance; one
+    /// over balanced points is so much better than the spread that it takes none.
+    fn divisor(&self, count: u64) -> f64 {
+        let n = count as f64;
+        if self.parts.len() == 1 {
+            1.0
+        } else {
+            (n - 1.0) / n
+        }
     }
 
     /// Samples that have a quantity.
@@ -225,13 +238,27 @@ impl Gathered {
             });
         }
         let total = self.counts().total() as f64;
+        let (n, divisor) = (all.count as f64, self.divisor(all.count));
+        // That of `n` random values has `sqrt(n (n - 1)) / (n - 2)` against bias.
+        let unskewed = if one {
+            1.0
+        } else {
+            (n - 2.0) / (n * (n - 1.0)).sqrt()
+        };
         Ok(Some(ResponseSpread {
             nominal,
             mean: Estimated::new(all.mean, errors(all.standard_error, &|own| Some(own.mean))),
-            sigma: (all.sigma)
-                .map(|sigma| Estimated::new(sigma, errors(all.sigma_error, &|own| own.sigma))),
+            sigma: (all.sigma).map(|sigma| {
+                Estimated::new(
+                    sigma * divisor.sqrt(),
+                    errors(all.sigma_error, &|own| own.sigma),
+                )
+            }),
             skewness: (all.skewness).map(|value| {
-                Estimated::new(value, errors(all.skewness_error, &|own| own.skewness))
+                Estimated::new(
+                    value * unskewed,
+                    errors(all.skewness_error, &|own| own.skewness),
+                )
             }),
             quantiles,
             share: all.count as f64 / total,

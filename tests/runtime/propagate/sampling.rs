@@ -54,6 +54,42 @@ fn statistics_of_the_exact_distribution() {
     }
 }
 
+/// Over many seeds errors scatter about zero by as much as is stated: no bias of balanced points, whose means take no degree of freedom
+/// from their variances.
+#[test]
+fn stated_errors_are_those_of_many_runs() {
+    for length in lengths() {
+        let exact = Exact::new(&length);
+        let tolerances = varied(length);
+        for points in ALL {
+            let (mut squares, mut sums) = ([0.0; 2], [0.0; 2]);
+            let seeds = 40;
+            for seed in 0..seeds {
+                let sampler = Sampler::new(points).samples(1024).seed(seed).threads(1);
+                let all = ask(&bar(), vec![FREQUENCY], |responses| {
+                    let samples = sampled(responses, &tolerances, &sampler).unwrap();
+                    samples.propagation().unwrap()
+                });
+                let found = spread(&all, 0);
+                let each = [
+                    (found.mean, exact.mean),
+                    (found.sigma.unwrap(), exact.sigma),
+                ];
+                for (k, (own, truth)) in each.into_iter().enumerate() {
+                    let z = (own.value - truth) / own.error.unwrap();
+                    squares[k] += z * z / seeds as f64;
+                    sums[k] += z / seeds as f64;
+                }
+            }
+            // Student's t of seven degrees of freedom has a variance of 1.4.
+            for (square, sum) in squares.into_iter().zip(sums) {
+                assert!((0.3..3.0).contains(&square), "{points:?} {squares:?}");
+                assert!(f64::abs(sum) < 0.8, "{points:?} {sums:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn splits_merge_to_the_same_bits() {
     let tolerances = varied(lengths()[1].clone());
