@@ -1,4 +1,5 @@
 //! Samples: statistics with errors that hold, merged in any split to the same bits.
+#![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
