@@ -53,6 +53,9 @@
 //! | How far do tolerances spread them? | [`first_order`](Study::first_order), [`second_order`](Study::second_order), [`output_tolerances`](Study::output_tolerances) | [`tolerance::first_order`], [`second_order::second_order`], [`tolerance::output_tolerances`] |
 //! | Which of these sigmas can be trusted, which modes mix? | [`summary`](Study::summary), [`clusters`](Study::clusters) | [`summary::summary`], [`clusters::clusters`] |
 //! | And without linearisation? | [`monte_carlo`](Study::monte_carlo) | [`tolerance::monte_carlo`] |
+//! | How far do they spread any responses together, by whatever method? | [`propagate`](Study::propagate), [`sample_responses`](Study::sample_responses), [`controlled`](Study::controlled) | [`propagation::propagate`], [`propagation::sampled`], [`propagation::quadrature`] |
+//! | Which variables does the scatter come from? | [`influence`](Study::influence) | [`propagation::influence`] |
+//! | How bad can it get within the limits? | [`worst_case`](Study::worst_case) | [`propagation::worst_case`] |
 //! | How probable is a forbidden band, or instability? | [`margin`](Study::margin), [`margin_of`](Study::margin_of) | [`second_order::mode_margin`] |
 //! | How probable is it that requirements are met, and what changes that? | [`chances`](Study::chances), [`reliability`](Study::reliability), [`rare_failure`](Study::rare_failure) | [`requirement::Requirements`] |
 //! | Which tolerances are the cheapest that meet them? | [`allocation`](Study::allocation) | [`allocation::allocate`] |
@@ -101,6 +104,8 @@ pub mod kernels;
 pub mod modes;
 #[cfg(feature = "std")]
 pub mod motion;
+#[cfg(feature = "std")]
+pub mod propagation;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]

@@ -103,6 +103,11 @@ impl<'a> Responses<'a> {
         self.nominal
     }
 
+    /// The nominal modes.
+    pub(crate) fn modes(&self) -> &'a Modes {
+        self.modes
+    }
+
     /// Room for evaluations by one thread.
     #[must_use]
     pub fn workspace(&self) -> Workspace {

@@ -16,6 +16,7 @@ mod events;
 mod handwritten;
 mod lanes;
 mod modes;
+mod propagate;
 mod quadratic;
 mod range;
 mod reliable;

@@ -43,7 +43,7 @@ const TYPES: [&str; 2] = ["functions", "kernel_name"];
 
 /// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 29] = [
+const RUNTIME: [&str; 30] = [
     "setters",
     "algebra",
     "scalar",
@@ -67,6 +67,7 @@ const RUNTIME: [&str; 29] = [
     "shapes",
     "clusters",
     "second_order",
+    "propagation",
     "requirement",
     "allocation",
     "summary",

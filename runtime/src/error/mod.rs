@@ -279,6 +279,21 @@ pub enum Error {
         /// The one that is allowed.
         wanted: f64,
     },
+    /// A response has no value at some of the designs that a method needs.
+    #[error(
+        "response {} has no value at {missing} of the {needed} designs that {method} needs: sample instead, which counts them",
+        .response + 1
+    )]
+    NoResponse {
+        /// Position of the response, from 0.
+        response: usize,
+        /// At how many designs it has none.
+        missing: usize,
+        /// How many designs there are.
+        needed: usize,
+        /// What needs them.
+        method: &'static str,
+    },
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),

@@ -7,6 +7,7 @@ mod campbell;
 mod equilibrium;
 mod margin;
 mod modes;
+mod propagation;
 mod requirement;
 mod second_order;
 mod sensitivity;

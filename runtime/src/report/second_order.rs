@@ -3,10 +3,9 @@
 use core::fmt;
 
 use super::margin::MarginTable;
-use super::table::{Table, cells, number};
+use super::table::{Table, cells, number, unit_of};
 use super::title::title;
 use crate::second_order::{ModeMargin, SecondOrder};
-use crate::{Quantity, Text, Unit};
 
 impl fmt::Display for SecondOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -55,14 +54,7 @@ impl fmt::Display for ModeMargin {
             inputs: &self.inputs,
             margin: &self.margin,
             quantity: &format!("{} {}", self.quantity, self.mode + 1),
-            unit: Unit {
-                symbol: Text::Static(match self.quantity {
-                    Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
-                    Quantity::DampingRatio => "",
-                    Quantity::Growth => "1/s",
-                }),
-                scale: 1.0,
-            },
+            unit: unit_of(self.quantity),
             description: &self.description,
         };
         write!(f, "{table}")?;

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::modes::Family;
-use crate::{DampingKind, Description, Unit};
+use crate::{DampingKind, Description, Quantity, Text, Unit};
 
 /// A table: a head and rows of equal length; the first column is left-aligned, the others right.
 pub(super) struct Table {
@@ -87,6 +87,18 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
     } else {
         value / unit.scale
     })
+}
+
+/// The unit of a quantity of a mode.
+pub(super) fn unit_of(quantity: Quantity) -> Unit {
+    Unit {
+        symbol: Text::Static(match quantity {
+            Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
+            Quantity::DampingRatio => "",
+            Quantity::Growth => "1/s",
+        }),
+        scale: 1.0,
+    }
 }
 
 /// `name [unit]`.

@@ -6,6 +6,7 @@ mod builder;
 mod deviating;
 mod over_input;
 mod parameter;
+mod propagation;
 mod requirements;
 mod settings;
 mod solved;

@@ -148,6 +148,15 @@ impl Partial {
     ///
     /// It was not asked for in the plan.
     pub fn covariance(&self, first: usize, second: usize) -> Result<Option<Covariance>, Error> {
+        Ok(Covariance::of(&self.comoments(first, second)?))
+    }
+
+    /// What the covariance of two quantities is made of, to merge with that of other samples.
+    ///
+    /// # Errors
+    ///
+    /// It was not asked for in the plan.
+    pub fn comoments(&self, first: usize, second: usize) -> Result<Comoments, Error> {
         let pair = (first.min(second), first.max(second));
         let Ok(place) = self.plan.pairs.binary_search(&pair) else {
             let reason = format!(
@@ -164,7 +173,7 @@ impl Partial {
             all.means.reverse();
             all.squares.reverse();
         }
-        Ok(Covariance::of(&all))
+        Ok(all)
     }
 
     /// The parts of the sums: whole chunks in their order, then the others in theirs.

@@ -1,0 +1,157 @@
+//! The method that answers best for what may be spent.
+
+use super::quadrature::{cost, quadrature, refuse_discrete};
+use super::result::Propagation;
+use super::sampled::sampled;
+use super::sampler::{Points, Sampler};
+use super::space::Space;
+use super::taylor::{first_order, second_order};
+use crate::Error;
+use crate::kernels::CurvatureKernels;
+use crate::response::{Response, Responses};
+use crate::setters::setters;
+use crate::tolerance::Tolerances;
+
+/// Levels of quadrature that are worth their points.
+const LEVELS: core::ops::RangeInclusive<usize> = 2..=6;
+/// Fewer samples say little.
+const FEW: u64 = 64;
+
+/// What an answer may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Effort {
+    /// Solutions of the equilibrium that may be spent: one for each design, and one more for each step of the range of each critical
+    /// value.
+    pub solutions: u64,
+    /// Samples, where these are not too many.
+    pub samples: u64,
+    /// Seed of the samples.
+    pub seed: u64,
+    /// Which of the seed's independent sequences.
+    pub stream: u64,
+    /// Number of threads; 0 takes as many as the machine has.
+    pub threads: usize,
+}
+
+impl Effort {
+    setters!(
+        solutions: u64,
+        samples: u64,
+        seed: u64,
+        stream: u64,
+        threads: usize,
+    );
+}
+
+impl Default for Effort {
+    /// 100,000 solutions, 4096 samples.
+    fn default() -> Self {
+        Self {
+            solutions: 100_000,
+            samples: 4096,
+            seed: 0,
+            stream: 0,
+            threads: 0,
+        }
+    }
+}
+
+/// How tolerances spread responses, by the method that answers best for what may be spent; [`Propagation::reason`] says why.
+///
+/// Samples at scrambled Sobol' points where they are affordable: they hold for every response and distribution, give
+/// quantiles, and count what fails. Where they are not, because critical values are searched for in every design: quadrature, while few
+/// variables vary and every node has a value; then second order, where every response has second derivatives; then first order.
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::{Effort, Method, Points, propagate};
+///
+/// let all = propagate(&Pendulum, &responses, &tolerances, Effort::default())?;
+/// assert_eq!(all.method, Method::Sampled(Points::Sobol));
+/// let dear = propagate(&Pendulum, &responses, &tolerances, Effort::default().solutions(20))?;
+/// assert_eq!(dear.method, Method::Tensor { nodes: 7 });
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// As the method that is chosen: [`sampled`], [`quadrature`], [`second_order`], [`first_order`].
+pub fn propagate(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    effort: Effort,
+) -> Result<Propagation, Error> {
+    let space = Space::new(responses.nominal(), tolerances)?;
+    let dimensions = space.dimensions();
+    let with = |found: Result<Propagation, Error>, reason: String| {
+        found.map(|found| Propagation { reason, ..found })
+    };
+    if dimensions == 0 {
+        let found = first_order(mechanism, responses, tolerances);
+        return with(found, "nothing varies".to_owned());
+    }
+    let price = price(responses.wanted());
+    let affordable = effort.solutions / price;
+    let sample = |samples: u64, reason: String| {
+        let sampler = Sampler::new(Points::Sobol)
+            .samples(samples)
+            .seed(effort.seed)
+            .stream(effort.stream)
+            .threads(effort.threads);
+        with(
+            sampled(responses, tolerances, &sampler)?.propagation(),
+            reason,
+        )
+    };
+    if effort.samples <= affordable {
+        let spent = effort.samples * price;
+        return sample(
+            effort.samples,
+            format!(
+                "samples cost {spent} solutions of the {} allowed, and hold for any response",
+                effort.solutions
+            ),
+        );
+    }
+    let dear = format!(
+        "{} samples would cost {price} solutions each, more than the {} allowed",
+        effort.samples, effort.solutions
+    );
+    let levels = LEVELS
+        .rev()
+        .filter(|level| cost(dimensions, *level).is_some_and(|cost| cost <= affordable));
+    if let (Some(level), Ok(())) = (levels.max(), refuse_discrete(tolerances)) {
+        match quadrature(responses, tolerances, level, effort.threads) {
+            Err(Error::NoResponse { response, .. }) if affordable >= FEW => {
+                let reason = format!(
+                    "{dear}; quadrature has a node without response {}: so fewer samples",
+                    response + 1
+                );
+                return sample(affordable, reason);
+            }
+            Err(Error::NoResponse { .. }) => {}
+            found => {
+                return with(
+                    found,
+                    format!("{dear}; {dimensions} variables are few enough for quadrature"),
+                );
+            }
+        }
+    }
+    let second = second_order(mechanism, responses, tolerances)?;
+    if second.spreads.iter().all(Option::is_some) {
+        return with(Ok(second), format!("{dear}, and so would quadrature"));
+    }
+    let reason = format!("{dear}, so would quadrature, and a response has no second derivatives");
+    with(first_order(mechanism, responses, tolerances), reason)
+}
+
+/// Solutions of the equilibrium that a design costs.
+fn price(wanted: &[Response]) -> u64 {
+    let steps = wanted.iter().map(|response| match response {
+        Response::Critical(range) => range.steps as u64,
+        _ => 0,
+    });
+    steps.fold(1, u64::saturating_add)
+}

@@ -1,0 +1,277 @@
+//! Sampling with the Taylor model as a control variate: what the model explains need not be sampled.
+
+use super::expansion::{Expansion, expansions};
+use super::gather::{Gathered, Scale, Task};
+use super::model::Model;
+use super::moments;
+use super::result::{Estimated, Method};
+use super::sampler::{Points, Sampler};
+use super::space::Space;
+use crate::algebra::Vector;
+use crate::kernels::CurvatureKernels;
+use crate::response::{Response, Responses, Workspace};
+use crate::tolerance::{Counts, Outcome, Tolerances};
+use crate::{Description, Error, Shared};
+
+/// Mean and standard deviation of a response, corrected by those of its Taylor model. SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ControlledSpread {
+    /// Mean, with its standard error.
+    pub mean: Estimated,
+    /// Standard deviation, with its standard error.
+    pub sigma: Estimated,
+    /// How many plain samples one of these is worth for the mean: the variance of the response over what the model leaves of it.
+    /// Infinite where the model is exact.
+    pub worth: f64,
+    /// The same for the standard deviation.
+    pub worth_of_sigma: f64,
+    /// Order of the model: [`Method::FirstOrder`] or [`Method::SecondOrder`].
+    pub model: Method,
+}
+
+/// Spreads of several responses by sampling with control variates.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Controlled {
+    /// What was asked for.
+    pub wanted: Vec<Response>,
+    /// By response; `None` for one without slopes at the nominal design, and for one that some samples do not have: the mean of the model
+    /// over the others is not known.
+    pub spreads: Vec<Option<ControlledSpread>>,
+    /// What became of the samples.
+    pub counts: Counts,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+/// Mean and standard deviation by random samples of each response beside its Taylor model, whose mean and standard deviation are known
+/// exactly: second order of quantities of modes, first order of others, and where dependent variables are not normal. Only the
+/// difference is left to chance (Glasserman, Monte Carlo Methods in Financial Engineering, 2003, section 4.1).
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::{Points, Sampler, controlled};
+///
+/// let sampler = Sampler::new(Points::Random).samples(500);
+/// let all = controlled(&Pendulum, &responses, &tolerances, &sampler)?;
+/// let spread = all.spreads[0].expect("every bar swings");
+/// assert!(spread.worth > 1000.0 && spread.mean.error < Some(1e-4));
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`sampled`](super::sampled); [`Error::Setting`] for points that are not random, and for less than three samples.
+pub fn controlled(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    sampler: &Sampler<'_>,
+) -> Result<Controlled, Error> {
+    let refused = |setting, reason: &str| {
+        let reason = reason.to_owned();
+        Err(Error::Setting { setting, reason })
+    };
+    if sampler.points != Points::Random {
+        return refused(
+            "points",
+            "standard errors of control variates need random ones",
+        );
+    }
+    if sampler.samples < 3 {
+        return refused("samples", "two tell no error of a standard deviation");
+    }
+    let at = responses.nominal();
+    let space = Space::new(at, tolerances)?;
+    let expansions = expansions(mechanism, responses)?;
+    let controls: Vec<Option<Control<'_>>> = (expansions.iter())
+        .map(|own| Some(Control::of(own.as_ref()?, tolerances)))
+        .collect();
+    let scales = controls.iter().flat_map(|own| {
+        own.as_ref()
+            .map_or([(0.0, 1.0); QUANTITIES], Control::scales)
+    });
+    let task = Task {
+        scales: scales.collect(),
+        model: &Pairs {
+            responses,
+            nominal: space.nominal,
+            controls: &controls,
+        },
+        space: &space,
+        unknowns: at.coordinates.len(),
+    };
+    let samples = task.gather(sampler)?;
+    let spreads = controls.iter().enumerate();
+    let spreads = spreads.map(|(i, own)| match own {
+        None => Ok(None),
+        Some(own) => own.spread(&samples, QUANTITIES * i),
+    });
+    Ok(Controlled {
+        wanted: responses.wanted().to_vec(),
+        spreads: spreads.collect::<Result<_, Error>>()?,
+        counts: samples.counts(),
+        inputs: at.inputs.clone(),
+        description: at.description.clone(),
+    })
+}
+
+/// Of each response: its value, that of the model, and the squares of their deviations from the mean of the model.
+const QUANTITIES: usize = 4;
+
+/// A model with exact mean and standard deviation.
+struct Control<'a> {
+    own: &'a Expansion,
+    model: Method,
+    mean: f64,
+    sigma: f64,
+}
+
+impl<'a> Control<'a> {
+    fn of(own: &'a Expansion, tolerances: &Tolerances) -> Self {
+        let second = (own.curvature.as_ref())
+            .map(|curvature| moments::second_order(own, curvature, tolerances))
+            .and_then(|exact| Some((exact.mean, exact.sigma?)));
+        let (model, (mean, sigma)) = match second {
+            Some(exact) => (Method::SecondOrder, exact),
+            None => {
+                let exact = moments::first_order(own, tolerances);
+                (
+                    Method::FirstOrder,
+                    (exact.mean, tolerances.sigma(&own.slopes)),
+                )
+            }
+        };
+        Self {
+            own,
+            model,
+            mean,
+            sigma,
+        }
+    }
+
+    fn scales(&self) -> [Scale; QUANTITIES] {
+        let usable = |scale: f64| {
+            if scale > 0.0 && scale.is_finite() {
+                scale
+            } else {
+                1.0
+            }
+        };
+        let value = (self.mean, usable(self.sigma));
+        let square = (0.0, usable(self.sigma * self.sigma));
+        [value, value, square, square]
+    }
+
+    fn value(&self, x: &[f64]) -> f64 {
+        match self.model {
+            Method::SecondOrder => self.own.second_order(x),
+            _ => None,
+        }
+        .unwrap_or_else(|| self.own.first_order(x))
+    }
+
+    /// From the samples, whose quantities begin at `place`.
+    fn spread(&self, samples: &Gathered, place: usize) -> Result<Option<ControlledSpread>, Error> {
+        let total = samples.counts().total() as u64;
+        if samples.count(place)? < total {
+            return Ok(None);
+        }
+        let first = corrected(samples, place, self.mean)?;
+        let square = corrected(samples, place + 2, self.sigma * self.sigma)?;
+        let (Some(first), Some(square)) = (first, square) else {
+            return Ok(None);
+        };
+        let variance = square.value - (first.value - self.mean).powi(2);
+        if variance < 0.0 {
+            return Ok(None);
+        }
+        let sigma = variance.sqrt();
+        let error = if sigma > 0.0 {
+            0.5 * square.error / sigma
+        } else {
+            0.0
+        };
+        Ok(Some(ControlledSpread {
+            mean: Estimated::new(first.value, Some(first.error)),
+            sigma: Estimated::new(sigma, Some(error)),
+            worth: first.worth,
+            worth_of_sigma: square.worth,
+            model: self.model,
+        }))
+    }
+}
+
+/// A mean corrected by a control variate.
+struct Corrected {
+    value: f64,
+    error: f64,
+    worth: f64,
+}
+
+/// The mean of a quantity, with the one behind it as control, whose mean is `known`: `f - beta (g - known)`,
+/// `beta = Cov(f, g) / Var(g)`.
+fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corrected>, Error> {
+    let covariance = |i, j| samples.covariance(i, j);
+    let all = (
+        covariance(place, place)?,
+        covariance(place, place + 1)?,
+        covariance(place + 1, place + 1)?,
+    );
+    let (Some(own), Some(both), Some(other)) = all else {
+        return Ok(None);
+    };
+    let (Some(f), Some(g)) = (samples.mean(place)?, samples.mean(place + 1)?) else {
+        return Ok(None);
+    };
+    let slope = if other > 0.0 { both / other } else { 0.0 };
+    let left = (own - slope * both).max(0.0);
+    // What rounding leaves of a variance that is explained.
+    let exact = left <= 1e-14 * own;
+    Ok(Some(Corrected {
+        value: f - slope * (g - known),
+        error: (left / samples.count(place)? as f64).sqrt(),
+        worth: match (own > 0.0, exact) {
+            (false, _) => 1.0,
+            (true, true) => f64::INFINITY,
+            (true, false) => own / left,
+        },
+    }))
+}
+
+/// Responses of the mechanism beside those of their models.
+struct Pairs<'a> {
+    responses: &'a Responses<'a>,
+    nominal: &'a [f64],
+    controls: &'a [Option<Control<'a>>],
+}
+
+impl Model for Pairs<'_> {
+    type Room = Workspace;
+
+    fn room(&self) -> Workspace {
+        self.responses.room()
+    }
+
+    fn evaluate(
+        &self,
+        room: &mut Workspace,
+        design: &[f64],
+        values: &mut [Option<f64>],
+    ) -> Result<Outcome, Error> {
+        let found = self.responses.at(room, design)?;
+        let moved = design.iter().zip(self.nominal);
+        let x: Vector = moved.map(|(value, nominal)| value - nominal).collect();
+        let all = self.controls.iter().zip(&found.values);
+        for ((control, value), places) in all.zip(values.chunks_exact_mut(QUANTITIES)) {
+            if let (Some(control), Some(f)) = (control, value) {
+                let g = control.value(&x);
+                let square = |value: f64| (value - control.mean).powi(2);
+                places.copy_from_slice(&[Some(*f), Some(g), Some(square(*f)), Some(square(g))]);
+            }
+        }
+        Ok(found.outcome)
+    }
+}

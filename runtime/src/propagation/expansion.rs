@@ -1,0 +1,94 @@
+//! Responses by their derivatives at the nominal design.
+
+use std::collections::BTreeMap;
+
+use super::model::Model;
+use crate::Error;
+use crate::algebra::{Matrix, Vector, dot, form};
+use crate::kernels::CurvatureKernels;
+use crate::response::{Response, Responses};
+use crate::second_order::{ModeCurvature, mode_curvature};
+use crate::tolerance::Outcome;
+
+/// `f(b0 + x) = value + S x + x^T H x / 2`, SI.
+#[derive(Clone, Debug)]
+pub(super) struct Expansion {
+    pub(super) value: f64,
+    pub(super) slopes: Vector,
+    /// `H`, where it is known.
+    pub(super) curvature: Option<Matrix>,
+}
+
+impl Expansion {
+    /// The value a step `x` away from the nominal design, to first order.
+    pub(super) fn first_order(&self, x: &[f64]) -> f64 {
+        self.value + dot(&self.slopes, x)
+    }
+
+    /// The same to second order.
+    pub(super) fn second_order(&self, x: &[f64]) -> Option<f64> {
+        let curvature = self.curvature.as_ref()?;
+        Some(self.first_order(x) + 0.5 * form(x, curvature, x))
+    }
+}
+
+/// The responses about the nominal design; `None` for one without value or slopes there. Quantities of modes have second derivatives,
+/// unless modes are too close together.
+pub(super) fn expansions(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+) -> Result<Vec<Option<Expansion>>, Error> {
+    let at = responses.nominal();
+    let found = responses.with_gradients(&mut responses.workspace(), &at.design)?;
+    let mut curvatures: BTreeMap<usize, Option<ModeCurvature>> = BTreeMap::new();
+    let mut of_mode = |mode: usize| {
+        let solve = || mode_curvature(mechanism, at, responses.modes(), mode).ok();
+        curvatures.entry(mode).or_insert_with(solve).clone()
+    };
+    let values = found.values.iter().zip(found.gradients);
+    let all = responses.wanted().iter().zip(values);
+    let each = all.map(|(response, (value, slopes))| {
+        Some(Expansion {
+            value: (*value)?,
+            slopes: slopes?,
+            curvature: match response {
+                Response::Mode { mode, quantity } => {
+                    of_mode(*mode).and_then(|all| Some(all.of(*quantity)?.by_design))
+                }
+                _ => None,
+            },
+        })
+    });
+    Ok(each.collect())
+}
+
+/// Every expansion to first order, then every one to second order.
+pub(super) struct Polynomials<'a> {
+    pub(super) nominal: &'a [f64],
+    pub(super) expansions: &'a [Option<Expansion>],
+}
+
+impl Model for Polynomials<'_> {
+    type Room = Vec<f64>;
+
+    fn room(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn evaluate(
+        &self,
+        x: &mut Vec<f64>,
+        design: &[f64],
+        values: &mut [Option<f64>],
+    ) -> Result<Outcome, Error> {
+        x.clear();
+        let moved = design.iter().zip(self.nominal);
+        x.extend(moved.map(|(value, nominal)| value - nominal));
+        let (first, second) = values.split_at_mut(self.expansions.len());
+        for (k, own) in self.expansions.iter().enumerate() {
+            first[k] = own.as_ref().map(|own| own.first_order(x));
+            second[k] = own.as_ref().and_then(|own| own.second_order(x));
+        }
+        Ok(Outcome::Stable)
+    }
+}

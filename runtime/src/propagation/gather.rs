@@ -1,0 +1,290 @@
+//! Samples of any model, in parallel, and their statistics.
+
+use core::ops::Range;
+use std::sync::atomic::Ordering;
+
+use eigentol_statistics::normal;
+use eigentol_statistics::sequence::Sequence;
+use eigentol_statistics::summary::{
+    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics, chunks,
+};
+
+use super::model::Model;
+use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
+use super::sampler::Sampler;
+use super::space::{Point, Space};
+use crate::Error;
+use crate::tolerance::{Counts, Outcome, pool};
+
+/// Chunks that are solved before their sums are added up: memory for some ten thousand samples.
+const ROUND: usize = 256;
+
+/// What is known of some samples, by randomisation: responses, then the design variables that vary.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Gathered {
+    pub(super) parts: Vec<Partial>,
+}
+
+/// Where to look for the values of a response, and how far apart they may be, SI: any that are positive will do.
+pub(super) type Scale = (f64, f64);
+
+/// What samples are gathered of.
+pub(super) struct Task<'a, M> {
+    pub(super) model: &'a M,
+    pub(super) space: &'a Space<'a>,
+    pub(super) scales: Vec<Scale>,
+    /// Unknowns of the mechanism, which the stack of a thread depends on.
+    pub(super) unknowns: usize,
+}
+
+/// Samples of one chunk of one randomisation.
+type Piece = (usize, Range<u64>);
+
+impl<M: Model> Task<'_, M> {
+    /// What is to be learnt from the samples of each randomisation.
+    fn plan(&self) -> Result<Plan, Error> {
+        let (responses, variables) = (self.scales.len(), self.space.variables().len());
+        let all: Vec<usize> = (0..responses + variables).collect();
+        let mut plan = Plan::new(all.len())
+            .covariances(&all[..responses], &all)?
+            .outcomes(Outcome::ALL.len());
+        for (k, (reference, scale)) in self.scales.iter().enumerate() {
+            plan = plan.sketch(k, *reference, *scale)?;
+        }
+        Ok(plan)
+    }
+
+    /// The samples of the range that is asked for, or those that are done when the run is stopped.
+    pub(super) fn gather(&self, sampler: &Sampler<'_>) -> Result<Gathered, Error> {
+        let plan = self.plan()?;
+        let (of_each, now) = (sampler.of_each()?, sampler.now()?);
+        let sequences = (0..sampler.groups())
+            .map(|group| sampler.sequence(group, self.space.dimensions()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut parts = vec![Partial::new(plan.clone()); sequences.len()];
+        let mut pieces = (0..sequences.len()).flat_map(|group| {
+            let first = group as u64 * of_each;
+            let start = now.start.clamp(first, first + of_each) - first;
+            let end = now.end.clamp(first, first + of_each) - first;
+            chunks(start..end).map(move |samples| (group, samples))
+        });
+        let stopped = || (sampler.stop).is_some_and(|stop| stop.load(Ordering::Relaxed));
+        let size = (self.unknowns, self.space.nominal.len());
+        let room = || (self.model.room(), self.space.point());
+        while !stopped() {
+            let round: Vec<Piece> = pieces.by_ref().take(ROUND).collect();
+            if round.is_empty() {
+                break;
+            }
+            let solve = |room: &mut _, at: usize| {
+                let (group, samples) = &round[at];
+                if stopped() {
+                    return Ok(None);
+                }
+                let chunk = self.chunk(room, &plan, &sequences[*group], samples.clone())?;
+                if let Some(progress) = sampler.progress {
+                    progress((samples.end - samples.start) as usize);
+                }
+                Ok::<_, Error>(Some(chunk))
+            };
+            let found = pool::run(sampler.threads, size, round.len(), room, solve)?;
+            for ((group, _), chunk) in round.iter().zip(found) {
+                if let Some(chunk) = chunk? {
+                    parts[*group].add(&chunk)?;
+                }
+            }
+        }
+        Ok(Gathered { parts })
+    }
+
+    fn chunk(
+        &self,
+        (room, point): &mut (M::Room, Point),
+        plan: &Plan,
+        sequence: &Sequence,
+        samples: Range<u64>,
+    ) -> Result<Chunk, Error> {
+        let mut chunk = Chunk::new(plan, samples.clone())?;
+        let mut walk = sequence.from(samples.start);
+        let mut values = vec![None; self.scales.len()];
+        let variables = self.space.variables();
+        for sample in samples {
+            let Some(probabilities) = walk.next_point() else {
+                break;
+            };
+            let z = probabilities.iter().map(|p| normal::quantile(*p));
+            let design = self.space.design(point, z);
+            values.fill(None);
+            let outcome = self.model.evaluate(room, design, &mut values)?;
+            chunk.count(outcome as usize)?;
+            for (k, value) in values.iter().enumerate() {
+                chunk.set(sample, k, *value)?;
+            }
+            for (k, &variable) in variables.iter().enumerate() {
+                chunk.set(sample, values.len() + k, Some(design[variable]))?;
+            }
+        }
+        Ok(chunk)
+    }
+}
+
+impl Gathered {
+    /// Adds other samples of the same kind.
+    pub(super) fn merge(&mut self, other: Self) -> Result<(), Error> {
+        for (own, other) in self.parts.iter_mut().zip(other.parts) {
+            own.merge(other)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for part in &self.parts {
+            for (outcome, number) in Outcome::ALL.into_iter().zip(part.outcomes()) {
+                counts.add(outcome, *number as usize);
+            }
+        }
+        counts
+    }
+
+    /// Covariance of two quantities, the first of them a response; `None` where no two samples have both.
+    pub(super) fn covariance(&self, first: usize, second: usize) -> Result<Option<f64>, Error> {
+        if first == second {
+            let all = Statistics::of(&self.moments(first)?, None);
+            let variance = |all: Statistics| Some(all.sigma?.powi(2) * self.divisor(all.count));
+            return Ok(all.and_then(variance));
+        }
+        let mut all = Comoments::default();
+        for part in &self.parts {
+            all.merge(&part.comoments(first, second)?);
+        }
+        let covariance = |all: Covariance| Some(all.covariance? * self.divisor(all.count));
+        Ok(Covariance::of(&all).and_then(covariance))
+    }
+
+    /// What turns a divisor `n - 1` into that of these points. A mean over random points takes one degree of freedom from a variance; one
+    /// over balanced points is so much better than the spread that it takes none.
+    fn divisor(&self, count: u64) -> f64 {
+        let n = count as f64;
+        if self.parts.len() == 1 {
+            1.0
+        } else {
+            (n - 1.0) / n
+        }
+    }
+
+    /// Samples that have a quantity.
+    pub(super) fn count(&self, quantity: usize) -> Result<u64, Error> {
+        Ok(self.moments(quantity)?.count())
+    }
+
+    /// Mean of a quantity; `None` where no sample has it.
+    pub(super) fn mean(&self, quantity: usize) -> Result<Option<f64>, Error> {
+        Ok(self.moments(quantity)?.mean())
+    }
+
+    fn moments(&self, quantity: usize) -> Result<Moments, Error> {
+        let mut all = Moments::default();
+        for part in &self.parts {
+            all.merge(&part.moments(quantity)?);
+        }
+        Ok(all)
+    }
+
+    /// Of all samples, whichever randomisation they are of.
+    fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
+        let mut sketch: Option<Sketch> = None;
+        for part in &self.parts {
+            let own = part.statistics(quantity)?;
+            let Some(own) = own.as_ref().and_then(Statistics::sketch) else {
+                continue;
+            };
+            match &mut sketch {
+                None => sketch = Some(own.clone()),
+                Some(all) => all.merge(own)?,
+            }
+        }
+        Ok(Statistics::of(&self.moments(quantity)?, sketch))
+    }
+
+    /// How a response is spread; `None` where no sample has it.
+    pub(super) fn spread(
+        &self,
+        response: usize,
+        nominal: Option<f64>,
+    ) -> Result<Option<ResponseSpread>, Error> {
+        let Some(all) = self.statistics(response)? else {
+            return Ok(None);
+        };
+        let groups = self.groups(response)?;
+        let one = self.parts.len() == 1;
+        let errors = |alone: Option<f64>, of: &dyn Fn(&Statistics) -> Option<f64>| {
+            if one { alone } else { scatter(&groups, of) }
+        };
+        let mut quantiles = Vec::new();
+        for probability in QUANTILES {
+            let alone = if one {
+                all.quantile_interval(probability, ONE_SIGMA)?
+            } else {
+                None
+            };
+            let alone = alone.map(|ends| 0.5 * (ends.upper - ends.lower));
+            quantiles.push(Quantile {
+                probability,
+                value: all.quantile(probability)?.value,
+                error: errors(alone, &|own| {
+                    own.quantile(probability).ok().map(|own| own.value)
+                }),
+            });
+        }
+        let total = self.counts().total() as f64;
+        let (n, divisor) = (all.count as f64, self.divisor(all.count));
+        // That of `n` random values has `sqrt(n (n - 1)) / (n - 2)` against bias.
+        let unskewed = if one {
+            1.0
+        } else {
+            (n - 2.0) / (n * (n - 1.0)).sqrt()
+        };
+        Ok(Some(ResponseSpread {
+            nominal,
+            mean: Estimated::new(all.mean, errors(all.standard_error, &|own| Some(own.mean))),
+            sigma: (all.sigma).map(|sigma| {
+                Estimated::new(
+                    sigma * divisor.sqrt(),
+                    errors(all.sigma_error, &|own| own.sigma),
+                )
+            }),
+            skewness: (all.skewness).map(|value| {
+                Estimated::new(
+                    value * unskewed,
+                    errors(all.skewness_error, &|own| own.skewness),
+                )
+            }),
+            quantiles,
+            share: all.count as f64 / total,
+        }))
+    }
+
+    /// Statistics of each randomisation; none unless all of them have as many samples.
+    fn groups(&self, response: usize) -> Result<Vec<Statistics>, Error> {
+        let number = |part: &Partial| part.outcomes().iter().sum::<u64>();
+        let equal = self
+            .parts
+            .windows(2)
+            .all(|pair| number(&pair[0]) == number(&pair[1]));
+        if !equal {
+            return Ok(Vec::new());
+        }
+        let all = self.parts.iter().map(|part| part.statistics(response));
+        Ok(all.collect::<Result<Option<_>, _>>()?.unwrap_or_default())
+    }
+}
+
+/// Probability of a normal variable to lie within one standard deviation.
+const ONE_SIGMA: f64 = 0.682_689_492_137_085_9;
+
+/// Standard error of the mean of what independent randomisations give.
+fn scatter(groups: &[Statistics], of: &dyn Fn(&Statistics) -> Option<f64>) -> Option<f64> {
+    let values = groups.iter().map(of).collect::<Option<Vec<f64>>>()?;
+    Statistics::of(&Moments::of(&values), None)?.standard_error
+}

@@ -1,0 +1,296 @@
+//! Which variables the scatter of responses comes from.
+
+use eigentol_statistics::normal;
+use eigentol_statistics::sensitivity::{
+    Bootstrap, Estimate, Estimator, SaltelliDesign, Sample, sobol_indices,
+};
+use eigentol_statistics::sequence::Sequence;
+
+use super::choice::Effort;
+use super::limits::limits;
+use super::model::Model;
+use super::space::Space;
+use crate::algebra::Vector;
+use crate::response::{Response, Responses};
+use crate::tolerance::{Counts, Outcome, Tolerances, pool};
+use crate::{Description, Error, Shared};
+
+/// Evaluations that a thread does at a time.
+const PIECE: usize = 64;
+
+/// How one response depends on one variable.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VariableInfluence {
+    /// Position of the design variable.
+    pub variable: usize,
+    /// The part of the variance that goes if this variable is known, with its 95 % interval; `None` where variables depend on each
+    /// other, and where the response does not vary.
+    pub first: Option<Estimate>,
+    /// The part that stays if all others are known.
+    pub total: Option<Estimate>,
+    /// Correlation of the response with the variable (Pearson), between -1 and 1; `None` where the response does not vary.
+    pub correlation: Option<f64>,
+    /// That of the ranks (Spearman).
+    pub rank_correlation: Option<f64>,
+    /// Standard deviations of the response for one of the variable in the best linear fit; `None` also where variables are linear
+    /// functions of each other.
+    pub regression: Option<f64>,
+    /// The response where the variable is at its lower limit and all others are nominal, SI; `None` where it has no value.
+    pub at_low: Option<f64>,
+    /// The same at the upper limit.
+    pub at_high: Option<f64>,
+}
+
+/// How one response depends on all variables.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ResponseInfluence {
+    /// Value at the nominal design, SI.
+    pub nominal: Option<f64>,
+    /// By design variable that varies.
+    pub variables: Vec<VariableInfluence>,
+    /// The part of the variance that the linear fit explains, between 0 and 1.
+    pub determination: Option<f64>,
+    /// Evaluations without value, which the numbers leave out.
+    pub missing: usize,
+}
+
+/// How several responses depend on the variables.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Influence {
+    /// What was asked for.
+    pub wanted: Vec<Response>,
+    /// By response.
+    pub responses: Vec<ResponseInfluence>,
+    /// Limits of each design variable, SI: those of [`worst_case`](super::worst_case).
+    pub limits: Vec<(f64, f64)>,
+    /// What became of the evaluated designs, those at limits left out.
+    pub counts: Counts,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+/// Which variables the scatter of responses comes from: Sobol' indices of independent variables, correlation and regression, and the
+/// values at the limits of each variable by itself (the bars of a tornado diagram). At most `effort.samples` designs are sampled, at
+/// scrambled Sobol' points.
+///
+/// Where variables depend on each other, no share of the variance belongs to one of them, and there are no Sobol' indices.
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::{Effort, influence};
+///
+/// let all = influence(&responses, &tolerances, Effort::default())?;
+/// let length = &all.responses[0].variables[0];
+/// assert_eq!(length.variable, Pendulum::l.index());
+/// assert!(length.total.is_some_and(|total| (total.value - 1.0).abs() < 0.01));
+/// assert!(length.at_low < length.at_high);
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism; [`Error::Setting`] for less samples than 16 rows, of two designs more than there
+/// are independent variables each; [`Error::Threads`].
+pub fn influence(
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    effort: Effort,
+) -> Result<Influence, Error> {
+    let at = responses.nominal();
+    let space = Space::new(at, tolerances)?;
+    let limits = limits(&at.design, tolerances);
+    let variables = space.variables();
+    let table = table(responses, &space, effort)?;
+    let mut room = responses.workspace();
+    let nominal = responses.at(&mut room, &at.design)?.values;
+    let mut ends = Vec::new();
+    for &variable in &variables {
+        let mut at_limit = |value: f64| {
+            let mut design = at.design.clone();
+            design[variable] = value;
+            Ok::<_, Error>(responses.at(&mut room, &design)?.values)
+        };
+        let (low, high) = limits[variable];
+        ends.push([at_limit(low)?, at_limit(high)?]);
+    }
+    let found = nominal.iter().enumerate().map(|(i, nominal)| {
+        let mut own = table.response(i, &variables);
+        own.nominal = *nominal;
+        for (own, [low, high]) in own.variables.iter_mut().zip(&ends) {
+            (own.at_low, own.at_high) = (low[i], high[i]);
+        }
+        own
+    });
+    Ok(Influence {
+        wanted: responses.wanted().to_vec(),
+        responses: found.collect(),
+        limits,
+        counts: table.counts,
+        inputs: at.inputs.clone(),
+        description: at.description.clone(),
+    })
+}
+
+/// Designs and their responses; rows of a Saltelli design where variables are independent.
+struct Table {
+    /// Evaluations in a row: 1, or two more than there are variables.
+    blocks: usize,
+    /// The variables that vary, by evaluation.
+    designs: Vec<Vec<f64>>,
+    values: Vec<Vec<Option<f64>>>,
+    counts: Counts,
+}
+
+fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result<Table, Error> {
+    let variables = space.variables();
+    let d = space.dimensions();
+    let mut table = Table {
+        blocks: 1,
+        designs: Vec::new(),
+        values: Vec::new(),
+        counts: Counts::default(),
+    };
+    if d == 0 {
+        return Ok(table);
+    }
+    table.blocks = if independent(space) { d + 2 } else { 1 };
+    let rows = effort.samples / table.blocks as u64;
+    if rows < 16 {
+        return Err(Error::Setting {
+            setting: "samples",
+            reason: format!(
+                "{} are less than 16 rows of {} designs each",
+                effort.samples, table.blocks
+            ),
+        });
+    }
+    let rows = 1 << rows.ilog2();
+    let points = Points::new(table.blocks, d, rows, effort)?;
+    let at = responses.nominal();
+    let number = rows as usize * table.blocks;
+    let room = || (responses.room(), space.point());
+    let work = |(room, point): &mut (_, _), piece: usize| {
+        let range = piece * PIECE..number.min((piece + 1) * PIECE);
+        let mut found = Vec::new();
+        let mut solve = |probabilities: &[f64]| {
+            let z = probabilities.iter().map(|p| normal::quantile(*p));
+            let design = space.design(point, z);
+            let mut values = vec![None; responses.wanted().len()];
+            let outcome = responses.evaluate(room, design, &mut values)?;
+            let design: Vec<f64> = variables.iter().map(|&i| design[i]).collect();
+            found.push((outcome, values, design));
+            Ok(())
+        };
+        points.each(range, &mut solve)?;
+        Ok::<Vec<(Outcome, Vec<Option<f64>>, Vec<f64>)>, Error>(found)
+    };
+    let size = (at.coordinates.len(), at.design.len());
+    for piece in pool::run(effort.threads, size, number.div_ceil(PIECE), room, work)? {
+        for (outcome, values, design) in piece? {
+            table.counts.add(outcome, 1);
+            table.values.push(values);
+            table.designs.push(design);
+        }
+    }
+    Ok(table)
+}
+
+/// Whether no variable depends on another.
+fn independent(space: &Space<'_>) -> bool {
+    space.tolerances.correlation().is_none_or(|matrix| {
+        matrix.iter().enumerate().all(|(i, row)| {
+            row.iter()
+                .enumerate()
+                .all(|(j, value)| i == j || *value == 0.0)
+        })
+    })
+}
+
+/// Where to evaluate.
+enum Points {
+    Rows(SaltelliDesign),
+    Plain(Sequence),
+}
+
+impl Points {
+    fn new(blocks: usize, dimensions: usize, rows: u64, effort: Effort) -> Result<Self, Error> {
+        let of = |dimensions| Sequence::sobol(dimensions, effort.seed, effort.stream);
+        Ok(if blocks == 1 {
+            Self::Plain(of(dimensions)?)
+        } else {
+            Self::Rows(SaltelliDesign::new(of(2 * dimensions)?, rows)?)
+        })
+    }
+
+    fn each(
+        &self,
+        range: core::ops::Range<usize>,
+        take: &mut dyn FnMut(&[f64]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        match self {
+            Self::Rows(design) => {
+                let mut walk = design.from(range.start as u64);
+                for _ in range {
+                    walk.next_point().map_or(Ok(()), &mut *take)?;
+                }
+            }
+            Self::Plain(sequence) => {
+                let mut walk = sequence.from(range.start as u64);
+                for _ in range {
+                    walk.next_point().map_or(Ok(()), &mut *take)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Table {
+    fn response(&self, i: usize, variables: &[usize]) -> ResponseInfluence {
+        let values: Vec<Option<f64>> = self.values.iter().map(|values| values[i]).collect();
+        let indices = (self.blocks > 1).then(|| {
+            sobol_indices(
+                variables.len(),
+                &values,
+                Estimator::Jansen,
+                Bootstrap::default(),
+            )
+        });
+        let indices = indices.and_then(Result::ok);
+        // The first two of a row are independent of each other; the others repeat them.
+        let own = |k: &usize| self.blocks == 1 || k % self.blocks < 2;
+        let own: Vec<usize> = (0..values.len()).filter(own).collect();
+        let designs: Vec<Vec<f64>> = own.iter().map(|&k| self.designs[k].clone()).collect();
+        let results: Vec<Option<f64>> = own.iter().map(|&k| values[k]).collect();
+        let sample = Sample::new(&designs, &results).ok();
+        let sample = sample.as_ref();
+        let (pearson, spearman) = (sample.map(Sample::pearson), sample.map(Sample::spearman));
+        let regression = sample.and_then(|sample| sample.regression().ok());
+        let number = |list: &Option<Vec<f64>>, k: usize| Some(*list.as_ref()?.get(k)?);
+        let each = variables
+            .iter()
+            .enumerate()
+            .map(|(k, &variable)| VariableInfluence {
+                variable,
+                first: indices.as_ref().and_then(|all| all.first.get(k).copied()),
+                total: indices.as_ref().and_then(|all| all.total.get(k).copied()),
+                correlation: number(&pearson, k),
+                rank_correlation: number(&spearman, k),
+                regression: regression
+                    .as_ref()
+                    .and_then(|all| all.coefficients.get(k).copied()),
+                at_low: None,
+                at_high: None,
+            });
+        ResponseInfluence {
+            nominal: None,
+            variables: each.collect(),
+            determination: regression.as_ref().map(|all| all.determination),
+            missing: values.iter().filter(|value| value.is_none()).count(),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The box of limits that a worst case is looked for in.
+
+use eigentol_statistics::Distribution;
+
+use crate::tolerance::Tolerances;
+
+/// Least and greatest value of each design variable, SI: the limits of distributions that have both, and what lies as many standard
+/// normal deviations from the median as a half-width holds for all others.
+pub(super) fn limits(nominal: &[f64], tolerances: &Tolerances) -> Vec<(f64, f64)> {
+    let level = tolerances.sigma_level();
+    let Some((joint, about)) = tolerances.joint() else {
+        let means = nominal.iter().zip(tolerances.shifts());
+        let means = means.map(|(nominal, shift)| nominal + shift);
+        let all = means.zip(tolerances.half_widths());
+        return all.map(|(mean, half)| (mean - half, mean + half)).collect();
+    };
+    let all = joint.variables().iter().zip(nominal.iter().zip(about));
+    all.map(|(own, (nominal, about))| {
+        let (low, high) = ends(own, level);
+        (low + (nominal - about), high + (nominal - about))
+    })
+    .collect()
+}
+
+fn ends(variable: &Distribution, level: f64) -> (f64, f64) {
+    match variable.support() {
+        (low, high) if low.is_finite() && high.is_finite() => (low, high),
+        _ => (variable.from_normal(-level), variable.from_normal(level)),
+    }
+}

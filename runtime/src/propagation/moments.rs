@@ -1,0 +1,81 @@
+//! Exact moments of expansions.
+
+use super::expansion::Expansion;
+use crate::algebra::{Matrix, Vector, dot, form, times};
+use crate::tolerance::Tolerances;
+
+/// Moments of an expansion, SI; what has no closed form for these tolerances is `None`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ExactMoments {
+    pub(super) mean: f64,
+    pub(super) sigma: Option<f64>,
+    pub(super) skewness: Option<f64>,
+}
+
+/// Skewness and excess kurtosis of independent variables `y` of unit variance with `b = mean + L y`; `None` for variables that depend on
+/// each other without being normal.
+fn shape(tolerances: &Tolerances) -> Option<Vec<[f64; 2]>> {
+    let Some((joint, _)) = tolerances.joint() else {
+        return Some(vec![[0.0; 2]; tolerances.sigmas().len()]);
+    };
+    let variables = joint.variables().iter();
+    (joint.is_independent()).then(|| {
+        variables
+            .map(|own| [own.skewness(), own.excess_kurtosis()])
+            .collect()
+    })
+}
+
+/// To first order: mean `f0 + S m`, variance `|a|^2`, third moment `sum a^3 g`, with `a = L^T S`, the shift `m` of the means, and the
+/// skewness `g` of each independent variable.
+pub(super) fn first_order(own: &Expansion, tolerances: &Tolerances) -> ExactMoments {
+    let sigma = tolerances.sigma(&own.slopes);
+    let a = times(&tolerances.factor().transpose(), &own.slopes);
+    let third = |shape: Vec<[f64; 2]>| {
+        let parts = a.iter().zip(shape);
+        parts
+            .map(|(a, [skewness, _])| (a / sigma).powi(3) * skewness)
+            .sum()
+    };
+    ExactMoments {
+        mean: own.value + tolerances.mean_shift(&own.slopes),
+        sigma: Some(sigma),
+        skewness: shape(tolerances).filter(|_| sigma > 0.0).map(third),
+    }
+}
+
+/// To second order, for any distribution: with `a = L^T (S + H m)` and `B = L^T H L` the mean is
+/// `f0 + S m + m^T H m / 2 + tr(B) / 2`, and the variance for independent variables of skewness `g` and excess kurtosis `k`
+/// `sum a^2 + sum a_j B_jj g_j + sum B_jj^2 k_j / 4 + sum_jk B_jk^2 / 2`.
+pub(super) fn second_order(
+    own: &Expansion,
+    curvature: &Matrix,
+    tolerances: &Tolerances,
+) -> ExactMoments {
+    let shifts = tolerances.shifts();
+    let factor = tolerances.factor();
+    let columns = factor.transpose();
+    let bent = times(curvature, shifts);
+    let slopes: Vector = own.slopes.iter().zip(&bent).map(|(s, h)| s + h).collect();
+    let a = times(&columns, &slopes);
+    let size = a.len();
+    let b = Matrix::from_fn(size, size, |j, k| form(&columns[j], curvature, &columns[k]));
+    let trace: f64 = (0..size).map(|j| b[j][j]).sum();
+    let variance = |shape: Vec<[f64; 2]>| {
+        let squares: f64 = b
+            .as_flattened()
+            .iter()
+            .map(|element| element * element)
+            .sum();
+        let own = shape.iter().enumerate();
+        let own = own.map(|(j, [skewness, kurtosis])| {
+            a[j] * b[j][j] * skewness + 0.25 * b[j][j] * b[j][j] * kurtosis
+        });
+        dot(&a, &a) + own.sum::<f64>() + 0.5 * squares
+    };
+    ExactMoments {
+        mean: own.first_order(shifts) + 0.5 * dot(shifts, &bent) + 0.5 * trace,
+        sigma: shape(tolerances).map(|shape| variance(shape).max(0.0).sqrt()),
+        skewness: None,
+    }
+}

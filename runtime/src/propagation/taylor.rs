@@ -1,0 +1,289 @@
+//! First and second order, for any distribution of the variables.
+
+use eigentol_statistics::normal;
+
+use super::expansion::{Expansion, Polynomials, expansions};
+use super::gather::{Gathered, Task};
+use super::moments::{self, ExactMoments};
+use super::result::{Estimated, Method, Propagation, QUANTILES, Quantile, ResponseSpread};
+use super::sampler::{Points, Sampler};
+use super::space::Space;
+use crate::Error;
+use crate::algebra::{Matrix, times};
+use crate::kernels::CurvatureKernels;
+use crate::response::Responses;
+use crate::tolerance::{Counts, Outcome, Tolerances};
+
+/// Samples of the expansions themselves, for what has no closed form.
+const SAMPLES: u64 = 1 << 15;
+
+/// First order, for any distribution: mean and standard deviation exact for the linear model, skewness too unless dependent variables are
+/// not normal; quantiles, and what else has no closed form, from samples of the model. Errors are the difference to second order,
+/// where second derivatives exist: of quantities of modes. To that of the standard deviation comes what third derivatives may add
+/// ([`second_order`]).
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::first_order;
+///
+/// let all = first_order(&Pendulum, &responses, &tolerances)?;
+/// let sigma = all.spreads[0].as_ref().and_then(|spread| spread.sigma).expect("it has slopes");
+/// assert!((sigma.value - 0.0214).abs() < 1e-4 && sigma.error < Some(1e-4));
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism.
+pub fn first_order(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+) -> Result<Propagation, Error> {
+    taylor(mechanism, responses, tolerances, Method::FirstOrder)
+}
+
+/// Second order, for any distribution: the mean is exact for the quadratic model, the standard deviation too unless dependent variables
+/// are not normal; skewness, quantiles and covariances come from samples of the model. Responses without second derivatives have
+/// no spread: outputs, critical values, quantities of modes that lie too close together.
+///
+/// Errors go on from the difference to first order as a series does: smaller by the ratio `r` of what curvature and slopes add to the
+/// standard deviation. That of the standard deviation itself is the whole difference and `r^2` of it, because third derivatives,
+/// which are left out, add terms of this order. Near a critical state the series does not converge, and no such error holds.
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::second_order;
+///
+/// let all = second_order(&Pendulum, &responses, &tolerances)?;
+/// let mean = all.spreads[0].as_ref().map(|spread| spread.mean).expect("it has slopes");
+/// assert!((mean.value - 4.04169).abs() < 1e-4 && mean.error < Some(1e-5));
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism.
+pub fn second_order(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+) -> Result<Propagation, Error> {
+    taylor(mechanism, responses, tolerances, Method::SecondOrder)
+}
+
+fn taylor(
+    mechanism: &dyn CurvatureKernels,
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    method: Method,
+) -> Result<Propagation, Error> {
+    let at = responses.nominal();
+    let space = Space::new(at, tolerances)?;
+    let expansions = expansions(mechanism, responses)?;
+    let all = Models {
+        samples: samples(&space, &expansions)?,
+        expansions: &expansions,
+        tolerances,
+    };
+    let count = expansions.len();
+    let second = method == Method::SecondOrder;
+    let (mut spreads, mut covariance) = (Vec::new(), Matrix::zeros(count, count));
+    let mut with_design = Matrix::from_fn(count, at.design.len(), |_, _| None);
+    for (i, own) in expansions.iter().enumerate() {
+        let Some(own) = own
+            .as_ref()
+            .filter(|own| !second || own.curvature.is_some())
+        else {
+            spreads.push(None);
+            continue;
+        };
+        let spread = all.spread(i, own, second)?;
+        if second {
+            for j in 0..count {
+                covariance[i][j] = all.samples.covariance(count + i, count + j)?;
+            }
+            covariance[i][i] = (spread.sigma).map(|sigma| sigma.value * sigma.value);
+            with_design[i].fill(Some(0.0));
+            for (k, &variable) in space.variables().iter().enumerate() {
+                with_design[i][variable] = all.samples.covariance(count + i, 2 * count + k)?;
+            }
+        } else {
+            for (j, other) in expansions.iter().enumerate() {
+                let other = other.as_ref();
+                covariance[i][j] =
+                    other.map(|other| tolerances.covariance(&own.slopes, &other.slopes));
+            }
+            let factor = tolerances.factor();
+            let all = times(factor, &times(&factor.transpose(), &own.slopes));
+            for (place, value) in with_design[i].iter_mut().zip(&all) {
+                *place = Some(*value);
+            }
+        }
+        spreads.push(Some(spread));
+    }
+    let mut counts = Counts::default();
+    counts.add(Outcome::from(at.stability), 1);
+    Ok(Propagation {
+        method,
+        reason: String::new(),
+        wanted: responses.wanted().to_vec(),
+        spreads,
+        covariance,
+        with_design,
+        evaluations: 1,
+        counts,
+        inputs: at.inputs.clone(),
+        description: at.description.clone(),
+    })
+}
+
+/// Samples of the expansions: to first order, then to second.
+fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gathered, Error> {
+    let scale = |own: &Option<Expansion>| {
+        let own = own.as_ref();
+        let sigma = own.map_or(0.0, |own| space.tolerances.sigma(&own.slopes));
+        let value = own.map_or(0.0, |own| own.value);
+        (
+            value,
+            if sigma > 0.0 && sigma.is_finite() {
+                sigma
+            } else {
+                1.0
+            },
+        )
+    };
+    let scales: Vec<_> = expansions.iter().map(scale).collect();
+    let task = Task {
+        model: &Polynomials {
+            nominal: space.nominal,
+            expansions,
+        },
+        space,
+        scales: [&scales[..], &scales].concat(),
+        unknowns: 0,
+    };
+    task.gather(&Sampler::new(Points::Sobol).samples(SAMPLES))
+}
+
+struct Models<'a> {
+    samples: Gathered,
+    expansions: &'a [Option<Expansion>],
+    tolerances: &'a Tolerances,
+}
+
+impl Models<'_> {
+    fn spread(&self, i: usize, own: &Expansion, second: bool) -> Result<ResponseSpread, Error> {
+        let first = self.model(i, own, None)?;
+        let Some(curvature) = &own.curvature else {
+            return Ok(without_errors(first));
+        };
+        let other = self.model(i, own, Some(curvature))?;
+        let ratio = self.ratio(own, curvature);
+        let (mut found, other, share) = match second {
+            true => (other, first, ratio),
+            false => (first, other, 1.0),
+        };
+        add_difference(&mut found, &other, share);
+        let sigma = found.sigma.as_mut();
+        if let Some((sigma, error)) = sigma.and_then(|own| Some((own.value, own.error.as_mut()?))) {
+            *error += ratio * ratio * sigma;
+        }
+        Ok(found)
+    }
+
+    /// What curvature adds to the standard deviation and, where means are shifted, to slopes, against what slopes do; at most 1.
+    fn ratio(&self, own: &Expansion, curvature: &Matrix) -> f64 {
+        let columns = self.tolerances.factor().transpose();
+        let curved = columns.iter().map(|row| times(curvature, row));
+        let squares: f64 = curved
+            .flat_map(|row| times(&columns, &row))
+            .map(|element| 0.5 * element * element)
+            .sum();
+        let bent = self
+            .tolerances
+            .sigma(&times(curvature, self.tolerances.shifts()));
+        let ratio = (squares.sqrt() + bent) / self.tolerances.sigma(&own.slopes);
+        if ratio < 1.0 { ratio } else { 1.0 }
+    }
+
+    /// The spread of an expansion, with the errors of sampling it.
+    fn model(
+        &self,
+        i: usize,
+        own: &Expansion,
+        curvature: Option<&Matrix>,
+    ) -> Result<ResponseSpread, Error> {
+        let place = if curvature.is_some() {
+            self.expansions.len() + i
+        } else {
+            i
+        };
+        let exact = match curvature {
+            None => moments::first_order(own, self.tolerances),
+            Some(curvature) => moments::second_order(own, curvature, self.tolerances),
+        };
+        let nominal = Some(own.value);
+        let sampled = self.samples.spread(place, nominal)?;
+        let certain = |value: f64| Estimated::new(value, Some(0.0));
+        let ExactMoments {
+            mean,
+            sigma,
+            skewness,
+        } = exact;
+        let normal = curvature.is_none() && self.tolerances.is_normal();
+        let quantiles = match (sigma, sampled.as_ref()) {
+            (Some(sigma), _) if normal => exactly_normal(mean, sigma),
+            (_, sampled) => sampled.map_or(Vec::new(), |all| all.quantiles.clone()),
+        };
+        let of_samples = sampled.as_ref();
+        Ok(ResponseSpread {
+            nominal,
+            mean: certain(mean),
+            sigma: sigma.map(certain).or(of_samples.and_then(|all| all.sigma)),
+            skewness: skewness
+                .map(certain)
+                .or(of_samples.and_then(|all| all.skewness)),
+            quantiles,
+            share: 1.0,
+        })
+    }
+}
+
+fn exactly_normal(mean: f64, sigma: f64) -> Vec<Quantile> {
+    let each = QUANTILES.map(|probability| Quantile {
+        probability,
+        value: mean + sigma * normal::quantile(probability),
+        error: Some(0.0),
+    });
+    each.into()
+}
+
+/// Without second derivatives nothing is known of how far the model holds.
+fn without_errors(mut own: ResponseSpread) -> ResponseSpread {
+    own.mean.error = None;
+    for one in [&mut own.sigma, &mut own.skewness].into_iter().flatten() {
+        one.error = None;
+    }
+    for quantile in &mut own.quantiles {
+        quantile.error = None;
+    }
+    own
+}
+
+/// Adds a share of the difference to another spread to each error, and the whole of it to that of the standard deviation.
+fn add_difference(own: &mut ResponseSpread, other: &ResponseSpread, share: f64) {
+    let further = |own: &mut Estimated, other: Option<Estimated>, share: f64| {
+        let difference = other.map(|other| share * (own.value - other.value).abs());
+        own.error = own.error.zip(difference).map(|(a, b)| a + b);
+    };
+    further(&mut own.mean, Some(other.mean), share);
+    if let Some(sigma) = &mut own.sigma {
+        further(sigma, other.sigma, 1.0);
+    }
+    if let Some(skewness) = &mut own.skewness {
+        further(skewness, other.skewness, share);
+    }
+    for (own, other) in own.quantiles.iter_mut().zip(&other.quantiles) {
+        let difference = share * (own.value - other.value).abs();
+        own.error = own.error.map(|error| error + difference);
+    }
+}

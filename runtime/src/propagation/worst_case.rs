@@ -1,0 +1,275 @@
+//! The worst case: the corners of the box of limits at which responses are least and greatest, found by their exact gradients.
+
+use std::collections::BTreeMap;
+
+use super::limits::limits;
+use crate::algebra::Vector;
+use crate::response::{Realisation, Response, Responses, Workspace};
+use crate::tolerance::{Outcome, Tolerances};
+use crate::{Description, Error, Shared};
+
+/// Where a response is not monotonic, all corners are looked at up to this many variables.
+const ALL_CORNERS: usize = 10;
+/// A variable that changes a response by less than this share of what the most important one does has no sign.
+const NO_SIGN: f64 = 1e-9;
+
+/// Values that differ by less than this share of them are equal.
+const ROUNDING: f64 = 1e-13;
+
+/// Where a response is least or greatest of all designs that were looked at.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Extreme {
+    /// The value, SI.
+    pub value: f64,
+    /// The design, SI.
+    pub design: Vector,
+    /// The gradient there points out of the box, or along its limits: no design nearby is worse.
+    pub confirmed: bool,
+}
+
+/// A corner at which a response has no value.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MissingCorner {
+    /// The design, SI.
+    pub design: Vector,
+    /// What becomes of it.
+    pub outcome: Outcome,
+}
+
+/// The worst case of one response.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ResponseLimits {
+    /// Value at the nominal design, SI.
+    pub nominal: Option<f64>,
+    /// Where it is least; `None` where no design that was looked at has it.
+    pub least: Option<Extreme>,
+    /// Where it is greatest.
+    pub greatest: Option<Extreme>,
+    /// The design variables whose slope changes its sign between designs that were looked at: the response is not monotonic, and may be
+    /// worse inside of the box than at its corners.
+    pub turning: Vec<usize>,
+    /// The corners that were looked at and have no value.
+    pub missing: Vec<MissingCorner>,
+}
+
+impl ResponseLimits {
+    /// Whether nothing speaks against the limits: the gradient kept its signs at all designs that were looked at, both extremes are
+    /// confirmed, and no corner is without value.
+    #[must_use]
+    pub fn is_monotonic(&self) -> bool {
+        let confirmed = |end: &Option<Extreme>| end.as_ref().is_some_and(|end| end.confirmed);
+        self.turning.is_empty()
+            && self.missing.is_empty()
+            && confirmed(&self.least)
+            && confirmed(&self.greatest)
+    }
+}
+
+/// The worst case of several responses.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WorstCase {
+    /// What was asked for.
+    pub wanted: Vec<Response>,
+    /// By response.
+    pub responses: Vec<ResponseLimits>,
+    /// Least and greatest value of each design variable, SI.
+    pub limits: Vec<(f64, f64)>,
+    /// Designs that were evaluated.
+    pub evaluations: usize,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
+}
+
+/// The least and the greatest value of each response over the box of limits: hard limits of distributions that have both, and as many
+/// standard normal deviations as half-widths hold ([`Tolerances::sigma_level`]) of the others. Correlation does not matter to a box.
+///
+/// From the nominal design the search goes to the corner that the gradient points to, and on until the gradient there agrees. A
+/// gradient that changes its signs on the way tells that the response is not monotonic; then all corners are looked at, up to ten
+/// variables.
+///
+/// ```
+#[doc = include_str!("example.txt")]
+/// use eigentol::propagation::worst_case;
+///
+/// let worst = worst_case(&responses, &tolerances)?;
+/// let frequency = &worst.responses[0];
+/// assert!(frequency.is_monotonic());
+/// let longest = frequency.greatest.as_ref().expect("it swings");
+/// assert_eq!(longest.design[Pendulum::l.index()], 1.03);
+/// assert_eq!(worst.evaluations, 3);
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::WrongLength`] for tolerances of another mechanism. Corners without a value are reported, not errors.
+pub fn worst_case(responses: &Responses<'_>, tolerances: &Tolerances) -> Result<WorstCase, Error> {
+    let at = responses.nominal();
+    tolerances.check_count(at.design.len())?;
+    let mut search = Search {
+        responses,
+        room: responses.workspace(),
+        nominal: &at.design,
+        limits: limits(&at.design, tolerances),
+        seen: BTreeMap::new(),
+    };
+    let count = responses.wanted().len();
+    for response in 0..count {
+        search.climb(response, 1)?;
+        search.climb(response, -1)?;
+    }
+    if (0..count).any(|response| !search.turning(response).is_empty()) {
+        search.all_corners()?;
+    }
+    Ok(WorstCase {
+        wanted: responses.wanted().to_vec(),
+        responses: (0..count).map(|response| search.found(response)).collect(),
+        evaluations: search.seen.len(),
+        limits: search.limits,
+        inputs: at.inputs.clone(),
+        description: at.description.clone(),
+    })
+}
+
+/// By design variable: at its least value (-1), its nominal (0), its greatest (1).
+type Corner = Vec<i8>;
+
+struct Search<'a> {
+    responses: &'a Responses<'a>,
+    room: Workspace,
+    nominal: &'a [f64],
+    limits: Vec<(f64, f64)>,
+    seen: BTreeMap<Corner, Realisation>,
+}
+
+impl Search<'_> {
+    fn design(&self, corner: &[i8]) -> Vector {
+        let values = self.nominal.iter().zip(&self.limits);
+        let each = corner
+            .iter()
+            .zip(values)
+            .map(|(side, (nominal, (low, high)))| match side {
+                -1 => *low,
+                1 => *high,
+                _ => *nominal,
+            });
+        each.collect()
+    }
+
+    fn look(&mut self, corner: &[i8]) -> Result<(), Error> {
+        if !self.seen.contains_key(corner) {
+            let design = self.design(corner);
+            let found = self.responses.with_gradients(&mut self.room, &design)?;
+            self.seen.insert(corner.to_vec(), found);
+        }
+        Ok(())
+    }
+
+    /// Follows the signs of the gradient up (1) or down (-1) until they agree with the corner, or nothing new is met.
+    fn climb(&mut self, response: usize, way: i8) -> Result<(), Error> {
+        let mut corner = vec![0; self.limits.len()];
+        let mut met = Vec::new();
+        while !met.contains(&corner) {
+            self.look(&corner)?;
+            let Some(signs) = self.signs(&corner, response) else {
+                break;
+            };
+            let next = signs.iter().map(|sign| way * sign).collect();
+            met.push(core::mem::replace(&mut corner, next));
+        }
+        Ok(())
+    }
+
+    /// All corners of the box, where they are few.
+    fn all_corners(&mut self) -> Result<(), Error> {
+        let wide = self.limits.iter().enumerate();
+        let varying: Vec<usize> = wide
+            .filter(|(_, (low, high))| low < high)
+            .map(|(j, _)| j)
+            .collect();
+        if varying.len() > ALL_CORNERS {
+            return Ok(());
+        }
+        for number in 0..1_usize << varying.len() {
+            let mut corner = vec![0; self.limits.len()];
+            for (bit, &j) in varying.iter().enumerate() {
+                corner[j] = if number >> bit & 1 == 1 { 1 } else { -1 };
+            }
+            self.look(&corner)?;
+        }
+        Ok(())
+    }
+
+    /// The signs of the slopes of a response at a corner that was looked at; 0 where the slope is nothing but rounding.
+    fn signs(&self, corner: &[i8], response: usize) -> Option<Corner> {
+        let slopes = self.seen.get(corner)?.gradients.get(response)?.as_ref()?;
+        let widths = self.limits.iter().map(|(low, high)| high - low);
+        let changes: Vec<f64> = slopes.iter().zip(widths).map(|(s, w)| s * w).collect();
+        let most = changes
+            .iter()
+            .fold(0.0_f64, |most, change| most.max(change.abs()));
+        let sign = |change: &f64| match change.abs() > NO_SIGN * most {
+            true => change.signum() as i8,
+            false => 0,
+        };
+        Some(changes.iter().map(sign).collect())
+    }
+
+    fn turning(&self, response: usize) -> Vec<usize> {
+        let all: Vec<Corner> = (self.seen.keys())
+            .filter_map(|corner| self.signs(corner, response))
+            .collect();
+        let has = |j: usize, sign: i8| all.iter().any(|signs| signs[j] == sign);
+        (0..self.limits.len())
+            .filter(|&j| has(j, 1) && has(j, -1))
+            .collect()
+    }
+
+    fn found(&self, response: usize) -> ResponseLimits {
+        let value = |found: &Realisation| found.values[response];
+        let missing = self.seen.iter().filter(|(_, found)| value(found).is_none());
+        ResponseLimits {
+            nominal: self.seen.get(&vec![0; self.limits.len()]).and_then(value),
+            least: self.extreme(response, -1),
+            greatest: self.extreme(response, 1),
+            turning: self.turning(response),
+            missing: missing
+                .map(|(corner, found)| MissingCorner {
+                    design: self.design(corner),
+                    outcome: found.outcome,
+                })
+                .collect(),
+        }
+    }
+
+    fn extreme(&self, response: usize, way: i8) -> Option<Extreme> {
+        let all = self.seen.iter();
+        let all = all.filter_map(|(corner, found)| Some((corner, found.values[response]?)));
+        let all: Vec<(&Corner, f64)> = all.collect();
+        let worst = |most: f64, (_, value): &(_, f64)| most.max(f64::from(way) * value);
+        let most = all.iter().fold(f64::NEG_INFINITY, worst);
+        let equal = all
+            .into_iter()
+            .filter(|(_, value)| most - f64::from(way) * value <= ROUNDING * most.abs());
+        // Variables that do not matter stay nominal.
+        let moved = |corner: &Corner| corner.iter().filter(|side| **side != 0).count();
+        let (corner, value) = equal.min_by_key(|(corner, _)| moved(corner))?;
+        let signs = self.signs(corner, response);
+        let outwards = |signs: &Corner| {
+            let pairs = corner.iter().zip(signs);
+            pairs
+                .clone()
+                .all(|(side, sign)| *sign == 0 || *side == way * sign)
+        };
+        Some(Extreme {
+            value,
+            design: self.design(corner),
+            confirmed: signs.as_ref().is_some_and(outwards),
+        })
+    }
+}

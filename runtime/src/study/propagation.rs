@@ -1,0 +1,200 @@
+//! What tolerances do to any responses: quantities of modes, outputs, critical values of an input.
+
+use super::deviating::deviating;
+use super::{Solved, Study};
+use crate::Error;
+use crate::kernels::CurvatureKernels;
+use crate::propagation::{
+    self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
+};
+use crate::response::{Response, Responses};
+use crate::tolerance::Tolerances;
+
+impl<M: CurvatureKernels> Study<M> {
+    /// How tolerances spread any responses, several at once with their covariance, by the method that answers best for what it costs
+    /// ([`propagation::propagate`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::response::Response;
+    ///
+    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// println!("{}", study.propagate(&[frequency, Response::Output(Pendulum::angle.any())])?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::solve`] and [`Study::tolerances`]; [`Error::NoSuchMode`], [`Error::UnknownHandle`], [`Error::Setting`] for a response
+    /// that makes no sense; [`Error::Threads`].
+    pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
+        self.solve()?.propagate(wanted)
+    }
+
+    /// Samples of any responses, with any points and any range of them ([`propagation::sampled`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::propagation::{Points, Sampler};
+    /// use eigentol::response::Response;
+    ///
+    /// let angle = Response::Output(Pendulum::angle.any());
+    /// let sampler = Sampler::new(Points::LatinHypercube).samples(800);
+    /// println!("{}", study.sample_responses(&[angle], &sampler)?.propagation()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::propagate`]; [`Error::Setting`] for a sampler that makes no sense.
+    pub fn sample_responses(
+        &self,
+        wanted: &[Response],
+        sampler: &Sampler<'_>,
+    ) -> Result<Samples, Error> {
+        self.solve()?.sample_responses(wanted, sampler)
+    }
+
+    /// The least and the greatest value of any responses over the box of limits ([`propagation::worst_case`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::response::Response;
+    ///
+    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// println!("{}", study.worst_case(&[frequency])?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::propagate`].
+    pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
+        self.solve()?.worst_case(wanted)
+    }
+
+    /// Means and standard deviations of any responses from few random samples, with the Taylor model as a control variate
+    /// ([`propagation::controlled`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::response::Response;
+    ///
+    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// println!("{}", study.samples(200).controlled(&[frequency])?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::propagate`]; [`Error::Setting`] for less than three samples.
+    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
+        self.solve()?.controlled(wanted)
+    }
+
+    /// Which variables the scatter of any responses comes from ([`propagation::influence`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::Quantity;
+    /// use eigentol::response::Response;
+    ///
+    /// let frequency = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// println!("{}", study.influence(&[frequency])?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::propagate`]; [`Error::Setting`] for too few samples.
+    pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
+        self.solve()?.influence(wanted)
+    }
+}
+
+impl<M: CurvatureKernels> Solved<'_, M> {
+    /// See [`Study::propagate`].
+    ///
+    /// # Errors
+    /// As [`Study::propagate`].
+    pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
+        let effort = self.effort();
+        self.about(wanted, |mechanism, responses, tolerances| {
+            propagation::propagate(mechanism, responses, tolerances, effort)
+        })
+    }
+
+    /// See [`Study::sample_responses`].
+    ///
+    /// # Errors
+    /// As [`Study::sample_responses`].
+    pub fn sample_responses(
+        &self,
+        wanted: &[Response],
+        sampler: &Sampler<'_>,
+    ) -> Result<Samples, Error> {
+        self.about(wanted, |_, responses, tolerances| {
+            propagation::sampled(responses, tolerances, sampler)
+        })
+    }
+
+    /// See [`Study::worst_case`].
+    ///
+    /// # Errors
+    /// As [`Study::worst_case`].
+    pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
+        self.about(wanted, |_, responses, tolerances| {
+            propagation::worst_case(responses, tolerances)
+        })
+    }
+
+    /// See [`Study::controlled`].
+    ///
+    /// # Errors
+    /// As [`Study::controlled`].
+    pub fn controlled(&self, wanted: &[Response]) -> Result<Controlled, Error> {
+        let effort = self.effort();
+        let sampler = Sampler::new(Points::Random)
+            .samples(effort.samples)
+            .seed(effort.seed)
+            .stream(effort.stream)
+            .threads(effort.threads);
+        self.about(wanted, |mechanism, responses, tolerances| {
+            propagation::controlled(mechanism, responses, tolerances, &sampler)
+        })
+    }
+
+    /// See [`Study::influence`].
+    ///
+    /// # Errors
+    /// As [`Study::influence`].
+    pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
+        let effort = self.effort();
+        self.about(wanted, |_, responses, tolerances| {
+            propagation::influence(responses, tolerances, effort)
+        })
+    }
+
+    /// What the settings allow.
+    fn effort(&self) -> Effort {
+        let settings = &self.study.settings;
+        Effort::default()
+            .samples(settings.samples as u64)
+            .seed(settings.seed)
+            .stream(settings.stream)
+            .threads(settings.threads)
+    }
+
+    /// Asks about responses of the mechanism, or of that whose inputs deviate where inputs have tolerances.
+    fn about<R>(
+        &self,
+        wanted: &[Response],
+        question: impl FnOnce(&dyn CurvatureKernels, &Responses<'_>, &Tolerances) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+            return self.in_study(&wide).about(wanted, question);
+        }
+        let mechanism = &self.study.mechanism;
+        let tolerances = self.study.settings.tolerances()?;
+        let responses = Responses::new(mechanism, &self.equilibrium, &self.modes, wanted.to_vec())?;
+        question(mechanism, &responses, tolerances)
+    }
+}

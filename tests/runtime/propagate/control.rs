@@ -1,0 +1,92 @@
+//! The Taylor model as a control variate: right within its error, which is much smaller than that of plain samples.
+
+use eigentol::propagation::{
+    Controlled, ControlledSpread, Method, Points, Propagation, Sampler, controlled, sampled,
+};
+
+use super::*;
+use crate::common::close;
+
+fn of(tolerances: &Tolerances, samples: u64, seed: u64) -> (Controlled, Propagation) {
+    let sampler = Sampler::new(Points::Random).samples(samples).seed(seed);
+    ask(&bar(), vec![FREQUENCY], |responses| {
+        (
+            controlled(&Bar, responses, tolerances, &sampler).unwrap(),
+            sampled(responses, tolerances, &sampler)
+                .unwrap()
+                .propagation()
+                .unwrap(),
+        )
+    })
+}
+
+/// Over many seeds: errors in units of the stated error scatter by one, and the stated worth is that of the errors.
+#[test]
+fn the_stated_error_is_that_of_many_runs() {
+    for (k, length) in lengths().into_iter().enumerate() {
+        let exact = Exact::new(&length);
+        let tolerances = varied(length);
+        let runs: Vec<ControlledSpread> = (0..60)
+            .map(|seed| of(&tolerances, 300, 100 * k as u64 + seed).0.spreads[0].unwrap())
+            .collect();
+        let check = |own: &dyn Fn(&ControlledSpread) -> (f64, f64), truth: f64| {
+            let squares = runs.iter().map(|run| {
+                let (value, error) = own(run);
+                ((value - truth) / error).powi(2)
+            });
+            let mean = squares.sum::<f64>() / runs.len() as f64;
+            // Of 60 runs; heavy tails of what is left make the error of an error large.
+            assert!((0.4..2.5).contains(&mean), "{mean}");
+        };
+        check(&|run| (run.mean.value, run.mean.error.unwrap()), exact.mean);
+        check(
+            &|run| (run.sigma.value, run.sigma.error.unwrap()),
+            exact.sigma,
+        );
+    }
+}
+
+#[test]
+fn it_is_worth_many_plain_samples() {
+    let tolerances = varied(lengths()[0].clone());
+    let (found, plain) = of(&tolerances, 1000, 1);
+    let (own, plain) = (found.spreads[0].unwrap(), spread(&plain, 0));
+    assert_eq!(own.model, Method::SecondOrder);
+    let ratio = (plain.mean.error.unwrap() / own.mean.error.unwrap()).powi(2);
+    // The variance of plain samples has one degree of freedom less.
+    close(own.worth, ratio, 2e-3);
+    assert!(own.worth > 500.0 && own.worth_of_sigma > 50.0, "{own:?}");
+}
+
+/// A linear response is known without samples.
+#[test]
+fn a_linear_response_is_exact() {
+    let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 1.0, None).unwrap();
+    let sampler = Sampler::new(Points::Random).samples(50);
+    let all = ask_sum(outputs(), |responses| {
+        controlled(&Sum, responses, &tolerances, &sampler).unwrap()
+    });
+    let own = all.spreads[0].unwrap();
+    assert_eq!(own.model, Method::FirstOrder);
+    close(own.mean.value, -4.0, 1e-12);
+    close(own.sigma.value, (0.01_f64 + 0.16 + 0.81).sqrt(), 1e-12);
+    assert!(own.worth > 1e10 && own.mean.error.unwrap() < 1e-7);
+}
+
+#[test]
+fn what_samples_do_not_have_is_not_controlled() {
+    let (found, _) = of(&varied(Distribution::normal(1.0, 0.4).unwrap()), 500, 3);
+    assert_eq!(found.spreads, [None]);
+    assert!(found.counts.unphysical > 0 && found.counts.total() == 500);
+    ask(&bar(), vec![FREQUENCY], |responses| {
+        let tolerances = varied(lengths()[0].clone());
+        let with = |points| Sampler::new(points).samples(100);
+        let found = controlled(&Bar, responses, &tolerances, &with(Points::Sobol));
+        assert!(is_setting(found, "points"));
+        let few = with(Points::Random).samples(2);
+        assert!(is_setting(
+            controlled(&Bar, responses, &tolerances, &few),
+            "samples"
+        ));
+    });
+}

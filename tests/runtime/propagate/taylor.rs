@@ -1,0 +1,238 @@
+//! First and second order for any distribution, and the choice between all methods.
+
+use eigentol::Law;
+use eigentol::propagation::{
+    Effort, Estimated, Method, Points, Propagation, first_order, propagate, second_order,
+};
+use eigentol::sweep::Range;
+
+use super::*;
+use crate::common::close;
+
+/// First and second derivative of the frequency by the length: `f^2 = u^2 - n^2`, `n = 1.5 g / (u l)`.
+fn slopes(length: f64) -> (f64, f64) {
+    let (n, f) = (1.5 * GRAVITY / (SPEED * length), frequency(length));
+    let slope = n * n / (length * f);
+    (
+        slope,
+        -3.0 * n * n / (length * length * f) - slope * slope / f,
+    )
+}
+
+fn both(tolerances: &Tolerances) -> [Propagation; 2] {
+    ask(&bar(), vec![FREQUENCY], |responses| {
+        [
+            first_order(&Bar, responses, tolerances).unwrap(),
+            second_order(&Bar, responses, tolerances).unwrap(),
+        ]
+    })
+}
+
+/// Moments of `f + s x + h x^2 / 2` over a distribution of `x`, by the midpoint rule.
+fn model(length: &Distribution, second: bool) -> [f64; 3] {
+    let (slope, curvature) = slopes(1.0);
+    let number = 200_000;
+    let at = |k: u32| {
+        let x = length.quantile((f64::from(k) + 0.5) / f64::from(number)) - 1.0;
+        let bend = if second { 0.5 * curvature * x * x } else { 0.0 };
+        frequency(1.0) + slope * x + bend
+    };
+    let mean = (0..number).map(at).sum::<f64>() / f64::from(number);
+    let power = |n: i32| {
+        let all = (0..number).map(|k| (at(k) - mean).powi(n));
+        all.sum::<f64>() / f64::from(number)
+    };
+    let sigma = power(2).sqrt();
+    [mean, sigma, power(3) / sigma.powi(3)]
+}
+
+/// The moments of the model are exact whatever the distribution: those of the closed form's Taylor polynomial.
+#[test]
+fn moments_of_the_polynomial() {
+    for length in [
+        Distribution::normal(1.01, 0.02).unwrap(),
+        Distribution::uniform(0.94, 1.08).unwrap(),
+        Distribution::triangular(0.98, 1.0, 1.06).unwrap(),
+        Distribution::lognormal(1.0, 0.03).unwrap(),
+        Distribution::discrete(&[(0.95, 1.0), (1.0, 2.0), (1.02, 1.0)]).unwrap(),
+    ] {
+        let found = both(&varied(length.clone()));
+        for (second, all) in [false, true].into_iter().zip(&found) {
+            let own = spread(all, 0);
+            let [mean, sigma, skewness] = model(&length, second);
+            close(own.mean.value, mean, 1e-6);
+            close(own.sigma.unwrap().value, sigma, 2e-4);
+            let found = own.skewness.unwrap();
+            assert!(
+                (found.value - skewness).abs() < 5e-3 + 0.01 * skewness.abs(),
+                "{found:?} {skewness}"
+            );
+        }
+    }
+}
+
+/// A skew law: the third moment of the variable enters the variance, not only the fourth.
+#[test]
+fn variance_knows_the_third_moment() {
+    let length = Distribution::triangular(0.9, 0.9, 1.2).unwrap();
+    let [_, second] = both(&varied(length.clone()));
+    let [mean, sigma, _] = model(&length, true);
+    let own = spread(&second, 0);
+    assert!((own.sigma.unwrap().value / sigma - 1.0).abs() < 1e-6);
+    assert!((own.mean.value / mean - 1.0).abs() < 1e-7);
+}
+
+/// The error that is stated holds the exact distribution, and is smaller for second order.
+#[test]
+fn errors_hold() {
+    for length in lengths() {
+        let exact = Exact::new(&length);
+        let [first, second] = both(&varied(length));
+        let inside = |own: Estimated, truth: f64| {
+            assert!(
+                (own.value - truth).abs() < 1.5 * own.error.unwrap() + 1e-5,
+                "{own:?} {truth}"
+            );
+        };
+        for own in [&first, &second].map(|all| spread(all, 0)) {
+            inside(own.mean, exact.mean);
+            inside(own.sigma.unwrap(), exact.sigma);
+        }
+        let error = |all: &Propagation| spread(all, 0).mean.error.unwrap();
+        assert!(error(&second) < 0.5 * error(&first));
+    }
+}
+
+#[test]
+fn quantiles_of_the_models() {
+    let length = Distribution::uniform(0.97, 1.03).unwrap();
+    let [first, second] = both(&varied(length.clone()));
+    let (slope, curvature) = slopes(1.0);
+    for (all, bend) in [(&first, 0.0), (&second, 0.5 * curvature)] {
+        for own in &spread(all, 0).quantiles {
+            let x = length.quantile(own.probability) - 1.0;
+            let truth = frequency(1.0) + slope * x + bend * x * x;
+            assert!(
+                (own.value - truth).abs() < 2e-3 * slope * 0.03 + 1e-9,
+                "{own:?} {truth}"
+            );
+        }
+    }
+    // Normal to first order: exact.
+    let [first, _] = both(&varied(Distribution::normal(1.0, 0.01).unwrap()));
+    close(
+        spread(&first, 0).quantiles[6].value,
+        frequency(1.0) + 3.0 * 0.01 * slope,
+        1e-12,
+    );
+}
+
+/// Linear outputs are exact to first order, several of them with their covariance; outputs have no second derivatives.
+#[test]
+fn a_linear_response() {
+    let laws = [Law::Uniform, Law::Triangular, Law::Normal];
+    let mut study = Study::new(Sum);
+    for (law, variable) in laws.into_iter().zip([Sum::a, Sum::b, Sum::c]) {
+        study = study.tolerance(variable, 0.3).law(variable, law);
+    }
+    let tolerances = study.tolerances().unwrap();
+    let [a, b, c]: [f64; 3] = [0.09 / 3.0, 0.09 / 6.0, 0.01];
+    ask_sum(outputs(), |responses| {
+        let all = first_order(&Sum, responses, &tolerances).unwrap();
+        close(
+            spread(&all, 0).sigma.unwrap().value,
+            (a + 4.0 * b + 9.0 * c).sqrt(),
+            1e-12,
+        );
+        assert!(spread(&all, 0).skewness.unwrap().value.abs() < 1e-12);
+        close(all.covariance[0][1].unwrap(), 2.0 * a + 2.0 * b, 1e-12);
+        close(all.with_design[0][4].unwrap(), -3.0 * c, 1e-12);
+        // Nothing tells that they are linear.
+        assert_eq!(spread(&all, 0).mean.error, None);
+        let second = second_order(&Sum, responses, &tolerances).unwrap();
+        assert_eq!(second.spreads, [None, None]);
+    });
+}
+
+/// Dependent variables that are not normal have no closed form: samples of the model, with their error.
+#[test]
+fn dependent_variables() {
+    let length = Distribution::uniform(0.97, 1.03).unwrap();
+    let mass = Distribution::uniform(2.9, 3.1).unwrap();
+    let correlation = eigentol::Matrix::from([[1.0, 0.6], [0.6, 1.0]]);
+    let tolerances = Tolerances::distributed(
+        &[3.0, 1.0],
+        vec![mass, length.clone()],
+        3.0,
+        Some(correlation),
+    )
+    .unwrap();
+    let [_, second] = both(&tolerances);
+    let [mean, sigma, skewness] = model(&length, true);
+    let own = spread(&second, 0);
+    close(own.mean.value, mean, 1e-8);
+    close(own.sigma.unwrap().value, sigma, 1e-3);
+    assert!((own.skewness.unwrap().value - skewness).abs() < 1e-2);
+    // Only the mass varies with the length.
+    let with_mass = second.with_design[0][0].unwrap();
+    let by_length = second.with_design[0][1].unwrap();
+    close(with_mass / by_length, 0.6 * (0.1 / 0.03), 1e-2);
+}
+
+/// The choice by cost, its reason, and what becomes of a node without value.
+#[test]
+fn the_method_follows_the_cost() {
+    let range = Range::new(Bar::omega.any(), 0.5, 8.0).steps(20);
+    let critical = vec![Response::Critical(range)];
+    let tolerances = varied(Distribution::normal(1.0, 0.02).unwrap());
+    let of = |wanted: &[Response], tolerances: &Tolerances, solutions| {
+        ask(&bar(), wanted.to_vec(), |responses| {
+            let effort = Effort::default().solutions(solutions);
+            let all = propagate(&Bar, responses, tolerances, effort).unwrap();
+            assert!(!all.reason.is_empty());
+            all
+        })
+    };
+    let all = of(&[FREQUENCY], &tolerances, 4096);
+    assert_eq!(
+        (all.method, all.evaluations),
+        (Method::Sampled(Points::Sobol), 4096)
+    );
+    assert_eq!(
+        of(&[FREQUENCY], &tolerances, 4095).method,
+        Method::Tensor { nodes: 7 }
+    );
+    assert_eq!(
+        of(&[FREQUENCY], &tolerances, 7).method,
+        Method::Tensor { nodes: 4 }
+    );
+    assert_eq!(of(&[FREQUENCY], &tolerances, 4).method, Method::SecondOrder);
+    let found = of(&critical, &tolerances, 21 * 4095);
+    assert_eq!(found.method, Method::Tensor { nodes: 7 });
+    // sqrt(1.5 g / l): mean and sigma by its series to fourth order.
+    let (speed, s) = ((1.5 * GRAVITY).sqrt(), 0.02_f64.powi(2));
+    let own = spread(&found, 0);
+    close(
+        own.mean.value,
+        speed * (1.0 + 0.375 * s + 3.0 * 35.0 / 128.0 * s * s),
+        1e-8,
+    );
+    assert_eq!(
+        of(&critical, &tolerances, 21 * 4).method,
+        Method::FirstOrder
+    );
+    let still = varied(Distribution::constant(1.0).unwrap());
+    assert_eq!(
+        of(&[FREQUENCY], &still, 1_000_000).method,
+        Method::FirstOrder
+    );
+    let wide = varied(Distribution::normal(1.0, 0.6).unwrap());
+    let found = of(&[FREQUENCY], &wide, 200);
+    assert_eq!(
+        (found.method, found.evaluations),
+        (Method::Sampled(Points::Sobol), 128)
+    );
+    assert!(found.counts.unphysical > 0);
+    let steps = varied(Distribution::discrete(&[(0.9, 1.0), (1.1, 1.0)]).unwrap());
+    assert_eq!(of(&[FREQUENCY], &steps, 100).method, Method::SecondOrder);
+}

@@ -1,0 +1,104 @@
+//! Worst cases: corners of the box, monotonic or not.
+
+use eigentol::propagation::worst_case;
+use eigentol::sweep::Range;
+use eigentol::tolerance::Outcome;
+
+use super::*;
+use crate::common::close;
+
+#[test]
+fn a_monotonic_response() {
+    for (length, low, high) in [
+        (Distribution::uniform(0.94, 1.06).unwrap(), 0.94, 1.06),
+        (Distribution::normal(1.01, 0.02).unwrap(), 0.95, 1.07),
+        (Distribution::lognormal(1.0, 0.1).unwrap(), 0.7377, 1.3422),
+    ] {
+        let worst = ask(&bar(), vec![FREQUENCY], |responses| {
+            worst_case(responses, &varied(length)).unwrap()
+        });
+        let found = &worst.responses[0];
+        let (least, greatest) = (
+            found.least.as_ref().unwrap(),
+            found.greatest.as_ref().unwrap(),
+        );
+        close(least.design[1], low, 1e-3);
+        close(greatest.design[1], high, 1e-3);
+        close(least.value, frequency(least.design[1]), 1e-11);
+        close(greatest.value, frequency(greatest.design[1]), 1e-11);
+        // The mass does not matter.
+        assert_eq!((least.design[0], worst.evaluations), (3.0, 3));
+        assert!(found.is_monotonic());
+        close(found.nominal.unwrap(), frequency(1.0), 1e-12);
+    }
+}
+
+/// The corners of a linear response, exact in each variable by itself.
+#[test]
+fn a_linear_response() {
+    let tolerances = Tolerances::new([0.0, 0.0, 0.1, 0.2, 0.3], 3.0, None).unwrap();
+    let worst = ask_sum(outputs(), |responses| {
+        worst_case(responses, &tolerances).unwrap()
+    });
+    let [sum, product] = [0, 1].map(|k| &worst.responses[k]);
+    close(
+        sum.greatest.as_ref().unwrap().value,
+        -4.0 + 0.1 + 0.4 + 0.9,
+        1e-13,
+    );
+    close(sum.least.as_ref().unwrap().value, -4.0 - 1.4, 1e-13);
+    close(product.greatest.as_ref().unwrap().value, 1.1 * 2.2, 1e-13);
+    assert_eq!(product.least.as_ref().unwrap().design[4], 3.0);
+    assert!(sum.is_monotonic() && product.is_monotonic());
+}
+
+/// A product of two variables about zero is greatest in two corners and least in two; gradients alone see one of each.
+#[test]
+fn a_response_that_turns() {
+    let limits = [1.5, 3.0].map(|high| Distribution::uniform(-1.0, high).unwrap());
+    let [a, b] = limits;
+    let fixed = |value| Distribution::constant(value).unwrap();
+    let all = vec![fixed(2.0), fixed(8.0), a, b, fixed(3.0)];
+    let nominal = [2.0, 8.0, 1.0, 2.0, 3.0];
+    let tolerances = Tolerances::distributed(&nominal, all, 3.0, None).unwrap();
+    let worst = ask_sum(outputs(), |responses| {
+        worst_case(responses, &tolerances).unwrap()
+    });
+    let product = &worst.responses[1];
+    assert_eq!(product.turning, [2, 3]);
+    assert!(!product.is_monotonic());
+    close(product.greatest.as_ref().unwrap().value, 4.5, 1e-13);
+    close(product.least.as_ref().unwrap().value, -3.0, 1e-13);
+    assert!(worst.responses[0].is_monotonic());
+}
+
+#[test]
+fn a_corner_without_value_is_said() {
+    let worst = ask(&bar(), vec![FREQUENCY], |responses| {
+        worst_case(
+            responses,
+            &varied(Distribution::uniform(-0.5, 1.5).unwrap()),
+        )
+        .unwrap()
+    });
+    let found = &worst.responses[0];
+    assert_eq!(found.missing.len(), 1);
+    assert_eq!(found.missing[0].outcome, Outcome::Unphysical);
+    assert_eq!(found.missing[0].design[1], -0.5);
+    // The nominal design is the least that was seen with a value, and its gradient says that it is not the least there is.
+    let least = found.least.as_ref().unwrap();
+    assert!(!least.confirmed && least.design[1] == 1.0 && !found.is_monotonic());
+}
+
+/// The speed above which the bar swings out, `sqrt(1.5 g / l)`.
+#[test]
+fn critical_speeds() {
+    let range = Range::new(Bar::omega.any(), 0.5, 8.0).steps(20);
+    let worst = ask(&bar(), vec![Response::Critical(range)], |responses| {
+        worst_case(responses, &varied(Distribution::uniform(0.9, 1.2).unwrap())).unwrap()
+    });
+    let found = &worst.responses[0];
+    let speed = |length: f64| (1.5 * GRAVITY / length).sqrt();
+    close(found.greatest.as_ref().unwrap().value, speed(0.9), 1e-8);
+    close(found.least.as_ref().unwrap().value, speed(1.2), 1e-8);
+}
