@@ -2,8 +2,12 @@
 
 use std::hint::black_box;
 
+use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
 use eigentol::kernels::{BatchKernels, CurvatureKernels};
+use eigentol::propagation::{Points, Sampler};
+use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::response::Response;
 use eigentol::second_order::Band;
 use eigentol::sensitivity::Quantity;
 use eigentol::{Error, Input, Study};
@@ -82,7 +86,6 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question
         ("mode_curvature", |s, _| answered(s.mode_curvature(mode(s)))),
         ("second_order", |s, _| answered(s.second_order())),
         ("clusters", |s, _| answered(s.clusters())),
-        ("summary", |s, _| answered(s.summary())),
         ("margin", |s, _| answered(s.margin(mode(s), BAND))),
         ("margin_of", |s, _| {
             answered(s.margin_of(mode(s), Quantity::Growth, BAND));
@@ -115,7 +118,6 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Que
         mode_curvature(mode(study));
         second_order();
         clusters();
-        summary();
         margin(mode(study), BAND);
         margin_of(mode(study), Quantity::Growth, BAND);
         monte_carlo();
@@ -132,6 +134,61 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Que
         answered(solved.directional_derivatives(mode(s), (&u, &b)));
     }));
     questions
+}
+
+/// What is asked of chance: each solves the study, and asks what is solved.
+pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+    const SAMPLES: u64 = 8;
+    fn response<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> Response {
+        Response::Mode {
+            mode: mode(study),
+            quantity: Quantity::Growth,
+        }
+    }
+    fn wanted<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> [Requirement; 2] {
+        [
+            Requirement::at_most(response(study), 1e3),
+            Requirement::Stable,
+        ]
+    }
+    // That it is answered or refused is enough: what stands in the way of an overflow is the depth of the calls.
+    fn replied<T>(answer: Result<T, Error>) {
+        let _ = black_box(answer);
+    }
+    vec![
+        ("summary", |s, _| answered(s.summary())),
+        ("summary_within", |s, _| answered(s.summary_within(1e5))),
+        ("propagate", |s, _| replied(s.propagate(&[response(s)]))),
+        ("sample_responses", |s, _| {
+            let sampler = Sampler::new(Points::LatinHypercube).samples(SAMPLES);
+            answered(s.sample_responses(&[response(s)], &sampler));
+        }),
+        ("worst_case", |s, _| replied(s.worst_case(&[response(s)]))),
+        ("controlled", |s, _| replied(s.controlled(&[response(s)]))),
+        ("influence", |s, _| replied(s.influence(&[response(s)]))),
+        ("chances", |s, _| answered(s.chances(&wanted(s)))),
+        ("reliability", |s, _| replied(s.reliability(&wanted(s)))),
+        ("rare_failure", |s, _| {
+            let settings = SamplingSettings {
+                samples: SAMPLES,
+                ..SamplingSettings::default()
+            };
+            replied(s.rare_failure(&wanted(s), &settings));
+        }),
+        ("allocation", |s, _| {
+            let widths = HalfWidth {
+                variable: 0,
+                limits: (1e-6, 1e-3),
+                cost: Cost::reciprocal(0.0, 1.0, 1.0),
+            };
+            let choices = Choices {
+                half_widths: vec![widths],
+                nominals: Vec::new(),
+                failure: vec![0.5, 0.5],
+            };
+            replied(s.allocation(&wanted(s), &choices));
+        }),
+    ]
 }
 
 /// Along the first input.
