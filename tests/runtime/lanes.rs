@@ -2,7 +2,8 @@
 
 use crate::common::pendulum::Pendulum as ByHand;
 use eigentol::kernels::{
-    BatchKernels, BatchPoint, Gradient, Kernels, Linear, LinearPartials, RestParts,
+    BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint, Gradient,
+    Kernels, Linear, LinearPartials, RestParts,
 };
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, mechanism};
@@ -100,6 +101,63 @@ fn same_gradient(batch: &Gradient<Batch>, state: usize, alone: &Gradient) {
     same_list(&batch.design, state, &alone.design);
 }
 
+fn room(linear: &mut Linear<Batch>) -> BatchLinear<'_> {
+    BatchLinear {
+        mass: linear.mass.as_flattened_mut(),
+        damping: linear.damping.as_flattened_mut(),
+        stiffness: linear.stiffness.as_flattened_mut(),
+    }
+}
+
+fn gradient_room(gradient: &mut Gradient<Batch>) -> BatchGradient<'_> {
+    BatchGradient {
+        coordinates: &mut gradient.coordinates,
+        inputs: &mut gradient.inputs,
+        design: &mut gradient.design,
+    }
+}
+
+/// Partial derivatives as lists of matrices.
+fn write_partials(
+    m: &dyn BatchKernels,
+    set: Instructions,
+    at: BatchPoint<'_>,
+    matrices: &mut LinearPartials<Batch>,
+    residual: &mut (Matrix<Batch>, Matrix<Batch>),
+) {
+    let size = at.q.len() * at.q.len();
+    let mut flat = [at.q.len(), at.u.len(), at.b.len()]
+        .map(|count| [(); 3].map(|()| vec![Batch::default(); count * size]));
+    let [by_coordinate, by_input, by_design] =
+        flat.each_mut()
+            .map(|[mass, damping, stiffness]| BatchLinear {
+                mass,
+                damping,
+                stiffness,
+            });
+    let mut partials = BatchPartials {
+        by_coordinate,
+        by_input,
+        by_design,
+    };
+    let by = [residual.0.as_flattened_mut(), residual.1.as_flattened_mut()];
+    m.partials_batch(set, at, &mut partials, by);
+    let lists = [
+        &mut matrices.by_coordinate,
+        &mut matrices.by_input,
+        &mut matrices.by_design,
+    ];
+    for (list, [mass, damping, stiffness]) in lists.into_iter().zip(&flat) {
+        for (k, change) in list.iter_mut().enumerate() {
+            let own = k * size..(k + 1) * size;
+            let to = room(change);
+            to.mass.copy_from_slice(&mass[own.clone()]);
+            to.damping.copy_from_slice(&damping[own.clone()]);
+            to.stiffness.copy_from_slice(&stiffness[own]);
+        }
+    }
+}
+
 /// All kernels at one batch of states.
 fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
     let kernels: &dyn Kernels = m;
@@ -117,12 +175,16 @@ fn check(m: &dyn BatchKernels, q: &[Batch], u: &[Batch], b: &[Batch]) {
             Matrix::zeros(n, sizes.design),
         );
         let (mut mode, mut residual) = (Gradient::zeros(sizes), Gradient::zeros(sizes));
-        m.residual_and_stiffness_batch(set, at, &mut newton.0, &mut newton.1);
-        m.linear_batch(set, at, &mut linear);
-        m.parts_and_linear_batch(set, at, &mut both.0, &mut both.1);
-        m.partials_batch(set, at, &mut matrices, &mut partials);
-        m.mode_gradient_batch(set, at, &phi, &lambda, &mut mode);
-        m.residual_gradient_batch(set, at, &phi, &mut residual);
+        m.residual_and_stiffness_batch(set, at, &mut newton.0, newton.1.as_flattened_mut());
+        m.linear_batch(set, at, &mut room(&mut linear));
+        let mut parts = BatchParts {
+            inertia: &mut both.0.inertia,
+            applied: &mut both.0.applied,
+        };
+        m.parts_and_linear_batch(set, at, &mut parts, &mut room(&mut both.1));
+        write_partials(m, set, at, &mut matrices, &mut partials);
+        m.mode_gradient_batch(set, at, &phi, &lambda, &mut gradient_room(&mut mode));
+        m.residual_gradient_batch(set, at, &phi, &mut gradient_room(&mut residual));
         for state in 0..WIDTH {
             let [q, u, b] = [q, u, b].map(|batches| of_state(batches, state));
             let (phi, lambda) = (of_state(&phi, state), lambda.0[state]);

@@ -26,3 +26,4 @@ mod study;
 mod sweeps;
 mod tolerance;
 mod trigonometry;
+mod verdict;

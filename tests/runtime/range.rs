@@ -27,17 +27,16 @@ fn wide<M>(k: usize) -> DesignVariable<M> {
 fn ask<M: Mechanism>(name: &str, study: &Study<M>) {
     for family in [Family::Undamped, Family::General] {
         let study = study.clone().family(family).samples(20).threads(1);
+        let summary = study.summary();
         let mut answers = vec![
             ("first", format!("{:?}", study.first_order())),
             ("second", format!("{:?}", study.second_order())),
             ("sensitivities", format!("{:?}", study.sensitivities())),
             ("curvature", format!("{:?}", study.mode_curvature(0))),
-            ("summary", format!("{:?}", study.summary())),
+            ("summary", format!("{summary:?}")),
             (
                 "summary",
-                study
-                    .summary()
-                    .map_or(String::new(), |found| found.to_string()),
+                summary.map_or(String::new(), |found| found.to_string()),
             ),
             ("samples", format!("{:?}", study.monte_carlo())),
         ];

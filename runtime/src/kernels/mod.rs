@@ -17,6 +17,7 @@ mod directional;
 mod interval;
 mod motion;
 mod partial_matrices;
+mod summary;
 
 pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
 pub use costs::Costs;
@@ -27,6 +28,7 @@ pub use interval::Interval;
 pub use motion::MotionKernels;
 pub use partial_matrices::PartialMatrices;
 pub(crate) use partial_matrices::{entries_of, parts};
+pub use summary::SummaryKernels;
 
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{self, Description, PoseMargin, Shared, Violation};

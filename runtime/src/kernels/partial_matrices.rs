@@ -29,17 +29,22 @@ impl PartialMatrices {
     /// The same as lists of matrices.
     #[must_use]
     pub fn to_lists(&self) -> LinearPartials {
-        let n = self.sizes.coordinates;
-        let matrix = |entries: &[f64]| Matrix::from_fn(n, n, |i, j| entries[i * n + j]);
-        let list = |changes: &[f64]| -> Vec<Linear> {
-            let each = changes.chunks_exact(entries_of(n));
-            each.map(|change| parts(change).map(matrix)).collect()
-        };
         LinearPartials {
-            by_coordinate: list(self.by_coordinate()),
-            by_input: list(self.by_input()),
-            by_design: list(self.by_design()),
+            by_coordinate: self.matrices(self.by_coordinate()).collect(),
+            by_input: self.matrices(self.by_input()).collect(),
+            by_design: self.matrices(self.by_design()).collect(),
         }
+    }
+
+    /// Some of the derivatives as matrices.
+    pub(crate) fn matrices<'a>(
+        &self,
+        changes: &'a [f64],
+    ) -> impl ExactSizeIterator<Item = Linear> + use<'a> {
+        let n = self.sizes.coordinates;
+        let matrix = move |entries: &[f64]| Matrix::from_fn(n, n, |i, j| entries[i * n + j]);
+        let each = changes.chunks_exact(entries_of(n).max(1));
+        each.map(move |change| parts(change).map(matrix))
     }
 
     /// The derivatives by the coordinates, one after the other, of each [`parts`].

@@ -6,8 +6,8 @@ use super::table::{Table, cells, number, optional, undamped};
 use super::title::title;
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
-use crate::summary::{Doubt, Summary};
-use crate::tolerance::{Statistics, TRUSTED_DISTANCE};
+use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampled, Sampling, Summary};
+use crate::tolerance::{Outcome, Statistics, TRUSTED_DISTANCE};
 
 /// `mode 2`, `modes 2 and 3`, `modes 1, 2 and 3`, counted from 1.
 fn named(modes: &[usize]) -> String {
@@ -118,6 +118,10 @@ impl fmt::Display for Summary {
             "sigma, first order",
             "second order",
         ]);
+        let sampled = self.sampled().is_some();
+        if sampled {
+            head.push("sampled".to_owned());
+        }
         head.push(format!("{} sigma [rad/s]", self.first.sigma_level));
         head.push("trusted".to_owned());
         let mut table = Table::new(head);
@@ -125,21 +129,31 @@ impl fmt::Display for Summary {
             let alone = self.cluster_of(r).is_none();
             let own = |value: Option<f64>| optional(value.filter(|_| alone));
             let frequency = mode.frequency.as_ref();
-            table.row(vec![
+            let mut row = vec![
                 (r + 1).to_string(),
                 optional(mode.behaviour.frequency()),
                 own(frequency.map(|spread| spread.sigma)),
                 own(self.second_order_sigma(r)),
-                own(frequency.map(|spread| spread.band)),
-                verdict(&trust.doubts),
-            ]);
+            ];
+            if sampled {
+                let check = trust.check(Quantity::Frequency);
+                row.push(optional(check.map(|check| check.sigma.value)));
+            }
+            row.push(own(frequency.map(|spread| spread.band)));
+            row.push(verdict(&trust.doubts));
+            table.row(row);
         }
         write!(f, "{table}")?;
         undamped(f, self.first.family, d)?;
         self.sentences(f)?;
-        self.clusters
-            .iter()
-            .try_for_each(|cluster| write!(f, "{cluster}"))
+        self.about_samples(f)?;
+        let mixed = |cluster: &&ClusterTolerance| {
+            cluster
+                .modes
+                .iter()
+                .any(|mode| self.cluster_of(*mode).is_some())
+        };
+        (self.clusters.iter().filter(mixed)).try_for_each(|cluster| write!(f, "{cluster}"))
     }
 }
 
@@ -172,20 +186,118 @@ impl Summary {
             let modes: Vec<usize> = shares.map(|own| own.mode).collect();
             writeln!(f, "  {}: {doubt}", capital(named(&modes)))?;
         }
-        let trusted: Vec<usize> = self
-            .trust
-            .iter()
-            .filter(|own| own.trusted())
-            .map(|own| own.mode)
-            .collect();
-        if trusted.is_empty() {
+        for trust in &self.trust {
+            trust
+                .checks
+                .iter()
+                .try_for_each(|check| row_of(f, trust.mode, check))?;
+        }
+        for advice in [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling] {
+            let own = self.trust.iter().filter(|own| own.advice == advice);
+            let modes: Vec<usize> = own.map(|own| own.mode).collect();
+            let text = match advice {
+                Advice::FirstOrder => "nothing speaks against the first-order sigma.",
+                Advice::SecondOrder => "use second order, which agrees with the samples.",
+                _ => "use Monte Carlo.",
+            };
+            if !modes.is_empty() {
+                writeln!(f, "  {}: {text}", capital(named(&modes)))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What became of the samples, or why there are none.
+    fn about_samples(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.sampling {
+            Sampling::NotNeeded => Ok(()),
+            Sampling::TooDear { operations, budget } => writeln!(
+                f,
+                "  Not checked by samples: they would cost {operations:.1e} operations of {budget:.1e}. The verdicts rest on distances \
+                 and second order."
+            ),
+            Sampling::Done(sampled) => {
+                let missing = self.trust.iter().flat_map(|own| &own.checks);
+                if missing.clone().any(|check| check.count < check.samples) {
+                    writeln!(
+                        f,
+                        "  Sampled sigmas are those of the samples that are stable and in which the mode oscillates; in others it has no \
+                         frequency."
+                    )?;
+                }
+                chances(f, sampled)
+            }
+        }
+    }
+}
+
+/// By how much first and second order miss the samples.
+fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check) -> fmt::Result {
+    let percent = |error: Measured| {
+        let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);
+        format!("{value:+.1} % (+- {uncertain:.1})")
+    };
+    let name = quantity_name(check.quantity);
+    let count = match check.count {
+        all if all == check.samples => format!("{all} samples"),
+        some => format!("{some} of {} samples", check.samples),
+    };
+    write!(
+        f,
+        "  Mode {}: sigma of the {name} over {count} {}",
+        mode + 1,
+        number(check.sigma.value)
+    )?;
+    if let Some(error) = check.first_order_error {
+        write!(f, "; first order is off by {}", percent(error))?;
+    }
+    if let Some(error) = check.second_order_error {
+        write!(f, ", second order by {}", percent(error))?;
+    }
+    writeln!(f, ".")
+}
+
+/// What happened to samples that are not stable on the nominal branch.
+fn chances(f: &mut fmt::Formatter<'_>, sampled: &Sampled) -> fmt::Result {
+    let line = |f: &mut fmt::Formatter<'_>, name: &str, chance: Chance| {
+        if chance.count == 0 {
             return Ok(());
         }
-        let modes = capital(named(&trusted));
+        let percent = |share: f64| format!("{:.3}", 100.0 * share);
         writeln!(
             f,
-            "  {modes}: nothing speaks against the first-order sigma."
+            "  {name}: {} % of {} samples (95 %: {} to {} %).",
+            percent(chance.value()),
+            chance.samples,
+            percent(chance.lower),
+            percent(chance.upper)
         )
+    };
+    if let Some(chance) = sampled.other_branch {
+        line(f, "Stable on another branch", chance)?;
+    }
+    for (outcome, chance) in &sampled.outcomes {
+        let name = match outcome {
+            Outcome::Stable => continue,
+            Outcome::Divergent => "Unstable without oscillation",
+            Outcome::Flutter => "Unstable in a growing oscillation",
+            Outcome::Undecided => "Stability not decided",
+            Outcome::NoEquilibrium => "No equilibrium",
+            Outcome::NotAssembled => "Loops do not close",
+            Outcome::Unphysical => "Bodies that cannot exist",
+            Outcome::NoModes => "Modes not found",
+        };
+        line(f, name, *chance)?;
+    }
+    Ok(())
+}
+
+fn quantity_name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Frequency => "frequency",
+        Quantity::NaturalFrequency => "natural frequency",
+        Quantity::DampingRatio => "damping ratio",
+        Quantity::Growth => "growth",
     }
 }
 
@@ -214,7 +326,7 @@ impl fmt::Display for Doubt {
             ),
             Self::NearCritical { distance: 0.0 } => write!(
                 f,
-                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing here: use Monte Carlo."
+                "the stiffness is zero within rounding: this is a critical state. Sigma says nothing here."
             ),
             Self::NearCritical { distance } if *distance < 0.0 => write!(
                 f,
@@ -223,7 +335,7 @@ impl fmt::Display for Doubt {
             Self::NearCritical { distance } => write!(
                 f,
                 "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
-                 has no bound: use Monte Carlo.",
+                 has no bound.",
                 number(*distance)
             ),
             Self::NearInstability { distance: 0.0 } => write!(
@@ -244,26 +356,37 @@ impl fmt::Display for Doubt {
             Self::NearCriticalDamping { distance } => write!(
                 f,
                 "the oscillation ceases {} standard deviations away, where it becomes two decaying motions. Within \
-                 {TRUSTED_DISTANCE} of them the error of sigma has no bound: use Monte Carlo.",
+                 {TRUSTED_DISTANCE} of them the error of sigma has no bound.",
                 number(*distance)
             ),
             Self::Nonlinear {
                 quantity,
                 sigma_error,
             } => {
-                let name = match quantity {
-                    Quantity::Frequency => "frequency",
-                    Quantity::NaturalFrequency => "natural frequency",
-                    Quantity::DampingRatio => "damping ratio",
-                    Quantity::Growth => "growth",
-                };
+                let name = quantity_name(*quantity);
                 write!(
                     f,
                     "the first-order sigma of the {name} is {:.1} % below that of second order, because it is not linear \
-                     within the tolerances. Second order shows that, but not by how much: use Monte Carlo.",
+                     within the tolerances. Second order shows that, but not by how much.",
                     100.0 * sigma_error
                 )
             }
+            Self::Inaccurate { quantity, error } => write!(
+                f,
+                "the first-order sigma of the {} is {:.1} % {} that of the samples.",
+                quantity_name(*quantity),
+                100.0 * error.value.abs(),
+                if error.value < 0.0 { "below" } else { "above" }
+            ),
+            Self::Missing {
+                quantity,
+                count,
+                samples,
+            } => write!(
+                f,
+                "only {count} of {samples} samples have its {}.",
+                quantity_name(*quantity)
+            ),
             Self::Unchecked { reason } => {
                 write!(f, "sigma was not checked against second order: {reason}.")
             }

@@ -44,7 +44,7 @@ pub struct ModelMoments {
 
 impl Quadratic {
     /// What a change of the variables adds to the value.
-    pub(super) fn change(&self, x: &[f64]) -> f64 {
+    pub(crate) fn change(&self, x: &[f64]) -> f64 {
         let bent = self.curvature.iter().map(|row| dot(row, x));
         let parts = x.iter().zip(&self.slopes).zip(bent);
         parts.fold(0.0, |sum, ((x, slope), bent)| {

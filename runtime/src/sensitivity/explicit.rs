@@ -1,11 +1,13 @@
 //! Derivatives of all modes from explicit partial derivatives of the matrices: the way of eqs. 19-21, which checks the
 //! adjoint, and the way that forgets the shift of the equilibrium.
 
+use core::borrow::Borrow;
+
 use super::adjoint::normaliser;
 use super::shift::equilibrium_shift;
 use super::{Method, Sensitivities, Slopes, assemble, check_state};
 use crate::algebra::{dot_complex, form};
-use crate::kernels::{Kernels, Linear};
+use crate::kernels::{Kernels, Linear, PartialMatrices};
 use crate::modes::{Family, pencil_times};
 use crate::{Complex, Equilibrium, Error, Mode, Modes};
 
@@ -19,12 +21,16 @@ pub fn sensitivities_explicit(
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
     let shift = equilibrium_shift(mechanism, at)?;
-    let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
+    let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::Explicit, |own, mode| {
         let rate = Rate::of(at, modes.family, mode);
-        let mut slopes = rate.slopes(&partials.by_input, &partials.by_design);
-        for (i, change) in partials.by_coordinate.iter().enumerate() {
-            let moved = rate.along(change);
+        let mut slopes = rate.slopes(
+            partials.matrices(partials.by_input()),
+            partials.matrices(partials.by_design()),
+        );
+        let by_coordinate = partials.matrices(partials.by_coordinate());
+        for (i, change) in by_coordinate.enumerate() {
+            let moved = rate.along(&change);
             for (total, by) in slopes.by_input.iter_mut().zip(&shift.by_input[i]) {
                 *total += moved * by;
             }
@@ -47,12 +53,21 @@ pub fn sensitivities_with_frozen_equilibrium(
     modes: &Modes,
 ) -> Result<Sensitivities, Error> {
     check_state(mechanism, at)?;
-    let partials = mechanism.linear_partials(&at.coordinates, &at.inputs, &at.design);
+    let partials = partials_at(mechanism, at);
     assemble(at, modes, Method::FrozenEquilibrium, |own, mode| {
         let rate = Rate::of(at, modes.family, mode);
-        let slopes = rate.slopes(&partials.by_input, &partials.by_design);
+        let slopes = rate.slopes(
+            partials.matrices(partials.by_input()),
+            partials.matrices(partials.by_design()),
+        );
         own.set(mode, modes.family, &slopes);
     })
+}
+
+fn partials_at(mechanism: &dyn Kernels, at: &Equilibrium) -> PartialMatrices {
+    let mut partials = PartialMatrices::zeros(mechanism.sizes());
+    mechanism.linear_partials_into(&at.coordinates, &at.inputs, &at.design, &mut partials);
+    partials
 }
 
 /// How the eigenvalue of a mode moves with its matrices: of an undamped mode `lambda`, of a general one `s`.
@@ -72,11 +87,15 @@ impl<'a> Rate<'a> {
     }
 
     /// From the changes of the matrices with each variable.
-    pub(crate) fn slopes(&self, by_input: &[Linear], by_design: &[Linear]) -> Slopes<Complex> {
-        let slope = |change: &Linear| self.along(change);
+    pub(crate) fn slopes<L: Borrow<Linear>>(
+        &self,
+        by_input: impl Iterator<Item = L>,
+        by_design: impl Iterator<Item = L>,
+    ) -> Slopes<Complex> {
+        let slope = |change: L| self.along(change.borrow());
         Slopes {
-            by_input: by_input.iter().map(slope).collect(),
-            by_design: by_design.iter().map(slope).collect(),
+            by_input: by_input.map(slope).collect(),
+            by_design: by_design.map(slope).collect(),
         }
     }
 

@@ -47,7 +47,7 @@ pub fn sensitivities_by_finite_difference(
         by_design.push(difference(&above, &below, up[j] - down[j]));
     }
     assemble(at, modes, Method::FiniteDifference, |own, mode| {
-        let slopes = Rate::of(at, modes.family, mode).slopes(&by_input, &by_design);
+        let slopes = Rate::of(at, modes.family, mode).slopes(by_input.iter(), by_design.iter());
         own.set(mode, modes.family, &slopes);
     })
 }

@@ -65,7 +65,7 @@ fn pays(
 /// The changes of matrices of size `n`, one after the other, with each of the variables.
 #[inline(always)]
 pub(crate) fn changes(n: usize, all: &[f64]) -> impl ExactSizeIterator<Item = &[f64]> {
-    all.chunks_exact(entries_of(n))
+    all.chunks_exact(entries_of(n).max(1))
 }
 
 /// `phi^T (dKhat - lambda dMhat) phi` of a change of matrices of size `n`, vector and eigenvalue held fixed; `dKhat` is

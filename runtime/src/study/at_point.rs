@@ -10,7 +10,6 @@ use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity;
 use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::ShapeSensitivity;
-use crate::summary::Summary;
 use crate::tolerance;
 use crate::tolerance::OutputTolerances;
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
@@ -296,21 +295,6 @@ impl<M: CurvatureKernels> Study<M> {
     /// As [`Study::modes`] and [`Study::tolerances`]; a mode without second derivatives carries its own error.
     pub fn second_order(&self) -> Result<SecondOrder, Error> {
         self.solve()?.second_order()
-    }
-
-    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
-    /// ([`summary`](crate::summary::summary)).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// assert!(study.summary()?.trusted());
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Study::sensitivities`] and [`Study::tolerances`].
-    pub fn summary(&self) -> Result<Summary, Error> {
-        self.solve()?.summary()
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band

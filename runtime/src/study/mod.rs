@@ -9,6 +9,7 @@ mod parameter;
 mod requirements;
 mod settings;
 mod solved;
+mod summary;
 mod value;
 mod variation;
 

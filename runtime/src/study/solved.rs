@@ -8,7 +8,6 @@ use crate::modes::{self, Whirl};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
-use crate::summary::{self, Summary};
 use crate::tolerance::{self, OutputTolerances};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
@@ -263,34 +262,6 @@ impl<M: CurvatureKernels> Solved<'_, M> {
             modes,
             tolerances,
         ))
-    }
-
-    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
-    /// ([`summary::summary`]).
-    ///
-    /// ```
-    #[doc = include_str!("example.txt")]
-    /// println!("{}", study.solve()?.summary()?);
-    /// # Ok::<(), eigentol::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
-    pub fn summary(&self) -> Result<Summary, Error> {
-        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
-            return self.in_study(&wide).summary();
-        }
-        let Self {
-            study,
-            equilibrium,
-            modes,
-        } = self;
-        summary::summary(
-            &study.mechanism,
-            equilibrium,
-            modes,
-            study.settings.tolerances()?,
-        )
     }
 
     /// Probability that the frequency of one mode, counted from 0, lies in a forbidden band

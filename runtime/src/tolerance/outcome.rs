@@ -25,6 +25,20 @@ pub enum Outcome {
     NoModes,
 }
 
+impl Outcome {
+    /// All outcomes.
+    pub const ALL: [Self; 8] = [
+        Self::Stable,
+        Self::Divergent,
+        Self::Flutter,
+        Self::Undecided,
+        Self::NoEquilibrium,
+        Self::NotAssembled,
+        Self::Unphysical,
+        Self::NoModes,
+    ];
+}
+
 impl From<&Failure> for Outcome {
     fn from(failure: &Failure) -> Self {
         match failure {
@@ -83,8 +97,18 @@ impl Counts {
             + self.no_modes
     }
 
+    /// How many had this outcome.
+    #[must_use]
+    pub fn of(mut self, outcome: Outcome) -> usize {
+        *self.place(outcome)
+    }
+
     pub(crate) fn add(&mut self, outcome: Outcome, number: usize) {
-        *match outcome {
+        *self.place(outcome) += number;
+    }
+
+    fn place(&mut self, outcome: Outcome) -> &mut usize {
+        match outcome {
             Outcome::Stable => &mut self.stable,
             Outcome::Divergent => &mut self.divergent,
             Outcome::Flutter => &mut self.flutter,
@@ -93,7 +117,7 @@ impl Counts {
             Outcome::NotAssembled => &mut self.not_assembled,
             Outcome::Unphysical => &mut self.unphysical,
             Outcome::NoModes => &mut self.no_modes,
-        } += number;
+        }
     }
 
     pub(crate) fn merge(&mut self, other: &Self) {

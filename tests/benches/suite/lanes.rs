@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use eigentol::kernels::{BatchKernels, BatchPoint, Gradient, Linear};
+use eigentol::kernels::{BatchGradient, BatchKernels, BatchLinear, BatchPoint, Gradient, Linear};
 use eigentol::scalar::{Batch, Instructions, WIDTH};
 use eigentol::{Matrix, Mechanism, Vector};
 
@@ -146,7 +146,7 @@ pub(crate) fn ours(
                         instructions,
                         s.point(),
                         residual,
-                        stiffness,
+                        stiffness.as_flattened_mut(),
                     );
                 },
             lane: |out: &(Vector<Batch>, Matrix<Batch>), of_lane: OfLane<'_>| {
@@ -156,8 +156,13 @@ pub(crate) fn ours(
         "linear" => Box::new(Lanes {
             inputs,
             out: Linear::zeros(n),
-            evaluate: move |s: &States, out: &mut _| {
-                chain.linear_batch(instructions, s.point(), out);
+            evaluate: move |s: &States, out: &mut Linear<Batch>| {
+                let mut to = BatchLinear {
+                    mass: out.mass.as_flattened_mut(),
+                    damping: out.damping.as_flattened_mut(),
+                    stiffness: out.stiffness.as_flattened_mut(),
+                };
+                chain.linear_batch(instructions, s.point(), &mut to);
             },
             lane: |out: &Linear<Batch>, of_lane: OfLane<'_>| {
                 let matrices = [&out.mass, &out.stiffness];
@@ -167,8 +172,13 @@ pub(crate) fn ours(
         _ => Box::new(Lanes {
             inputs,
             out: Gradient::zeros(sizes),
-            evaluate: move |s: &States, out: &mut _| {
-                chain.mode_gradient_batch(instructions, s.point(), &s.phi, &s.lambda, out);
+            evaluate: move |s: &States, out: &mut Gradient<Batch>| {
+                let mut to = BatchGradient {
+                    coordinates: &mut out.coordinates,
+                    inputs: &mut out.inputs,
+                    design: &mut out.design,
+                };
+                chain.mode_gradient_batch(instructions, s.point(), &s.phi, &s.lambda, &mut to);
             },
             lane: |out: &Gradient<Batch>, of_lane: OfLane<'_>| {
                 vec![

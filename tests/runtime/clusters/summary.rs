@@ -1,7 +1,8 @@
 //! Verdicts: each doubt where its cause is, none where there is none, and a sentence for each.
 
 use eigentol::summary::{Doubt, Summary};
-use eigentol::{Coordinate, DesignVariable, Family, Input, Study};
+use eigentol::tolerance::Outcome;
+use eigentol::{Coordinate, DesignVariable, Family, Input, Quantity, Study};
 
 use super::close;
 use crate::common::GRAVITY;
@@ -12,12 +13,21 @@ use crate::common::pendulum::Pendulum;
 const OMEGA: Input<Pendulum> = Input::new(0);
 const LENGTH: DesignVariable<Pendulum> = DesignVariable::new(1);
 
-fn pendulum(speed: f64, tolerance: f64) -> Summary {
-    let study = Study::new(Pendulum)
+fn of_pendulum(speed: f64, tolerance: f64) -> Study<Pendulum> {
+    Study::new(Pendulum)
         .input(OMEGA, speed)
         .start(Coordinate::new(0), 1.0)
-        .tolerance(LENGTH, tolerance);
-    study.summary().unwrap()
+        .tolerance(LENGTH, tolerance)
+}
+
+fn pendulum(speed: f64, tolerance: f64) -> Summary {
+    of_pendulum(speed, tolerance).summary().unwrap()
+}
+
+/// Without samples.
+fn by_distance(speed: f64, tolerance: f64) -> Summary {
+    let study = of_pendulum(speed, tolerance);
+    study.solve().unwrap().summary_within(0.0).unwrap()
 }
 
 fn plate(speed: f64, damping: f64, sigma: f64) -> Summary {
@@ -102,9 +112,19 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
     let summary = study.summary().unwrap();
     let second = &summary.second.modes[0].as_ref().unwrap().frequency;
     assert!(second.moments.sigma > 3000.0);
-    let [Doubt::NearCritical { .. }] = summary.trust[0].doubts[..] else {
+    let [
+        Doubt::NearCritical { .. },
+        Doubt::Inaccurate {
+            quantity: Quantity::Frequency,
+            error,
+        },
+    ] = summary.trust[0].doubts[..]
+    else {
         panic!("{:?}", summary.trust)
     };
+    assert!(error.value > 10.0);
+    let check = summary.trust[0].check(Quantity::Frequency).unwrap();
+    assert!((check.sigma.value - exact).abs() < 5.0 * check.sigma.standard_error);
     let text = summary.to_string();
     says(&text, &["use Monte Carlo", " no\n"]);
     assert!(!text.contains("use second"), "{text}");
@@ -117,7 +137,7 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
 
 #[test]
 fn wide_tolerances_bend() {
-    let summary = pendulum(7.0, 0.6);
+    let summary = by_distance(7.0, 0.6);
     let found = summary.trust[0]
         .doubts
         .iter()
@@ -134,6 +154,16 @@ fn wide_tolerances_bend() {
     says(
         &summary.to_string(),
         &["% below that of second order", "use Monte Carlo", " no\n"],
+    );
+    // Samples tell by how much first order misses.
+    let measured = pendulum(7.0, 0.6);
+    assert!(matches!(
+        measured.trust[0].doubts[..],
+        [.., Doubt::Inaccurate { .. }]
+    ));
+    says(
+        &measured.to_string(),
+        &["% below that of the samples", " no\n"],
     );
 }
 
@@ -173,7 +203,7 @@ fn mixed_modes_have_no_sigma_of_their_own() {
         .lines()
         .find(|line| line.trim_start().starts_with("1 "))
         .unwrap();
-    assert_eq!(row.matches(" -").count(), 3, "{row}");
+    assert_eq!(row.matches(" -").count(), 4, "{row}");
     // First order alone points there.
     says(
         &summary.first.to_string(),
@@ -190,12 +220,27 @@ fn mixed_modes_have_no_sigma_of_their_own() {
 #[test]
 fn a_vibration_about_to_grow_says_so() {
     let summary = plate(0.5, 0.02, 0.01);
+    // The damping ratio of the stable samples is normal, cut off at two standard deviations.
+    let hazard = (-2.0_f64).exp() / std::f64::consts::TAU.sqrt() / 0.977_249_868;
+    let cut = (1.0 - 2.0 * hazard - hazard * hazard).sqrt();
     for trust in &summary.trust {
-        let [Doubt::NearInstability { distance }] = trust.doubts[..] else {
+        let [
+            Doubt::NearInstability { distance },
+            Doubt::Inaccurate {
+                quantity: Quantity::DampingRatio,
+                error,
+            },
+        ] = trust.doubts[..]
+        else {
             panic!("{trust:?}")
         };
         close(distance, 2.0, 1e-3);
+        assert!((error.value - (1.0 / cut - 1.0)).abs() < 4.0 * error.standard_error);
     }
+    let unstable = summary.sampled().unwrap().chance(Outcome::Flutter).unwrap();
+    let (share, samples) = (0.022_75_f64, unstable.samples as f64);
+    let error = 4.0 * (share * (1.0 - share) / samples).sqrt();
+    assert!((unstable.value() - share).abs() < error, "{unstable:?}");
     says(&summary.to_string(), &["begins to grow 2.0"]);
     let growing = plate(0.5, -0.02, 0.01);
     says(&growing.to_string(), &["the vibration grows"]);
@@ -241,14 +286,14 @@ fn an_oscillation_about_to_cease_says_so() {
     );
 }
 
-/// On both sides of each threshold, from closed forms.
+/// On both sides of each threshold, from closed forms. Those of what samples can judge count where there are none.
 #[test]
 fn thresholds_are_where_they_are_said_to_be() {
     let w = 1.5 * GRAVITY;
     // Hanging, lambda = w / l - u^2: (w - u^2) / (w sigma) standard deviations.
     let near = |distance: f64, speed: f64| 3.0 * (w - speed * speed) / (w * distance);
     for (distance, doubted) in [(4.45, true), (4.55, false)] {
-        let summary = pendulum(3.0, near(distance, 3.0));
+        let summary = by_distance(3.0, near(distance, 3.0));
         close(summary.first.distance_to_critical, distance, 1e-9);
         let critical = |doubt: &Doubt| matches!(doubt, Doubt::NearCritical { .. });
         assert_eq!(summary.trust[0].doubts.iter().any(critical), doubted);
@@ -283,7 +328,7 @@ fn thresholds_are_where_they_are_said_to_be() {
     for (error, doubted) in [(0.0495, false), (0.0505, true)] {
         let ratio = ((1.0_f64 / (1.0 - error)).powi(2) - 1.0).sqrt();
         let sigma = ratio * 2.0_f64.sqrt() * slope / bend.abs();
-        let summary = pendulum(speed, 3.0 * sigma);
+        let summary = by_distance(speed, 3.0 * sigma);
         assert!(summary.first.distance_to_critical > 4.6);
         let second = &summary.second.modes[0].as_ref().unwrap().frequency;
         close(second.nonlinearity.sigma_error(), error, 1e-9);

@@ -11,7 +11,7 @@ use crate::common::derived::Derived;
 use crate::common::models::{Follower, Plate};
 use crate::common::pendulum::Pendulum;
 use eigentol::clusters::{clusters, directional_derivatives};
-use eigentol::kernels::{CurvatureKernels, DeviatingInputs, Kernels};
+use eigentol::kernels::{CurvatureKernels, DeviatingInputs, Kernels, SummaryKernels};
 use eigentol::second_order::{mode_curvature, second_order};
 use eigentol::sensitivity::{equilibrium_shift, output_sensitivities, sensitivities};
 use eigentol::shapes::shape_sensitivity;
@@ -115,7 +115,7 @@ fn derivatives_by_deviations_are_those_by_inputs() {
 }
 
 /// `sqrt(u^2 - c^2 / u^2)` with a speed that deviates, of the pendulum by hand and of the compiled one.
-fn of_the_pendulum(machine: &dyn CurvatureKernels, speed: f64, sigma: f64) {
+fn of_the_pendulum(machine: &dyn SummaryKernels, speed: f64, sigma: f64) {
     let deviating = DeviatingInputs::new(machine, &[OMEGA]).unwrap();
     let (at, modes) = solved(&deviating, &[speed], &deviating.design(&[3.0, 1.0]), &[1.0]);
     let tolerances = Tolerances::new([0.0, 0.0, 2.0 * sigma], 2.0, None).unwrap();

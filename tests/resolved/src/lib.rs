@@ -9,15 +9,16 @@
 //! `outputs` are used, and the stiffness of `residual_and_stiffness` where Newton's method needs some Jacobian.
 
 mod complex;
+pub mod dual;
+pub mod hyper;
 mod machine;
 mod modes;
-mod operation;
+mod num_dual;
 mod pair;
 mod spectrum;
 
 pub use machine::{Machine, State};
 pub use modes::{ComplexDerived, GeneralMode, UndampedMode};
-pub use operation::{Comparison, Operation, every_machine, operating_points};
 
 use crate::hyper::Hyper;
 

@@ -4,8 +4,9 @@ use eigentol::Policy;
 use eigentol::equilibrium::{Equilibrium, equilibrium};
 use eigentol::kernels::CurvatureKernels;
 
-use super::{Machine, State};
 use crate::tables;
+
+pub use eigentol_resolved::{ComplexDerived, Derived, GeneralMode, Machine, State, UndampedMode};
 
 /// One way of running a machine: inputs in SI, and where to look for the equilibrium.
 #[derive(Clone, Debug)]

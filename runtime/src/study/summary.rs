@@ -1,0 +1,70 @@
+//! Verdicts on first order, for a study.
+
+use super::deviating::deviating;
+use super::{Solved, Study};
+use crate::Error;
+use crate::kernels::SummaryKernels;
+use crate::summary::{self, BUDGET, Summary};
+
+impl<M: SummaryKernels> Solved<'_, M> {
+    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
+    /// ([`summary::summary`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// println!("{}", study.solve()?.summary()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::sensitivities`] and [`Study::tolerances`].
+    pub fn summary(&self) -> Result<Summary, Error> {
+        self.summary_within(BUDGET)
+    }
+
+    /// As [`Solved::summary`], with samples that may cost so many operations ([`summary::summary_within`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// // No samples: distances and the second-order model.
+    /// assert!(study.solve()?.summary_within(0.0)?.sampled().is_none());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::summary`].
+    pub fn summary_within(&self, operations: f64) -> Result<Summary, Error> {
+        if let Some(wide) = deviating!(self.study, SummaryKernels) {
+            return self.in_study(&wide).summary_within(operations);
+        }
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        summary::summary_within(
+            &study.mechanism,
+            equilibrium,
+            modes,
+            study.settings.tolerances()?,
+            operations,
+        )
+    }
+}
+
+impl<M: SummaryKernels> Study<M> {
+    /// First order, second order, clusters, and for each mode whether its standard deviation can be trusted
+    /// ([`summary`](crate::summary::summary)).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.summary()?.trusted());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::sensitivities`] and [`Study::tolerances`].
+    pub fn summary(&self) -> Result<Summary, Error> {
+        self.solve()?.summary()
+    }
+}

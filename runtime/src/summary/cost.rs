@@ -1,0 +1,40 @@
+//! What a sample costs: a count of operations, so that how many are drawn is the same on every machine.
+
+use crate::Description;
+use crate::batched::possible;
+use crate::modes::{Family, Modes};
+
+/// What an elementary function costs, in additions and multiplications.
+const FUNCTION: f64 = 40.0;
+/// Evaluations of residual and stiffness until a sample is at rest.
+const STEPS: f64 = 4.0;
+/// Samples solved side by side take a share of the time of as many operations one by one.
+const SIDE_BY_SIDE: f64 = 0.25;
+
+/// Whether samples may be solved side by side.
+pub(super) fn together(modes: &Modes) -> bool {
+    let kernels = ["residual_and_stiffness", "linear"];
+    modes.family == Family::Undamped && possible(&modes.description, &kernels)
+}
+
+/// Operations of a sample: equilibrium and modes, and what it takes to look at them.
+pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
+    let description = &modes.description;
+    let n = description.coordinates.len() as f64;
+    let kernels =
+        STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
+    // Of n^3: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and right.
+    match (together, modes.family) {
+        (true, _) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),
+        (false, Family::Undamped) => 2_000.0 + kernels + 30.0 * n.powi(3),
+        (false, Family::General) => 6_000.0 + kernels + 240.0 * n.powi(3),
+    }
+}
+
+/// Operations of a kernel, by the size of what it writes where it is not written out.
+fn kernel(description: &Description, name: &str) -> f64 {
+    let n = description.coordinates.len() as f64;
+    description.kernel(name).map_or(50.0 * n * n, |kernel| {
+        kernel.operations as f64 + FUNCTION * kernel.functions as f64
+    })
+}

@@ -1,0 +1,283 @@
+//! The verdict on a mode, from what samples found, from distances and from the second-order model.
+
+use super::chances::Sampling;
+use super::paired::Measured;
+use super::sampled::{FEWEST, Finding, Found, Prediction, ROUNDING, finding};
+use super::verdict::{Advice, Check, Doubt, TRUSTED_SIGMA_ERROR, Trust};
+use crate::clusters::ClusterTolerance;
+use crate::modes::Family;
+use crate::second_order::{ModeSecondOrder, SecondOrder, SecondOrderSpread};
+use crate::sensitivity::Quantity;
+use crate::tolerance::{FirstOrder, ModeTolerance, Spread, TRUSTED_DISTANCE};
+use crate::{Behaviour, Mode};
+
+/// A critical state or another mode within as many standard deviations takes more samples: rare ones may matter.
+const DOUBTFUL_DISTANCE: f64 = 6.0;
+
+/// What verdicts are made from.
+pub(super) struct Judge<'a> {
+    pub(super) first: &'a FirstOrder,
+    pub(super) second: &'a SecondOrder,
+    pub(super) clusters: &'a [ClusterTolerance],
+}
+
+/// What samples said of a mode.
+#[derive(Default)]
+struct Findings {
+    checks: Vec<Check>,
+    errors: Vec<(Quantity, Measured, Finding)>,
+    /// First order is wrong for a quantity.
+    wrong: bool,
+    /// It is right for all.
+    right: bool,
+    /// Values of a quantity of too few samples.
+    missing: Option<Doubt>,
+    /// It belongs to a cluster by distances, but samples keep the modes in their order.
+    separate: bool,
+}
+
+impl<'a> Judge<'a> {
+    /// What samples are to check of a mode: of one that has a frequency of its own, or would have one beside a critical state.
+    pub(super) fn predictions(&self, mode: usize, own: &Mode) -> Vec<Prediction<'a>> {
+        let oscillates = own.frequency().is_some();
+        let critical = own.behaviour == Behaviour::Neutral;
+        if !self.may_be_separate(mode) || !(oscillates || critical) {
+            return Vec::new();
+        }
+        let first = &self.first.modes[mode];
+        let second = self.second.modes[mode].as_ref().ok();
+        let damping = self.distance_to_critical_damping(mode);
+        let distance = damping.map_or(self.first.distance_to_critical, |distance| {
+            distance.min(self.first.distance_to_critical)
+        });
+        let prediction = |(quantity, size)| Prediction {
+            mode,
+            quantity,
+            nominal: quantity.of(own).unwrap_or(0.0),
+            size,
+            slopes: spread_of(first, quantity).map(|spread| &spread.by_design[..]),
+            second: second.map(|second| &second_spread_of(second, quantity).model),
+            doubtful: distance < DOUBTFUL_DISTANCE || self.cluster(mode).is_some(),
+        };
+        quantities(own).into_iter().map(prediction).collect()
+    }
+
+    /// The verdict on a mode.
+    pub(super) fn verdict(
+        &self,
+        mode: usize,
+        own: &Mode,
+        predictions: &[Prediction<'_>],
+        found: &Found,
+    ) -> Trust {
+        let said = self.findings(mode, own, predictions, found);
+        let mut doubts = self.doubts(mode, own, &said);
+        for (quantity, error, finding) in said.errors {
+            if finding == Finding::Wrong {
+                doubts.push(Doubt::Inaccurate { quantity, error });
+            }
+        }
+        let unstable = |doubt: &Doubt| matches!(doubt, Doubt::NearInstability { .. });
+        if !doubts.iter().any(unstable) {
+            doubts.extend(said.missing);
+        }
+        Trust {
+            mode,
+            advice: self.advice(&doubts, &said.checks),
+            doubts,
+            checks: said.checks,
+        }
+    }
+
+    fn findings(
+        &self,
+        mode: usize,
+        own: &Mode,
+        predictions: &[Prediction<'_>],
+        found: &Found,
+    ) -> Findings {
+        let Sampling::Done(sampled) = &found.sampling else {
+            return Findings::default();
+        };
+        let cluster = self
+            .clusters
+            .iter()
+            .position(|cluster| cluster.modes.contains(&mode));
+        let separate = cluster.is_some_and(|cluster| found.exchanged[cluster] == 0);
+        if cluster.is_some() && !(separate && self.may_be_separate(mode)) {
+            return Findings::default();
+        }
+        let mut said = Findings {
+            separate,
+            ..Findings::default()
+        };
+        let all = predictions.iter().zip(&found.checks).zip(&found.counts);
+        for ((prediction, check), &count) in all.filter(|((one, _), _)| one.mode == mode) {
+            let quantity = prediction.quantity;
+            said.checks.extend(check);
+            if let Some(error) = check.and_then(|check| check.first_order_error) {
+                said.errors.push((quantity, error, finding(error)));
+            }
+            let spread = spread_of(&self.first.modes[mode], quantity);
+            if quantity == Quantity::Frequency {
+                // Checked, or nothing moves it and samples agree.
+                let still = spread.is_some_and(|own| own.sigma <= ROUNDING * prediction.size);
+                said.right = check.is_some_and(|check| check.first_order_error.is_some())
+                    || (check.is_none() && still && count >= FEWEST);
+            }
+            if own.frequency().is_some() && 2 * count < sampled.samples {
+                said.missing = Some(Doubt::Missing {
+                    quantity,
+                    count,
+                    samples: sampled.samples,
+                });
+            }
+        }
+        let are = |finding| move |error: &(_, _, Finding)| error.2 == finding;
+        said.wrong = said.errors.iter().any(are(Finding::Wrong));
+        said.right &= said.errors.iter().all(are(Finding::Right));
+        if cluster.is_some() && !said.right {
+            return Findings::default();
+        }
+        said
+    }
+
+    /// What distances and the second-order model say against a mode that samples found wrong, right, or did not decide.
+    fn doubts(&self, mode: usize, own: &Mode, said: &Findings) -> Vec<Doubt> {
+        let mut doubts = Vec::new();
+        let near = |distance: f64| distance < TRUSTED_DISTANCE;
+        if own.frequency().is_none() {
+            doubts.push(Doubt::NoFrequency);
+        }
+        let decided = said.wrong || said.right;
+        let cluster = (self.cluster(mode)).filter(|_| !(said.separate && said.right));
+        if let Some(cluster) = cluster {
+            doubts.push(Doubt::Clustered {
+                modes: cluster.modes.clone(),
+                distance: cluster.distance,
+                defective: cluster.defective(),
+            });
+        }
+        let first = &self.first.modes[mode];
+        let distance = self.first.distance_to_critical;
+        // Samples about an unstable state have left it.
+        if near(distance) && !(said.right && distance > 0.0) {
+            doubts.push(Doubt::NearCritical { distance });
+        }
+        let distance = first.distance_to_instability;
+        if near(distance) {
+            doubts.push(Doubt::NearInstability { distance });
+        }
+        if let Some(distance) = self.distance_to_critical_damping(mode)
+            && near(distance)
+            && !said.right
+            && !near(first.distance_to_critical)
+        {
+            doubts.push(Doubt::NearCriticalDamping { distance });
+        }
+        let open = !decided && cluster.is_none() && own.frequency().is_some();
+        if open && !expanded_near_a_root(&doubts) {
+            self.check_by_second_order(mode, own, &mut doubts);
+        }
+        doubts
+    }
+
+    fn advice(&self, doubts: &[Doubt], checks: &[Check]) -> Advice {
+        let confirmed = |check: &Check| {
+            let error = check.second_order_error;
+            error.is_some_and(|error| finding(error) == Finding::Right)
+        };
+        let any = |kind: fn(&Doubt) -> bool| doubts.iter().any(kind);
+        let stays = self.first.distance_to_critical > 0.0;
+        if doubts.is_empty() {
+            Advice::FirstOrder
+        } else if any(|doubt| matches!(doubt, Doubt::Clustered { .. })) {
+            Advice::Cluster
+        } else if stays
+            && any(|doubt| matches!(doubt, Doubt::Inaccurate { .. }))
+            && checks.iter().all(confirmed)
+        {
+            Advice::SecondOrder
+        } else {
+            Advice::Sampling
+        }
+    }
+
+    /// The cluster of a mode, by distances.
+    fn cluster(&self, mode: usize) -> Option<&'a ClusterTolerance> {
+        let mut all = self.clusters.iter();
+        all.find(|cluster| cluster.modes.contains(&mode))
+    }
+
+    /// Whether samples can tell that tolerances do not mix a mode with others: undamped ones keep their order then.
+    fn may_be_separate(&self, mode: usize) -> bool {
+        self.cluster(mode).is_none_or(|cluster| {
+            self.first.family == Family::Undamped
+                && !cluster.defective()
+                && !cluster.modes.iter().any(|r| self.first.modes[*r].clustered)
+        })
+    }
+
+    /// `(Im s)^2` over its standard deviation; `None` for undamped modes and those that do not oscillate.
+    fn distance_to_critical_damping(&self, mode: usize) -> Option<f64> {
+        let own = self.first.modes[mode].frequency.as_ref()?;
+        (self.first.family == Family::General && own.sigma > 0.0)
+            .then(|| 0.5 * own.mean / own.sigma)
+    }
+
+    fn check_by_second_order(&self, mode: usize, own: &Mode, doubts: &mut Vec<Doubt>) {
+        let second = match &self.second.modes[mode] {
+            Ok(second) => second,
+            Err(reason) => {
+                let reason = reason.clone();
+                doubts.push(Doubt::Unchecked { reason });
+                return;
+            }
+        };
+        for (quantity, size) in quantities(own) {
+            let spread = second_spread_of(second, quantity);
+            let sigma_error = spread.nonlinearity.sigma_error();
+            if spread.moments.sigma > ROUNDING * size && sigma_error > TRUSTED_SIGMA_ERROR {
+                doubts.push(Doubt::Nonlinear {
+                    quantity,
+                    sigma_error,
+                });
+            }
+        }
+    }
+}
+
+/// What of a mode is judged, and what it is measured by.
+fn quantities(own: &Mode) -> Vec<(Quantity, f64)> {
+    let damped = matches!(own.behaviour, Behaviour::Damped(_) | Behaviour::Flutter(_));
+    let mut all = vec![(Quantity::Frequency, own.s.norm())];
+    if damped {
+        all.push((Quantity::DampingRatio, 1.0));
+    }
+    all
+}
+
+fn spread_of(mode: &ModeTolerance, quantity: Quantity) -> Option<&Spread> {
+    match quantity {
+        Quantity::DampingRatio => mode.damping_ratio.as_ref(),
+        _ => mode.frequency.as_ref(),
+    }
+}
+
+fn second_spread_of(mode: &ModeSecondOrder, quantity: Quantity) -> &SecondOrderSpread {
+    match quantity {
+        Quantity::DampingRatio => &mode.damping_ratio,
+        _ => &mode.frequency,
+    }
+}
+
+/// Whether a frequency is the root of something that vanishes nearby: its Taylor series does not converge within the
+/// tolerances, and one term more is no check of the first.
+pub(super) fn expanded_near_a_root(doubts: &[Doubt]) -> bool {
+    doubts.iter().any(|doubt| {
+        matches!(
+            doubt,
+            Doubt::NearCritical { .. } | Doubt::NearCriticalDamping { .. }
+        )
+    })
+}

@@ -1,0 +1,250 @@
+//! First and second order against samples that are solved anew: as many as it takes to decide, within a budget.
+
+use super::branch::on_nominal_branch;
+use super::chances::{Chance, Sampled, Sampling};
+use super::cost::{operations, together};
+use super::paired::{Measured, Paired};
+use super::verdict::{Check, TRUSTED_SIGMA_ERROR};
+use crate::algebra::Vector;
+use crate::kernels::SummaryKernels;
+use crate::second_order::Quadratic;
+use crate::sensitivity::Quantity;
+use crate::tolerance::{self, Counts, Outcome, Sample, Tolerances, monte_carlo};
+use crate::{Equilibrium, Error, Modes, Stability};
+
+/// Numbers of samples, of which the next is taken where the last did not decide.
+const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
+/// As many decide, unless no quantity has values, and more where rare samples matter.
+const DECISIVE: usize = 1024;
+const DECISIVE_IN_DOUBT: usize = 4096;
+/// Samples that are drawn together.
+const TOGETHER: usize = 8192;
+/// Samples whose branch is asked for.
+const BRANCHES: usize = 4096;
+/// The error of a standard deviation that separates right from wrong.
+const LIMIT: f64 = 0.03;
+/// What is off by less is not refused.
+const GOOD: f64 = 0.01;
+/// An error beyond the limit by as many standard errors is clearly beyond it.
+const CLEARLY: f64 = 4.0;
+/// A standard error of the error that decides in any case.
+const FINE: f64 = 0.004;
+/// Fewer values say nothing about a standard deviation.
+pub(super) const FEWEST: usize = 128;
+/// Standard deviations below this, relative to the quantity, are rounding.
+pub(super) const ROUNDING: f64 = 1e-10;
+
+/// A quantity that is to be checked, and its predictions.
+pub(super) struct Prediction<'a> {
+    pub(super) mode: usize,
+    pub(super) quantity: Quantity,
+    pub(super) nominal: f64,
+    /// What it is measured by: a spread much smaller is rounding.
+    pub(super) size: f64,
+    /// Derivatives by the design variables.
+    pub(super) slopes: Option<&'a [f64]>,
+    pub(super) second: Option<&'a Quadratic>,
+    /// Rare samples may matter: a critical state is not far.
+    pub(super) doubtful: bool,
+}
+
+/// What a mechanism is sampled about.
+pub(super) struct About<'a> {
+    pub(super) mechanism: &'a dyn SummaryKernels,
+    pub(super) at: &'a Equilibrium,
+    pub(super) modes: &'a Modes,
+    pub(super) tolerances: &'a Tolerances,
+}
+
+/// What was found: a check of each prediction where there are enough values, and how many there are.
+pub(super) struct Found {
+    pub(super) checks: Vec<Option<Check>>,
+    pub(super) counts: Vec<usize>,
+    /// Samples in which modes of each group stand in another order than the nominal ones.
+    pub(super) exchanged: Vec<usize>,
+    pub(super) sampling: Sampling,
+}
+
+impl About<'_> {
+    /// Draws samples until every prediction is decided or the budget of operations is spent.
+    pub(super) fn sample(
+        &self,
+        predictions: &[Prediction<'_>],
+        groups: &[&[usize]],
+        budget: f64,
+    ) -> Result<Found, Error> {
+        let mut exchanged = vec![0; groups.len()];
+        let mut pairs = vec![Paired::new(); predictions.len()];
+        let found = |pairs: &[Paired], exchanged, sampling| Found {
+            exchanged,
+            checks: (predictions.iter().zip(pairs))
+                .map(|(prediction, paired)| check(prediction, paired))
+                .collect(),
+            counts: pairs.iter().map(Paired::count).collect(),
+            sampling,
+        };
+        let still = self.tolerances.sigmas().iter().all(|sigma| *sigma == 0.0);
+        if predictions.is_empty() || still {
+            return Ok(found(&pairs, exchanged, Sampling::NotNeeded));
+        }
+        let mut each = operations(self.modes, together(self.modes));
+        let mut counts = Counts::default();
+        let mut branches = (self.at.stability == Stability::Stable).then_some((0, 0));
+        let mut stream = 0;
+        for stage in STAGES {
+            if stage.max(DECISIVE) as f64 * each > budget {
+                break;
+            }
+            while counts.total() < stage {
+                let sampling = tolerance::Sampling::default()
+                    .samples(TOGETHER.min(stage - counts.total()))
+                    .stream(stream)
+                    .keep_samples(true);
+                let Self {
+                    mechanism,
+                    at,
+                    modes,
+                    tolerances,
+                } = *self;
+                let run = monte_carlo(mechanism, at, modes, tolerances, &sampling)?;
+                stream += 1;
+                counts.merge(&run.counts);
+                each = operations(self.modes, run.side_by_side);
+                for sample in run.all.iter().flatten() {
+                    self.look_at(sample, predictions, &mut pairs);
+                    self.follow(sample, &mut branches);
+                    for (group, exchanged) in groups.iter().zip(&mut exchanged) {
+                        *exchanged += usize::from(!self.in_order(group, sample));
+                    }
+                }
+            }
+            let open = |(prediction, paired): (&Prediction<'_>, &Paired)| {
+                let decisive = if prediction.doubtful {
+                    DECISIVE_IN_DOUBT
+                } else {
+                    DECISIVE
+                };
+                let found = check(prediction, paired);
+                found.is_some_and(|check| stage < decisive || !decided(&check))
+            };
+            if !predictions.iter().zip(&pairs).any(open) {
+                break;
+            }
+        }
+        let samples = counts.total();
+        if samples == 0 {
+            let operations = DECISIVE as f64 * each;
+            return Ok(found(
+                &pairs,
+                exchanged,
+                Sampling::TooDear { operations, budget },
+            ));
+        }
+        let other_branch = branches
+            .filter(|(_, samples)| *samples > 0)
+            .map(|(count, samples)| Chance::new(count, samples))
+            .transpose()?;
+        let sampled = Sampled::new(&counts, other_branch)?;
+        Ok(found(&pairs, exchanged, Sampling::Done(sampled)))
+    }
+
+    fn look_at(&self, sample: &Sample, predictions: &[Prediction<'_>], pairs: &mut [Paired]) {
+        let change: Vector = (sample.design.iter().zip(&self.at.design))
+            .map(|(value, nominal)| value - nominal)
+            .collect();
+        for (prediction, paired) in predictions.iter().zip(pairs) {
+            let values = match prediction.quantity {
+                Quantity::DampingRatio => &sample.damping_ratios,
+                _ => &sample.frequencies,
+            };
+            let found = values.get(prediction.mode).copied().flatten();
+            let found = found.filter(|_| sample.outcome == Outcome::Stable);
+            let first = prediction.slopes.map_or(0.0, |slopes| {
+                slopes.iter().zip(&change).map(|(slope, x)| slope * x).sum()
+            });
+            let second = prediction.second.map_or(0.0, |model| model.change(&change));
+            paired.add(found.map(|value| value - prediction.nominal), first, second);
+        }
+    }
+
+    /// Whether the frequencies that a sample has of some modes stand in the order of the nominal ones.
+    fn in_order(&self, group: &[usize], sample: &Sample) -> bool {
+        let both = |mode: &usize| {
+            let nominal = self.modes.modes.get(*mode)?.frequency().unwrap_or(0.0);
+            Some((nominal, sample.frequencies.get(*mode).copied().flatten()?))
+        };
+        let found: Vec<(f64, f64)> = group.iter().filter_map(both).collect();
+        let pairs = (0..found.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let turned =
+            |(i, j): (usize, usize)| (found[i].0 < found[j].0) != (found[i].1 < found[j].1);
+        !pairs.into_iter().any(turned)
+    }
+
+    /// Counts the first samples on another branch, and all that were asked.
+    fn follow(&self, sample: &Sample, branches: &mut Option<(usize, usize)>) {
+        let Some((others, asked)) = branches else {
+            return;
+        };
+        if *asked == BRANCHES {
+            return;
+        }
+        *asked += 1;
+        if let Some(q) = &sample.coordinates
+            && sample.outcome == Outcome::Stable
+            && !on_nominal_branch(self.mechanism, self.at, &sample.design, q)
+        {
+            *others += 1;
+        }
+    }
+}
+
+/// What samples say of a prediction; `None` where there are too few, or nothing varies.
+fn check(prediction: &Prediction<'_>, paired: &Paired) -> Option<Check> {
+    let (count, sigma) = (paired.count(), paired.sigma()?);
+    if count < FEWEST || sigma.value <= ROUNDING * prediction.size {
+        return None;
+    }
+    let error = |ratio: Measured| Measured {
+        value: ratio.value - 1.0,
+        ..ratio
+    };
+    let (first, second) = (prediction.slopes, prediction.second);
+    Some(Check {
+        quantity: prediction.quantity,
+        samples: paired.samples(),
+        count,
+        mean: prediction.nominal + paired.mean()?,
+        sigma,
+        first_order_error: first.and_then(|_| paired.first_ratio()).map(error),
+        second_order_error: second.and_then(|_| paired.second_ratio()).map(error),
+    })
+}
+
+fn decided(check: &Check) -> bool {
+    check.first_order_error.is_none_or(|error| {
+        let beyond = (error.value.abs() - LIMIT).abs();
+        beyond > CLEARLY * error.standard_error || error.standard_error < FINE
+    })
+}
+
+/// What samples say of first order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Finding {
+    Right,
+    Wrong,
+    /// Too few samples to tell.
+    Open,
+}
+
+/// Whether a standard deviation is off by less than the limit, within two standard errors by less than
+/// [`TRUSTED_SIGMA_ERROR`].
+pub(super) fn finding(error: Measured) -> Finding {
+    let (size, uncertain) = (error.value.abs(), 2.0 * error.standard_error);
+    if size <= LIMIT && size + uncertain <= TRUSTED_SIGMA_ERROR {
+        Finding::Right
+    } else if size > LIMIT && size - uncertain >= GOOD {
+        Finding::Wrong
+    } else {
+        Finding::Open
+    }
+}
