@@ -192,7 +192,7 @@ fn a_curved_limit_with_uniform_variables() {
     let study = Study::new(Pendulum)
         .input(Pendulum::omega, 5.0)
         .start(Pendulum::theta, 1.0)
-        .tolerance(Pendulum::l, 0.03)
+        .limits(Pendulum::l, -0.02, 0.04)
         .law(Pendulum::l, Law::Uniform)
         .tolerance(Pendulum::omega, 0.15)
         .samples(20_000);
@@ -229,6 +229,16 @@ fn a_curved_limit_with_uniform_variables() {
     };
     close(ratio(1, costs[0]), ratio(2, costs[1]), 1e-4);
     assert!(found.refuted.is_empty(), "{found}");
+    // The same tolerances given anew: a half-width of three standard deviations is 3^(1/2) times the hard limit, about the mean.
+    let hard = found.half_widths[1] / 3.0_f64.sqrt();
+    let anew = (study.clone())
+        .limits(Pendulum::l, 0.01 - hard, 0.01 + hard)
+        .tolerance(Pendulum::omega, found.half_widths[2]);
+    close(
+        anew.reliability(&wanted).unwrap().beta_of(0).unwrap(),
+        -normal::quantile(0.01),
+        1e-6,
+    );
     let interval = found.chances.all.clopper_pearson(0.9999).unwrap();
     assert!(
         interval.lower < 0.012 && interval.upper > 0.008,

@@ -214,3 +214,27 @@ fn joined(parts: &[(f64, Vec<f64>)], size: usize) -> (f64, Vec<f64>) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joined_indices_have_the_derivatives_of_differences() {
+        let at = |t: f64| {
+            let parts = [
+                (2.0 + 0.3 * t, vec![0.3]),
+                (2.5 - t, vec![-1.0]),
+                (f64::INFINITY, Vec::new()),
+            ];
+            joined(&parts, 1)
+        };
+        let sum = normal::cdf(-2.0) + normal::cdf(-2.5);
+        let (beta, slopes) = at(0.0);
+        assert!((normal::cdf(-beta) / sum - 1.0).abs() < 1e-12);
+        let difference = (at(1e-5).0 - at(-1e-5).0) / 2e-5;
+        assert!((slopes[0] / difference - 1.0).abs() < 1e-7);
+        let unreachable = [(f64::INFINITY, Vec::new())];
+        assert_eq!(joined(&unreachable, 2), (f64::INFINITY, vec![0.0; 2]));
+    }
+}
