@@ -256,7 +256,7 @@ impl Run<'_> {
     ) {
         let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
         let mut sums = Sums::new(n);
-        let mut together = room.together.batches(TOGETHER, n, p);
+        let mut together = room.together.batches::<TOGETHER>(n, p);
         let mut left = number;
         while left > 0 {
             let used = TOGETHER.min(left.div_ceil(WIDTH));

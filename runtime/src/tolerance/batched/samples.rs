@@ -47,16 +47,15 @@ impl Memory {
     }
 
     /// The batches.
-    pub(in crate::tolerance) fn batches(
+    pub(in crate::tolerance) fn batches<const COUNT: usize>(
         &mut self,
-        count: usize,
         n: usize,
         p: usize,
-    ) -> Vec<Solved<'_>> {
+    ) -> [Solved<'_>; COUNT] {
         let pairs = p.div_ceil(2);
         let mut room = Room::new(&mut self.numbers);
         let mut bits = self.bits.chunks_mut(pairs.max(1));
-        let batch = |_| Solved {
+        core::array::from_fn(|_| Solved {
             design: room.take(p),
             coordinates: room.take(n),
             frequencies: room.take(n),
@@ -74,8 +73,7 @@ impl Memory {
                 damping: &mut [],
                 stiffness: room.take(n * n),
             },
-        };
-        (0..count).map(batch).collect()
+        })
     }
 }
 
