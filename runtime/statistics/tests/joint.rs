@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use eigentol_statistics::{Distribution, Error, Joint};
 
 fn uniform() -> Distribution {
-    Distribution::uniform(-1.0, 1.0).unwrap()
+    Distribution::uniform(-1.0, 1.0).expect("limits in order")
 }
 
 fn pair(a: &Distribution, b: &Distribution, r: f64) -> Result<Joint, Error> {

@@ -157,7 +157,9 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>
     }
     vec![
         ("summary", |s, _| answered(s.summary())),
-        ("summary_within", |s, _| answered(s.summary_within(1e5))),
+        ("summary_within", |s, _| {
+            answered(s.solve().expect("solved").summary_within(1e5))
+        }),
         ("propagate", |s, _| replied(s.propagate(&[response(s)]))),
         ("sample_responses", |s, _| {
             let sampler = Sampler::new(Points::LatinHypercube).samples(SAMPLES);
