@@ -27,6 +27,16 @@ impl ToleranceInfo {
             law: Law::Normal,
         }
     }
+
+    /// The half-width, SI, of a normal variable about this value; `None` of limits that differ, and of other laws.
+    #[must_use]
+    pub fn normal_half_width(&self, value: f64) -> Option<f64> {
+        if self.law != Law::Normal || self.lower != -self.upper {
+            return None;
+        }
+        let size = if self.relative { value.abs() } else { 1.0 };
+        Some(self.upper * size)
+    }
 }
 
 /// How values are distributed between the limits of a tolerance.

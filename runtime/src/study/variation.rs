@@ -44,18 +44,14 @@ impl Variation {
 
     /// Whether its tolerances are the same whatever the value is.
     pub(super) fn is_fixed(&self) -> bool {
-        matches!(self, Self::About(info) if !info.relative
-            && info.law == Law::Normal && info.lower == -info.upper)
+        matches!(self, Self::About(info) if !info.relative && info.normal_half_width(0.0).is_some())
     }
 
     /// The half-width of a normal variable about this value; `None` for any other.
     pub(super) fn normal_half_width(&self, value: f64) -> Option<f64> {
         match self {
-            Self::About(info) if info.law == Law::Normal && info.lower == -info.upper => {
-                let size = if info.relative { value.abs() } else { 1.0 };
-                Some(info.upper * size)
-            }
-            _ => None,
+            Self::About(info) => info.normal_half_width(value),
+            Self::Values(_) => None,
         }
     }
 

@@ -47,6 +47,12 @@ impl Tolerances {
     /// [`Error::Setting`] when a declared tolerance makes no sense.
     pub fn declared(description: &Description) -> Result<Self, Error> {
         let infos = &description.design;
+        let normal = infos
+            .iter()
+            .map(|info| info.tolerance.normal_half_width(info.nominal));
+        if normal.clone().all(|half_width| half_width.is_some()) {
+            return Self::new(normal.flatten().collect::<Vector>(), 3.0, None);
+        }
         let nominal: Vector = infos.iter().map(|info| info.nominal).collect();
         let own = infos
             .iter()
