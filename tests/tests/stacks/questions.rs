@@ -162,7 +162,7 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>
         }),
         ("propagate", |s, _| replied(s.propagate(&[response(s)]))),
         ("sample_responses", |s, _| {
-            let sampler = Sampler::new(Points::LatinHypercube).samples(SAMPLES);
+            let sampler = Sampler::new(Points::Random).samples(SAMPLES);
             answered(s.sample_responses(&[response(s)], &sampler));
         }),
         ("worst_case", |s, _| replied(s.worst_case(&[response(s)]))),
