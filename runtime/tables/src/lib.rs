@@ -4,6 +4,8 @@ mod answer;
 pub mod csv;
 mod error;
 pub mod json;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 mod results;
 mod table;
 
