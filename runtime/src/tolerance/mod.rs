@@ -11,6 +11,8 @@ mod outputs;
 pub(crate) mod pool;
 mod sample;
 mod sampling;
+#[cfg(feature = "serde")]
+mod serial;
 mod spread;
 mod standard_normal;
 mod statistics;
