@@ -11,5 +11,5 @@ mod table;
 
 pub use answer::{Answer, Subject};
 pub use error::Error;
-pub use results::{Tables, samples_table, tables};
+pub use results::{Tables, samples_table, sweep_table, tables};
 pub use table::{Column, Table, Values};

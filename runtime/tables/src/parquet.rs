@@ -53,7 +53,7 @@ pub struct Writer<W: Write + Send> {
 enum State<W: Write + Send> {
     Empty(W),
     Begun {
-        file: SerializedFileWriter<W>,
+        file: Box<SerializedFileWriter<W>>,
         columns: Vec<(String, Physical)>,
     },
     Failed,
@@ -80,7 +80,7 @@ impl<W: Write + Send> Writer<W> {
             State::Failed => Err(Error::Write(io::Error::other("writing failed before"))),
             State::Empty(file) => {
                 let file = begin(file, table).map_err(writing)?;
-                self.group(file, own, table)
+                self.group(Box::new(file), own, table)
             }
             State::Begun { file, columns } if columns == own => self.group(file, own, table),
             State::Begun { file, columns } => {
@@ -96,7 +96,7 @@ impl<W: Write + Send> Writer<W> {
 
     fn group(
         &mut self,
-        mut file: SerializedFileWriter<W>,
+        mut file: Box<SerializedFileWriter<W>>,
         columns: Vec<(String, Physical)>,
         table: &Table,
     ) -> Result<(), Error> {
