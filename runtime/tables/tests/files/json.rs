@@ -2,8 +2,8 @@
 
 use std::io;
 
-use eigentol::{Equilibrium, InDeclaredUnit, Modes, Study, mechanism};
-use eigentol_tables::{Error, json, tables};
+use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Study, mechanism};
+use eigentol_tables::{Error, Values, json, tables};
 use serde_json::Value;
 
 use crate::common::Disk;
@@ -65,6 +65,28 @@ fn a_result_comes_back_with_its_description() {
     let back: Modes = json::read(text().as_bytes()).expect("modes");
     assert_eq!(back, modes());
     assert_eq!(tables(&back), tables(&modes()));
+}
+
+/// A mode without a neighbour is infinitely far from the next one.
+#[test]
+fn what_is_infinite_is_a_word_in_the_result_and_missing_in_the_tables() {
+    let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
+    let first = study
+        .start(Swing::theta, 1.0)
+        .first_order()
+        .expect("spreads");
+    let text = json::to_string(&first).expect("text");
+    assert!(
+        text.contains(r#""distance_to_neighbour":"Infinity""#),
+        "{text}"
+    );
+    assert_eq!(
+        json::read::<FirstOrder>(text.as_bytes()).expect("spreads"),
+        first
+    );
+    let tables = json::read_tables(text.as_bytes()).expect("tables");
+    let column = tables[0].column("distance to neighbour").expect("a column");
+    assert_eq!(column.values, Values::Numbers(vec![None]));
 }
 
 #[test]
