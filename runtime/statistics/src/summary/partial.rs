@@ -142,6 +142,21 @@ impl Partial {
         Ok(Statistics::of(&moments, self.sketches[quantity].clone()))
     }
 
+    /// Statistics of all quantities; `None` of those that no sample has.
+    #[must_use]
+    pub fn into_statistics(mut self) -> Vec<Option<Statistics>> {
+        let mut all = vec![Moments::default(); self.plan.quantities()];
+        self.fold(|node| {
+            for (all, own) in all.iter_mut().zip(&node.moments) {
+                all.merge(own);
+            }
+        });
+        let sketches = self.sketches.drain(..);
+        (all.iter().zip(sketches))
+            .map(|(moments, sketch)| Statistics::of(moments, sketch))
+            .collect()
+    }
+
     /// Covariance of two quantities; `None` if no sample has both.
     ///
     /// # Errors

@@ -86,6 +86,15 @@ impl Statistics {
         })
     }
 
+    /// Of a value that all of so many samples have; `None` without samples.
+    #[must_use]
+    pub fn of_equal(value: f64, count: u64) -> Option<Self> {
+        let mut sketch = Sketch::new(value, 1.0).ok()?;
+        let moments = Moments::of_equal(value, count);
+        sketch.add_equal(&moments);
+        Self::of(&moments, Some(sketch))
+    }
+
     /// The distribution, if the plan asked for it.
     #[must_use]
     pub fn sketch(&self) -> Option<&Sketch> {

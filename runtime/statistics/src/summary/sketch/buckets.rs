@@ -88,6 +88,14 @@ impl Buckets {
         }
     }
 
+    /// Counts so many deviations at one place, for which there is room.
+    pub(super) fn count_equal(&mut self, place: i32, number: u64) {
+        let place = (place - self.first) as usize;
+        if let Some(count) = self.counts.get_mut(place) {
+            *count += number;
+        }
+    }
+
     pub(super) fn merge(&mut self, other: &Self) {
         if other.counts.is_empty() {
             return;
