@@ -13,6 +13,8 @@ pub(crate) mod pool;
 pub(crate) mod run;
 mod sample;
 mod sampling;
+#[cfg(feature = "serde")]
+mod serial;
 mod solver;
 mod spread;
 mod standard_normal;

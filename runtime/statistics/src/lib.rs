@@ -13,6 +13,8 @@ pub mod random;
 pub mod reliability;
 pub mod sensitivity;
 pub mod sequence;
+#[cfg(feature = "serde")]
+pub mod serial;
 pub mod summary;
 
 pub use distribution::Distribution;

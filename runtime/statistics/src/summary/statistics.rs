@@ -5,6 +5,7 @@ use crate::Error;
 
 /// Statistics of one quantity over the samples that have it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Statistics {
     /// Number of values.
