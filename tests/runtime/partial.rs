@@ -2,6 +2,7 @@
 #![allow(clippy::single_range_in_vec_init, reason = "lists of ranges")]
 
 mod exact;
+mod written;
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -35,7 +36,7 @@ mod heavier {
 
     mechanism! {
         /// The same names, another gravity.
-        mechanism Bar {
+        pub(crate) mechanism Bar {
             input omega: rad/s;
             design m = 3.0 kg;
             design l = 1.0 m +/- 3%;

@@ -18,6 +18,7 @@ use crate::tolerance::{Counts, Outcome};
 
 /// What is known of some samples, by randomisation: responses, then the design variables that vary.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathered {
     pub(super) parts: Vec<Partial>,
 }

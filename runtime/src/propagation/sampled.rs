@@ -8,14 +8,24 @@ use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
-use crate::tolerance::run::Run;
+#[cfg(feature = "serde")]
+use crate::tolerance::Outcome;
+use crate::tolerance::run::{Format, Run};
 use crate::tolerance::{Counts, Fingerprint, Tolerances};
 use crate::{Description, Error, Shared};
 
 /// What is known of some samples. Parts of a run merge to the same bits as the whole, however it was split.
+///
+/// With the feature `serde` it can be written and read, by the same version of the format only.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Unchecked")
+)]
 #[non_exhaustive]
 pub struct Samples {
+    format: Format,
     /// Which points.
     pub points: Points,
     /// What was asked for.
@@ -66,6 +76,7 @@ pub fn sampled(
         space: &space,
     };
     Ok(Samples {
+        format: Format,
         points: sampler.points,
         wanted: responses.wanted().to_vec(),
         run: Run {
@@ -173,6 +184,51 @@ impl Samples {
             counts,
             inputs: self.inputs.clone(),
             description: self.description.clone(),
+        })
+    }
+}
+
+/// [`Samples`] as they were read.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    format: Format,
+    points: Points,
+    wanted: Vec<Response>,
+    run: Run,
+    gathered: Gathered,
+    nominal: Vec<Option<f64>>,
+    variables: (Vec<usize>, usize),
+    inputs: Vector,
+    description: Shared<Description>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Samples {
+    type Error = &'static str;
+
+    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
+        let (varied, variables) = &read.variables;
+        let quantities = read.wanted.len() + varied.len();
+        let outcomes = Outcome::ALL.len();
+        read.run
+            .check_parts(&read.gathered.parts, quantities, outcomes)?;
+        let fits = read.nominal.len() == read.wanted.len()
+            && varied.iter().all(|variable| variable < variables)
+            && read.inputs.len() == read.description.inputs.len();
+        if !fits {
+            return Err("the parts of these samples do not fit together");
+        }
+        Ok(Self {
+            format: read.format,
+            points: read.points,
+            wanted: read.wanted,
+            run: read.run,
+            gathered: read.gathered,
+            nominal: read.nominal,
+            variables: read.variables,
+            inputs: read.inputs,
+            description: read.description,
         })
     }
 }

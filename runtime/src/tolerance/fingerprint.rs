@@ -5,7 +5,7 @@ use core::fmt;
 use super::Tolerances;
 use crate::kernels::{Kernels, Linear};
 use crate::modes::Family;
-use crate::{Equilibrium, Error, Modes};
+use crate::{Description, Equilibrium, Error, Modes};
 
 /// What a run of samples was asked for, as facts with a name and a value. Samples of runs with equal fingerprints belong together.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ impl Fingerprint {
         let description = &at.description;
         let mut all = Self(Vec::new());
         all.add("mechanism", &*description.name);
-        all.add("kernels", probes(mechanism, at));
+        all.add("kernels", probes(mechanism, description));
         for (info, value) in description.inputs.iter().zip(&at.inputs) {
             all.add(format!("input `{}`", info.name), value);
         }
@@ -99,26 +99,26 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-/// Where kernels are evaluated beside the nominal state, as a share of every value and in rad or m.
-const PROBES: [f64; 3] = [0.0, 0.01, -0.02];
+/// Where kernels are evaluated: steps from one value to the next, in SI units and as a share of nominal values.
+const PROBES: [f64; 3] = [0.01, -0.03, 0.07];
 
-/// What the kernels give at and near a state: other kernels give something else.
-fn probes(mechanism: &dyn Kernels, at: &Equilibrium) -> String {
+/// What the kernels give at some states, the same for every study: other kernels give something else.
+fn probes(mechanism: &dyn Kernels, description: &Description) -> String {
+    let sizes = mechanism.sizes();
     let mut digest = Digest::default();
     for step in PROBES {
-        let q: Vec<f64> = (at.coordinates.iter())
-            .map(|value| value * (1.0 + step) + step)
-            .collect();
-        let b: Vec<f64> = (at.design.iter())
-            .map(|value| value * (1.0 + step))
-            .collect();
-        let (residual, _) = mechanism.residual_and_stiffness(&q, &at.inputs, &b);
-        let linear: Linear = mechanism.linear(&q, &at.inputs, &b);
+        let value = |k: usize| 0.2 + step * (k + 1) as f64;
+        let q: Vec<f64> = (0..sizes.coordinates).map(value).collect();
+        let u: Vec<f64> = (0..sizes.inputs).map(value).collect();
+        let nominal = description.design.iter().map(|info| info.nominal);
+        let b: Vec<f64> = nominal.map(|value| value * (1.0 + step)).collect();
+        let (residual, _) = mechanism.residual_and_stiffness(&q, &u, &b);
+        let linear: Linear = mechanism.linear(&q, &u, &b);
         digest.numbers(&residual);
         for matrix in [&linear.mass, &linear.damping, &linear.stiffness] {
             digest.numbers(matrix.as_flattened());
         }
-        digest.numbers(&mechanism.outputs(&q, &at.inputs, &b));
+        digest.numbers(&mechanism.outputs(&q, &u, &b));
     }
     digest.to_string()
 }

@@ -6,15 +6,14 @@ use std::sync::atomic::AtomicBool;
 use eigentol_statistics::summary::Partial;
 
 use super::gather::{Part, Work};
-use super::run::Run;
-use super::solver::{LEFT_NOMINAL_BRANCH, Numbered, Room, Solver};
-use super::{Counts, Fingerprint, Sample, Statistics, Tolerances};
-use crate::algebra::Vector;
+use super::run::{Format, Run};
+use super::solver::{Numbered, Room, Solver};
+use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Tolerances};
 use crate::kernels::BatchKernels;
-use crate::modes::{CLUSTER_GAP, Family, clusters};
+use crate::modes::{CLUSTER_GAP, clusters};
 use crate::scalar::Instructions;
 use crate::setters::setters;
-use crate::{Description, Equilibrium, Error, Modes, Shared};
+use crate::{Equilibrium, Error, Modes};
 
 /// Chunks of samples that are worth a thread of their own: side by side they take some ten microseconds each.
 const CHUNKS_SIDE_BY_SIDE: u64 = 4;
@@ -90,54 +89,6 @@ impl Default for Sampling<'_> {
     }
 }
 
-/// Result of a Monte Carlo run, of the samples that are done.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct MonteCarlo {
-    /// Number of samples.
-    pub samples: usize,
-    /// Number of samples that were asked for: more where the run was stopped, or where this is a part of one.
-    pub planned: usize,
-    /// What became of them.
-    pub counts: Counts,
-    /// Stable samples for which the nominal position itself is unstable: they settled on another branch.
-    pub left_nominal_branch: usize,
-    /// Statistics of the frequency over the stable samples where the mode oscillates, rad/s, by nominal mode; `None`
-    /// without any value. Quantiles and a histogram are among them ([`Statistics::quantile`], [`Statistics::sketch`]).
-    pub modes: Vec<Option<Statistics>>,
-    /// Statistics of the damping ratio over the same samples.
-    pub damping_ratios: Vec<Option<Statistics>>,
-    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), except those that had to be solved alone. Solved one by
-    /// one, the statistics differ in the last bits.
-    pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode is matched to is arbitrary, and only
-    /// statistics of all of them together mean something ([`clusters`](crate::clusters::clusters)).
-    pub clustered: bool,
-    /// Every sample in order, when asked for.
-    pub all: Option<Vec<Sample>>,
-    /// Which modes they belong to.
-    pub family: Family,
-    /// The inputs they belong to, SI.
-    pub inputs: Vector,
-    /// The mechanism they belong to.
-    pub description: Shared<Description>,
-}
-
-/// Some samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct PartialMonteCarlo {
-    run: Run,
-    part: Partial,
-    kept: Option<Vec<Numbered>>,
-    side_by_side: bool,
-    clustered: bool,
-    family: Family,
-    inputs: Vector,
-    description: Shared<Description>,
-}
-
 /// Samples the design variables about those of `nominal` (by `tolerances`), re-solves each sample from the
 /// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape. Samples
 /// settle on a stable equilibrium, whatever policy found the nominal one.
@@ -200,6 +151,7 @@ pub fn partial_monte_carlo(
         .with("stream", sampling.stream)
         .with("samples kept", sampling.keep_samples);
     Ok(PartialMonteCarlo {
+        format: Format,
         run: Run {
             fingerprint,
             groups: 1,
@@ -213,88 +165,4 @@ pub fn partial_monte_carlo(
         inputs: nominal.inputs.clone(),
         description: nominal.description.clone(),
     })
-}
-
-impl PartialMonteCarlo {
-    /// Adds other samples of the same run.
-    ///
-    /// # Errors
-    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for those that have been added already; nothing has
-    /// been added then.
-    pub fn merge(&mut self, other: Self) -> Result<(), Error> {
-        let own = core::slice::from_mut(&mut self.part);
-        self.run.merge(own, (&other.run, vec![other.part]))?;
-        self.kept = match (self.kept.take(), other.kept) {
-            (Some(mut kept), Some(other)) => {
-                kept.extend(other);
-                kept.sort_by_key(|(number, _)| *number);
-                Some(kept)
-            }
-            _ => None,
-        };
-        Ok(())
-    }
-
-    /// The ranges of samples that are done, in order and apart.
-    #[must_use]
-    pub fn ranges(&self) -> Vec<Range<u64>> {
-        self.run.ranges(self.parts())
-    }
-
-    /// The ranges of samples that are not done, in order and apart.
-    #[must_use]
-    pub fn missing(&self) -> Vec<Range<u64>> {
-        self.run.missing(self.parts())
-    }
-
-    /// Refuses a run that is not complete.
-    ///
-    /// # Errors
-    /// [`Error::SamplesMissing`], which names the gaps.
-    pub fn check_complete(&self) -> Result<(), Error> {
-        self.run.check_complete(self.parts())
-    }
-
-    /// What the run was asked for: equal for parts that can be merged.
-    #[must_use]
-    pub fn fingerprint(&self) -> &Fingerprint {
-        &self.run.fingerprint
-    }
-
-    /// Statistics of the samples that are done.
-    #[must_use]
-    pub fn result(&self) -> MonteCarlo {
-        self.clone().into_result()
-    }
-
-    fn parts(&self) -> &[Partial] {
-        core::slice::from_ref(&self.part)
-    }
-
-    pub(crate) fn into_result(self) -> MonteCarlo {
-        let outcomes = self.part.outcomes();
-        let counts = Counts::of_all(outcomes);
-        let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();
-        let mut modes = self.part.into_statistics();
-        let damping_ratios = match self.family {
-            Family::General => modes.split_off(modes.len() / 2),
-            Family::Undamped => (modes.iter().flatten())
-                .map(|mode| Statistics::of_equal(0.0, mode.count))
-                .collect(),
-        };
-        MonteCarlo {
-            samples: counts.total(),
-            planned: self.run.total() as usize,
-            counts,
-            left_nominal_branch: left_nominal_branch.unwrap_or(0) as usize,
-            modes,
-            damping_ratios,
-            side_by_side: self.side_by_side,
-            clustered: self.clustered,
-            all: (self.kept).map(|kept| kept.into_iter().map(|(_, sample)| sample).collect()),
-            family: self.family,
-            inputs: self.inputs,
-            description: self.description,
-        }
-    }
 }

@@ -7,9 +7,42 @@ use eigentol_statistics::summary::Partial;
 use super::Fingerprint;
 use crate::Error;
 
-/// The layout of partial results that are written: other versions cannot be read.
+/// Version of the layout in which partial results are written. Another one is refused when it is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "u32", try_from = "u32")
+)]
+pub(crate) struct Format;
+
 #[cfg(feature = "serde")]
-pub(crate) const FORMAT: u32 = 1;
+impl Format {
+    const VERSION: u32 = 1;
+}
+
+#[cfg(feature = "serde")]
+impl From<Format> for u32 {
+    fn from(Format: Format) -> Self {
+        Format::VERSION
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<u32> for Format {
+    type Error = String;
+
+    fn try_from(found: u32) -> Result<Self, String> {
+        let known = Self::VERSION;
+        if found == known {
+            return Ok(Self);
+        }
+        Err(format!(
+            "these samples were written in version {found} of the format, and version {known} can be read: take one version of \
+             eigentol for all parts of a run"
+        ))
+    }
+}
 
 /// What is asked of a run, and how its samples are numbered: those of one randomisation after the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,5 +118,34 @@ impl Run {
             own.merge(added)?;
         }
         Ok(())
+    }
+
+    /// Refuses what cannot be samples of this run: `outcomes` counts each of them once among the first.
+    #[cfg(feature = "serde")]
+    pub(crate) fn check_parts(
+        &self,
+        parts: &[Partial],
+        quantities: usize,
+        outcomes: usize,
+    ) -> Result<(), &'static str> {
+        let total = self.groups.checked_mul(self.of_each);
+        let fits = |part: &Partial| {
+            let ranges = part.ranges();
+            let done: u64 = ranges.iter().map(|own| own.end - own.start).sum();
+            let counted = part.outcomes().get(..outcomes);
+            let counted = counted.and_then(|all| {
+                all.iter()
+                    .try_fold(0_u64, |sum, number| sum.checked_add(*number))
+            });
+            part.plan().quantities() == quantities
+                && ranges.last().is_none_or(|last| last.end <= self.of_each)
+                && counted == Some(done)
+        };
+        let all = total.is_some() && parts.len() as u64 == self.groups && parts.iter().all(fits);
+        if all {
+            Ok(())
+        } else {
+            Err("the parts of these samples do not fit together")
+        }
     }
 }

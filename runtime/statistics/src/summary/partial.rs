@@ -35,6 +35,12 @@ impl Partial {
         }
     }
 
+    /// What is learnt from the samples.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
     /// Adds the samples of a chunk.
     ///
     /// # Errors
