@@ -7,7 +7,7 @@ use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
 /// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that no
-/// coordinate affects.
+/// coordinate affects. Only the last is wrong where nothing but the equations is wanted.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
@@ -24,7 +24,11 @@ pub(crate) fn require_determinate_motion(
         let id = coordinates.copied().nth(k).expect("it moves");
         &context.mechanism.coordinates[id.index()].name
     };
-    let massless = massless_motion(g, context, jacobians);
+    let kernels_only = context.mechanism.kernels_only;
+    let massless = match kernels_only {
+        true => None,
+        false => massless_motion(g, context, jacobians),
+    };
     let mut without_inertia = None;
     if let Some(motion) = &massless {
         let last = motion.last().map_or(0, |&(k, _)| k);
@@ -55,7 +59,8 @@ pub(crate) fn require_determinate_motion(
         };
         diagnostics.error_with_help(name(last).span(), message, help);
     }
-    for (k, column) in jacobians.stiffness.iter().enumerate() {
+    let first = if kernels_only { moving } else { 0 };
+    for (k, column) in jacobians.stiffness.iter().enumerate().skip(first) {
         let idle = vanish(g, context, column).into_iter().all(|zero| zero);
         if !idle || without_inertia == Some(k) {
             continue;
