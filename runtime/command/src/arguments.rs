@@ -20,7 +20,13 @@ use crate::verdict::Verdict;
 #[command(name = "eigentol", version, subcommand_required = true)]
 pub(crate) struct Arguments {
     /// Whether messages are coloured; `auto` does it on a terminal
-    #[arg(long, global = true, value_enum, default_value = "auto", value_name = "WHEN")]
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value = "auto",
+        value_name = "WHEN"
+    )]
     color: Color,
     #[command(subcommand)]
     command: Command,

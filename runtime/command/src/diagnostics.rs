@@ -24,7 +24,11 @@ pub(crate) fn say(failure: &Failure, color: Color) {
             text += "\n\n";
         }
         let count = mistakes.iter().count();
-        let errors = if count == 1 { "a mistake".to_owned() } else { format!("{count} mistakes") };
+        let errors = if count == 1 {
+            "a mistake".to_owned()
+        } else {
+            format!("{count} mistakes")
+        };
         text += &title(&format!("`{name}` has {errors}"), None, &renderer);
     } else {
         text = title(&failure.to_string(), failure.help().as_deref(), &renderer);
@@ -91,7 +95,11 @@ fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
 
 fn byte(source: &str, line: usize, column: usize) -> usize {
     let lines = source.split_inclusive('\n');
-    let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
+    let before: usize = lines
+        .clone()
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
     let own = lines.skip(line.saturating_sub(1)).next().unwrap_or("");
     let own = own.trim_end_matches(['\n', '\r']);
     let inside = own.char_indices().nth(column.saturating_sub(1));
@@ -105,7 +113,13 @@ mod tests {
     #[test]
     fn lines_and_characters_become_bytes() {
         let text = "ab\nµ c\r\nd";
-        for (place, expected) in [((1, 1), 0), ((2, 1), 3), ((2, 2), 5), ((2, 9), 7), ((3, 1), 9)] {
+        for (place, expected) in [
+            ((1, 1), 0),
+            ((2, 1), 3),
+            ((2, 2), 5),
+            ((2, 9), 7),
+            ((3, 1), 9),
+        ] {
             assert_eq!(byte(text, place.0, place.1), expected, "{place:?}");
         }
         assert_eq!(byte(text, 9, 1), text.len());

@@ -44,8 +44,8 @@ pub(crate) enum Failure {
     },
     #[error("{0}")]
     Analysis(#[from] Error),
-    #[error("cannot listen for Ctrl-C: {0}")]
-    Signal(#[from] ctrlc::Error),
+    #[error("{0}")]
+    Table(#[from] eigentol_tables::Error),
     /// The reader of a pipe has gone: no failure.
     #[error("nobody reads the output")]
     NobodyReads,
@@ -67,7 +67,7 @@ impl Failure {
             },
             Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }
-            | Self::Signal(_)
+            | Self::Table(_)
             | Self::Read { .. }
             | Self::Write { .. }
             | Self::Print(_)

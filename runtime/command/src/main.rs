@@ -1,12 +1,13 @@
 //! The command `eigentol`: a declaration in a file, a question, an answer. What it asks, the library answers.
 
+mod answer;
 mod arguments;
 mod commands;
 mod declaration;
 mod diagnostics;
 mod failure;
-mod interrupt;
 mod output;
+mod place;
 mod point;
 mod progress;
 mod study_file;

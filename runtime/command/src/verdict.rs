@@ -22,12 +22,4 @@ impl Verdict {
             None => Self::Yes,
         }
     }
-
-    /// This one, or the other where this one is yes.
-    pub(crate) fn and(self, other: Self) -> Self {
-        match self {
-            Self::Yes => other,
-            no => no,
-        }
-    }
 }

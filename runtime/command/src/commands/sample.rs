@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::progress;
 use crate::verdict::Verdict;
@@ -45,8 +45,8 @@ impl Sample {
         let bar = progress::bar("samples", samples as u64);
         let found = solved.monte_carlo_with_progress(&|done| bar.inc(done as u64))?;
         bar.finish_and_clear();
-        let mut answer = Answer::default();
-        answer.add(&found);
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

@@ -1,0 +1,11 @@
+//! The command as a user runs it.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod declarations;
+mod mistakes;
+mod outputs;
+mod program;
+mod readme;
+mod rust_examples;
+mod starter;
+mod subcommands;
