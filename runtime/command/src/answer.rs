@@ -53,7 +53,11 @@ impl Answer {
     }
 
     /// The answer in its form: as text all results or the one of this kind, otherwise that one or the first.
-    pub(crate) fn written(&self, kind: Option<&str>, table: Option<&str>) -> Result<String, Failure> {
+    pub(crate) fn written(
+        &self,
+        kind: Option<&str>,
+        table: Option<&str>,
+    ) -> Result<String, Failure> {
         if self.form == Form::Text && kind.is_none() {
             let all: Vec<&str> = self.results.iter().map(|own| own.text.as_str()).collect();
             return Ok(all.join("\n"));

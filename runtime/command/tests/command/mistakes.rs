@@ -93,8 +93,15 @@ fn names_that_do_not_exist_offer_the_nearest() {
     refused(&["branches", PENDULUM, "--sweep", "l=0..1m"], 2, &sweep);
     let table = ["the answer has no table `mods`", "did you mean `modes`?"];
     refused(&pendulum("modes", &["--csv", "--table", "mods"]), 2, &table);
-    let result = ["the answer has no result `shapes`", "there are `modes`, `equilibrium`"];
-    refused(&pendulum("modes", &["--json", "--result", "shapes"]), 2, &result);
+    let result = [
+        "the answer has no result `shapes`",
+        "there are `modes`, `equilibrium`",
+    ];
+    refused(
+        &pendulum("modes", &["--json", "--result", "shapes"]),
+        2,
+        &result,
+    );
     refused(&["mods"], 2, &["unrecognized subcommand", "'modes'"]);
 }
 
@@ -216,7 +223,11 @@ fn no_equilibrium_is_an_answer() {
         force push: generalized(on: x, value: 9 N - (1 N/m^2) * x^2); }";
     let run = run_with_input(&["modes", "-"], heavy);
     assert_eq!((run.code, run.out.as_str()), (1, ""));
-    assert!(run.err.starts_with("error: no equilibrium found"), "{}", run.err);
+    assert!(
+        run.err.starts_with("error: no equilibrium found"),
+        "{}",
+        run.err
+    );
 }
 
 #[test]
