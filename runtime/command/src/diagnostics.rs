@@ -94,13 +94,13 @@ fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
 }
 
 fn byte(source: &str, line: usize, column: usize) -> usize {
-    let lines = source.split_inclusive('\n');
+    let mut lines = source.split_inclusive('\n');
     let before: usize = lines
         .clone()
         .take(line.saturating_sub(1))
         .map(str::len)
         .sum();
-    let own = lines.skip(line.saturating_sub(1)).next().unwrap_or("");
+    let own = lines.nth(line.saturating_sub(1)).unwrap_or("");
     let own = own.trim_end_matches(['\n', '\r']);
     let inside = own.char_indices().nth(column.saturating_sub(1));
     before + inside.map_or(own.len(), |(at, _)| at)
