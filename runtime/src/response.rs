@@ -105,6 +105,10 @@ impl<'a> Responses<'a> {
         self.nominal
     }
 
+    pub(crate) fn mechanism(&self) -> &'a dyn DirectionalKernels {
+        self.mechanism
+    }
+
     /// The nominal modes.
     pub(crate) fn modes(&self) -> &'a Modes {
         self.modes

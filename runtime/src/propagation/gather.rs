@@ -1,12 +1,11 @@
 //! Samples of any model, in parallel, and their statistics.
 
 use core::ops::Range;
-use std::sync::atomic::Ordering;
 
 use eigentol_statistics::normal;
 use eigentol_statistics::sequence::Sequence;
 use eigentol_statistics::summary::{
-    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics, chunks,
+    Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
 };
 
 use super::model::Model;
@@ -14,13 +13,12 @@ use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::sampler::Sampler;
 use super::space::{Point, Space};
 use crate::Error;
-use crate::tolerance::{Counts, Outcome, pool};
-
-/// Chunks that are solved before their sums are added up: memory for some ten thousand samples.
-const ROUND: usize = 256;
+use crate::tolerance::gather::{Part, Work};
+use crate::tolerance::{Counts, Outcome};
 
 /// What is known of some samples, by randomisation: responses, then the design variables that vary.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathered {
     pub(super) parts: Vec<Partial>,
 }
@@ -36,9 +34,6 @@ pub(super) struct Task<'a, M> {
     /// Unknowns of the mechanism, which the stack of a thread depends on.
     pub(super) unknowns: usize,
 }
-
-/// Samples of one chunk of one randomisation.
-type Piece = (usize, Range<u64>);
 
 impl<M: Model> Task<'_, M> {
     /// What is to be learnt from the samples of each randomisation.
@@ -61,54 +56,38 @@ impl<M: Model> Task<'_, M> {
         let sequences = (0..sampler.groups())
             .map(|group| sampler.sequence(group, self.space.dimensions()))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut parts = vec![Partial::new(plan.clone()); sequences.len()];
-        let mut pieces = (0..sequences.len()).flat_map(|group| {
-            let first = group as u64 * of_each;
-            let start = now.start.clamp(first, first + of_each) - first;
-            let end = now.end.clamp(first, first + of_each) - first;
-            chunks(start..end).map(move |samples| (group, samples))
-        });
-        let stopped = || (sampler.stop).is_some_and(|stop| stop.load(Ordering::Relaxed));
-        let size = (self.unknowns, self.space.nominal.len());
+        let groups: Vec<Range<u64>> = (0..sampler.groups())
+            .map(|group| {
+                let first = group * of_each;
+                let inside = |sample: u64| sample.clamp(first, first + of_each) - first;
+                inside(now.start)..inside(now.end)
+            })
+            .collect();
+        let work = Work {
+            threads: sampler.threads,
+            size: (self.unknowns, self.space.nominal.len()),
+            least: 1,
+            progress: sampler.progress,
+            stop: sampler.stop,
+        };
         let room = || (self.model.room(), self.space.point());
-        while !stopped() {
-            let round: Vec<Piece> = pieces.by_ref().take(ROUND).collect();
-            if round.is_empty() {
-                break;
-            }
-            let solve = |room: &mut _, at: usize| {
-                let (group, samples) = &round[at];
-                if stopped() {
-                    return Ok(None);
-                }
-                let chunk = self.chunk(room, &plan, &sequences[*group], samples.clone())?;
-                if let Some(progress) = sampler.progress {
-                    progress((samples.end - samples.start) as usize);
-                }
-                Ok::<_, Error>(Some(chunk))
-            };
-            let found = pool::run(sampler.threads, size, round.len(), room, solve)?;
-            for ((group, _), chunk) in round.iter().zip(found) {
-                if let Some(chunk) = chunk? {
-                    parts[*group].add(&chunk)?;
-                }
-            }
-        }
+        let solve = |room: &mut (M::Room, Point), part: &mut Part<'_, ()>| {
+            self.solve(room, &sequences[part.group], part)
+        };
+        let (parts, _) = work.gather(&plan, &groups, room, solve)?;
         Ok(Gathered { parts })
     }
 
-    fn chunk(
+    fn solve(
         &self,
         (room, point): &mut (M::Room, Point),
-        plan: &Plan,
         sequence: &Sequence,
-        samples: Range<u64>,
-    ) -> Result<Chunk, Error> {
-        let mut chunk = Chunk::new(plan, samples.clone())?;
+        Part { chunk, samples, .. }: &mut Part<'_, ()>,
+    ) -> Result<(), Error> {
         let mut walk = sequence.from(samples.start);
         let mut values = vec![None; self.scales.len()];
         let variables = self.space.variables();
-        for sample in samples {
+        for sample in samples.clone() {
             let Some(probabilities) = walk.next_point() else {
                 break;
             };
@@ -116,7 +95,7 @@ impl<M: Model> Task<'_, M> {
             let design = self.space.design(point, z);
             values.fill(None);
             let outcome = self.model.evaluate(room, design, &mut values)?;
-            chunk.count(outcome as usize)?;
+            chunk.count(outcome as usize, 1)?;
             for (k, value) in values.iter().enumerate() {
                 chunk.set(sample, k, *value)?;
             }
@@ -124,25 +103,15 @@ impl<M: Model> Task<'_, M> {
                 chunk.set(sample, values.len() + k, Some(design[variable]))?;
             }
         }
-        Ok(chunk)
+        Ok(())
     }
 }
 
 impl Gathered {
-    /// Adds other samples of the same kind.
-    pub(super) fn merge(&mut self, other: Self) -> Result<(), Error> {
-        for (own, other) in self.parts.iter_mut().zip(other.parts) {
-            own.merge(other)?;
-        }
-        Ok(())
-    }
-
     pub(super) fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         for part in &self.parts {
-            for (outcome, number) in Outcome::ALL.into_iter().zip(part.outcomes()) {
-                counts.add(outcome, *number as usize);
-            }
+            counts.merge(&Counts::of_all(part.outcomes()));
         }
         counts
     }

@@ -135,14 +135,53 @@ impl Chunk {
         Ok(())
     }
 
-    /// Counts an outcome of one sample.
+    /// Sets a quantity of some neighbouring samples, `first` and those after it, at most 64: of those that have it, by the bits of
+    /// `having` from the lowest on.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity, or not all of these are samples of this chunk.
+    pub fn set_some(
+        &mut self,
+        first: u64,
+        quantity: usize,
+        values: &[f64],
+        having: u64,
+    ) -> Result<(), Error> {
+        check_below("quantity", quantity, self.present.len())?;
+        let start = (first % CHUNK as u64) as usize;
+        let end = start + values.len();
+        let among = Mask::of(start..end.min(CHUNK));
+        if first / CHUNK as u64 != self.index
+            || end > CHUNK
+            || values.len() > 64
+            || among.and(self.covered) != among
+        {
+            let count = values.len();
+            let reason =
+                format!("{first} and the next, {count} in all, are not among those of this chunk");
+            return Err(Error::Setting {
+                setting: "samples",
+                reason,
+            });
+        }
+        let place = quantity * CHUNK + start;
+        self.values[place..place + values.len()].copy_from_slice(values);
+        let present = &mut self.present[quantity];
+        *present = present
+            .without(among)
+            .or(among.and(Mask::shifted(having, start)));
+        Ok(())
+    }
+
+    /// Counts an outcome of so many samples.
     ///
     /// # Errors
     ///
     /// There is no such outcome.
-    pub fn count(&mut self, outcome: usize) -> Result<(), Error> {
+    pub fn count(&mut self, outcome: usize, samples: u64) -> Result<(), Error> {
         check_below("outcome", outcome, self.outcomes.len())?;
-        self.outcomes[outcome] += 1;
+        self.outcomes[outcome] += samples;
         Ok(())
     }
 

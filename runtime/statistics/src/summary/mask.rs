@@ -48,6 +48,24 @@ impl Mask {
         Self(std::array::from_fn(|k| self.0[k] | other.0[k]))
     }
 
+    pub(super) fn without(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] & !other.0[k]))
+    }
+
+    /// The places of the bits that are set, the lowest at `start`.
+    pub(super) fn shifted(bits: u64, start: usize) -> Self {
+        let (word, shift) = (start / 64, start % 64);
+        Self(std::array::from_fn(|k| {
+            if k == word {
+                bits << shift
+            } else if k == word + 1 && shift > 0 {
+                bits >> (64 - shift)
+            } else {
+                0
+            }
+        }))
+    }
+
     pub(super) fn is_full(self) -> bool {
         self.0 == [u64::MAX; WORDS]
     }
@@ -98,6 +116,17 @@ mod tests {
                 (range.len() == 256, range.is_empty())
             );
             assert!((0..300).all(|place| mask.has(place) == range.contains(&place)));
+        }
+    }
+
+    #[test]
+    fn bits_from_any_place() {
+        for start in [0, 5, 60, 64, 100, 248] {
+            let found = Mask::shifted(0b1001_0011, start);
+            let places = [0, 1, 4, 7].map(|bit| start + bit);
+            assert!(found.places().eq(places), "{start}");
+            let others = Mask::of(0..256).without(found);
+            assert_eq!((others.count(), others.and(found).is_empty()), (252, true));
         }
     }
 

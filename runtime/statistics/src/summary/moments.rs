@@ -61,6 +61,16 @@ impl Moments {
         }
     }
 
+    /// Of so many values that are all the same.
+    #[must_use]
+    pub fn of_equal(value: f64, count: u64) -> Self {
+        let one = Self::of(&[value]);
+        if count == 0 {
+            return Self::default();
+        }
+        Self { count, ..one }
+    }
+
     /// Adds the values of another.
     pub fn merge(&mut self, other: &Self) {
         if other.count == 0 {

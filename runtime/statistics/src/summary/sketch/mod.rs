@@ -118,6 +118,13 @@ impl Sketch {
         self.count_all(values);
     }
 
+    /// Values that are all the same, by their moments.
+    pub(in crate::summary) fn add_equal(&mut self, moments: &Moments) {
+        self.include(moments.count, moments.min, moments.max);
+        let place = self.place(moments.min);
+        self.buckets.count_equal(place, moments.count);
+    }
+
     /// Another about the same reference.
     pub(in crate::summary) fn merge_checked(&mut self, other: &Self) {
         self.include(other.count, other.min, other.max);
