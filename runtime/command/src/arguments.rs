@@ -5,11 +5,12 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, modes, new, sample, sensitivities,
-    tolerance,
+    allocate, branches, campbell, check, completions, expand, merge, modes, new, sample,
+    sensitivities, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::verdict::Verdict;
 
 /// Natural frequencies of mechanisms in steady motion, and how tolerances move them.
@@ -49,6 +50,7 @@ enum Command {
     Campbell(campbell::Campbell),
     Branches(branches::Branches),
     Sample(sample::Sample),
+    Merge(merge::Merge),
     Allocate(allocate::Allocate),
     Expand(expand::Expand),
     New(new::New),
@@ -59,11 +61,15 @@ impl Arguments {
     /// Does what was asked for; messages go to standard error.
     pub(crate) fn run(self) -> ExitCode {
         let color = self.color;
-        let code = match self.command.run() {
+        let code = match interrupt::watch().and_then(|()| self.command.run()) {
             Ok(Verdict::Yes) => 0,
             Ok(Verdict::No(reason)) => {
-                diagnostics::say_no(&reason, color);
+                diagnostics::say_no("no", &reason, color);
                 1
+            }
+            Ok(Verdict::Stopped(reason)) => {
+                diagnostics::say_no("stopped", &reason, color);
+                interrupt::INTERRUPTED
             }
             Err(Failure::NobodyReads) => 0,
             Err(failure) => {
@@ -85,6 +91,7 @@ impl Command {
             Self::Campbell(own) => own.run(),
             Self::Branches(own) => own.run(),
             Self::Sample(own) => own.run(),
+            Self::Merge(own) => own.run(),
             Self::Allocate(own) => own.run(),
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),

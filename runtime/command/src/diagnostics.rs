@@ -36,9 +36,9 @@ pub(crate) fn say(failure: &Failure, color: Color) {
     write(&text);
 }
 
-/// Writes why the analysis says no to standard error.
-pub(crate) fn say_no(reason: &str, color: Color) {
-    let group = Group::with_title(Level::WARNING.with_name("no").primary_title(reason));
+/// Writes to standard error why the answer is not all that was hoped for.
+pub(crate) fn say_no(word: &str, reason: &str, color: Color) {
+    let group = Group::with_title(Level::WARNING.with_name(word).primary_title(reason));
     write(&renderer(color).render(&[group]));
 }
 

@@ -25,6 +25,10 @@ pub(crate) enum Failure {
     },
     #[error("`{}` is no study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },
+    #[error("`{}` is no part of this run: {message}", .path.display())]
+    Part { path: PathBuf, message: String },
+    #[error("cannot listen for Ctrl-C: {0}")]
+    Signal(#[from] ctrlc::Error),
     #[error("`{exists}` exists already")]
     Exists { exists: String },
     #[error("{0}")]
@@ -68,6 +72,8 @@ impl Failure {
             Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }
             | Self::Table(_)
+            | Self::Signal(_)
+            | Self::Part { .. }
             | Self::Read { .. }
             | Self::Write { .. }
             | Self::Print(_)

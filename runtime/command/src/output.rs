@@ -40,6 +40,11 @@ impl Output {
         })
     }
 
+    /// Writes a text that has only one form.
+    pub(crate) fn write_text(&self, text: &str) -> Result<(), Failure> {
+        self.place.write(text)
+    }
+
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
         let text = answer.written(self.result.as_deref(), self.table.as_deref())?;
         self.place.write(&text)

@@ -8,6 +8,8 @@ pub(crate) enum Verdict {
     Yes,
     /// With the reason.
     No(String),
+    /// Ctrl-C came before the end; with how far it came.
+    Stopped(String),
 }
 
 impl Verdict {
