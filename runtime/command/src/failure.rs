@@ -25,7 +25,7 @@ pub(crate) enum Failure {
     },
     #[error("`{}` is no study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },
-    #[error("`{}` is no part of this run: {message}", .path.display())]
+    #[error("`{}` cannot be merged: {message}", .path.display())]
     Part { path: PathBuf, message: String },
     #[error("cannot listen for Ctrl-C: {0}")]
     Signal(#[from] ctrlc::Error),

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::str::FromStr;
 
+use eigentol::Error;
 use eigentol::tolerance::PartialMonteCarlo;
 
 use crate::failure::Failure;
@@ -56,6 +57,29 @@ pub(crate) fn read(path: &Path) -> Result<PartialMonteCarlo, Failure> {
             true => "the file is cut off".to_owned(),
             false => error.to_string(),
         },
+    })
+}
+
+/// Adds the part that was read from a file to others of its run.
+pub(crate) fn add(
+    all: &mut PartialMonteCarlo,
+    path: &Path,
+    part: PartialMonteCarlo,
+) -> Result<(), Failure> {
+    all.merge(part).map_err(|error| {
+        let message = match &error {
+            Error::OtherRun { what, own, other } => {
+                format!("it is of another run: {what} is {other} there and {own} before it")
+            }
+            Error::SamplesOverlap { start, end } => {
+                format!("its samples {start} to below {end} are there already")
+            }
+            error => error.to_string(),
+        };
+        Failure::Part {
+            path: path.to_owned(),
+            message,
+        }
     })
 }
 

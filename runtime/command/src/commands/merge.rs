@@ -1,9 +1,8 @@
 //! Putting parts of a run together.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use eigentol::Error;
 use eigentol::tolerance::PartialMonteCarlo;
 
 use crate::failure::Failure;
@@ -27,17 +26,15 @@ pub(crate) struct Merge {
 impl Merge {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
-        let mut all: Option<(&Path, PartialMonteCarlo)> = None;
+        let mut all: Option<PartialMonteCarlo> = None;
         for file in &self.files {
             let part = parts::read(file)?;
             match &mut all {
-                None => all = Some((file, part)),
-                Some((first, all)) => all
-                    .merge(part)
-                    .map_err(|error| refused(file, first, &error))?,
+                None => all = Some(part),
+                Some(all) => parts::add(all, file, part)?,
             }
         }
-        let Some((_, all)) = all else {
+        let Some(all) = all else {
             return Err(Failure::usage(
                 "there is nothing to merge",
                 "name partial results",
@@ -54,23 +51,5 @@ impl Merge {
             Ok(()) => Verdict::Yes,
             Err(error) => Verdict::No(error.to_string()),
         })
-    }
-}
-
-/// Which file does not go with those before it.
-fn refused(file: &Path, first: &Path, error: &Error) -> Failure {
-    let first = first.display();
-    let message = match error {
-        Error::OtherRun { what, own, other } => {
-            format!("it is of another run than `{first}`: {what} is {other} here and {own} there")
-        }
-        Error::SamplesOverlap { start, end } => {
-            format!("its samples {start} to below {end} are in the files before it as well")
-        }
-        error => error.to_string(),
-    };
-    Failure::Part {
-        path: file.to_owned(),
-        message,
     }
 }

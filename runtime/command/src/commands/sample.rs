@@ -59,9 +59,8 @@ impl Sample {
             .stream(self.stream.or(file.stream).unwrap_or(0))
             .threads(self.threads.unwrap_or(0));
         let solved = study.solve()?;
-        let done = self.resume.as_deref().map(parts::read).transpose()?;
         let range = self.shard.unwrap_or(Shard::WHOLE).range(samples as u64);
-        let part = sampled((&study, &solved), done, &range)?;
+        let part = self.sampled((&study, &solved), &range)?;
         if self.shard.is_some() || self.partial {
             self.output.write_text(&parts::text(&part)?)?;
         } else {
@@ -79,34 +78,34 @@ impl Sample {
         }
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }
-}
 
-/// The samples of a range, those that are done already as they are.
-fn sampled(
-    (study, solved): (&Study<Interpreted>, &Solved<'_, Interpreted>),
-    done: Option<PartialMonteCarlo>,
-    range: &Range<u64>,
-) -> Result<PartialMonteCarlo, Failure> {
-    let bar = progress::bar("samples", range.end - range.start);
-    let count = |done| bar.inc(done as u64);
-    let sampling = study
-        .sampling()
-        .progress(Some(&count))
-        .stop(Some(interrupt::stop()));
-    let some = |range| solved.sample_modes(&sampling.clone().range(Some(range)));
-    // Nothing, to refuse a partial result of another run before the work is done.
-    let mut part = some(range.start..range.start)?;
-    if let Some(done) = done {
-        part.merge(done)?;
+    /// The samples of a range, those that are done already as they are.
+    fn sampled(
+        &self,
+        (study, solved): (&Study<Interpreted>, &Solved<'_, Interpreted>),
+        range: &Range<u64>,
+    ) -> Result<PartialMonteCarlo, Failure> {
+        let bar = progress::bar("samples", range.end - range.start);
+        let count = |done| bar.inc(done as u64);
+        let sampling = study
+            .sampling()
+            .progress(Some(&count))
+            .stop(Some(interrupt::stop()));
+        let some = |range| solved.sample_modes(&sampling.clone().range(Some(range)));
+        // Nothing, to refuse a partial result of another run before the work is done.
+        let mut part = some(range.start..range.start)?;
+        if let Some(path) = &self.resume {
+            parts::add(&mut part, path, parts::read(path)?)?;
+        }
+        let missing = within(&part.missing(), range);
+        let left: u64 = missing.iter().map(|own| own.end - own.start).sum();
+        bar.set_position(range.end - range.start - left);
+        for range in missing {
+            part.merge(some(range)?)?;
+        }
+        bar.finish_and_clear();
+        Ok(part)
     }
-    let missing = within(&part.missing(), range);
-    let left: u64 = missing.iter().map(|own| own.end - own.start).sum();
-    bar.set_position(range.end - range.start - left);
-    for range in missing {
-        part.merge(some(range)?)?;
-    }
-    bar.finish_and_clear();
-    Ok(part)
 }
 
 /// What of these ranges lies within another.
