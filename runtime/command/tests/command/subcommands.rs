@@ -134,13 +134,8 @@ fn branches() {
 
 #[test]
 fn samples_are_a_function_of_seed_and_stream() {
-    let sample = |more: &[&str]| {
-        answer(&pendulum(
-            "sample",
-            "merge",
-            &[&["--samples", "200"], more].concat(),
-        ))
-    };
+    let sample =
+        |more: &[&str]| answer(&pendulum("sample", &[&["--samples", "200"], more].concat()));
     let first = sample(&["--seed", "7"]);
     assert!(first.contains("200 samples: 200 stable"), "{first}");
     assert_eq!(first, sample(&["--seed", "7", "--threads", "1"]));
@@ -200,8 +195,8 @@ fn a_study_file_says_what_is_asked_again() {
     assert_eq!(answer(&faster), answer(&direct));
     let direct = ["--samples", "2000", "--seed", "7"];
     assert_eq!(
-        answer(&["sample", "merge", "--study", &study]),
-        answer(&pendulum("sample", "merge", &direct))
+        answer(&["sample", "--study", &study]),
+        answer(&pendulum("sample", &direct))
     );
 }
 
