@@ -4,7 +4,7 @@ use crate::mechanism::Any;
 use crate::{DesignVariable, Input};
 
 /// A design variable or an input: what may have a tolerance. Made from a handle of either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(bound = ""))]
 pub enum Parameter<M = Any> {
@@ -13,6 +13,14 @@ pub enum Parameter<M = Any> {
     /// An input.
     Input(Input<M>),
 }
+
+impl<M> Clone for Parameter<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Parameter<M> {}
 
 impl<M> Parameter<M> {
     /// The same without its mechanism.

@@ -12,6 +12,7 @@ mod exerted;
 mod expected;
 mod forces;
 mod functions;
+pub mod given;
 mod gravity;
 mod joints;
 mod kernels_only;

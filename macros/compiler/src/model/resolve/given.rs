@@ -1,0 +1,204 @@
+//! Values and tolerances that are given by themselves, outside a declaration: an operating point on a command line or in a file, in
+//! the units and words of the language.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::resolver::Resolver;
+use super::scope::Scope;
+use crate::base::diagnostics::Diagnostics;
+use crate::base::dimension::Dimension;
+use crate::model::mechanism::Tolerance;
+use crate::syntax::ast::{Ast, Item, ItemKind, Unit, Value};
+use crate::syntax::parse::parse;
+
+/// The value, SI, of a quantity of this unit that is written as `text`: `3000 rpm`, `-2 * pi / 3`.
+///
+/// `what` names the quantity in messages.
+///
+/// ```
+/// use eigentol_compiler::model::resolve::given;
+///
+/// let tokens = |text: &str| text.parse().unwrap();
+/// let speed = given::value(tokens("60rpm"), tokens("rad/s"), "`speed`").unwrap();
+/// assert!((speed - 2.0 * std::f64::consts::PI).abs() < 1e-12);
+///
+/// let error = given::value(tokens("3 m"), tokens("rpm"), "`speed`").unwrap_err();
+/// assert!(error.to_string().contains("`speed` must be an angular rate (rad/s), this is a length (m)"), "{error}");
+/// ```
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Diagnostics> {
+    let ast = parse(quote!(mechanism Given { input given: #unit; design value = #text; }))?;
+    let [of, given] = &ast.items[..] else {
+        return not_one(&ast);
+    };
+    let (ItemKind::Input(input), ItemKind::Design(design)) = (&of.kind, &given.kind) else {
+        return not_one(&ast);
+    };
+    if design.tolerance.is_some() {
+        let mut mistakes = Diagnostics::new();
+        mistakes.error(
+            &design.name,
+            "a value is expected here, without a tolerance",
+        );
+        return Err(mistakes);
+    }
+    resolved(&ast, |resolver| {
+        let dimension = resolver.dimension(&input.unit)?;
+        resolver.of_dimension(&design.nominal, dimension, what)
+    })
+}
+
+/// The tolerance of a quantity of this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the
+/// sign `+/-` of a half-width. Limits are SI, or fractions of the value.
+///
+/// ```
+/// use eigentol_compiler::model::resolve::given;
+///
+/// let tokens = |text: &str| text.parse().unwrap();
+/// let tolerance = given::tolerance(tokens("3% uniform"), tokens("mm")).unwrap();
+/// assert_eq!((tolerance.lower, tolerance.upper, tolerance.relative), (-0.03, 0.03, true));
+/// assert_eq!(given::tolerance(tokens("+0.2 0 mm"), tokens("m")).unwrap().upper, 2e-4);
+/// assert!(given::tolerance(tokens("3 kg"), tokens("mm")).is_err());
+/// ```
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn tolerance(text: TokenStream, unit: TokenStream) -> Result<Tolerance, Diagnostics> {
+    let half_width = !text.to_string().starts_with(['+', '-']);
+    let sign = half_width.then(|| quote!(+/-));
+    let ast = parse(quote!(mechanism Given { input given: #unit #sign #text; }))?;
+    let [
+        Item {
+            kind: ItemKind::Input(input),
+            ..
+        },
+    ] = &ast.items[..]
+    else {
+        return not_one(&ast);
+    };
+    resolved(&ast, |resolver| {
+        let dimension = resolver.dimension(&input.unit)?;
+        resolver.input_tolerance(input.tolerance.as_ref(), Some(dimension))
+    })
+}
+
+/// A semicolon has begun something else.
+fn not_one<T>(ast: &Ast) -> Result<T, Diagnostics> {
+    let mut mistakes = Diagnostics::new();
+    mistakes.error(&ast.name, "one value is expected here");
+    Err(mistakes)
+}
+
+/// What a step of resolution finds, or what is wrong.
+fn resolved<T>(
+    ast: &Ast,
+    step: impl FnOnce(&mut Resolver<'_>) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    let mut mistakes = Diagnostics::new();
+    let scope = Scope::new(ast, &[], &mut mistakes);
+    let mut resolver = Resolver::new(ast, Vec::new(), scope, mistakes);
+    let found = step(&mut resolver);
+    let mut mistakes = resolver.diagnostics;
+    match found {
+        Some(found) => mistakes.into_result(found),
+        None => {
+            if mistakes.is_empty() {
+                mistakes.error(&ast.name, "this is no value");
+            }
+            Err(mistakes)
+        }
+    }
+}
+
+impl Resolver<'_> {
+    fn dimension(&mut self, unit: &Unit) -> Option<Dimension> {
+        self.unit(unit).map(|(dimension, _)| dimension)
+    }
+
+    fn of_dimension(&mut self, value: &Value, dimension: Dimension, what: &str) -> Option<f64> {
+        let (number, quantity) = self.plain_number(value)?;
+        self.expect(quantity, dimension, what, value)?;
+        Some(number)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tokens(text: &str) -> TokenStream {
+        text.parse().unwrap()
+    }
+
+    fn message(found: Result<impl Sized, Diagnostics>) -> String {
+        let mistakes = found.err().expect("a mistake");
+        mistakes.iter().next().expect("a message").text()
+    }
+
+    #[test]
+    fn values() {
+        for (text, unit, si) in [
+            ("3 mm", "m", 3e-3),
+            ("-3mm", "m", -3e-3),
+            ("0", "rpm", 0.0),
+            ("pi / 2", "rad", std::f64::consts::FRAC_PI_2),
+            ("2.5", "1", 2.5),
+            ("3 kg * 2 m/s^2", "N", 6.0),
+        ] {
+            let found = value(tokens(text), tokens(unit), "it").unwrap();
+            assert!((found - si).abs() <= 1e-15 * si.abs(), "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_value_is_refused() {
+        for (text, expected) in [
+            ("3000", "`3000` has no unit"),
+            ("3 rmp", "unknown unit `rmp`\nhelp: did you mean `rpm`?"),
+            ("3 m", "`speed` must be"),
+            ("3 rpm; design other = 4 rpm", "one value"),
+            ("3 rpm +/- 3%", "without a tolerance"),
+            ("", "expected a value"),
+            ("omega", "unknown name `omega`"),
+        ] {
+            let found = message(value(tokens(text), tokens("rpm"), "`speed`"));
+            assert!(found.contains(expected), "{text}: {found}");
+        }
+    }
+
+    #[test]
+    fn tolerances() {
+        use crate::model::mechanism::Law;
+
+        let found = tolerance(tokens("0.1mm"), tokens("m")).unwrap();
+        assert_eq!(
+            (found.lower, found.upper, found.relative),
+            (-1e-4, 1e-4, false)
+        );
+        let found = tolerance(tokens("+2% -1% uniform"), tokens("m")).unwrap();
+        assert_eq!(
+            (found.lower, found.upper, found.relative),
+            (-0.01, 0.02, true)
+        );
+        assert_eq!(found.law, Law::Uniform);
+        let found = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"));
+        assert!(matches!(found.unwrap().law, Law::Beta { .. }));
+    }
+
+    #[test]
+    fn what_is_no_tolerance_is_refused() {
+        for (text, expected) in [
+            ("3 kg", "this tolerance must be a length (m)"),
+            ("3", "`3` has no unit"),
+            ("-3%", "expected"),
+            ("3% unifrom", "did you mean `uniform`?"),
+            ("", "expected a value"),
+        ] {
+            let found = message(tolerance(tokens(text), tokens("mm")));
+            assert!(found.contains(expected), "{text}: {found}");
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! The command as a user runs it.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod declarations;
+#[cfg(target_os = "linux")]
+mod interrupt;
+mod mistakes;
+mod outputs;
+mod parts;
+mod program;
+mod readme;
+mod rust_examples;
+mod starter;
+mod subcommands;
