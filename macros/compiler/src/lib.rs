@@ -57,7 +57,13 @@ pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics
 /// The generated items, formatted for reading.
 #[cfg(feature = "pretty")]
 pub fn expand_pretty(declaration: TokenStream) -> Result<String, Diagnostics> {
-    let items = compile(declaration, Limits::default())?.emit();
-    let file = syn::parse2(items).expect("the emitter writes well-formed items");
-    Ok(prettyplease::unparse(&file))
+    let compilation = compile(declaration, Limits::default())?;
+    Ok(formatted(&compilation))
+}
+
+/// The generated items of a compiled declaration, formatted for reading.
+#[cfg(feature = "pretty")]
+pub fn formatted(compilation: &Compilation) -> String {
+    let file = syn::parse2(compilation.emit()).expect("the emitter writes well-formed items");
+    prettyplease::unparse(&file)
 }

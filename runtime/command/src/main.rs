@@ -1,2 +1,31 @@
-//! The command.
-fn main() {}
+//! The command `eigentol`: a declaration in a file, a question, an answer. What it asks, the library answers.
+
+mod arguments;
+mod commands;
+mod declaration;
+mod diagnostics;
+mod failure;
+mod interrupt;
+mod output;
+mod point;
+mod progress;
+mod study_file;
+mod sweep;
+mod verdict;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use self::arguments::Arguments;
+
+fn main() -> ExitCode {
+    match Arguments::try_parse() {
+        Ok(arguments) => arguments.run(),
+        Err(error) => {
+            // Where nobody reads it, there is nothing more to say.
+            let _ = error.print();
+            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+        }
+    }
+}

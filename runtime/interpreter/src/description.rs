@@ -19,7 +19,7 @@ fn unit(unit: &mechanism::Unit) -> Unit {
     }
 }
 
-fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
+pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
     if !tolerance.varies() {
         return ToleranceInfo::NONE;
     }

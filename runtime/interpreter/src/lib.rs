@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod description;
+mod given;
 mod kernels;
 mod mechanism;
 mod mistakes;
@@ -8,5 +9,6 @@ mod registers;
 mod schedule;
 mod tape;
 
+pub use given::{tolerance, value};
 pub use mechanism::Interpreted;
 pub use mistakes::{Mistake, Mistakes, ReadError};

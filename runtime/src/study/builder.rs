@@ -399,6 +399,21 @@ impl<M: Kernels> Study<M> {
         &self.settings.start
     }
 
+    /// The inputs that have a tolerance. In correlation matrices they follow the design variables, in this order.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// assert!(study.deviating_inputs().is_empty());
+    /// let study = study.relative_tolerance(Pendulum::omega, 0.01);
+    /// assert_eq!(study.deviating_inputs(), [Pendulum::omega]);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn deviating_inputs(&self) -> Vec<Input<M>> {
+        let all = self.settings.deviating_inputs().into_iter();
+        all.map(|input| Input::new(input.index())).collect()
+    }
+
     /// The tolerances as set.
     ///
     /// # Errors

@@ -4,13 +4,21 @@ use crate::mechanism::Any;
 use crate::{DesignVariable, Input};
 
 /// A design variable or an input: what may have a tolerance. Made from a handle of either.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub enum Parameter<M = Any> {
     /// A design variable.
     Design(DesignVariable<M>),
     /// An input.
     Input(Input<M>),
 }
+
+impl<M> Clone for Parameter<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for Parameter<M> {}
 
 impl<M> Parameter<M> {
     /// The same without its mechanism.

@@ -1,0 +1,45 @@
+//! Whether declarations are right.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use eigentol::{Description, Role};
+
+use crate::declaration::Declaration;
+use crate::failure::{Failure, plural};
+use crate::output::print;
+use crate::verdict::Verdict;
+
+/// Check declarations: every mistake with its place, or what they declare
+#[derive(Args, Debug)]
+pub(crate) struct Check {
+    /// Files with a declaration each, `-` for standard input
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+}
+
+impl Check {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        for file in &self.files {
+            let declaration = Declaration::read(file)?;
+            let mechanism = declaration.mechanism()?;
+            let found = summary(mechanism.description());
+            print(&format!("{}: {found}\n", declaration.name))?;
+        }
+        Ok(Verdict::Yes)
+    }
+}
+
+/// What a declaration declares, in one line.
+fn summary(of: &Description) -> String {
+    let moves = |role: &Role| matches!(role, Role::Position | Role::Speed);
+    let moving = of.coordinates.iter().filter(|info| moves(&info.role));
+    let counts = [
+        (moving.count(), "coordinate", "coordinates"),
+        (of.inputs.len(), "input", "inputs"),
+        (of.design.len(), "design variable", "design variables"),
+        (of.outputs.len(), "output", "outputs"),
+    ];
+    let counts = counts.map(|(count, one, many)| format!("{count} {}", plural(count, one, many)));
+    format!("mechanism `{}`, {}", of.name, counts.join(", "))
+}

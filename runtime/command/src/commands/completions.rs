@@ -1,0 +1,24 @@
+//! Completions for shells.
+
+use clap::{Args, CommandFactory as _};
+use clap_complete::{Shell, generate};
+
+use crate::arguments::Arguments;
+use crate::failure::Failure;
+use crate::output::print;
+use crate::verdict::Verdict;
+
+/// Print what a shell needs to complete this command: `eigentol completions bash > /etc/bash_completion.d/eigentol`
+#[derive(Args, Debug)]
+pub(crate) struct Completions {
+    shell: Shell,
+}
+
+impl Completions {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        let mut script = Vec::new();
+        generate(self.shell, &mut Arguments::command(), "eigentol", &mut script);
+        print(&String::from_utf8_lossy(&script))?;
+        Ok(Verdict::Yes)
+    }
+}

@@ -1,0 +1,94 @@
+//! What the compiler makes of a declaration.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::{Compilation, compile, formatted};
+use proc_macro2::TokenStream;
+
+use crate::declaration::Declaration;
+use crate::failure::Failure;
+use crate::output::Output;
+use crate::verdict::Verdict;
+
+/// Show what the compiler makes of a declaration: Rust, any stage before it, or what each kernel costs
+#[derive(Args, Debug)]
+pub(crate) struct Expand {
+    /// File with the declaration, `-` for standard input
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// What to show
+    #[arg(long, value_enum, default_value = "rust")]
+    stage: Stage,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Stage {
+    /// The declaration as it was read
+    Ast,
+    /// Names resolved, values in SI
+    Mechanism,
+    /// What hangs on what
+    Topology,
+    /// Equations and derivatives
+    Functions,
+    /// Straight-line kernels
+    Program,
+    /// The generated Rust
+    Rust,
+    /// Operations of each kernel
+    Operations,
+}
+
+impl Expand {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let declaration = Declaration::read(&self.file)?;
+        let compilation = compiled(&declaration)?;
+        let mut text = match self.stage {
+            Stage::Rust => formatted(&compilation),
+            Stage::Operations => operations(&compilation),
+            Stage::Ast => dump(&compilation, "ast"),
+            Stage::Mechanism => dump(&compilation, "mechanism"),
+            Stage::Topology => dump(&compilation, "topology"),
+            Stage::Functions => dump(&compilation, "functions"),
+            Stage::Program => dump(&compilation, "program"),
+        };
+        if !text.ends_with('\n') {
+            text.push('\n');
+        }
+        self.output.write_text(&text)?;
+        Ok(Verdict::Yes)
+    }
+}
+
+fn compiled(declaration: &Declaration) -> Result<Compilation, Failure> {
+    let tokens = declaration.text.parse::<TokenStream>();
+    let tokens = tokens.map_err(|error| declaration.refused(error.into()))?;
+    compile(tokens, Limits::default()).map_err(|mistakes| declaration.refused(mistakes.into()))
+}
+
+fn dump(compilation: &Compilation, stage: &str) -> String {
+    let dumps = compilation.dumps().into_iter();
+    let mut found = dumps.filter(|(name, _)| *name == stage);
+    found.next().map_or_else(String::new, |(_, text)| text)
+}
+
+/// A line for each kernel: additions and the like, and functions such as sines.
+fn operations(compilation: &Compilation) -> String {
+    let mut text = format!("{:<24} {:>10} {:>10}\n", "kernel", "operations", "functions");
+    for kernel in &compilation.program.kernels {
+        let cost = &kernel.cost;
+        // A string takes everything.
+        let _ = writeln!(
+            text,
+            "{:<24} {:>10} {:>10}",
+            kernel.name, cost.operations, cost.functions
+        );
+    }
+    text
+}

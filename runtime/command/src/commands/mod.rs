@@ -1,0 +1,13 @@
+//! One file per subcommand.
+
+pub(crate) mod allocate;
+pub(crate) mod branches;
+pub(crate) mod campbell;
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod expand;
+pub(crate) mod modes;
+pub(crate) mod new;
+pub(crate) mod sample;
+pub(crate) mod sensitivities;
+pub(crate) mod tolerance;

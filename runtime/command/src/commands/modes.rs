@@ -1,0 +1,30 @@
+//! Equilibrium and natural modes.
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::output::{Answer, Output};
+use crate::point::Point;
+use crate::verdict::Verdict;
+
+/// Equilibrium and natural modes at one operating point
+#[derive(Args, Debug)]
+pub(crate) struct Modes {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Modes {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let question = self.point.question()?;
+        let solved = question.study.solve()?;
+        let mut answer = Answer::default();
+        answer.add(&solved.equilibrium);
+        answer.add(&solved.modes);
+        self.output.write(&answer)?;
+        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+    }
+}

@@ -1,0 +1,33 @@
+//! What tolerances do at one operating point.
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::output::{Answer, Output};
+use crate::point::Point;
+use crate::verdict::Verdict;
+
+/// Spread of frequencies and outputs by tolerances, and how far it can be trusted
+#[derive(Args, Debug)]
+pub(crate) struct Tolerance {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Tolerance {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.output.check()?;
+        let question = self.point.question()?;
+        let solved = question.study.solve()?;
+        let mut answer = Answer::default();
+        answer.add(&solved.first_order()?);
+        answer.add(&solved.summary()?);
+        if !question.study.description().outputs.is_empty() {
+            answer.add(&solved.output_tolerances()?);
+        }
+        self.output.write(&answer)?;
+        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+    }
+}

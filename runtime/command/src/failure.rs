@@ -1,0 +1,120 @@
+//! Everything that can go wrong, each with what to do about it and an exit code.
+
+use std::fmt::Display;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use eigentol::Error;
+use eigentol_interpreter::Mistakes;
+use thiserror::Error as ThisError;
+
+#[derive(Debug, ThisError)]
+pub(crate) enum Failure {
+    #[error("cannot read `{}`: {source}", .path.display())]
+    Read { path: PathBuf, source: io::Error },
+    #[error("cannot write `{}`: {source}", .path.display())]
+    Write { path: PathBuf, source: io::Error },
+    #[error("cannot write to standard output: {0}")]
+    Print(io::Error),
+    /// Drawn in the text.
+    #[error("{} {}", .mistakes.iter().count(), plural(.mistakes.iter().count(), "mistake", "mistakes"))]
+    Declaration {
+        name: String,
+        text: String,
+        mistakes: Mistakes,
+    },
+    #[error("`{}` is no study file: {message}", .path.display())]
+    StudyFile { path: PathBuf, message: String },
+    #[error("`{exists}` exists already")]
+    Exists { exists: String },
+    #[error("{0}")]
+    Usage(String, Option<String>),
+    #[error("`{mechanism}` has no {kind} `{name}`")]
+    UnknownName {
+        mechanism: String,
+        kind: String,
+        name: String,
+        help: String,
+    },
+    #[error("{place}: {message}")]
+    Value {
+        place: String,
+        message: String,
+        help: Option<String>,
+    },
+    #[error("{0}")]
+    Analysis(#[from] Error),
+    #[error("cannot listen for Ctrl-C: {0}")]
+    Signal(#[from] ctrlc::Error),
+    /// The reader of a pipe has gone: no failure.
+    #[error("nobody reads the output")]
+    NobodyReads,
+}
+
+/// 1 where the analysis says no, 2 for a wrong command line, 3 for a bad file.
+impl Failure {
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::NobodyReads => 0,
+            Self::Analysis(error) => match error {
+                Error::Setting { .. }
+                | Error::NotFinite { .. }
+                | Error::WrongLength { .. }
+                | Error::UnknownHandle { .. }
+                | Error::UnknownName { .. }
+                | Error::NoSuchMode { .. } => 2,
+                _ => 1,
+            },
+            Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
+            Self::Exists { .. }
+            | Self::Signal(_)
+            | Self::Read { .. }
+            | Self::Write { .. }
+            | Self::Print(_)
+            | Self::Declaration { .. }
+            | Self::StudyFile { .. } => 3,
+        }
+    }
+
+    /// What to do about it.
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Usage(_, help) | Self::Value { help, .. } => help.clone(),
+            Self::UnknownName { help, .. } => Some(help.clone()),
+            Self::Exists { .. } => Some("choose another name, or remove it".to_owned()),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Usage(message.into(), Some(help.into()))
+    }
+
+    /// A value that cannot be read, `place` as the user wrote it. One mistake is enough for one value.
+    pub(crate) fn value(place: impl Display, mistakes: &Mistakes) -> Self {
+        let first = mistakes.iter().next();
+        Self::Value {
+            place: place.to_string(),
+            message: first.map_or_else(String::new, |mistake| mistake.message.clone()),
+            help: first.and_then(|mistake| mistake.help.clone()),
+        }
+    }
+
+    pub(crate) fn read(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    pub(crate) fn write(path: &Path, source: io::Error) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+pub(crate) fn plural<'a>(count: usize, one: &'a str, many: &'a str) -> &'a str {
+    if count == 1 { one } else { many }
+}

@@ -1,0 +1,274 @@
+//! The operating point and the tolerances of a command: of the declaration, then the study file, then the command line.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use eigentol::{
+    Coordinate, CoordinateInfo, Description, DesignVariable, Input, Law, Matrix, Parameter, Role,
+    Study, Text, ToleranceInfo, Unit,
+};
+use eigentol_compiler::base::nearest::nearest;
+use eigentol_interpreter::{Interpreted, tolerance, value};
+
+use crate::declaration::Declaration;
+use crate::failure::Failure;
+use crate::study_file::{StudyFile, Written};
+
+/// What is studied, and at which values.
+#[derive(Args, Debug)]
+pub(crate) struct Point {
+    /// File with the declaration, `-` for standard input; a study file may name it instead
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Study file in TOML; what the command line says wins
+    #[arg(long, value_name = "FILE")]
+    study: Option<PathBuf>,
+    /// Value of an input or a design variable: `speed=3000rpm`
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    set: Vec<(String, String)>,
+    /// Tolerance of a design variable or an input: `l=3%`, `l="+0.2 -0.1 mm uniform"`
+    #[arg(long, value_name = "NAME=TOLERANCE", value_parser = pair)]
+    tol: Vec<(String, String)>,
+    /// Where the search for the equilibrium starts; held while a mechanism with loops is assembled
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    start: Vec<(String, String)>,
+    /// Where a dependent coordinate starts, free to move while a mechanism with loops is assembled
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    guess: Vec<(String, String)>,
+    /// How many standard deviations a half-width stands for [default: 3]
+    #[arg(long, value_name = "NUMBER")]
+    sigma_level: Option<f64>,
+}
+
+/// A study with what a study file says beyond the operating point.
+pub(crate) struct Question {
+    pub(crate) study: Study<Interpreted>,
+    pub(crate) file: StudyFile,
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("write a name, `=` and a value: `speed=3000rpm`".to_owned()),
+    }
+}
+
+impl Point {
+    /// Reads the files and sets everything.
+    pub(crate) fn question(&self) -> Result<Question, Failure> {
+        let file = match &self.study {
+            Some(path) => StudyFile::read(path)?,
+            None => StudyFile::default(),
+        };
+        let Some(path) = self.file.as_ref().or(file.mechanism.as_ref()) else {
+            let help = "name the file with the declaration, or a study file that does";
+            return Err(Failure::usage("no mechanism is given", help));
+        };
+        let mechanism = Declaration::read(path)?.mechanism()?;
+        let mut study = Study::new(mechanism);
+        if let Some(level) = self.sigma_level.or(file.sigma_level) {
+            study = study.sigma_level(level);
+        }
+        for (option, given, own) in [
+            ("set", &file.set, &self.set),
+            ("start", &file.start, &self.start),
+            ("guess", &file.guess, &self.guess),
+        ] {
+            for (name, value) in given {
+                study = set(study, option, (name, &value.to_string()))?;
+            }
+            for (name, value) in own {
+                study = set(study, option, (name, value))?;
+            }
+        }
+        let given = file.tolerance.iter();
+        let own = self.tol.iter().map(|(name, text)| (name, text));
+        for (name, text) in given.chain(own) {
+            study = tolerate(study, name, text)?;
+        }
+        study = correlate(study, &file.correlation)?;
+        Ok(Question { study, file })
+    }
+}
+
+/// Sets a value.
+fn set(
+    study: Study<Interpreted>,
+    option: &str,
+    (name, text): (&str, &str),
+) -> Result<Study<Interpreted>, Failure> {
+    if option == "set" {
+        let (parameter, unit) = parameter(&study, name)?;
+        let value = read(option, name, text, &unit)?;
+        return Ok(match parameter {
+            Parameter::Input(input) => study.input(input, value),
+            Parameter::Design(variable) => study.design(variable, value),
+        });
+    }
+    let (coordinate, unit) = coordinate(&study, name)?;
+    let value = read(option, name, text, &unit)?;
+    Ok(match option {
+        "start" => study.start(coordinate, value),
+        _ => study.guess(coordinate, value),
+    })
+}
+
+fn read(option: &str, name: &str, text: &str, unit: &Unit) -> Result<f64, Failure> {
+    let refused = |mistakes| Failure::value(format!("{option} {name}={text}"), &mistakes);
+    value(text, unit, &format!("`{name}`")).map_err(refused)
+}
+
+/// Sets a tolerance.
+fn tolerate(
+    study: Study<Interpreted>,
+    name: &str,
+    text: &str,
+) -> Result<Study<Interpreted>, Failure> {
+    let (parameter, unit) = parameter(&study, name)?;
+    let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
+    let ToleranceInfo {
+        lower,
+        upper,
+        relative,
+        law,
+    } = tolerance(text, &unit).map_err(refused)?;
+    let study = if !relative {
+        study.limits(parameter, lower, upper)
+    } else if lower == -upper {
+        study.relative_tolerance(parameter, upper)
+    } else {
+        let value = match parameter {
+            Parameter::Input(input) => study.input_values()[input.index()],
+            Parameter::Design(variable) => study.design_values()[variable.index()],
+        };
+        study.limits(parameter, value.abs() * lower, value.abs() * upper)
+    };
+    // Without a law the declared one stays.
+    Ok(match law {
+        Law::Normal => study,
+        law => study.law(parameter, law),
+    })
+}
+
+/// Sets correlations of pairs, of the design variables and after them the inputs that have a tolerance.
+fn correlate(
+    study: Study<Interpreted>,
+    pairs: &[(String, String, f64)],
+) -> Result<Study<Interpreted>, Failure> {
+    if pairs.is_empty() {
+        return Ok(study);
+    }
+    let (design, inputs) = (study.design_values().len(), study.deviating_inputs());
+    let count = design + inputs.len();
+    let mut matrix = Matrix::from_fn(count, count, |i, j| if i == j { 1.0 } else { 0.0 });
+    let place = |name: &str| match parameter(&study, name)?.0 {
+        Parameter::Design(variable) => Ok(variable.index()),
+        Parameter::Input(input) => {
+            let found = inputs.iter().position(|own| *own == input);
+            found.map(|k| design + k).ok_or_else(|| {
+                let message = format!("correlation of `{name}`, which has no tolerance");
+                Failure::usage(message, format!("give `{name}` a tolerance"))
+            })
+        }
+    };
+    for (first, second, correlation) in pairs {
+        let (i, j) = (place(first)?, place(second)?);
+        matrix[i][j] = *correlation;
+        matrix[j][i] = *correlation;
+    }
+    Ok(study.correlation(matrix))
+}
+
+/// The input or design variable of this name, and its unit.
+pub(crate) fn parameter(
+    study: &Study<Interpreted>,
+    name: &str,
+) -> Result<(Parameter<Interpreted>, Unit), Failure> {
+    if let Ok((input, unit)) = input(study, name) {
+        return Ok((input.into(), unit));
+    }
+    let description = study.description();
+    if let Ok(variable) = study.find_design(name) {
+        return Ok((variable.into(), description.design[variable.index()].unit.clone()));
+    }
+    let inputs = description.inputs.iter().map(|info| &info.name);
+    let known = inputs.chain(description.design.iter().map(|info| &info.name));
+    Err(unknown(description, "input or design variable", name, known))
+}
+
+/// The design variable of this name, and its unit.
+pub(crate) fn design(
+    study: &Study<Interpreted>,
+    name: &str,
+) -> Result<(DesignVariable<Interpreted>, Unit), Failure> {
+    let all = &study.description().design;
+    match study.find_design(name) {
+        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Err(_) => Err(unknown(
+            study.description(),
+            "design variable",
+            name,
+            all.iter().map(|info| &info.name),
+        )),
+    }
+}
+
+/// The input of this name, and its unit.
+pub(crate) fn input(
+    study: &Study<Interpreted>,
+    name: &str,
+) -> Result<(Input<Interpreted>, Unit), Failure> {
+    let all = &study.description().inputs;
+    match study.find_input(name) {
+        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Err(_) => {
+            let known = all.iter().map(|info| &info.name);
+            Err(unknown(study.description(), "input", name, known))
+        }
+    }
+}
+
+fn coordinate(
+    study: &Study<Interpreted>,
+    name: &str,
+) -> Result<(Coordinate<Interpreted>, Unit), Failure> {
+    let all = &study.description().coordinates;
+    match study.find_coordinate(name) {
+        Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Err(_) => {
+            let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
+            let known = all.iter().filter(moves).map(|info| &info.name);
+            Err(unknown(study.description(), "coordinate", name, known))
+        }
+    }
+}
+
+/// Nothing has this name; the nearest one is offered.
+pub(crate) fn unknown<'a>(
+    description: &Description,
+    kind: &str,
+    name: &str,
+    known: impl Iterator<Item = &'a Text>,
+) -> Failure {
+    let known: Vec<&str> = known.map(|own| &**own).collect();
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "it has none".to_owned(),
+        None => format!("it has `{}`", known.join("`, `")),
+    };
+    Failure::UnknownName {
+        mechanism: description.name.to_string(),
+        kind: kind.to_owned(),
+        name: name.to_owned(),
+        help,
+    }
+}
+
+/// A value in a study file.
+pub(crate) fn written(place: &str, text: &Written, unit: &Unit) -> Result<f64, Failure> {
+    let text = text.to_string();
+    let refused = |mistakes| Failure::value(format!("{place} = \"{text}\""), &mistakes);
+    value(&text, unit, &format!("`{place}`")).map_err(refused)
+}

@@ -1,0 +1,136 @@
+//! A study file: what is asked again and again, in TOML. Values and tolerances are text in the language's units.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Display};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::failure::Failure;
+
+/// What a study file says.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StudyFile {
+    /// File with the declaration; in a study file relative to that.
+    pub(crate) mechanism: Option<PathBuf>,
+    /// Values of inputs and design variables.
+    #[serde(default)]
+    pub(crate) set: BTreeMap<String, Written>,
+    /// Start values of coordinates.
+    #[serde(default)]
+    pub(crate) start: BTreeMap<String, Written>,
+    /// Start values of dependent coordinates.
+    #[serde(default)]
+    pub(crate) guess: BTreeMap<String, Written>,
+    /// Tolerances of design variables and inputs, with their laws.
+    #[serde(default)]
+    pub(crate) tolerance: BTreeMap<String, String>,
+    /// Correlations of pairs of names.
+    #[serde(default)]
+    pub(crate) correlation: Vec<(String, String, f64)>,
+    pub(crate) sigma_level: Option<f64>,
+    /// As after `--sweep`.
+    pub(crate) sweep: Option<String>,
+    pub(crate) points: Option<usize>,
+    pub(crate) orders: Option<Vec<f64>>,
+    pub(crate) samples: Option<usize>,
+    pub(crate) seed: Option<u64>,
+    pub(crate) stream: Option<u64>,
+    /// What the design has to meet.
+    #[serde(default)]
+    pub(crate) require: Vec<Require>,
+    /// What `allocate` may choose.
+    #[serde(default)]
+    pub(crate) choose: Vec<Choose>,
+}
+
+/// A value as written: text with its unit, or a number without one.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Written {
+    Text(String),
+    Number(f64),
+}
+
+impl Display for Written {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => f.write_str(text),
+            Self::Number(number) => number.fmt(f),
+        }
+    }
+}
+
+/// A requirement: a quantity of a mode or an output within limits, or outside of a band.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Require {
+    /// Counted from 1.
+    pub(crate) mode: Option<usize>,
+    #[serde(default)]
+    pub(crate) quantity: Quantity,
+    pub(crate) output: Option<String>,
+    /// The equilibrium is stable.
+    #[serde(default)]
+    pub(crate) stable: bool,
+    pub(crate) at_least: Option<Written>,
+    pub(crate) at_most: Option<Written>,
+    pub(crate) outside: Option<[Written; 2]>,
+    /// Greatest probability of failing it.
+    pub(crate) failure: f64,
+}
+
+/// What is required of a mode.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Quantity {
+    #[default]
+    Frequency,
+    NaturalFrequency,
+    DampingRatio,
+    Growth,
+}
+
+/// A half-width or a nominal value that may be chosen between limits.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Choose {
+    /// Whose tolerance.
+    pub(crate) tolerance: Option<String>,
+    /// Whose nominal value.
+    pub(crate) nominal: Option<String>,
+    pub(crate) least: Written,
+    pub(crate) most: Written,
+    pub(crate) cost: Option<Cost>,
+}
+
+/// `fixed + factor / T^power` of a half-width `T` in the declared unit.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Cost {
+    #[serde(default)]
+    pub(crate) fixed: f64,
+    pub(crate) factor: f64,
+    #[serde(default = "one")]
+    pub(crate) power: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl StudyFile {
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let text = fs::read_to_string(path).map_err(|source| Failure::read(path, source))?;
+        let mut file: Self = toml::from_str(&text).map_err(|error| Failure::StudyFile {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        if let (Some(mechanism), Some(folder)) = (&file.mechanism, path.parent()) {
+            file.mechanism = Some(folder.join(mechanism));
+        }
+        Ok(file)
+    }
+}

@@ -1,0 +1,31 @@
+//! A pendulum on a spinning shaft: its frequency, and how far the tolerance of its length spreads it.
+
+use eigentol::{Study, mechanism};
+
+mechanism! {
+    /// A uniform bar hinged on a shaft that spins at a constant rate.
+    pub mechanism Pendulum {
+        input  omega: rad/s;
+
+        design m = 3.0 kg;
+        design l = 1.0 m +/- 3%;
+
+        gravity 9.81 m/s^2 along -z;
+
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+
+        joint spin:  revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+fn main() -> Result<(), eigentol::Error> {
+    let study = Study::new(Pendulum)
+        .input(Pendulum::omega, 5.0)
+        .start(Pendulum::theta, 1.0);
+    let solved = study.solve()?;
+    println!("{}\n{}", solved.equilibrium, solved.modes);
+    println!("{}", solved.first_order()?);
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! Values and tolerances as text, in the units and words of the language.
+
+use eigentol::{ToleranceInfo, Unit};
+use eigentol_compiler::model::resolve::given;
+use proc_macro2::TokenStream;
+
+use crate::description;
+use crate::mistakes::Mistakes;
+
+/// The value, SI, of a quantity of this unit: `3000rpm`, `-2.5 mm`, `pi / 3`. `what` names the quantity in messages.
+///
+/// ```
+/// use eigentol::Unit;
+/// use eigentol_interpreter::value;
+///
+/// let rpm = Unit { symbol: "rpm".to_owned().into(), scale: std::f64::consts::PI / 30.0 };
+/// assert!((value("50 Hz", &rpm, "`speed`")? - 314.159_265_358_979_3).abs() < 1e-12);
+///
+/// let error = value("3000", &rpm, "`speed`").unwrap_err().to_string();
+/// assert_eq!(error, "1:1: `3000` has no unit; an angular rate is expected, for example `3000 rad/s`");
+/// # Ok::<(), eigentol_interpreter::Mistakes>(())
+/// ```
+///
+/// # Errors
+/// What is wrong with the text; lines and columns count within it.
+pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
+    let (text, unit): (TokenStream, TokenStream) = (text.parse()?, unit.symbol.parse()?);
+    Ok(given::value(text, unit, what)?)
+}
+
+/// The tolerance of a quantity of this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the sign `+/-` of a
+/// half-width.
+///
+/// ```
+/// use eigentol::{Law, Unit};
+/// use eigentol_interpreter::tolerance;
+///
+/// let mm = Unit { symbol: "mm".to_owned().into(), scale: 1e-3 };
+/// let found = tolerance("+0.2 0 mm uniform", &mm)?;
+/// assert_eq!((found.lower, found.upper, found.law), (0.0, 2e-4, Law::Uniform));
+/// # Ok::<(), eigentol_interpreter::Mistakes>(())
+/// ```
+///
+/// # Errors
+/// What is wrong with the text; lines and columns count within it.
+pub fn tolerance(text: &str, unit: &Unit) -> Result<ToleranceInfo, Mistakes> {
+    let (text, unit): (TokenStream, TokenStream) = (text.parse()?, unit.symbol.parse()?);
+    Ok(description::tolerance(&given::tolerance(text, unit)?))
+}

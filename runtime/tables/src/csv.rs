@@ -1,0 +1,209 @@
+//! Tables as CSV files (RFC 4180): a line of headings `name [unit]`, then a line for each row; commas, and quotes where they are needed.
+//!
+//! Numbers are written with the digits that give back the same number. A cell is empty where there is no number or word; `true` and
+//! `false` are answers. The operating point stands in every row, in the last columns, so that files of several points can be
+//! joined and read by any program without knowing of comments.
+
+use std::io::{Read, Write};
+
+use crate::{Column, Error, Table, Values};
+
+/// Writes rows to one file as they come.
+///
+/// ```
+/// use eigentol_tables::Table;
+/// use eigentol_tables::csv::Writer;
+///
+/// let mut table = Table::new("samples");
+/// table.numbers("length", "mm", [12.5, 0.1]);
+/// table.numbers("frequency", "rad/s", [Some(4.25), None]);
+/// let mut writer = Writer::new(Vec::new());
+/// writer.write(&table)?;
+/// writer.write(&table)?;
+/// let file = String::from_utf8(writer.finish()?).expect("text");
+/// assert_eq!(file, "length [mm],frequency [rad/s]\n12.5,4.25\n0.1,\n12.5,4.25\n0.1,\n");
+/// # Ok::<(), eigentol_tables::Error>(())
+/// ```
+pub struct Writer<W: Write> {
+    file: csv::Writer<W>,
+    headings: Option<Vec<String>>,
+}
+
+impl<W: Write> Writer<W> {
+    /// Nothing is written yet.
+    pub fn new(file: W) -> Self {
+        let file = csv::Writer::from_writer(file);
+        Self {
+            file,
+            headings: None,
+        }
+    }
+
+    /// Writes the rows of a table, and the headings before the first.
+    ///
+    /// # Errors
+    /// [`Error::Write`]; [`Error::OtherColumns`] if the headings are not those of the rows before; [`Error::Lengths`].
+    pub fn write(&mut self, table: &Table) -> Result<(), Error> {
+        table.check()?;
+        let headings: Vec<String> = table.columns.iter().map(Column::heading).collect();
+        match &self.headings {
+            Some(own) if *own == headings => {}
+            Some(own) => {
+                return Err(Error::OtherColumns {
+                    found: headings.join(", "),
+                    expected: own.join(", "),
+                });
+            }
+            None => {
+                self.file.write_record(&headings).map_err(writing)?;
+                self.headings = Some(headings);
+            }
+        }
+        for row in 0..table.rows() {
+            let cells = table.columns.iter().map(|column| cell(&column.values, row));
+            self.file.write_record(cells).map_err(writing)?;
+        }
+        self.file.flush().map_err(Error::Write)
+    }
+
+    /// Writes what is still in memory and gives the file back.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<W, Error> {
+        self.file
+            .into_inner()
+            .map_err(|failed| Error::Write(failed.into_error()))
+    }
+}
+
+/// Writes a table.
+///
+/// # Errors
+/// [`Error::Write`], [`Error::Lengths`].
+pub fn write(table: &Table, file: impl Write) -> Result<(), Error> {
+    let mut writer = Writer::new(file);
+    writer.write(table)?;
+    writer.finish().map(drop)
+}
+
+/// A table as text.
+///
+/// # Errors
+/// [`Error::Lengths`].
+pub fn to_string(table: &Table) -> Result<String, Error> {
+    let mut text = Vec::new();
+    write(table, &mut text)?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}
+
+/// Reads a table back. A file does not say what kind its columns are: a column is one of whole numbers, numbers or answers if every
+/// cell that is not empty is one, otherwise of words; a column of empty cells has numbers.
+///
+/// # Errors
+/// [`Error::Read`]; [`Error::Malformed`] with the line that has another number of cells than there are headings, or no end, as the last
+/// line of a file that was cut off. Where it was cut off between two lines, CSV cannot tell.
+pub fn read(name: &str, mut file: impl Read) -> Result<Table, Error> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).map_err(Error::Read)?;
+    let lines = bytes.iter().filter(|&&byte| byte == b'\n').count() as u64;
+    if bytes.last().is_some_and(|&last| last != b'\n') {
+        return Err(Error::Malformed {
+            line: lines + 1,
+            reason: "the line has no end: the file is cut off".to_owned(),
+        });
+    }
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(&bytes[..]);
+    let mut headings = Vec::new();
+    let mut cells: Vec<Vec<String>> = Vec::new();
+    for (k, record) in reader.records().enumerate() {
+        let record = record.map_err(reading)?;
+        if k == 0 {
+            headings = record.iter().map(Column::read_heading).collect();
+            cells = vec![Vec::new(); headings.len()];
+            continue;
+        }
+        if record.len() != headings.len() {
+            return Err(Error::Malformed {
+                line: record.position().map_or(0, csv::Position::line),
+                reason: format!(
+                    "{} cells where there are {} headings: the file is cut off or damaged",
+                    record.len(),
+                    headings.len()
+                ),
+            });
+        }
+        for (column, cell) in cells.iter_mut().zip(&record) {
+            column.push(cell.to_owned());
+        }
+    }
+    if headings.is_empty() {
+        return Err(Error::Malformed {
+            line: 1,
+            reason: "there are no headings: the file is empty".to_owned(),
+        });
+    }
+    let columns = headings
+        .into_iter()
+        .zip(cells)
+        .map(|((name, unit), cells)| {
+            let values = values(cells);
+            Column { name, unit, values }
+        });
+    Ok(Table {
+        name: name.to_owned(),
+        columns: columns.collect(),
+    })
+}
+
+fn cell(values: &Values, row: usize) -> String {
+    match values {
+        // Debug has the shortest digits that give back the number, and exponents where these are shorter.
+        Values::Numbers(own) => own[row].map_or_else(String::new, |value| format!("{value:?}")),
+        Values::Whole(own) => own[row].map_or_else(String::new, |value| value.to_string()),
+        Values::Texts(own) => own[row].clone().unwrap_or_default(),
+        Values::Flags(own) => own[row].map_or_else(String::new, |value| value.to_string()),
+    }
+}
+
+/// The cells as values of one kind.
+fn values(cells: Vec<String>) -> Values {
+    fn all<T>(cells: &[String], read: impl Fn(&str) -> Option<T>) -> Option<Vec<Option<T>>> {
+        let one = |cell: &String| match cell.is_empty() {
+            true => Some(None),
+            false => read(cell).map(Some),
+        };
+        cells.iter().map(one).collect()
+    }
+    let finite = |cell: &str| cell.parse().ok().filter(|value: &f64| value.is_finite());
+    if cells.iter().all(String::is_empty) {
+        return Values::Numbers(vec![None; cells.len()]);
+    }
+    if let Some(own) = all(&cells, |cell| cell.parse().ok()) {
+        return Values::Whole(own);
+    }
+    if let Some(own) = all(&cells, finite) {
+        return Values::Numbers(own);
+    }
+    if let Some(own) = all(&cells, |cell| cell.parse().ok()) {
+        return Values::Flags(own);
+    }
+    let word = |cell: String| Some(cell).filter(|own| !own.is_empty());
+    Values::Texts(cells.into_iter().map(word).collect())
+}
+
+fn writing(error: csv::Error) -> Error {
+    Error::Write(error.into())
+}
+
+fn reading(error: csv::Error) -> Error {
+    let line = error.position().map_or(0, csv::Position::line);
+    let reason = error.to_string();
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => Error::Read(error),
+        _ => Error::Malformed { line, reason },
+    }
+}

@@ -1,0 +1,72 @@
+use eigentol::branches::{Branch, Branches, SpecialPoint};
+
+use super::Tables;
+use super::equilibrium::stability;
+use super::names::{operating_point, unknowns, varied};
+use crate::Table;
+
+/// `branches`: a row for each equilibrium, with the number of its branch; `special points`: a row for each fold and fork.
+fn tables_of(branches: &[Branch]) -> Vec<Table> {
+    let Some(one) = branches.first() else {
+        return Vec::new();
+    };
+    let d = &one.description;
+    let rows = || {
+        let each = branches.iter().enumerate();
+        each.flat_map(|(k, branch)| branch.points.iter().map(move |point| (k, point)))
+    };
+    let mut table = Table::new("branches");
+    table.whole("branch", rows().map(|(k, _)| k + 1));
+    varied(&mut table, d, one.input, rows().map(|(_, own)| own.value));
+    let states: Vec<_> = rows()
+        .map(|(_, own)| Some(&own.equilibrium.coordinates[..]))
+        .collect();
+    unknowns(&mut table, d, states.into_iter());
+    table.texts(
+        "stability",
+        rows().map(|(_, own)| stability(&own.equilibrium)),
+    );
+    let inputs = one.points.first().map(|own| &own.equilibrium.inputs[..]);
+    operating_point(&mut table, d, inputs.unwrap_or_default(), Some(one.input));
+    let special: Vec<(usize, &SpecialPoint)> = (branches.iter().enumerate())
+        .flat_map(|(k, branch)| branch.special.iter().map(move |own| (k, own)))
+        .collect();
+    let mut tables = vec![table];
+    if !special.is_empty() {
+        let each = special.iter();
+        let mut table = Table::new("special points");
+        table.whole("branch", each.clone().map(|(k, _)| k + 1));
+        table.texts(
+            "kind",
+            each.clone().map(|(_, own)| Some(own.kind.to_string())),
+        );
+        varied(
+            &mut table,
+            d,
+            one.input,
+            each.clone().map(|(_, own)| own.value),
+        );
+        unknowns(
+            &mut table,
+            d,
+            each.map(|(_, own)| Some(&own.equilibrium.coordinates[..])),
+        );
+        operating_point(&mut table, d, inputs.unwrap_or_default(), Some(one.input));
+        tables.push(table);
+    }
+    tables
+}
+
+/// `branches` and, where there are any, `special points`.
+impl Tables for Branches {
+    fn tables(&self) -> Vec<Table> {
+        tables_of(&self.branches)
+    }
+}
+
+/// As a list of one.
+impl Tables for Branch {
+    fn tables(&self) -> Vec<Table> {
+        tables_of(std::slice::from_ref(self))
+    }
+}

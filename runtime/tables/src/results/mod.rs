@@ -1,0 +1,39 @@
+//! The tables of each result.
+
+mod allocation;
+mod branches;
+mod campbell;
+mod clusters;
+mod equilibrium;
+mod events;
+mod modes;
+mod names;
+mod propagation;
+mod requirement;
+mod samples;
+mod second_order;
+mod sensitivity;
+mod summary;
+mod sweep;
+mod tolerance;
+
+pub use samples::samples_table;
+
+use crate::Table;
+
+/// A result that has tables.
+pub trait Tables {
+    /// Its tables: the answer first, then details.
+    fn tables(&self) -> Vec<Table>;
+}
+
+/// The tables of a result, as [`Tables::tables`].
+pub fn tables<R: Tables + ?Sized>(result: &R) -> Vec<Table> {
+    result.tables()
+}
+
+impl<R: Tables + ?Sized> Tables for &R {
+    fn tables(&self) -> Vec<Table> {
+        (**self).tables()
+    }
+}

@@ -1,0 +1,145 @@
+use eigentol::requirement::{
+    Chances, DesignPoint, LimitReliability, RareFailure, Reliability, Tally,
+};
+
+use super::Tables;
+use super::names::{by, in_unit, operating_point, per_unit, response};
+use super::tolerance::outcomes;
+use crate::Table;
+
+/// How sure the intervals are.
+const CONFIDENCE: f64 = 0.95;
+
+fn tallies<'a>(table: &mut Table, all: impl Iterator<Item = &'a Tally> + Clone) {
+    table.whole("met", all.clone().map(|own| own.met));
+    table.whole("failed", all.clone().map(|own| own.failed));
+    table.whole("untold", all.clone().map(|own| own.untold));
+    table.numbers(
+        "probability of failure",
+        "",
+        all.clone().map(Tally::failure),
+    );
+    let interval = all.map(|own| own.clopper_pearson(CONFIDENCE).ok());
+    table.numbers(
+        "95 % from",
+        "",
+        interval.clone().map(|own| Some(own?.lower)),
+    );
+    table.numbers("95 % to", "", interval.map(|own| Some(own?.upper)));
+}
+
+/// `chances`: a row for each requirement; `chance of all`: one row; `outcomes`.
+impl Tables for Chances {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let mut each = Table::new("chances");
+        each.whole("requirement", 1..=self.each.len());
+        tallies(&mut each, self.each.iter());
+        operating_point(&mut each, d, &self.inputs, None);
+        let mut all = Table::new("chance of all");
+        tallies(&mut all, [&self.all].into_iter());
+        operating_point(&mut all, d, &self.inputs, None);
+        let mut outcomes = outcomes(&self.counts);
+        operating_point(&mut outcomes, d, &self.inputs, None);
+        vec![each, all, outcomes]
+    }
+}
+
+/// `design points`: a row for each, or one with the error where there are none; `design point variables`: a row for each design
+/// variable of each; `system`: one row.
+impl Tables for Reliability {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let mut rows: Vec<(&LimitReliability, Option<&DesignPoint>)> = Vec::new();
+        for limit in &self.limits {
+            match &limit.design_points {
+                Ok(points) => rows.extend(points.iter().map(|own| (limit, Some(own)))),
+                Err(_) => rows.push((limit, None)),
+            }
+        }
+        let each = rows.iter();
+        let mut table = Table::new("design points");
+        table.whole(
+            "requirement",
+            each.clone().map(|(own, _)| own.limit.requirement + 1),
+        );
+        table.texts(
+            "response",
+            each.clone()
+                .map(|(own, _)| Some(response(&own.limit.response, d).0)),
+        );
+        table.numbers(
+            "beta",
+            "",
+            each.clone().map(|(_, own)| Some(own.as_ref()?.beta())),
+        );
+        let first = each
+            .clone()
+            .map(|(_, own)| Some(own.as_ref()?.probability()));
+        table.numbers("probability of failure, first order", "", first);
+        let second = each.clone().map(|(_, own)| own.as_ref()?.second_order);
+        table.numbers("probability of failure, second order", "", second);
+        table.flags(
+            "verified",
+            each.clone().map(|(_, own)| Some(own.as_ref()?.verified)),
+        );
+        let errors = each.map(|(own, _)| Some(own.design_points.as_ref().err()?.to_string()));
+        table.texts("error", errors);
+        operating_point(&mut table, d, &self.inputs, None);
+
+        let points = rows
+            .iter()
+            .filter_map(|(limit, own)| Some((limit, (*own)?)));
+        let entries = || {
+            points.clone().flat_map(|(limit, own)| {
+                let each = d.design.iter().enumerate();
+                each.map(move |(k, info)| (limit.limit.requirement, own, k, info))
+            })
+        };
+        let mut variables = Table::new("design point variables");
+        variables.whole("requirement", entries().map(|(r, ..)| r + 1));
+        variables.texts(
+            "variable",
+            entries().map(|(.., info)| Some(info.name.to_string())),
+        );
+        variables.texts("unit", entries().map(|(.., info)| by(&info.unit)));
+        let at = entries().map(|(_, own, k, info)| Some(in_unit(*own.design.get(k)?, &info.unit)));
+        variables.numbers("design point", "", at);
+        let importance = entries().map(|(_, own, k, _)| own.importance.get(k).copied());
+        variables.numbers("importance", "", importance);
+        let slope = entries()
+            .map(|(_, own, k, info)| Some(per_unit(own.by_nominal.get(k)?.beta, &info.unit)));
+        variables.numbers("beta by nominal value", "per unit", slope);
+        let slope = entries()
+            .map(|(_, own, k, info)| Some(per_unit(own.by_half_width.get(k)?.beta, &info.unit)));
+        variables.numbers("beta by half-width", "per unit", slope);
+        operating_point(&mut variables, d, &self.inputs, None);
+        let mut tables = vec![table, variables];
+        if let Some(system) = &self.system {
+            let mut table = Table::new("system");
+            table.numbers("probability of failure", "", [system.probability.value]);
+            table.numbers("from", "", [system.bounds.lower]);
+            table.numbers("to", "", [system.bounds.upper]);
+            operating_point(&mut table, d, &self.inputs, None);
+            tables.push(table);
+        }
+        tables
+    }
+}
+
+/// `rare failure`: one row.
+impl Tables for RareFailure {
+    fn tables(&self) -> Vec<Table> {
+        let found = &self.failure;
+        let whole = |count: u64| usize::try_from(count).ok();
+        let mut table = Table::new("rare failure");
+        table.numbers("probability of failure", "", [found.probability.value]);
+        table.numbers("standard error", "", [found.probability.standard_error]);
+        table.whole("samples", [whole(found.samples)]);
+        table.whole("failures", [whole(found.failures)]);
+        table.whole("without value", [whole(found.without_value)]);
+        table.whole("design points", [self.centres]);
+        operating_point(&mut table, &self.description, &self.inputs, None);
+        vec![table]
+    }
+}

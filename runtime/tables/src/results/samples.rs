@@ -1,0 +1,72 @@
+use eigentol::tolerance::{Outcome, Sample};
+use eigentol::{Complex, Description};
+
+use super::names::{design, unknowns, word};
+use crate::Table;
+
+/// A row for each sample: its number in the run, what became of it, design variables, unknowns, and of each mode the frequency, the
+/// damping ratio and the eigenvalue. `first` is the number of the first of them, counted from 0, so that parts of a run can be written one
+/// after the other; all have the same columns.
+///
+/// ```
+/// # use eigentol::{Study, mechanism};
+/// # mechanism! {
+/// #     mechanism Pendulum {
+/// #         design l = 2 m +/- 1 %;
+/// #         gravity 9.81 m/s^2 along -z;
+/// #         body bar: rod(mass: 3 kg, length: l, along: -z);
+/// #         joint theta: revolute(y) from ground to bar;
+/// #     }
+/// # }
+/// use eigentol_tables::samples_table;
+///
+/// let study = Study::new(Pendulum).samples(5).keep_samples(true);
+/// let run = study.monte_carlo()?;
+/// let samples = run.all.expect("samples were kept");
+/// let table = samples_table(&run.description, 0, &samples);
+/// assert_eq!(table.rows(), 5);
+/// assert_eq!(table.column("l").expect("a design variable").unit, "m");
+/// # Ok::<(), eigentol::Error>(())
+/// ```
+#[must_use]
+pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
+    let all = samples.iter();
+    let mut table = Table::new("samples");
+    table.whole("sample", (first + 1..).take(samples.len()));
+    table.texts("outcome", all.clone().map(|sample| outcome(sample.outcome)));
+    design(&mut table, d, all.clone().map(|sample| &sample.design[..]));
+    unknowns(
+        &mut table,
+        d,
+        all.clone().map(|sample| sample.coordinates.as_deref()),
+    );
+    // All samples of a mechanism have as many modes, or none where they were not found.
+    let modes = all.clone().map(|own| own.frequencies.len()).max();
+    for r in 0..modes.unwrap_or(0) {
+        let frequency = all.clone().map(|own| *own.frequencies.get(r)?);
+        table.numbers(format!("frequency {}", r + 1), "rad/s", frequency);
+        let damping = all.clone().map(|own| *own.damping_ratios.get(r)?);
+        table.numbers(format!("damping ratio {}", r + 1), "", damping);
+        let part = |of: fn(Complex) -> f64| {
+            let own = move |own: &Sample| own.eigenvalues.get(r)?.map(of);
+            all.clone().map(own)
+        };
+        table.numbers(format!("Re s {}", r + 1), "1/s", part(|s| s.re));
+        table.numbers(format!("Im s {}", r + 1), "1/s", part(|s| s.im));
+    }
+    table
+}
+
+pub(super) fn outcome(outcome: Outcome) -> Option<String> {
+    word(match outcome {
+        Outcome::Stable => "stable",
+        Outcome::Divergent => "divergent",
+        Outcome::Flutter => "flutter",
+        Outcome::Undecided => "undecided",
+        Outcome::NoEquilibrium => "no equilibrium",
+        Outcome::NotAssembled => "not assembled",
+        Outcome::Unphysical => "unphysical",
+        Outcome::NoModes => "no modes",
+        _ => "other",
+    })
+}

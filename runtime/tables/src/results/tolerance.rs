@@ -1,0 +1,176 @@
+use eigentol::tolerance::{Counts, OutputTolerances, Spread, Statistics};
+use eigentol::{Description, FirstOrder, MonteCarlo, Quantity};
+
+use super::Tables;
+use super::names::{behaviour, by, in_unit, operating_point, unit_of, word};
+use super::samples::samples_table;
+use crate::Table;
+
+/// Columns of one spread: mean, sigma, band.
+fn spreads<'a>(
+    table: &mut Table,
+    quantity: Quantity,
+    all: impl Iterator<Item = Option<&'a Spread>> + Clone,
+) {
+    let unit = unit_of(quantity).symbol;
+    let of = |pick: fn(&Spread) -> f64| all.clone().map(move |own| own.map(pick));
+    table.numbers(format!("{quantity}"), &unit, of(|own| own.mean));
+    let sigma = of(|own| own.sigma);
+    table.numbers(format!("sigma of {quantity}"), &unit, sigma);
+    let band = of(|own| own.band);
+    table.numbers(format!("band of {quantity}"), &unit, band);
+}
+
+/// One column of shares in a variance for each design variable.
+fn shares<'a>(
+    table: &mut Table,
+    d: &Description,
+    all: impl Iterator<Item = Option<&'a [f64]>> + Clone,
+) {
+    for (k, info) in d.design.iter().enumerate() {
+        let share = move |own: Option<&[f64]>| own?.get(k).copied();
+        let name = format!("variance share of {}", info.name);
+        table.numbers(name, "", all.clone().map(share));
+    }
+}
+
+/// `first-order tolerances`: a row for each mode; a cluster has no sigma. The shares are those of the frequency, or of `lambda` of a
+/// mode that has none.
+impl Tables for FirstOrder {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let modes = self.modes.iter();
+        let rows = self.modes.len();
+        let mut table = Table::new("first-order tolerances");
+        table.whole("mode", 1..=rows);
+        for quantity in [
+            Quantity::Frequency,
+            Quantity::NaturalFrequency,
+            Quantity::DampingRatio,
+            Quantity::Growth,
+        ] {
+            let spread = modes.clone().map(|mode| {
+                let own = match quantity {
+                    Quantity::Frequency => &mode.frequency,
+                    Quantity::NaturalFrequency => &mode.natural_frequency,
+                    Quantity::DampingRatio => &mode.damping_ratio,
+                    _ => &mode.growth,
+                };
+                own.as_ref().filter(|_| !mode.clustered)
+            });
+            spreads(&mut table, quantity, spread);
+        }
+        table.texts(
+            "motion",
+            modes.clone().map(|mode| behaviour(mode.behaviour)),
+        );
+        table.flags("cluster", modes.clone().map(|mode| mode.clustered));
+        let distance = |pick: fn(&_) -> f64| modes.clone().map(pick);
+        let critical =
+            distance(|mode: &eigentol::tolerance::ModeTolerance| mode.distance_to_critical);
+        table.numbers("distance to critical", "sigma", critical);
+        let instability = distance(|mode| mode.distance_to_instability);
+        table.numbers("distance to instability", "sigma", instability);
+        let neighbour = distance(|mode| mode.distance_to_neighbour);
+        table.numbers("distance to neighbour", "sigma", neighbour);
+        table.numbers("sigma level", "", vec![self.sigma_level; rows]);
+        let share = modes.map(|mode| (!mode.clustered).then(|| mode.variance_shares()));
+        shares(&mut table, d, share);
+        operating_point(&mut table, d, &self.inputs, None);
+        vec![table]
+    }
+}
+
+/// `output tolerances`: a row for each output, numbers in its `unit`.
+impl Tables for OutputTolerances {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let outputs = || d.outputs.iter().zip(&self.spreads);
+        let mut table = Table::new("output tolerances");
+        let names = outputs().map(|(info, _)| Some(info.name.to_string()));
+        table.texts("output", names);
+        table.texts("unit", outputs().map(|(info, _)| by(&info.unit)));
+        let values = d.outputs.iter().zip(&self.values);
+        let means = values.map(|(info, &value)| in_unit(value, &info.unit));
+        table.numbers("mean", "", means);
+        for (name, pick) in [
+            ("sigma", (|own| own.sigma) as fn(&Spread) -> f64),
+            ("band", |own| own.band),
+        ] {
+            let value =
+                outputs().map(|(info, own)| own.as_ref().map(|own| in_unit(pick(own), &info.unit)));
+            table.numbers(name, "", value);
+        }
+        table.numbers("sigma level", "", vec![self.sigma_level; table.rows()]);
+        let share = self.spreads.iter();
+        let share = share.map(|own| own.as_ref().map(|own| &own.variance_shares[..]));
+        shares(&mut table, d, share);
+        operating_point(&mut table, d, &self.inputs, None);
+        vec![table]
+    }
+}
+
+/// Columns of statistics over samples.
+pub(super) fn statistics<'a>(
+    table: &mut Table,
+    name: &str,
+    unit: &str,
+    all: impl Iterator<Item = Option<&'a Statistics>> + Clone,
+) {
+    let count = all.clone().map(|own| own.map_or(0, |own| own.count));
+    table.whole(format!("samples of {name}"), count);
+    for (what, pick) in [
+        (
+            "mean",
+            (|own| Some(own.mean)) as fn(&Statistics) -> Option<f64>,
+        ),
+        ("standard error", |own| own.standard_error),
+        ("sigma", |own| own.sigma),
+        ("least", |own| Some(own.min)),
+        ("greatest", |own| Some(own.max)),
+    ] {
+        let values = all.clone().map(|own| own.and_then(pick));
+        table.numbers(format!("{what} of {name}"), unit, values);
+    }
+}
+
+/// What became of samples: a row for each outcome.
+pub(super) fn outcomes(counts: &Counts) -> Table {
+    let all = [
+        ("stable", counts.stable),
+        ("divergent", counts.divergent),
+        ("flutter", counts.flutter),
+        ("undecided", counts.undecided),
+        ("no equilibrium", counts.no_equilibrium),
+        ("not assembled", counts.not_assembled),
+        ("unphysical", counts.unphysical),
+        ("no modes", counts.no_modes),
+    ];
+    let mut table = Table::new("outcomes");
+    table.texts("outcome", all.map(|(name, _)| word(name)));
+    table.whole("samples", all.map(|(_, count)| count));
+    table
+}
+
+/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`, where they were kept: a row for each.
+impl Tables for MonteCarlo {
+    fn tables(&self) -> Vec<Table> {
+        let d = &self.description;
+        let mut table = Table::new("Monte Carlo");
+        table.whole("mode", 1..=self.modes.len());
+        let modes = self.modes.iter().map(Option::as_ref);
+        statistics(&mut table, "frequency", "rad/s", modes);
+        let damping = self.damping_ratios.iter().map(Option::as_ref);
+        statistics(&mut table, "damping ratio", "", damping);
+        operating_point(&mut table, d, &self.inputs, None);
+        let mut outcomes = outcomes(&self.counts);
+        operating_point(&mut outcomes, d, &self.inputs, None);
+        let mut tables = vec![table, outcomes];
+        if let Some(all) = &self.all {
+            let mut samples = samples_table(d, 0, all);
+            operating_point(&mut samples, d, &self.inputs, None);
+            tables.push(samples);
+        }
+        tables
+    }
+}

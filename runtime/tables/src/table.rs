@@ -1,0 +1,171 @@
+//! Named columns of equal length, each with a unit.
+
+use crate::Error;
+
+/// A table: columns of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// What it is a table of, in one or two words: `modes`.
+    pub name: String,
+    /// The columns. No two have the same heading.
+    pub columns: Vec<Column>,
+}
+
+/// One column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// What stands in it.
+    pub name: String,
+    /// The symbol of the unit of its numbers, as declarations write it; empty of what has none.
+    pub unit: String,
+    /// One entry for each row; `None` where there is nothing, or no finite number.
+    pub values: Values,
+}
+
+/// The entries of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Finite numbers.
+    Numbers(Vec<Option<f64>>),
+    /// Whole numbers.
+    Whole(Vec<Option<i64>>),
+    /// Words.
+    Texts(Vec<Option<String>>),
+    /// Yes or no.
+    Flags(Vec<Option<bool>>),
+}
+
+impl Values {
+    /// How many entries there are, the missing ones included.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Texts(values) => values.len(),
+            Self::Flags(values) => values.len(),
+        }
+    }
+
+    /// Whether there are no entries at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl Column {
+    /// `name [unit]`, or the name alone of what has no unit.
+    #[must_use]
+    pub fn heading(&self) -> String {
+        match self.unit.is_empty() {
+            true => self.name.clone(),
+            false => format!("{} [{}]", self.name, self.unit),
+        }
+    }
+
+    /// Name and unit of a [heading](Self::heading).
+    pub(crate) fn read_heading(heading: &str) -> (String, String) {
+        let unit = heading
+            .strip_suffix(']')
+            .and_then(|own| own.rsplit_once(" ["));
+        let (name, unit) = unit.unwrap_or((heading, ""));
+        (name.to_owned(), unit.to_owned())
+    }
+}
+
+impl Table {
+    /// A table without columns.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            columns: Vec::new(),
+        }
+    }
+
+    /// The first column of this name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// How many rows there are.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// Adds a column of numbers. What is not finite is left out, as a number that is missing.
+    pub fn numbers<V: Into<Option<f64>>>(
+        &mut self,
+        name: impl Into<String>,
+        unit: &str,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let finite = |value: V| value.into().filter(|own: &f64| own.is_finite());
+        let values = values.into_iter().map(finite).collect();
+        self.add(name.into(), unit, Values::Numbers(values));
+    }
+
+    /// Adds a column of whole numbers.
+    pub fn whole<V: Into<Option<usize>>>(
+        &mut self,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let whole = |value: V| value.into().and_then(|own| i64::try_from(own).ok());
+        let values = values.into_iter().map(whole).collect();
+        self.add(name.into(), "", Values::Whole(values));
+    }
+
+    /// Adds a column of words.
+    pub fn texts<V: Into<Option<String>>>(
+        &mut self,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let values = values.into_iter().map(Into::into).collect();
+        self.add(name.into(), "", Values::Texts(values));
+    }
+
+    /// Adds a column of answers, yes or no.
+    pub fn flags<V: Into<Option<bool>>>(
+        &mut self,
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = V>,
+    ) {
+        let values = values.into_iter().map(Into::into).collect();
+        self.add(name.into(), "", Values::Flags(values));
+    }
+
+    /// A declared name may be one that the table has already: then it is told apart by a number, `mode 2`.
+    fn add(&mut self, name: String, unit: &str, values: Values) {
+        let taken = |name: &str| self.columns.iter().any(|own| own.name == name);
+        let mut own = name.clone();
+        let mut number = 2;
+        while taken(&own) {
+            own = format!("{name} {number}");
+            number += 1;
+        }
+        self.columns.push(Column {
+            name: own,
+            unit: unit.to_owned(),
+            values,
+        });
+    }
+
+    /// Refuses columns of different lengths, which a table that was put together by hand may have.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let rows = self.rows();
+        match self.columns.iter().find(|own| own.values.len() != rows) {
+            None => Ok(()),
+            Some(column) => Err(Error::Lengths {
+                table: self.name.clone(),
+                column: column.heading(),
+                found: column.values.len(),
+                expected: rows,
+            }),
+        }
+    }
+}

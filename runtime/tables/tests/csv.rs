@@ -1,0 +1,135 @@
+//! Tables written and read back, and files that cannot be.
+
+use std::io::{self, Write};
+
+use eigentol_tables::{Column, Error, Table, Values, csv};
+
+fn table() -> Table {
+    let mut table = Table::new("mixed");
+    table.whole("mode", [Some(1), None, Some(3)]);
+    table.numbers("length", "mm", [0.1 + 0.2, f64::MIN_POSITIVE, -1.0e300]);
+    table.numbers("sigma", "rad/s", [Some(5e-324), None, Some(-0.0)]);
+    table.texts(
+        "name, with \"marks\"",
+        ["a,b", "line\nline", " \"c\" "].map(|own| Some(own.to_owned())),
+    );
+    table.flags("met", [Some(true), None, Some(false)]);
+    table
+}
+
+#[test]
+fn a_table_comes_back_bit_by_bit() {
+    let text = csv::to_string(&table()).expect("text");
+    let back = csv::read("mixed", text.as_bytes()).expect("a table");
+    assert_eq!(back, table());
+    let Some(Column {
+        values: Values::Numbers(own),
+        ..
+    }) = back.column("sigma")
+    else {
+        panic!("numbers");
+    };
+    assert!(own[2].expect("a number").is_sign_negative());
+}
+
+#[test]
+fn what_is_not_finite_is_an_empty_cell() {
+    let mut table = Table::new("distances");
+    table.numbers("distance", "sigma", [f64::INFINITY, f64::NAN, 2.0]);
+    let text = csv::to_string(&table).expect("text");
+    assert_eq!(text, "distance [sigma]\n\"\"\n\"\"\n2.0\n");
+    assert_eq!(
+        csv::read("distances", text.as_bytes()).expect("a table"),
+        table
+    );
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_refused() {
+    let text = csv::to_string(&table()).expect("text");
+    // Ends of lines that are the ends of rows: from there on a shorter table is left, which CSV cannot tell.
+    let mut whole = 0;
+    for end in 1..text.len() {
+        match csv::read("cut", &text.as_bytes()[..end]) {
+            Ok(_) => whole += 1,
+            Err(error) => assert!(matches!(error, Error::Malformed { .. }), "{end}: {error}"),
+        }
+    }
+    assert_eq!(whole, 3);
+    let error = csv::read("empty", io::empty()).expect_err("no headings");
+    assert_eq!(
+        error.to_string(),
+        "line 1: there are no headings: the file is empty"
+    );
+}
+
+#[test]
+fn other_columns_are_refused_in_one_file() {
+    let mut other = Table::new("other");
+    other.numbers("length", "m", [1.0]);
+    let mut writer = csv::Writer::new(Vec::new());
+    writer.write(&table()).expect("written");
+    assert!(matches!(
+        writer.write(&other),
+        Err(Error::OtherColumns { .. })
+    ));
+}
+
+#[test]
+fn columns_of_different_lengths_are_refused() {
+    let mut table = table();
+    table.columns[1].values = Values::Numbers(vec![Some(1.0)]);
+    assert!(matches!(
+        csv::to_string(&table),
+        Err(Error::Lengths {
+            found: 1,
+            expected: 3,
+            ..
+        })
+    ));
+}
+
+/// Has room for so many bytes.
+struct Disk(usize);
+
+impl Write for Disk {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.0 == 0 {
+            return Err(io::ErrorKind::StorageFull.into());
+        }
+        let written = bytes.len().min(self.0);
+        self.0 -= written;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error() {
+    let size = csv::to_string(&table()).expect("text").len();
+    assert!(csv::write(&table(), Disk(size)).is_ok());
+    for room in 0..size {
+        let error = csv::write(&table(), Disk(room)).expect_err("no room");
+        assert!(
+            matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
+            "{error:?}"
+        );
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn so_is_that_of_the_system() {
+    let full = std::fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .expect("the device");
+    let error = csv::write(&table(), full).expect_err("no room");
+    assert!(
+        matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
+        "{error:?}"
+    );
+}

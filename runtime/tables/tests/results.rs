@@ -1,0 +1,108 @@
+//! Tables of results: the numbers of the results in declared units, the same columns whatever the values are.
+
+use eigentol::{InDeclaredUnit, Study, mechanism};
+use eigentol_tables::{Table, Values, csv, tables};
+
+mechanism! {
+    /// The rotating bar with a closed form: `cos theta = 3 g / (2 l Omega^2)`, `omega^2 = Omega^2 sin^2 theta`.
+    mechanism RotatingBar {
+        input speed: rpm;
+        design l = 1000 mm +/- 30 mm;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: 3 kg, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at speed;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+const RPM: f64 = 60.0;
+
+fn study() -> Study<RotatingBar> {
+    Study::new(RotatingBar)
+        .input(RotatingBar::speed, InDeclaredUnit(RPM))
+        .start(RotatingBar::theta, 1.0)
+}
+
+fn number(table: &Table, name: &str, row: usize) -> f64 {
+    let column = table
+        .column(name)
+        .unwrap_or_else(|| panic!("no column `{name}`"));
+    match &column.values {
+        Values::Numbers(values) => values[row].expect("a number"),
+        _ => panic!("`{name}` has no numbers"),
+    }
+}
+
+fn close(found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() <= 1e-9 * expected.abs(),
+        "{found} for {expected}"
+    );
+}
+
+/// `theta`, the frequency and its derivative by the length in m.
+fn closed_form() -> [f64; 3] {
+    let speed = RPM * std::f64::consts::TAU / 60.0;
+    let cos = 3.0 * 9.81 / (2.0 * speed * speed);
+    let omega = speed * (1.0 - cos * cos).sqrt();
+    // d cos / d l = - cos / l
+    [cos.acos(), omega, speed * speed * cos * cos / omega]
+}
+
+#[test]
+fn values_are_in_declared_units_and_the_operating_point_comes_last() {
+    let study = study();
+    let solved = study.solve().expect("a state");
+    let [theta, omega, slope] = closed_form();
+    let states = &tables(&solved.equilibrium)[0];
+    close(number(states, "theta", 0), theta);
+    let modes = &tables(&solved.modes)[0];
+    close(number(modes, "frequency", 0), omega);
+    for table in [states, modes] {
+        let last = table.columns.last().expect("columns");
+        assert_eq!(last.heading(), "speed [rpm]");
+        close(number(table, "speed", 0), RPM);
+    }
+    let sensitivities = &tables(&solved.sensitivities().expect("derivatives"))[0];
+    let Values::Texts(by) = &sensitivities.column("by").expect("variables").values else {
+        panic!("words");
+    };
+    assert_eq!(by[1].as_deref(), Some("l"));
+    close(number(sensitivities, "frequency", 1), slope * 1e-3);
+    let first = &tables(&solved.first_order().expect("spreads"))[0];
+    close(number(first, "sigma of frequency", 0), slope * 0.01);
+    close(number(first, "variance share of l", 0), 1.0);
+}
+
+#[test]
+fn every_table_comes_back_from_its_file() {
+    let study = study().samples(50).keep_samples(true);
+    let solved = study.solve().expect("a state");
+    let samples = solved.monte_carlo().expect("samples");
+    let all = [
+        tables(&solved.equilibrium),
+        tables(&solved.modes),
+        tables(&solved.sensitivities().expect("derivatives")),
+        tables(&solved.first_order().expect("spreads")),
+        tables(&study.second_order().expect("spreads")),
+        tables(&study.summary().expect("a summary")),
+        tables(&samples),
+    ];
+    for table in all.iter().flatten() {
+        let text = csv::to_string(table).expect("text");
+        let back = csv::read(&table.name, text.as_bytes()).expect("a table");
+        assert_eq!(csv::to_string(&back).expect("text"), text, "{}", table.name);
+        assert_eq!(back.rows(), table.rows());
+        let heads = |own: &Table| {
+            own.columns
+                .iter()
+                .map(|own| own.heading())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(heads(&back), heads(table));
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+    }
+    let kept = all[6].last().expect("samples");
+    assert_eq!((kept.name.as_str(), kept.rows()), ("samples", 50));
+}
