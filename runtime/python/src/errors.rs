@@ -1,6 +1,5 @@
 //! What goes wrong, as exceptions.
 
-use std::ffi::CStr;
 use std::path::Path;
 
 use eigentol::Error;
@@ -8,7 +7,7 @@ use eigentol_interpreter::{Mistakes, ReadError};
 use pyo3::exceptions::{PyException, PyLookupError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::names::did_you_mean;
 
@@ -43,37 +42,31 @@ impl Mistake {
 }
 
 /// The kinds of exceptions, in the order of [`Kind`].
-const KINDS: [(&CStr, &CStr); 9] = [
-    (c"eigentol.Error", c"Any failure of this module."),
+const KINDS: [(&str, &str); 9] = [
+    ("Error", "Any failure of this module."),
     (
-        c"eigentol.DeclarationError",
-        c"A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`, `end_column`, \
+        "DeclarationError",
+        "A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`, `end_column`, \
           `message` and `help`; `path` is the file, or None.",
     ),
     (
-        c"eigentol.InvalidValue",
-        c"A value, unit, setting or list makes no sense (also a ValueError).",
+        "InvalidValue",
+        "A value, unit, setting or list makes no sense (also a ValueError).",
+    ),
+    ("UnknownName", "Nothing has this name (also a LookupError)."),
+    (
+        "NoEquilibrium",
+        "No equilibrium was found from the start values. `coordinates` is the last state, SI.",
     ),
     (
-        c"eigentol.UnknownName",
-        c"Nothing has this name (also a LookupError).",
+        "NotAssembled",
+        "The constraints cannot be met together from the start values.",
     ),
+    ("NoModes", "The modes were not found."),
+    ("NoDerivative", "A derivative does not exist at this state."),
     (
-        c"eigentol.NoEquilibrium",
-        c"No equilibrium was found from the start values. `coordinates` is the last state, SI.",
-    ),
-    (
-        c"eigentol.NotAssembled",
-        c"The constraints cannot be met together from the start values.",
-    ),
-    (c"eigentol.NoModes", c"The modes were not found."),
-    (
-        c"eigentol.NoDerivative",
-        c"A derivative does not exist at this state.",
-    ),
-    (
-        c"eigentol.NotInRange",
-        c"What was looked for is not in the range of the input.",
+        "NotInRange",
+        "What was looked for is not in the range of the input.",
     ),
 ];
 
@@ -108,8 +101,12 @@ fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
                     }
                 }
             };
-            let bases = PyTuple::new(py, bases)?;
-            all.push(PyErr::new_type(py, name, Some(doc), Some(&bases), None)?);
+            let own = PyDict::new(py);
+            own.set_item("__module__", "eigentol")?;
+            own.set_item("__doc__", doc)?;
+            let made = py.get_type::<PyType>();
+            let made = made.call1((name, PyTuple::new(py, bases)?, own))?;
+            all.push(made.cast_into::<PyType>()?.unbind());
         }
         Ok(all)
     })
@@ -227,6 +224,7 @@ pub(crate) fn file(py: Python<'_>, error: ReadError) -> PyErr {
             Some(number) => {
                 let text = source.to_string();
                 let text = text.split(" (os error").next().unwrap_or_default();
+                let path = path.to_string_lossy().into_owned();
                 PyOSError::new_err((number, text.to_owned(), path))
             }
             None => PyOSError::new_err(format!("cannot read {}: {source}", path.display())),

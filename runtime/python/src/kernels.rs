@@ -12,11 +12,7 @@ use crate::values::List;
 type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
 impl Mechanism {
-    fn point(
-        &self,
-        py: Python<'_>,
-        [q, u, b]: [Given<'_, '_>; 3],
-    ) -> PyResult<[Vec<f64>; 3]> {
+    fn point(&self, py: Python<'_>, [q, u, b]: [Given<'_, '_>; 3]) -> PyResult<[Vec<f64>; 3]> {
         let of = self.inner.description();
         Ok([
             List::Coordinates.read(py, of, q)?,

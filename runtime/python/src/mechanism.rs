@@ -19,15 +19,6 @@ pub(crate) struct Mechanism {
     text: String,
 }
 
-impl Mechanism {
-    pub(crate) fn copy(&self) -> Self {
-        Self {
-            inner: self.inner.clone(),
-            text: self.text.clone(),
-        }
-    }
-}
-
 #[pymethods]
 impl Mechanism {
     /// The mechanism that a file declares.

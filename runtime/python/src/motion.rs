@@ -123,7 +123,10 @@ impl Motion {
         let q = List::Coordinates.read(py, of, coordinates)?;
         let velocity = List::Coordinates.read(py, of, rates)?;
         let y = [&q[..positions], &velocity[..positions]];
-        Ok(vector(py, [&y.concat()[..], &q[positions..positions + speeds]].concat()))
+        Ok(vector(
+            py,
+            [&y.concat()[..], &q[positions..positions + speeds]].concat(),
+        ))
     }
 
     fn __repr__(&self) -> String {

@@ -19,13 +19,25 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyRes
             let text = text.to_cow()?;
             value(&text, unit, &what).map_err(|mistakes| refused(py, &text, &mistakes))?
         }
-        Err(_) => given.extract::<f64>().map_err(|_| wrong_type(given, name))?,
+        Err(_) => given
+            .extract::<f64>()
+            .map_err(|_| wrong_type(given, name))?,
     };
     if found.is_finite() {
         Ok(found)
     } else {
-        Err(invalid(py, format!("{what} is {found}: give a finite value")))
+        Err(not_finite(py, name, found))
     }
+}
+
+pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
+    invalid(py, format!("`{name}` is {value}: give a finite value"))
+}
+
+/// The number of a mode, from 0.
+pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
+    let found = usize::try_from(mode);
+    found.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
 }
 
 /// A text that is no value.
@@ -164,7 +176,11 @@ fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
             "`{}` has no {} `{name}`: that is {} {}",
             of.name,
             list.kind(),
-            if matches!(other, List::Inputs) { "an" } else { "a" },
+            if matches!(other, List::Inputs) {
+                "an"
+            } else {
+                "a"
+            },
             other.kind(),
         );
         return new(py, Kind::UnknownName, message);
@@ -200,6 +216,9 @@ pub(crate) fn word<T: Copy>(
     }
     let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
     let near = did_you_mean(given, known.iter().copied());
-    let message = format!("{what} `{given}`: one of {} is needed{near}", known.join(", "));
+    let message = format!(
+        "{what} `{given}`: one of {} is needed{near}",
+        known.join(", ")
+    );
     Err(invalid(py, message))
 }
