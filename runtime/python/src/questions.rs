@@ -192,13 +192,16 @@ impl Study {
                 high: high.unwrap_or(f64::INFINITY),
             },
             Some(given) => {
-                let (input, fraction, order) = match given.len() {
-                    3 => given.extract::<(String, f64, f64)>()?,
-                    _ => {
-                        let (input, fraction) = given.extract::<(String, f64)>()?;
-                        (input, fraction, 1.0)
-                    }
+                let with_order = given.extract::<(String, f64, f64)>();
+                let without = |_| {
+                    let (input, fraction) = given.extract::<(String, f64)>()?;
+                    Ok((input, fraction, 1.0))
                 };
+                let read: PyResult<_> = with_order.or_else(without);
+                let (input, fraction, order) = read.map_err(|_| {
+                    let message = "`around`: an input, a fraction and, where it is not 1, an order are needed";
+                    PyTypeError::new_err(message)
+                })?;
                 let of = self.inner.description();
                 let (place, _) = List::Inputs.find(py, of, &input)?;
                 let input = Input::new(place);

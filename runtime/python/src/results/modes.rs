@@ -28,8 +28,8 @@ impl Modes {
         vector(py, self.each(|mode| mode.s))
     }
 
-    /// All eigenvalues of the first-order form, 1/s, complex, in ROSS's order: ascending in the imaginary part of those with a
-    /// positive one, after these their conjugates, after these the real ones, ascending.
+    /// All eigenvalues of the first-order form, 1/s, complex. The oscillating ones stand in ROSS's order: those with a positive
+    /// imaginary part, ascending in it, after these their conjugates, again ascending. The real ones follow, ascending.
     ///
     /// A neutral undamped mode has two that are zero, a divergent one both signs.
     #[getter]
@@ -42,7 +42,7 @@ impl Modes {
         }
         turning.sort_by(|a, b| a.im.total_cmp(&b.im));
         real.sort_by(|a, b| a.re.total_cmp(&b.re));
-        let conjugates: Vec<Complex> = turning.iter().map(Complex::conj).collect();
+        let conjugates: Vec<Complex> = turning.iter().rev().map(Complex::conj).collect();
         vector(py, [turning, conjugates, real].concat())
     }
 
