@@ -34,6 +34,7 @@ pub(crate) const CLUSTER_GAP: f64 = 1e-6;
 
 /// Which equation modes solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Family {
     /// `Khat phi = lambda Mhat phi`, `Khat` symmetric.
     Undamped,
@@ -57,6 +58,7 @@ impl Family {
 /// set.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Modes {
     /// The modes.
     pub modes: Vec<Mode>,

@@ -6,6 +6,7 @@ use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Behaviour {
     /// It oscillates and neither grows nor decays within rounding; angular frequency, rad/s.
     Oscillating(f64),
@@ -41,6 +42,7 @@ impl Behaviour {
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mode {
     /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
     /// undamped divergent mode the growing one.
@@ -58,11 +60,14 @@ pub struct Mode {
     /// What `s` means.
     pub behaviour: Behaviour,
     /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub residual: f64,
     /// Estimated absolute error of `s`, 1/s.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: f64,
     /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, great where
     /// eigenvalues and their vectors are about to merge, infinite where they have.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub condition: f64,
     /// Number of the motion: modes with one number along a sweep are one motion. Without a sweep, the position.
     pub label: usize,

@@ -10,6 +10,8 @@ mod outputs;
 pub(crate) mod pool;
 mod sample;
 mod sampling;
+#[cfg(feature = "serde")]
+mod serial;
 mod spread;
 mod standard_normal;
 mod statistics;

@@ -10,6 +10,7 @@ use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 /// One sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample {
     /// Its design variables, SI.
     pub design: Vector,

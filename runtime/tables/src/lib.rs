@@ -1,10 +1,13 @@
 #![doc = include_str!("../README.md")]
 
+mod answer;
 pub mod csv;
 mod error;
+pub mod json;
 mod results;
 mod table;
 
+pub use answer::{Answer, Subject};
 pub use error::Error;
 pub use results::{Tables, samples_table, tables};
 pub use table::{Column, Table, Values};
