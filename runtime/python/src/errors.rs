@@ -1,0 +1,234 @@
+//! What goes wrong, as exceptions.
+
+use std::path::Path;
+
+use eigentol::Error;
+use eigentol_interpreter::{Mistakes, ReadError};
+use pyo3::exceptions::{PyException, PyLookupError, PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use crate::names::did_you_mean;
+
+/// One mistake in a declaration.
+#[pyclass(frozen, get_all, module = "eigentol")]
+pub(crate) struct Mistake {
+    /// Line, from 1.
+    line: usize,
+    /// Column of its first character, from 1.
+    column: usize,
+    /// Line of its end.
+    end_line: usize,
+    /// Column behind its last character.
+    end_column: usize,
+    /// What is wrong.
+    message: String,
+    /// What to do, or None.
+    help: Option<String>,
+}
+
+#[pymethods]
+impl Mistake {
+    fn __repr__(&self) -> String {
+        let Self {
+            line,
+            column,
+            message,
+            ..
+        } = self;
+        format!("{line}:{column}: {message}")
+    }
+}
+
+/// The kinds of exceptions, in the order of [`Kind`].
+const KINDS: [(&str, &str); 9] = [
+    ("Error", "Any failure of this module."),
+    (
+        "DeclarationError",
+        "A text declares no mechanism. `mistakes` lists what is wrong, each with `line`, `column`, `end_line`, `end_column`, \
+          `message` and `help`; `path` is the file, or None.",
+    ),
+    (
+        "InvalidValue",
+        "A value, unit, setting or list makes no sense (also a ValueError).",
+    ),
+    ("UnknownName", "Nothing has this name (also a LookupError)."),
+    (
+        "NoEquilibrium",
+        "No equilibrium was found from the start values. `coordinates` is the last state, SI.",
+    ),
+    (
+        "NotAssembled",
+        "The constraints cannot be met together from the start values.",
+    ),
+    ("NoModes", "The modes were not found."),
+    ("NoDerivative", "A derivative does not exist at this state."),
+    (
+        "NotInRange",
+        "What was looked for is not in the range of the input.",
+    ),
+];
+
+/// Which exception it is.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    Error,
+    Declaration,
+    InvalidValue,
+    UnknownName,
+    NoEquilibrium,
+    NotAssembled,
+    NoModes,
+    NoDerivative,
+    NotInRange,
+}
+
+static TYPES: PyOnceLock<Vec<Py<PyType>>> = PyOnceLock::new();
+
+fn types(py: Python<'_>) -> PyResult<&Vec<Py<PyType>>> {
+    TYPES.get_or_try_init(py, || {
+        let mut all: Vec<Py<PyType>> = Vec::new();
+        for (kind, (name, doc)) in KINDS.into_iter().enumerate() {
+            let bases = match all.first() {
+                None => vec![py.get_type::<PyException>()],
+                Some(own) => {
+                    let own = own.bind(py).clone();
+                    match kind {
+                        1 | 2 => vec![own, py.get_type::<PyValueError>()],
+                        3 => vec![own, py.get_type::<PyLookupError>()],
+                        _ => vec![own],
+                    }
+                }
+            };
+            let own = PyDict::new(py);
+            own.set_item("__module__", "eigentol")?;
+            own.set_item("__doc__", doc)?;
+            let made = py.get_type::<PyType>();
+            let made = made.call1((name, PyTuple::new(py, bases)?, own))?;
+            all.push(made.cast_into::<PyType>()?.unbind());
+        }
+        Ok(all)
+    })
+}
+
+pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    for own in types(module.py())? {
+        let own = own.bind(module.py());
+        module.add(own.name()?, own)?;
+    }
+    Ok(())
+}
+
+/// An exception with a message.
+pub(crate) fn new(py: Python<'_>, kind: Kind, message: String) -> PyErr {
+    match types(py) {
+        Ok(all) => PyErr::from_type(all[kind as usize].bind(py).clone(), (message,)),
+        Err(error) => error,
+    }
+}
+
+/// An exception that carries something.
+fn with<'py>(
+    py: Python<'py>,
+    error: PyErr,
+    attributes: impl FnOnce(&Bound<'py, PyAny>) -> PyResult<()>,
+) -> PyErr {
+    match attributes(error.value(py).as_any()) {
+        Ok(()) => error,
+        Err(other) => other,
+    }
+}
+
+pub(crate) fn invalid(py: Python<'_>, message: String) -> PyErr {
+    new(py, Kind::InvalidValue, message)
+}
+
+/// A failure of the solvers.
+pub(crate) fn raise(py: Python<'_>, error: Error) -> PyErr {
+    let kind = match &error {
+        Error::NotFinite { .. }
+        | Error::WrongLength { .. }
+        | Error::Unphysical { .. }
+        | Error::NoSuchMode { .. }
+        | Error::Setting { .. }
+        | Error::UnknownHandle { .. } => Kind::InvalidValue,
+        Error::UnknownName { .. } => Kind::UnknownName,
+        Error::NoEquilibrium { .. } | Error::UnboundedReactions { .. } => Kind::NoEquilibrium,
+        Error::NotAssembled { .. } => Kind::NotAssembled,
+        Error::SingularMass { .. }
+        | Error::NonsymmetricStiffness { .. }
+        | Error::NoUndampedModes
+        | Error::ModesNotFound { .. }
+        | Error::EigenvalueRange { .. } => Kind::NoModes,
+        Error::CriticalState
+        | Error::ClosesHereOnly { .. }
+        | Error::NotOscillating { .. }
+        | Error::ClusteredMode { .. }
+        | Error::Defective { .. }
+        | Error::NoSensitivity { .. } => Kind::NoDerivative,
+        Error::NotInRange { .. } => Kind::NotInRange,
+        _ => Kind::Error,
+    };
+    let raised = |message| new(py, kind, message);
+    match &error {
+        Error::UnknownName { name, known, .. } => {
+            let near = did_you_mean(name, known.iter().map(|own| &**own));
+            raised(format!("{error}{near}"))
+        }
+        Error::NoEquilibrium { coordinates, .. }
+        | Error::UnboundedReactions { coordinates, .. }
+        | Error::NotAssembled { coordinates, .. } => {
+            with(py, raised(error.to_string()), |exception| {
+                exception.setattr("coordinates", coordinates.clone())
+            })
+        }
+        _ => raised(error.to_string()),
+    }
+}
+
+/// A text that declares no mechanism.
+pub(crate) fn declaration(py: Python<'_>, mistakes: &Mistakes, path: Option<&Path>) -> PyErr {
+    let at = |mistake| match path {
+        Some(path) => format!("{}:{mistake}", path.display()),
+        None => format!("{mistake}"),
+    };
+    let lines: Vec<String> = mistakes.iter().map(at).collect();
+    let error = new(py, Kind::Declaration, lines.join("\n"));
+    let all: Vec<Mistake> = mistakes.iter().map(Mistake::from).collect();
+    with(py, error, |exception| {
+        exception.setattr("mistakes", all)?;
+        exception.setattr("path", path)
+    })
+}
+
+impl From<&eigentol_interpreter::Mistake> for Mistake {
+    fn from(own: &eigentol_interpreter::Mistake) -> Self {
+        Self {
+            line: own.line,
+            column: own.column,
+            end_line: own.end_line,
+            end_column: own.end_column,
+            message: own.message.clone(),
+            help: own.help.clone(),
+        }
+    }
+}
+
+/// A file that gives no mechanism.
+pub(crate) fn file(py: Python<'_>, error: ReadError) -> PyErr {
+    match error {
+        ReadError::Mistakes { path, mistakes } => declaration(py, &mistakes, Some(&path)),
+        ReadError::File { path, source } => match source.raw_os_error() {
+            // With number, text and file Python chooses the kind: FileNotFoundError, PermissionError ...
+            Some(number) => {
+                let text = source.to_string();
+                let text = text.split(" (os error").next().unwrap_or_default();
+                let path = path.to_string_lossy().into_owned();
+                PyOSError::new_err((number, text.to_owned(), path))
+            }
+            None => PyOSError::new_err(format!("cannot read {}: {source}", path.display())),
+        },
+        other => new(py, Kind::Error, other.to_string()),
+    }
+}

@@ -1,0 +1,58 @@
+#![doc = include_str!("../README.md")]
+
+mod arrays;
+mod errors;
+mod events;
+mod kernels;
+mod mechanism;
+mod motion;
+mod names;
+mod questions;
+mod response;
+mod results;
+mod settings;
+mod spreads;
+mod study;
+mod values;
+
+use pyo3::prelude::*;
+
+/// Natural frequencies of mechanisms in steady motion, and how manufacturing tolerances move them.
+///
+/// A `Mechanism` is read from a file or a text; a `Study` of it is asked questions. Numbers are SI, texts have a unit
+/// ("3000 rpm"); modes are counted from 0, as arrays are. Where a result has no number, its array has NaN.
+#[pymodule(name = "eigentol")]
+mod module {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::errors::Mistake;
+    #[pymodule_export]
+    use crate::events::Event;
+    #[pymodule_export]
+    use crate::mechanism::Mechanism;
+    #[pymodule_export]
+    use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::response::Response;
+    #[pymodule_export]
+    use crate::results::{
+        Branch, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
+        OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
+    };
+    #[pymodule_export]
+    use crate::spreads::{
+        FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
+        Summary, WorstCase,
+    };
+    #[pymodule_export]
+    use crate::study::Study;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        // Without it the first array would end the interpreter; so the import says what is missing.
+        module.py().import("numpy")?;
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        crate::errors::add_to(module)
+    }
+}

@@ -1,0 +1,132 @@
+//! A mechanism that is read from a text.
+
+use std::path::PathBuf;
+
+use eigentol_interpreter::Interpreted;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::errors;
+use crate::names;
+use crate::values::List;
+
+/// A mechanism: names, units and kernels.
+///
+/// It comes from a declaration in the language of eigentol, by `from_file` or `from_text`.
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Mechanism {
+    pub(crate) inner: Interpreted,
+    text: String,
+}
+
+#[pymethods]
+impl Mechanism {
+    /// The mechanism that a file declares.
+    ///
+    /// Raises OSError (FileNotFoundError ...) when the file cannot be read, DeclarationError with line and column of every mistake.
+    #[classmethod]
+    fn from_file(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        let py = class.py();
+        let read = || {
+            let inner = Interpreted::from_file(&path)?;
+            Ok((inner, std::fs::read_to_string(&path).unwrap_or_default()))
+        };
+        let (inner, text) = py.detach(read).map_err(|error| errors::file(py, error))?;
+        Ok(Self { inner, text })
+    }
+
+    /// The mechanism that a text declares: `mechanism Name { ... }`.
+    ///
+    /// Raises DeclarationError with line and column of every mistake.
+    #[classmethod]
+    fn from_text(class: &Bound<'_, PyType>, text: String) -> PyResult<Self> {
+        let py = class.py();
+        match py.detach(|| Interpreted::from_text(&text)) {
+            Ok(inner) => Ok(Self { inner, text }),
+            Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
+        }
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> String {
+        self.inner.description().name.to_string()
+    }
+
+    /// The declaration.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Names of the unknowns in the order of arrays: coordinates (rad or m), after them speeds and reactions of constraints (SI).
+    #[getter]
+    fn coordinates(&self) -> Vec<&str> {
+        names::coordinates(self.inner.description())
+    }
+
+    /// Names of the inputs in the order of arrays.
+    #[getter]
+    fn inputs(&self) -> Vec<&str> {
+        names::inputs(self.inner.description())
+    }
+
+    /// Names of the design variables in the order of arrays.
+    #[getter]
+    fn design(&self) -> Vec<&str> {
+        names::design(self.inner.description())
+    }
+
+    /// Names of the outputs in the order of arrays.
+    #[getter]
+    fn outputs(&self) -> Vec<&str> {
+        names::outputs(self.inner.description())
+    }
+
+    /// The nominal design, SI, by name.
+    #[getter]
+    fn nominal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for own in self.inner.description().design.iter() {
+            all.set_item(&*own.name, own.nominal)?;
+        }
+        Ok(all)
+    }
+
+    /// The declared unit of every input, design variable, coordinate and output, by name: "rpm".
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        let of = self.inner.description();
+        for own in of.outputs.iter() {
+            all.set_item(&*own.name, &*own.unit.symbol)?;
+        }
+        for list in [List::Coordinates, List::Design, List::Inputs] {
+            for own in list.quantities(of) {
+                all.set_item(&*own.name, &*own.unit.symbol)?;
+            }
+        }
+        Ok(all)
+    }
+
+    fn __repr__(&self) -> String {
+        let of = self.inner.description();
+        let listed = |names: Vec<&str>| match names.is_empty() {
+            true => "none".to_owned(),
+            false => names.join(", "),
+        };
+        format!(
+            "Mechanism {}\n  coordinates: {}\n  inputs: {}\n  design: {}\n  outputs: {}",
+            of.name,
+            listed(names::coordinates(of)),
+            listed(names::inputs(of)),
+            listed(names::design(of)),
+            listed(names::outputs(of)),
+        )
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let read = slf.get_type().getattr("from_text")?;
+        Ok((read, (slf.get().text.clone(),)))
+    }
+}

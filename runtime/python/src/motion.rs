@@ -1,0 +1,136 @@
+//! The nonlinear motion as a function that integrators call.
+
+use eigentol::{Description, Error, Role, motion};
+use eigentol_interpreter::Interpreted;
+use pyo3::prelude::*;
+
+use crate::arrays::{Array1, vector};
+use crate::errors::raise;
+use crate::mechanism::Mechanism;
+use crate::values::{List, numbers};
+
+/// The nonlinear motion at fixed inputs and design: `motion(t, y)` returns dy/dt, as `scipy.integrate.solve_ivp` wants it.
+///
+/// `y` holds the coordinates (rad or m), after them their rates (rad/s or m/s), after these the speeds that are unknowns:
+/// `names` says which. Reactions of constraints are not part of it.
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Motion {
+    mechanism: Interpreted,
+    inputs: Vec<f64>,
+    design: Vec<f64>,
+}
+
+impl Motion {
+    pub(crate) fn new(mechanism: Interpreted, inputs: Vec<f64>, design: Vec<f64>) -> Self {
+        Self {
+            mechanism,
+            inputs,
+            design,
+        }
+    }
+
+    fn description(&self) -> &Description {
+        self.mechanism.description()
+    }
+
+    fn count(&self, role: Role) -> usize {
+        let all = self.description().coordinates.iter();
+        all.filter(|own| own.role == role).count()
+    }
+
+    fn rates(&self, y: &[f64]) -> Result<Vec<f64>, Error> {
+        let (positions, speeds) = (self.count(Role::Position), self.count(Role::Speed));
+        let expected = 2 * positions + speeds;
+        if y.len() != expected {
+            return Err(Error::WrongLength {
+                kind: "values of a state of motion",
+                found: y.len(),
+                expected,
+            });
+        }
+        let n = self.description().coordinates.len();
+        let (mut q, mut velocity) = (vec![0.0; n], vec![0.0; n]);
+        q[..positions].copy_from_slice(&y[..positions]);
+        velocity[..positions].copy_from_slice(&y[positions..2 * positions]);
+        q[positions..positions + speeds].copy_from_slice(&y[2 * positions..]);
+        let (u, b) = (&self.inputs, &self.design);
+        let found = motion::accelerations(&self.mechanism, &velocity, &q, u, b)?;
+        let rates = &y[positions..2 * positions];
+        Ok([rates, &found[..positions + speeds]].concat())
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// The nonlinear motion at these inputs and this design, for `scipy.integrate.solve_ivp`.
+    ///
+    /// Both are SI or texts with units, in a dictionary by name or in a list; unless given, inputs are zero and the design is
+    /// nominal.
+    #[pyo3(signature = (inputs=None, design=None))]
+    fn motion(
+        &self,
+        py: Python<'_>,
+        inputs: Option<&Bound<'_, PyAny>>,
+        design: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Motion> {
+        let of = self.inner.description();
+        let inputs = List::Inputs.read(py, of, inputs)?;
+        let design = List::Design.read(py, of, design)?;
+        Ok(Motion::new(self.inner.clone(), inputs, design))
+    }
+}
+
+#[pymethods]
+impl Motion {
+    /// dy/dt at the state `y`, the same shape. `t` does not matter: inputs are constant.
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        y: &Bound<'py, PyAny>,
+    ) -> PyResult<Array1<'py>> {
+        let _ = t;
+        let y = numbers(y, "y")?;
+        match py.detach(|| self.rates(&y)) {
+            Ok(rates) => Ok(vector(py, rates)),
+            Err(error) => Err(raise(py, error)),
+        }
+    }
+
+    /// Names of the entries of `y`; a rate is marked by a prime: "theta", "theta'".
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        let of = |role: Role| {
+            let all = self.description().coordinates.iter();
+            all.filter(move |own| own.role == role)
+        };
+        let positions = of(Role::Position).map(|own| own.name.to_string());
+        let rates = of(Role::Position).map(|own| format!("{}'", own.name));
+        let speeds = of(Role::Speed).map(|own| own.name.to_string());
+        positions.chain(rates).chain(speeds).collect()
+    }
+
+    /// A state `y` from coordinates and speeds, and from rates, by name; zero unless given. SI or texts with units; rates are SI.
+    #[pyo3(signature = (coordinates=None, rates=None))]
+    fn state<'py>(
+        &self,
+        py: Python<'py>,
+        coordinates: Option<&Bound<'py, PyAny>>,
+        rates: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array1<'py>> {
+        let of = self.description();
+        let (positions, speeds) = (self.count(Role::Position), self.count(Role::Speed));
+        let q = List::Coordinates.read(py, of, coordinates)?;
+        let velocity = List::Coordinates.read(py, of, rates)?;
+        let y = [&q[..positions], &velocity[..positions]];
+        Ok(vector(
+            py,
+            [&y.concat()[..], &q[positions..positions + speeds]].concat(),
+        ))
+    }
+
+    fn __repr__(&self) -> String {
+        let of = &self.description().name;
+        format!("Motion of {of}, y = [{}]", self.names().join(", "))
+    }
+}

@@ -1,0 +1,344 @@
+//! What a study can be asked.
+
+use eigentol::equilibrium::Search;
+use eigentol::second_order::Band;
+use eigentol::sweep::Line;
+use eigentol::{Input, Vector};
+use eigentol_interpreter::Interpreted;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyString, PyTuple};
+
+use crate::events::{Event, events};
+use crate::response::wanted;
+use crate::results::{
+    Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes, OutputSensitivities,
+    Sensitivities, ShapeSensitivity, Sweep, quantity,
+};
+use crate::spreads::{
+    FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
+    Summary, WorstCase,
+};
+use crate::study::Study;
+use crate::values::{List, mode_number, not_finite, number, numbers};
+
+/// Questions without arguments.
+macro_rules! questions {
+    ($($(#[$doc:meta])* $question:ident -> $result:ident;)*) => {
+        #[pymethods]
+        impl Study {
+            $(
+                $(#[$doc])*
+                fn $question(&self, py: Python<'_>) -> PyResult<$result> {
+                    self.ask(py, |study| study.$question()).map($result)
+                }
+            )*
+        }
+    };
+}
+
+questions! {
+    /// Where the mechanism stays: equilibrium, Mhat, Chat, Khat, stability.
+    equilibrium -> Equilibrium;
+    /// How the equilibrium moves with inputs and design variables.
+    equilibrium_shift -> EquilibriumShift;
+    /// How it vibrates about the equilibrium.
+    modes -> Modes;
+    /// Total derivatives of all modes.
+    sensitivities -> Sensitivities;
+    /// The outputs and their total derivatives.
+    outputs -> OutputSensitivities;
+    /// First-order spread of the outputs.
+    output_tolerances -> OutputTolerances;
+    /// First-order spread of all modes.
+    first_order -> FirstOrder;
+    /// Spread of all modes to second order.
+    second_order -> SecondOrder;
+    /// First order, second order, and for each mode whether its standard deviation can be trusted.
+    summary -> Summary;
+    /// Samples of the design, each with its own equilibrium and modes, on all processors.
+    monte_carlo -> MonteCarlo;
+}
+
+impl Study {
+    /// An input, and two values of it, SI.
+    fn range(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+    ) -> PyResult<(Input<Interpreted>, f64, f64)> {
+        let (place, unit) = List::Inputs.find(py, self.inner.description(), input)?;
+        let (low, high) = (number(low, &unit, input)?, number(high, &unit, input)?);
+        Ok((Input::new(place), low, high))
+    }
+
+    /// An input, and values of it, SI.
+    fn values(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        values: &Bound<'_, PyAny>,
+        unit: Option<&str>,
+    ) -> PyResult<(Input<Interpreted>, Vec<f64>)> {
+        let (place, declared) = List::Inputs.find(py, self.inner.description(), input)?;
+        let scale = match unit {
+            None => 1.0,
+            Some(unit) => {
+                let one = PyString::new(py, &format!("1 {unit}"));
+                number(one.as_any(), &declared, input)?
+            }
+        };
+        let found = match numbers(values, input) {
+            Ok(values) => values.into_iter().map(|value| value * scale).collect(),
+            Err(error) => {
+                let each = values.try_iter().map_err(|_| error)?;
+                each.map(|value| number(&value?, &declared, input))
+                    .collect::<PyResult<_>>()?
+            }
+        };
+        let found: Vec<f64> = found;
+        match found.iter().find(|value| !value.is_finite()) {
+            None => Ok((Input::new(place), found)),
+            Some(other) => Err(not_finite(py, input, *other)),
+        }
+    }
+
+    /// Responses by name: tuples as `Study.response` takes them.
+    fn wanted(
+        &self,
+        given: Vec<Bound<'_, PyTuple>>,
+    ) -> PyResult<Vec<eigentol::response::Response>> {
+        let one = |given: &Bound<'_, PyTuple>| {
+            if given.is_empty() {
+                return Err(PyTypeError::new_err(
+                    "a response is a tuple: (\"frequency\", 0)",
+                ));
+            }
+            let what = given.get_item(0)?.extract::<String>()?;
+            wanted(&self.inner, &what, &given.get_slice(1, given.len()))
+        };
+        given.iter().map(one).collect()
+    }
+}
+
+#[pymethods]
+impl Study {
+    /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or dictionaries.
+    #[pyo3(signature = (lower, upper, starts=None, seed=None))]
+    fn equilibria(
+        &self,
+        py: Python<'_>,
+        lower: &Bound<'_, PyAny>,
+        upper: &Bound<'_, PyAny>,
+        starts: Option<usize>,
+        seed: Option<u64>,
+    ) -> PyResult<Vec<Equilibrium>> {
+        let of = self.inner.description();
+        let lower: Vector = List::Coordinates.read(py, of, Some(lower))?.into();
+        let upper: Vector = List::Coordinates.read(py, of, Some(upper))?.into();
+        let mut search = Search::new(lower, upper);
+        search.starts = starts.unwrap_or(search.starts);
+        search.seed = seed.unwrap_or(search.seed);
+        let found = self.ask(py, |study| study.equilibria(&search))?;
+        Ok(found.into_iter().map(Equilibrium).collect())
+    }
+
+    /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it does not
+    /// apply.
+    fn whirls(&self, py: Python<'_>) -> PyResult<Vec<Option<f64>>> {
+        let found = self.ask(py, |study| study.whirls())?;
+        Ok(found
+            .into_iter()
+            .map(|own| own.map(|own| own.ratio))
+            .collect())
+    }
+
+    /// First and second derivatives of one mode, counted from 0.
+    fn mode_curvature(&self, py: Python<'_>, mode: i64) -> PyResult<ModeCurvature> {
+        let mode = mode_number(py, mode)?;
+        self.ask(py, |study| study.mode_curvature(mode))
+            .map(ModeCurvature)
+    }
+
+    /// Derivatives of the shapes of one mode, counted from 0.
+    fn shape_sensitivity(&self, py: Python<'_>, mode: i64) -> PyResult<ShapeSensitivity> {
+        let mode = mode_number(py, mode)?;
+        self.ask(py, |study| study.shape_sensitivity(mode))
+            .map(ShapeSensitivity)
+    }
+
+    /// Probability that a quantity of a mode, counted from 0, lies between `low` and `high` (rad/s, 1/s; None for no end), or
+    /// within a fraction of a multiple of an input: `around=("speed", 0.1)` or `("speed", 0.1, order)`.
+    #[pyo3(signature = (mode, low=None, high=None, *, around=None, quantity="frequency"))]
+    fn margin(
+        &self,
+        py: Python<'_>,
+        mode: i64,
+        low: Option<f64>,
+        high: Option<f64>,
+        around: Option<&Bound<'_, PyTuple>>,
+        quantity: &str,
+    ) -> PyResult<ModeMargin> {
+        let (mode, wanted) = (mode_number(py, mode)?, self::quantity(py, quantity)?);
+        let band = match around {
+            None if low.is_none() && high.is_none() => {
+                let message = "a band is needed: `low`, `high`, or `around`";
+                return Err(PyTypeError::new_err(message));
+            }
+            None => Band::Between {
+                low: low.unwrap_or(f64::NEG_INFINITY),
+                high: high.unwrap_or(f64::INFINITY),
+            },
+            Some(given) => {
+                let with_order = given.extract::<(String, f64, f64)>();
+                let without = |_| {
+                    let (input, fraction) = given.extract::<(String, f64)>()?;
+                    Ok((input, fraction, 1.0))
+                };
+                let read: PyResult<_> = with_order.or_else(without);
+                let (input, fraction, order) = read.map_err(|_| {
+                    let message = "`around`: an input, a fraction and, where it is not 1, an order are needed";
+                    PyTypeError::new_err(message)
+                })?;
+                let of = self.inner.description();
+                let (place, _) = List::Inputs.find(py, of, &input)?;
+                let input = Input::new(place);
+                Band::Around {
+                    input,
+                    order,
+                    fraction,
+                }
+            }
+        };
+        self.ask(py, |study| study.margin_of(mode, wanted, band))
+            .map(ModeMargin)
+    }
+
+    /// How tolerances spread responses, by the method that suits them: tuples such as ("frequency", 0), ("output", "angle") or
+    /// ("critical", "speed", 0, 300), as `response` takes them.
+    fn propagate(
+        &self,
+        py: Python<'_>,
+        responses: Vec<Bound<'_, PyTuple>>,
+    ) -> PyResult<Propagation> {
+        let wanted = self.wanted(responses)?;
+        self.ask(py, |study| study.propagate(&wanted))
+            .map(Propagation)
+    }
+
+    /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
+    fn influence(&self, py: Python<'_>, responses: Vec<Bound<'_, PyTuple>>) -> PyResult<Influence> {
+        let wanted = self.wanted(responses)?;
+        self.ask(py, |study| study.influence(&wanted))
+            .map(Influence)
+    }
+
+    /// The least and the greatest values of responses within the limits; tuples as `propagate` takes them.
+    fn worst_case(
+        &self,
+        py: Python<'_>,
+        responses: Vec<Bound<'_, PyTuple>>,
+    ) -> PyResult<WorstCase> {
+        let wanted = self.wanted(responses)?;
+        self.ask(py, |study| study.worst_case(&wanted))
+            .map(WorstCase)
+    }
+
+    /// Equilibria and modes along an input. Values are SI, texts with units, or numbers in `unit`.
+    #[pyo3(signature = (input, values, unit=None))]
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        values: &Bound<'_, PyAny>,
+        unit: Option<&str>,
+    ) -> PyResult<Sweep> {
+        let (input, values) = self.values(py, input, values, unit)?;
+        self.ask(py, |study| study.sweep(input, &values)).map(Sweep)
+    }
+
+    /// A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input. Values are SI,
+    /// texts with units, or numbers in `unit`.
+    #[pyo3(signature = (input, values, orders=vec![1.0], unit=None))]
+    fn campbell(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        values: &Bound<'_, PyAny>,
+        orders: Vec<f64>,
+        unit: Option<&str>,
+    ) -> PyResult<Campbell> {
+        let (input, values) = self.values(py, input, values, unit)?;
+        if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
+            return Err(not_finite(py, "orders", *other));
+        }
+        self.ask(py, |study| study.campbell(input, &values, &orders))
+            .map(Campbell)
+    }
+
+    /// Branches of equilibria along an input between two values, SI or texts with units.
+    fn branches(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+    ) -> PyResult<Branches> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        self.ask(py, |study| study.branches(input, low, high))
+            .map(Branches)
+    }
+
+    /// The first value of an input between two, SI or texts with units, at which the stable equilibrium loses its stiffness, and
+    /// how tolerances move it. Raises NotInRange where there is none.
+    fn critical(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+    ) -> PyResult<Event> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        self.ask(py, |study| study.critical_tolerance(input, low, high))
+            .map(Event)
+    }
+
+    /// Values of an input between two, SI or texts with units, at which a frequency equals `order` times the input and `offset`
+    /// (rad/s) more, and how tolerances move them.
+    #[pyo3(signature = (input, low, high, order=1.0, offset=0.0))]
+    fn crossings(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+        order: f64,
+        offset: f64,
+    ) -> PyResult<Vec<Event>> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        let line = Line {
+            ratio: order,
+            offset,
+        };
+        let found = self.ask(py, |study| {
+            study.crossing_tolerances(input, low, high, line)
+        })?;
+        Ok(events(&found))
+    }
+
+    /// Values of an input between two, SI or texts with units, at which an oscillation begins or ceases to grow, and how tolerances
+    /// move them.
+    fn flutter_onsets(
+        &self,
+        py: Python<'_>,
+        input: &str,
+        low: &Bound<'_, PyAny>,
+        high: &Bound<'_, PyAny>,
+    ) -> PyResult<Vec<Event>> {
+        let (input, low, high) = self.range(py, input, low, high)?;
+        let found = self.ask(py, |study| study.flutter_onset_tolerances(input, low, high))?;
+        Ok(events(&found))
+    }
+}

@@ -1,0 +1,234 @@
+//! A number that a design gives, as a function of arrays of designs.
+
+use std::sync::Arc;
+
+use eigentol::response::{Responses, Workspace};
+use eigentol::sweep::Range;
+use eigentol::{Equilibrium, Error, Modes, Output};
+use eigentol_interpreter::Interpreted;
+use numpy::{AllowTypeChange, PyArrayLike2, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::arrays::{or_nan, rows, vector};
+use crate::errors::raise;
+use crate::names;
+use crate::results::quantity;
+use crate::study::Study;
+use crate::values::{List, mode_number, number, numbers};
+
+/// A number that a design gives: a quantity of a mode, an output, a critical value of an input. `response(x)` evaluates it.
+///
+/// `x` holds the variables `names`, SI: an array of shape (variables,), for one number, or of shape (N, variables), for an array of
+/// shape (N,). Every design is solved anew from the nominal equilibrium, its modes matched to the nominal ones by shape. NaN
+/// stands where a design has no stable equilibrium or no such response.
+///
+/// For OpenTURNS:
+///
+///     openturns.PythonFunction(
+///         len(response.names), 1,
+///         func=lambda x: [response(x)],
+///         func_sample=lambda xs: response(xs)[:, None],
+///         gradient=lambda x: response.gradient(x)[:, None],
+///     )
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Response {
+    mechanism: Interpreted,
+    nominal: Arc<(Equilibrium, Modes)>,
+    wanted: eigentol::response::Response,
+    variables: Vec<usize>,
+    text: String,
+}
+
+/// What is asked of a design: "frequency" and so on of a mode, ("output", name), or ("critical", input, low, high).
+pub(crate) fn wanted(
+    study: &eigentol::Study<Interpreted>,
+    what: &str,
+    given: &Bound<'_, PyTuple>,
+) -> PyResult<eigentol::response::Response> {
+    let py = given.py();
+    let count = |expected: usize, list: &str| match given.len() == expected {
+        true => Ok(()),
+        false => Err(PyTypeError::new_err(format!("\"{what}\" needs {list}"))),
+    };
+    match what {
+        "output" => {
+            count(1, "the name of an output")?;
+            let name = given.get_item(0)?.extract::<String>()?;
+            let output = study.find_output(&name).map_err(|error| raise(py, error))?;
+            Ok(eigentol::response::Response::Output(Output::new(
+                output.index(),
+            )))
+        }
+        "critical" => {
+            count(3, "the name of an input, a low and a high value")?;
+            let name = given.get_item(0)?.extract::<String>()?;
+            let (place, unit) = List::Inputs.find(py, study.description(), &name)?;
+            let low = number(&given.get_item(1)?, &unit, &name)?;
+            let high = number(&given.get_item(2)?, &unit, &name)?;
+            let range = Range::new(eigentol::Input::new(place), low, high);
+            Ok(eigentol::response::Response::Critical(range))
+        }
+        other => {
+            let quantity = quantity(py, other)?;
+            count(1, "the number of a mode, from 0")?;
+            let mode = mode_number(py, given.get_item(0)?.extract()?)?;
+            Ok(eigentol::response::Response::Mode { mode, quantity })
+        }
+    }
+}
+
+#[pymethods]
+impl Study {
+    /// A response as a function of arrays of designs.
+    ///
+    /// `what` and what follows: "frequency", "natural_frequency" (rad/s), "damping_ratio" or "growth" (1/s) and the number of a
+    /// mode, from 0; "output" and its name; "critical" and the name of an input, a low and a high value. `variables` names the
+    /// design variables that vary, in order; all unless given.
+    #[pyo3(signature = (what, *of, variables=None))]
+    fn response(
+        &self,
+        py: Python<'_>,
+        what: &str,
+        of: &Bound<'_, PyTuple>,
+        variables: Option<Vec<String>>,
+    ) -> PyResult<Response> {
+        let wanted = wanted(&self.inner, what, of)?;
+        let description = self.inner.description();
+        let variables = match variables {
+            None => (0..description.design.len()).collect(),
+            Some(names) => {
+                let place = |name: &String| {
+                    let found = List::Design.find(py, description, name)?;
+                    Ok(found.0)
+                };
+                names.iter().map(place).collect::<PyResult<_>>()?
+            }
+        };
+        let nominal = self.ask(py, |study| {
+            let solved = study.solve()?;
+            // What makes no sense is refused here.
+            Responses::new(
+                study.mechanism(),
+                &solved.equilibrium,
+                &solved.modes,
+                vec![wanted],
+            )?;
+            Ok((solved.equilibrium, solved.modes))
+        })?;
+        let of: Vec<String> = of
+            .iter()
+            .map(|own| own.str().map(|own| own.to_string()))
+            .collect::<PyResult<_>>()?;
+        Ok(Response {
+            mechanism: self.inner.mechanism().clone(),
+            nominal: Arc::new(nominal),
+            wanted,
+            variables,
+            text: format!("{what} {} of {}", of.join(", "), description.name),
+        })
+    }
+}
+
+impl Response {
+    /// Asks about each design; `x` holds the variables.
+    fn evaluate<R: Send>(
+        &self,
+        py: Python<'_>,
+        designs: &[Vec<f64>],
+        question: impl Fn(&Responses<'_>, &mut Workspace, &[f64]) -> Result<R, Error> + Send + Sync,
+    ) -> PyResult<Vec<R>> {
+        let run = || {
+            let (equilibrium, modes) = &*self.nominal;
+            let responses = Responses::new(&self.mechanism, equilibrium, modes, vec![self.wanted])?;
+            let mut room = responses.workspace();
+            let mut design = equilibrium.design.to_vec();
+            let each = designs.iter().map(|values| {
+                for (place, value) in self.variables.iter().zip(values) {
+                    design[*place] = *value;
+                }
+                question(&responses, &mut room, &design)
+            });
+            each.collect::<Result<Vec<R>, Error>>()
+        };
+        py.detach(run).map_err(|error| raise(py, error))
+    }
+
+    /// The designs of an array, and whether it is a single one.
+    fn designs(&self, x: &Bound<'_, PyAny>) -> PyResult<(Vec<Vec<f64>>, bool)> {
+        let columns = self.variables.len();
+        let (designs, single) = match x.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {
+            Ok(array) => {
+                let array = array.as_array();
+                let all = array.rows().into_iter().map(|row| row.to_vec()).collect();
+                (all, false)
+            }
+            Err(_) => (vec![numbers(x, "x")?], true),
+        };
+        match designs.iter().find(|own: &&Vec<f64>| own.len() != columns) {
+            None => Ok((designs, single)),
+            Some(other) => Err(raise(
+                x.py(),
+                Error::WrongLength {
+                    kind: "variables",
+                    found: other.len(),
+                    expected: columns,
+                },
+            )),
+        }
+    }
+}
+
+#[pymethods]
+impl Response {
+    /// Names of the variables, in the order of `x`.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        let all = names::design(self.mechanism.description());
+        let own = self.variables.iter();
+        own.map(|place| all[*place].to_owned()).collect()
+    }
+
+    /// Nominal values of the variables, SI, shape (variables,).
+    #[getter]
+    fn nominal<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        let design = &self.nominal.0.design;
+        vector(py, self.variables.iter().map(|place| design[*place])).into_any()
+    }
+
+    /// The response at a design, or at each of several, SI.
+    fn __call__<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (designs, single) = self.designs(x)?;
+        let values = self.evaluate(py, &designs, |responses, room, design| {
+            let found = responses.at(room, design)?;
+            Ok(or_nan(found.values[0]))
+        })?;
+        if single {
+            return Ok(values[0].into_pyobject(py)?.into_any());
+        }
+        Ok(vector(py, values).into_any())
+    }
+
+    /// Total derivatives by the variables, SI: shape (variables,) for one design, (N, variables) for several.
+    fn gradient<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (designs, single) = self.designs(x)?;
+        let values = self.evaluate(py, &designs, |responses, room, design| {
+            let found = responses.with_gradients(room, design)?;
+            let own = |place: &usize| match &found.gradients[0] {
+                Some(gradient) => gradient[*place],
+                None => f64::NAN,
+            };
+            Ok(self.variables.iter().map(own).collect::<Vec<f64>>())
+        })?;
+        let all = rows(py, self.variables.len(), values)?;
+        if single {
+            return Ok(all.reshape([self.variables.len()])?.into_any());
+        }
+        Ok(all.into_any())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Response: {} by {}", self.text, self.names().join(", "))
+    }
+}

@@ -1,0 +1,107 @@
+//! Where a mechanism stays.
+
+use pyo3::prelude::*;
+
+use super::result;
+use crate::arrays::{Array1, Array2, matrix, vector};
+use crate::names;
+
+result! {
+    /// An equilibrium and the linearised mechanism there, SI. `n` is the number of unknowns.
+    Equilibrium(eigentol::Equilibrium)
+}
+
+#[pymethods]
+impl Equilibrium {
+    /// Names of the unknowns.
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        names::coordinates(&self.0.description)
+    }
+
+    /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
+    #[getter]
+    fn coordinates<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.coordinates.clone())
+    }
+
+    /// The inputs it belongs to, SI, shape (inputs,).
+    #[getter]
+    fn inputs<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.inputs.clone())
+    }
+
+    /// The design variables it belongs to, SI, shape (design,).
+    #[getter]
+    fn design<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.design.clone())
+    }
+
+    /// Mass matrix Mhat, shape (n, n).
+    #[getter]
+    fn mass<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.0.linear.mass)
+    }
+
+    /// Damping and gyroscopic matrix Chat, shape (n, n).
+    #[getter]
+    fn damping<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.0.linear.damping)
+    }
+
+    /// Stiffness matrix Khat, shape (n, n).
+    #[getter]
+    fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.0.linear.stiffness)
+    }
+
+    /// Remaining residual, N or N m, shape (n,).
+    #[getter]
+    fn residual<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.residual.clone())
+    }
+
+    /// Greatest remaining residual, relative to the forces in its own equation.
+    #[getter]
+    fn relative_residual(&self) -> f64 {
+        self.0.relative_residual
+    }
+
+    /// What the mechanism would do there, in words.
+    #[getter]
+    fn stability(&self) -> String {
+        self.0.stability.to_string()
+    }
+
+    /// Whether small disturbances stay small.
+    #[getter]
+    fn stable(&self) -> bool {
+        self.0.stability.holds()
+    }
+
+    /// Iterations spent.
+    #[getter]
+    fn iterations(&self) -> usize {
+        self.0.iterations
+    }
+}
+
+result! {
+    /// How an equilibrium moves with inputs and design variables, SI. `n` is the number of unknowns.
+    EquilibriumShift(eigentol::sensitivity::EquilibriumShift)
+}
+
+#[pymethods]
+impl EquilibriumShift {
+    /// Derivatives of the unknowns by inputs, shape (n, inputs).
+    #[getter]
+    fn by_input<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.0.by_input)
+    }
+
+    /// Derivatives of the unknowns by design variables, shape (n, design).
+    #[getter]
+    fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
+        matrix(py, &self.0.by_design)
+    }
+}

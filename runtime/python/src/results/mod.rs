@@ -1,0 +1,17 @@
+//! Results as classes: arrays for computing, text and tables for reading.
+
+mod branches;
+mod equilibrium;
+mod modes;
+mod sensitivities;
+mod shared;
+mod sweep;
+
+pub(crate) use branches::{Branch, Branches};
+pub(crate) use equilibrium::{Equilibrium, EquilibriumShift};
+pub(crate) use modes::Modes;
+pub(crate) use sensitivities::{
+    ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
+};
+pub(crate) use shared::{html, result, table};
+pub(crate) use sweep::{Campbell, Sweep};

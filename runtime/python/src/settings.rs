@@ -1,0 +1,293 @@
+//! What a study is set up with: keyword arguments by name.
+
+use eigentol::modes::Family;
+use eigentol::tolerance::Distribution;
+use eigentol::{
+    Coordinate, Description, DesignVariable, Input, Law, Matrix, Parameter, Policy, Study,
+    ToleranceInfo, Unit,
+};
+use eigentol_interpreter::{Interpreted, tolerance};
+use numpy::{AllowTypeChange, PyArrayLike2};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+
+use crate::errors::raise;
+use crate::names::did_you_mean;
+use crate::values::{List, number, numbers, refused, word, wrong_type};
+
+type Set = fn(Study<Interpreted>, &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>>;
+
+/// The settings, in the order in which they are made: what depends on values comes after them.
+const SETTINGS: [(&str, Set); 17] = [
+    ("inputs", inputs),
+    ("design", design),
+    ("start", start),
+    ("guess", guess),
+    ("sigma_level", |study, given| {
+        Ok(study.sigma_level(real(given, "sigma_level")?))
+    }),
+    ("tolerances", tolerances),
+    ("measured", measured),
+    ("correlation", correlation),
+    ("policy", policy),
+    ("family", family),
+    ("samples", |study, given| {
+        Ok(study.samples(whole(given, "samples")?))
+    }),
+    ("seed", |study, given| Ok(study.seed(whole(given, "seed")?))),
+    ("stream", |study, given| {
+        Ok(study.stream(whole(given, "stream")?))
+    }),
+    ("threads", |study, given| {
+        Ok(study.threads(whole(given, "threads")?))
+    }),
+    ("keep_samples", |study, given| {
+        Ok(study.keep_samples(given.extract()?))
+    }),
+    ("steps", |study, given| {
+        Ok(study.steps(whole(given, "steps")?))
+    }),
+    ("vectors", |study, given| {
+        let wanted = given.extract::<bool>()?;
+        Ok(if wanted { study } else { study.vectors(None) })
+    }),
+];
+
+/// The settings that are dictionaries by name.
+const BY_NAME: [&str; 6] = [
+    "inputs",
+    "design",
+    "start",
+    "guess",
+    "tolerances",
+    "measured",
+];
+
+/// A study with these settings.
+pub(crate) fn study(
+    mechanism: Interpreted,
+    settings: &Bound<'_, PyDict>,
+) -> PyResult<Study<Interpreted>> {
+    for key in settings.keys() {
+        let key = key.extract::<String>()?;
+        if SETTINGS.iter().all(|(name, _)| *name != key) {
+            let near = did_you_mean(&key, SETTINGS.iter().map(|(name, _)| *name));
+            let message = format!("Study has no setting `{key}`{near}");
+            return Err(PyTypeError::new_err(message));
+        }
+    }
+    let mut study = Study::new(mechanism);
+    for (name, set) in SETTINGS {
+        if let Some(given) = settings.get_item(name)?.filter(|given| !given.is_none()) {
+            study = set(study, &given)?;
+        }
+    }
+    // What makes no sense together is refused here, not at the first question.
+    match study.tolerances() {
+        Ok(_) => Ok(study),
+        Err(error) => Err(raise(settings.py(), error)),
+    }
+}
+
+/// The settings of a study with others in their place; dictionaries by name are merged, name by name.
+pub(crate) fn merged<'py>(
+    settings: &Bound<'py, PyDict>,
+    others: &Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let all = copied(settings)?;
+    for (key, value) in copied(others)? {
+        let own = all.get_item(&key)?;
+        let own = own.as_ref().and_then(|own| own.cast::<PyDict>().ok());
+        match (own, value.cast::<PyDict>()) {
+            (Some(own), Ok(value)) => own.update(value.as_mapping())?,
+            _ => all.set_item(key, value)?,
+        }
+    }
+    Ok(all)
+}
+
+/// A copy that the caller's dictionaries no longer reach.
+pub(crate) fn copied<'py>(settings: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
+    let all = settings.copy()?;
+    for name in BY_NAME {
+        let own = all.get_item(name)?;
+        if let Some(own) = own.as_ref().and_then(|own| own.cast::<PyDict>().ok()) {
+            all.set_item(name, own.copy()?)?;
+        }
+    }
+    Ok(all)
+}
+
+fn real(given: &Bound<'_, PyAny>, name: &str) -> PyResult<f64> {
+    given
+        .extract()
+        .map_err(|_| PyTypeError::new_err(format!("`{name}`: a number is needed")))
+}
+
+fn whole<'py, T: FromPyObjectOwned<'py>>(given: &Bound<'py, PyAny>, name: &str) -> PyResult<T> {
+    given.extract().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "`{name}`: a whole number that is not negative is needed"
+        ))
+    })
+}
+
+/// Each entry of a dictionary by name.
+fn each(
+    mut study: Study<Interpreted>,
+    given: &Bound<'_, PyAny>,
+    setting: &str,
+    set: impl Fn(Study<Interpreted>, &str, &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>>,
+) -> PyResult<Study<Interpreted>> {
+    let Ok(given) = given.cast::<PyDict>() else {
+        let message = format!("`{setting}`: a dictionary is needed, a value for each name");
+        return Err(PyTypeError::new_err(message));
+    };
+    for (name, value) in given {
+        let Ok(name) = name.extract::<String>() else {
+            let message = format!("`{setting}`: names are texts");
+            return Err(PyTypeError::new_err(message));
+        };
+        study = set(study, &name, &value)?;
+    }
+    Ok(study)
+}
+
+/// Position and value of one entry.
+fn entry(
+    of: &Description,
+    list: List,
+    name: &str,
+    value: &Bound<'_, PyAny>,
+) -> PyResult<(usize, f64)> {
+    let (place, unit) = list.find(value.py(), of, name)?;
+    Ok((place, number(value, &unit, name)?))
+}
+
+fn inputs(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "inputs", |study, name, value| {
+        let (place, value) = entry(study.description(), List::Inputs, name, value)?;
+        Ok(study.input(Input::new(place), value))
+    })
+}
+
+fn design(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "design", |study, name, value| {
+        let (place, value) = entry(study.description(), List::Design, name, value)?;
+        Ok(study.design(DesignVariable::new(place), value))
+    })
+}
+
+fn start(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "start", |study, name, value| {
+        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
+        Ok(study.start(Coordinate::new(place), value))
+    })
+}
+
+fn guess(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "guess", |study, name, value| {
+        let (place, value) = entry(study.description(), List::Coordinates, name, value)?;
+        Ok(study.guess(Coordinate::new(place), value))
+    })
+}
+
+/// What may have a tolerance, its unit and its value, SI.
+fn parameter(
+    study: &Study<Interpreted>,
+    py: Python<'_>,
+    name: &str,
+) -> PyResult<(Parameter<Interpreted>, Unit, f64)> {
+    let of = study.description();
+    if let Ok((place, unit)) = List::Inputs.find(py, of, name) {
+        return Ok((Input::new(place).into(), unit, study.input_values()[place]));
+    }
+    let (place, unit) = List::Design.find(py, of, name)?;
+    let value = study.design_values()[place];
+    Ok((DesignVariable::new(place).into(), unit, value))
+}
+
+/// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm"), or both limits as deviations.
+fn tolerances(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "tolerances", |study, name, given| {
+        let py = given.py();
+        let (parameter, unit, value) = parameter(&study, py, name)?;
+        if let Ok(text) = given.cast::<PyString>() {
+            let text = text.to_cow()?;
+            let read = tolerance(&text, &unit);
+            let read = read.map_err(|mistakes| refused(py, &text, &mistakes))?;
+            return Ok(tolerate(study, parameter, read, value));
+        }
+        if let Ok((lower, upper)) = given.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
+            let (lower, upper) = (number(&lower, &unit, name)?, number(&upper, &unit, name)?);
+            return Ok(study.limits(parameter, lower, upper));
+        }
+        match given.extract::<f64>() {
+            Ok(_) => Ok(study.tolerance(parameter, number(given, &unit, name)?)),
+            Err(_) => Err(wrong_type(given, name)),
+        }
+    })
+}
+
+fn tolerate(
+    study: Study<Interpreted>,
+    parameter: Parameter<Interpreted>,
+    read: ToleranceInfo,
+    value: f64,
+) -> Study<Interpreted> {
+    let ToleranceInfo {
+        lower,
+        upper,
+        relative,
+        law,
+    } = read;
+    let study = if !relative {
+        study.limits(parameter, lower, upper)
+    } else if lower == -upper {
+        study.relative_tolerance(parameter, upper)
+    } else {
+        study.limits(parameter, value.abs() * lower, value.abs() * upper)
+    };
+    match law {
+        Law::Normal => study,
+        law => study.law(parameter, law),
+    }
+}
+
+/// Measured values of parameters, SI: they are varied as they were found.
+fn measured(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    each(study, given, "measured", |study, name, given| {
+        let py = given.py();
+        let (parameter, ..) = parameter(&study, py, name)?;
+        let values = numbers(given, name)?;
+        let values = Distribution::empirical(&values).map_err(|error| raise(py, error.into()))?;
+        Ok(study.distribution(parameter, values))
+    })
+}
+
+fn correlation(
+    study: Study<Interpreted>,
+    given: &Bound<'_, PyAny>,
+) -> PyResult<Study<Interpreted>> {
+    let Ok(given) = given.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() else {
+        let message = "`correlation`: a square array of numbers is needed";
+        return Err(PyTypeError::new_err(message));
+    };
+    let given = given.as_array();
+    let (rows, columns) = given.dim();
+    let matrix = Matrix::from_fn(rows, columns, |i, j| given[[i, j]]);
+    Ok(study.correlation(matrix))
+}
+
+fn policy(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    let words = [("stable", Policy::Stable), ("nearest", Policy::Nearest)];
+    let given = (given.py(), given.extract::<String>()?);
+    Ok(study.policy(word(given.0, "policy", &given.1, &words)?))
+}
+
+fn family(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
+    let words = [("undamped", Family::Undamped), ("general", Family::General)];
+    let given = (given.py(), given.extract::<String>()?);
+    Ok(study.family(word(given.0, "family", &given.1, &words)?))
+}

@@ -1,0 +1,142 @@
+//! A mechanism at one operating point.
+
+use eigentol::Error;
+use eigentol_interpreter::Interpreted;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::arrays::{Array1, vector};
+use crate::errors::raise;
+use crate::mechanism::Mechanism;
+use crate::motion::Motion;
+use crate::settings;
+
+/// A mechanism at one operating point, with tolerances and settings.
+///
+/// Every value is a number, SI, or a text with a unit; a study starts from the declared nominal values and tolerances, with
+/// inputs and start values of zero.
+///
+///     study = eigentol.Study(mechanism, inputs={"speed": "3000 rpm"}, tolerances={"l": "3%"})
+///
+/// Settings:
+///   inputs, design: values by name.
+///   start: where the search for the equilibrium starts, by coordinate; held while a mechanism with loops is assembled.
+///   guess: the same for dependent coordinates, which move freely.
+///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform"), or a pair of
+///       deviations, lower and upper.
+///   measured: arrays of measured values by name, SI, which take the place of a tolerance.
+///   sigma_level: standard deviations that a half-width stands for (3).
+///   correlation: matrix of the design variables, and after them of the inputs that have a tolerance.
+///   policy: "stable" or "nearest".
+///   family: "undamped" or "general"; unless given, modes neglect nothing.
+///   samples (3000), seed (0), stream (0), threads (0: all), keep_samples (False), vectors (True): of sampling.
+///   steps: in which a range is searched (200).
+///
+/// A study does not change: `replace` gives another one.
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Study {
+    pub(crate) inner: eigentol::Study<Interpreted>,
+    mechanism: Py<Mechanism>,
+    settings: Py<PyDict>,
+}
+
+impl Study {
+    /// Asks a question; Python goes on in other threads meanwhile.
+    pub(crate) fn ask<R: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
+    ) -> PyResult<R> {
+        let found = py.detach(|| question(&self.inner));
+        found.map_err(|error| raise(py, error))
+    }
+
+    fn with(mechanism: &Bound<'_, Mechanism>, settings: Bound<'_, PyDict>) -> PyResult<Self> {
+        Ok(Self {
+            inner: settings::study(mechanism.get().inner.clone(), &settings)?,
+            mechanism: mechanism.clone().unbind(),
+            settings: settings.unbind(),
+        })
+    }
+}
+
+#[pymethods]
+impl Study {
+    #[new]
+    #[pyo3(signature = (mechanism, **settings))]
+    fn new(
+        mechanism: &Bound<'_, Mechanism>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let settings = match settings {
+            Some(given) => settings::copied(given)?,
+            None => PyDict::new(mechanism.py()),
+        };
+        Self::with(mechanism, settings)
+    }
+
+    /// The same study with other settings. Dictionaries by name change the names in them only.
+    #[pyo3(signature = (**settings))]
+    fn replace(&self, py: Python<'_>, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let own = self.settings.bind(py);
+        let all = match settings {
+            Some(others) => settings::merged(own, others)?,
+            None => settings::copied(own)?,
+        };
+        Self::with(self.mechanism.bind(py), all)
+    }
+
+    /// The mechanism.
+    #[getter]
+    fn mechanism(&self, py: Python<'_>) -> Py<Mechanism> {
+        self.mechanism.clone_ref(py)
+    }
+
+    /// The settings as given.
+    #[getter]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        settings::copied(self.settings.bind(py))
+    }
+
+    /// Values of the inputs, SI, shape (inputs,).
+    #[getter]
+    fn inputs<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.inner.input_values().iter().copied())
+    }
+
+    /// Values of the design variables, SI, shape (design,).
+    #[getter]
+    fn design<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.inner.design_values().iter().copied())
+    }
+
+    /// Standard deviations of the design variables, and after them of the inputs that have a tolerance, SI.
+    #[getter]
+    fn sigmas<'py>(&self, py: Python<'py>) -> PyResult<Array1<'py>> {
+        let tolerances = self.ask(py, |study| study.tolerances())?;
+        Ok(vector(py, tolerances.sigmas().iter().copied()))
+    }
+
+    /// The nonlinear motion at the inputs and the design of this study, for `scipy.integrate.solve_ivp`.
+    fn motion(&self) -> Motion {
+        Motion::new(
+            self.inner.mechanism().clone(),
+            self.inner.input_values().to_vec(),
+            self.inner.design_values().to_vec(),
+        )
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let name = self.inner.description().name.clone();
+        let settings = self.settings.bind(py).repr()?;
+        Ok(format!("Study of {name} with {settings}"))
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let mechanism = PyTuple::new(py, [self.mechanism.bind(py)])?;
+        Ok((mechanism, self.settings.bind(py).clone()))
+    }
+}

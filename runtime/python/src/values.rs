@@ -1,0 +1,224 @@
+//! Numbers and names as they come from Python.
+
+use eigentol::{Description, Error, Text, Unit};
+use eigentol_interpreter::{Mistakes, value};
+use numpy::{AllowTypeChange, PyArrayLike1};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+
+use crate::errors::{Kind, invalid, new, raise};
+use crate::names::did_you_mean;
+
+/// A finite number, SI: given as one, or as a text with a unit.
+pub(crate) fn number(given: &Bound<'_, PyAny>, unit: &Unit, name: &str) -> PyResult<f64> {
+    let py = given.py();
+    let what = format!("`{name}`");
+    let found = match given.cast::<PyString>() {
+        Ok(text) => {
+            let text = text.to_cow()?;
+            value(&text, unit, &what).map_err(|mistakes| refused(py, &text, &mistakes))?
+        }
+        Err(_) => given
+            .extract::<f64>()
+            .map_err(|_| wrong_type(given, name))?,
+    };
+    if found.is_finite() {
+        Ok(found)
+    } else {
+        Err(not_finite(py, name, found))
+    }
+}
+
+pub(crate) fn not_finite(py: Python<'_>, name: &str, value: f64) -> PyErr {
+    invalid(py, format!("`{name}` is {value}: give a finite value"))
+}
+
+/// The number of a mode, from 0.
+pub(crate) fn mode_number(py: Python<'_>, mode: i64) -> PyResult<usize> {
+    let found = usize::try_from(mode);
+    found.map_err(|_| invalid(py, format!("mode {mode}: modes are counted from 0")))
+}
+
+/// A text that is no value.
+pub(crate) fn refused(py: Python<'_>, text: &str, mistakes: &Mistakes) -> PyErr {
+    let each = mistakes.iter().map(|mistake| match &mistake.help {
+        Some(help) => format!("{} ({help})", mistake.message),
+        None => mistake.message.clone(),
+    });
+    let each: Vec<String> = each.collect();
+    invalid(py, format!("\"{text}\": {}", each.join("; ")))
+}
+
+pub(crate) fn wrong_type(given: &Bound<'_, PyAny>, name: &str) -> PyErr {
+    let kind = given.get_type().name();
+    let kind = kind.map_or_else(|_| "this".to_owned(), |kind| kind.to_string());
+    PyTypeError::new_err(format!(
+        "`{name}`: a number (SI) or a text with a unit such as \"3000 rpm\" is needed, not {kind}"
+    ))
+}
+
+/// Something with a name and a unit.
+#[derive(Clone)]
+pub(crate) struct Quantity {
+    pub(crate) name: Text,
+    pub(crate) unit: Unit,
+}
+
+/// What a list of numbers belongs to.
+#[derive(Clone, Copy)]
+pub(crate) enum List {
+    Coordinates,
+    Inputs,
+    Design,
+}
+
+impl List {
+    pub(crate) fn kind(self) -> &'static str {
+        match self {
+            Self::Coordinates => "coordinate",
+            Self::Inputs => "input",
+            Self::Design => "design variable",
+        }
+    }
+
+    pub(crate) fn quantities(self, of: &Description) -> Vec<Quantity> {
+        match self {
+            Self::Coordinates => named(of.coordinates.iter().map(|own| (&own.name, &own.unit))),
+            Self::Inputs => named(of.inputs.iter().map(|own| (&own.name, &own.unit))),
+            Self::Design => named(of.design.iter().map(|own| (&own.name, &own.unit))),
+        }
+    }
+
+    /// What values are when none are given, SI.
+    fn usual(self, of: &Description) -> Vec<f64> {
+        match self {
+            Self::Coordinates => vec![0.0; of.coordinates.len()],
+            Self::Inputs => vec![0.0; of.inputs.len()],
+            Self::Design => of.design.iter().map(|own| own.nominal).collect(),
+        }
+    }
+
+    /// Position and unit of what has this name.
+    pub(crate) fn find(
+        self,
+        py: Python<'_>,
+        of: &Description,
+        name: &str,
+    ) -> PyResult<(usize, Unit)> {
+        let own = self.quantities(of);
+        if let Some(place) = own.iter().position(|one| one.name == *name) {
+            return Ok((place, own[place].unit.clone()));
+        }
+        Err(unknown(py, of, self, name))
+    }
+
+    /// A number for each, SI: from a dictionary of names, which changes the usual values, or from a list.
+    pub(crate) fn read(
+        self,
+        py: Python<'_>,
+        of: &Description,
+        given: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<f64>> {
+        let mut values = self.usual(of);
+        let Some(given) = given.filter(|given| !given.is_none()) else {
+            return Ok(values);
+        };
+        if let Ok(named) = given.cast::<PyDict>() {
+            for (name, value) in named {
+                let name = name.extract::<String>()?;
+                let (place, unit) = self.find(py, of, &name)?;
+                values[place] = number(&value, &unit, &name)?;
+            }
+            return Ok(values);
+        }
+        let list = numbers(given, self.kind())?;
+        if list.len() == values.len() {
+            Ok(list)
+        } else {
+            let (kind, found, expected) = (self.plural(), list.len(), values.len());
+            let error = Error::WrongLength {
+                kind,
+                found,
+                expected,
+            };
+            Err(raise(py, error))
+        }
+    }
+
+    fn plural(self) -> &'static str {
+        match self {
+            Self::Coordinates => "coordinates",
+            Self::Inputs => "inputs",
+            Self::Design => "design variables",
+        }
+    }
+}
+
+fn named<'a>(all: impl Iterator<Item = (&'a Text, &'a Unit)>) -> Vec<Quantity> {
+    let own = |(name, unit): (&Text, &Unit)| Quantity {
+        name: name.clone(),
+        unit: unit.clone(),
+    };
+    all.map(own).collect()
+}
+
+/// Nothing in the list has this name; it may be in another one.
+fn unknown(py: Python<'_>, of: &Description, list: List, name: &str) -> PyErr {
+    let all = [List::Coordinates, List::Inputs, List::Design];
+    let other = all.into_iter().find(|other| {
+        let own = other.quantities(of);
+        own.iter().any(|one| one.name == *name)
+    });
+    let own = list.quantities(of);
+    if let Some(other) = other {
+        let message = format!(
+            "`{}` has no {} `{name}`: that is {} {}",
+            of.name,
+            list.kind(),
+            if matches!(other, List::Inputs) {
+                "an"
+            } else {
+                "a"
+            },
+            other.kind(),
+        );
+        return new(py, Kind::UnknownName, message);
+    }
+    let error = Error::UnknownName {
+        kind: list.kind(),
+        name: name.to_owned(),
+        mechanism: of.name.clone(),
+        known: own.into_iter().map(|one| one.name).collect(),
+    };
+    raise(py, error)
+}
+
+/// A list of numbers.
+pub(crate) fn numbers(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    match given.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
+        Ok(array) => Ok(array.as_array().iter().copied().collect()),
+        Err(_) => Err(PyTypeError::new_err(format!(
+            "`{name}`: a list or a one-dimensional array of numbers is needed"
+        ))),
+    }
+}
+
+/// One of several words.
+pub(crate) fn word<T: Copy>(
+    py: Python<'_>,
+    what: &str,
+    given: &str,
+    words: &[(&'static str, T)],
+) -> PyResult<T> {
+    if let Some((_, own)) = words.iter().find(|(word, _)| *word == given) {
+        return Ok(*own);
+    }
+    let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+    let near = did_you_mean(given, known.iter().copied());
+    let message = format!(
+        "{what} `{given}`: one of {} is needed{near}",
+        known.join(", ")
+    );
+    Err(invalid(py, message))
+}

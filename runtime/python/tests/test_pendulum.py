@@ -1,0 +1,197 @@
+"""The bar on a turning shaft against its closed form.
+
+With the angle theta of the bar (length l, mass m, hinged at its end) about the horizontal y axis of a shaft that turns at omega,
+cos theta* = 3 g / (2 l omega^2), and the natural frequency is omega sin theta*.
+"""
+
+import numpy as np
+import pytest
+
+import eigentol
+
+G, LENGTH, MASS, SPEED = 9.81, 1.0, 3.0, 5.0
+COSINE = 3 * G / (2 * LENGTH * SPEED**2)
+
+
+def frequency(length, speed=SPEED):
+    return np.sqrt(speed**2 - (3 * G / (2 * length * speed)) ** 2)
+
+
+def slope(length, speed=SPEED):
+    a = 3 * G / (2 * speed)
+    return a**2 / length**3 / frequency(length, speed)
+
+
+def test_equilibrium_and_matrices(study):
+    state = study.equilibrium()
+    inertia = MASS * LENGTH**2 / 3
+    assert state.names == ["theta"]
+    assert state.stable and state.stability == "stable"
+    np.testing.assert_allclose(state.coordinates, [np.arccos(COSINE)], rtol=1e-12)
+    np.testing.assert_allclose(state.mass, [[inertia]], rtol=1e-12)
+    np.testing.assert_allclose(state.damping, [[0.0]], atol=1e-12)
+    np.testing.assert_allclose(state.stiffness, [[inertia * frequency(LENGTH) ** 2]], rtol=1e-12)
+
+
+def test_modes(study):
+    modes = study.modes()
+    np.testing.assert_allclose(modes.frequencies, [frequency(LENGTH)], rtol=1e-12)
+    np.testing.assert_allclose(modes.eigenvalues, [1j * frequency(LENGTH)], rtol=1e-12)
+    assert modes.eigenvalues.dtype == np.complex128
+    assert modes.shapes.shape == (1, 1) and modes.family == "undamped" and len(modes) == 1
+    mass = study.equilibrium().mass
+    np.testing.assert_allclose(modes.shapes.conj().T @ mass @ modes.shapes, [[1.0]], rtol=1e-12)
+
+
+def test_first_derivatives(study):
+    by_input, by_design = study.sensitivities().of("frequency")
+    a = 3 * G / (2 * LENGTH)
+    by_speed = (SPEED + a**2 / SPEED**3) / frequency(LENGTH)
+    np.testing.assert_allclose(by_input, [[by_speed]], rtol=1e-12)
+    np.testing.assert_allclose(by_design, [[0.0, slope(LENGTH)]], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(study.sensitivities().by_design.imag, by_design, atol=1e-12)
+
+
+def test_hessian(study):
+    a, omega = 3 * G / (2 * SPEED), frequency(LENGTH)
+    curvature = -3 * a**2 / LENGTH**4 / omega - slope(LENGTH) ** 2 / omega
+    hessian = study.mode_curvature(0).hessian()
+    np.testing.assert_allclose(hessian, [[0.0, 0.0], [0.0, curvature]], rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(study.mode_curvature(0).gradient()[1], slope(LENGTH), rtol=1e-12)
+
+
+def test_first_order_spread(study):
+    found = study.first_order()
+    sigma = slope(LENGTH) * 0.03 * LENGTH / 3
+    np.testing.assert_allclose(found.sigma(), [sigma], rtol=1e-12)
+    np.testing.assert_allclose(found.band(), [3 * sigma], rtol=1e-12)
+    np.testing.assert_allclose(found.shares(), [[0.0, 1.0]], atol=1e-12)
+    assert found.names == ["m", "l"] and found.trusted
+    half = study.replace(tolerances={"l": "15 mm"}).first_order().sigma()
+    np.testing.assert_allclose(half, [sigma / 2], rtol=1e-12)
+
+
+def test_an_input_with_a_tolerance_is_a_variable(study):
+    found = study.replace(tolerances={"omega": 0.1}).first_order()
+    assert found.names[:2] == ["m", "l"] and len(found.names) == 3
+    own = np.hypot(slope(LENGTH) * 0.01, found.gradient()[0, 2] * 0.1 / 3)
+    np.testing.assert_allclose(found.sigma(), [own], rtol=1e-12)
+
+
+def test_units_and_numbers_agree(pendulum):
+    rpm = 5 * 60 / (2 * np.pi)
+    a = eigentol.Study(pendulum, inputs={"omega": f"{rpm!r} rpm"}, start={"theta": "57 deg"})
+    assert abs(a.inputs[0] - 5.0) < 1e-14
+    b = a.replace(design={"l": "1500 mm"})
+    np.testing.assert_allclose(b.modes().frequencies, [frequency(1.5)], rtol=1e-12)
+    np.testing.assert_allclose(a.modes().frequencies, [frequency(1.0)], rtol=1e-12)
+
+
+def test_samples_are_arrays(study):
+    found = study.replace(samples=400, keep_samples=True, seed=3).monte_carlo()
+    assert found.designs.shape == (400, 2) and found.frequencies.shape == (400, 1)
+    np.testing.assert_allclose(found.frequencies[:, 0], frequency(found.designs[:, 1]), rtol=1e-9)
+    np.testing.assert_allclose(found.eigenvalues.imag, found.frequencies, rtol=1e-9)
+    np.testing.assert_allclose(found.sigma(), found.frequencies.std(axis=0, ddof=1), rtol=1e-9)
+    assert found.counts["Stable"] == 400 and found.outcomes == ["Stable"] * 400
+
+
+def test_sweep_and_critical_speed(study):
+    speeds = np.array([2.0, 4.0, 6.0])
+    sweep = study.sweep("omega", speeds)
+    at_rest = np.sqrt(3 * G / 2 - 2.0**2)
+    expected = [at_rest, frequency(1.0, 4.0), frequency(1.0, 6.0)]
+    np.testing.assert_allclose(sweep.frequencies[:, 0], expected, rtol=1e-9)
+    assert sweep.failures == [None] * 3 and len(sweep) == 3
+    critical = np.sqrt(3 * G / 2)
+    np.testing.assert_allclose(sweep.critical, [critical], rtol=1e-9)
+    event = study.critical("omega", 1.0, "10 rad/s")
+    assert abs(event.value - critical) < 1e-9
+    np.testing.assert_allclose(event.gradient, [0.0, -critical / 2], rtol=1e-6, atol=1e-9)
+    in_rpm = study.sweep("omega", [30, 40], unit="rpm")
+    np.testing.assert_allclose(in_rpm.values, np.array([30, 40]) * 2 * np.pi / 60)
+    as_texts = study.sweep("omega", ["30 rpm", "40 rpm"])
+    np.testing.assert_array_equal(as_texts.values, in_rpm.values)
+
+
+def test_campbell(study):
+    found = study.campbell("omega", [5.0, 6.0], orders=[0.9])
+    np.testing.assert_allclose(found.frequencies[:, 0], frequency(1.0, np.array([5.0, 6.0])))
+    sigmas = slope(1.0, np.array([5.0, 6.0])) * 0.01
+    np.testing.assert_allclose(found.frequency_sigmas[:, 0], sigmas, rtol=1e-9)
+    # omega sin theta* = 0.9 omega where (3 g / (2 l omega^2))^2 = 0.19.
+    (crossing,) = found.crossings
+    assert abs(crossing.value - np.sqrt(3 * G / 2 / np.sqrt(0.19))) < 1e-8
+
+
+def test_branches(study):
+    found = study.branches("omega", 1.0, 8.0)
+    special = [value for branch in found.branches for _, value in branch.special]
+    assert special and np.allclose(special, np.sqrt(3 * G / 2), rtol=1e-9)
+    upper = found.branches[0]
+    theta = upper.coordinates[:, 0]
+    assert len(theta) == len(upper.values) == len(upper.stable)
+
+
+def test_response_is_a_function_of_arrays(study):
+    response = study.response("frequency", 0, variables=["l"])
+    lengths = np.array([[0.9], [1.0], [1.2]])
+    np.testing.assert_allclose(response(lengths), frequency(lengths[:, 0]), rtol=1e-12)
+    np.testing.assert_allclose(response.gradient(lengths), slope(lengths), rtol=1e-10)
+    assert isinstance(response([1.0]), float) and response.names == ["l"]
+    # Shorter than 3 g / (2 omega^2) the bar hangs, and longer ones swing out; no length is negative.
+    assert np.isnan(response([[-1.0], [np.nan]])).all()
+    angle = study.response("output", "angle")
+    np.testing.assert_allclose(angle(angle.nominal), np.arccos(COSINE), rtol=1e-12)
+    critical = study.response("critical", "omega", 1, 10)
+    np.testing.assert_allclose(critical([3.0, 2.0]), np.sqrt(3 * G / 4), rtol=1e-9)
+
+
+def test_spreads_of_responses(study):
+    found = study.propagate([("frequency", 0), ("output", "angle")])
+    rule = np.polynomial.hermite_e.hermegauss(40)
+    weights = rule[1] / rule[1].sum()
+    values = frequency(1 + 0.01 * rule[0])
+    mean = weights @ values
+    sigma = np.sqrt(weights @ (values - mean) ** 2)
+    assert found.covariance.shape == (2, 2) and found.quantiles.shape == (2, 7)
+    assert abs(found.sigma[0] - sigma) < 5 * found.sigma_error[0]
+    assert abs(found.mean[0] - mean) < 1e-3 * sigma
+    worst = study.worst_case([("frequency", 0)])
+    np.testing.assert_allclose(worst.least, [frequency(0.97)], rtol=1e-9)
+    np.testing.assert_allclose(worst.greatest, [frequency(1.03)], rtol=1e-9)
+    influence = study.influence([("frequency", 0)])
+    assert influence.names == ["l"]
+    np.testing.assert_allclose(influence.at_high, [[frequency(1.03)]], rtol=1e-9)
+
+
+def test_probability_of_a_band(study):
+    # The frequency grows with the length, so that the band is one of lengths: exact by the normal distribution of l.
+    low = frequency(1.0) - 1.0
+    margin = study.margin(0, low, frequency(1.01))
+    assert margin.probability == pytest.approx(0.8413447, abs=2e-3)
+
+
+def test_kernels(pendulum):
+    q = [0.4]
+    mass, damping, stiffness = pendulum.linear(q, {"omega": 5}, {"l": "1000 mm"})
+    inertia = MASS * LENGTH**2 / 3
+    np.testing.assert_allclose(mass, [[inertia]])
+    expected = MASS * G / 2 * np.cos(0.4) - inertia * 25 * np.cos(0.8)
+    np.testing.assert_allclose(stiffness, [[expected]], rtol=1e-12)
+    residual = pendulum.residual(q, [5.0])
+    torque = MASS * G / 2 * np.sin(0.4) - inertia * 25 * np.sin(0.4) * np.cos(0.4)
+    np.testing.assert_allclose(residual, [torque], rtol=1e-12)
+    (by_q, by_u, by_b), _, _ = pendulum.linear_partials(q, [5.0])
+    assert by_q.shape == (1, 1, 1) and by_u.shape == (1, 1, 1) and by_b.shape == (2, 1, 1)
+    np.testing.assert_allclose(by_b[:, 0, 0], [LENGTH**2 / 3, 2 * MASS * LENGTH / 3], rtol=1e-12)
+    np.testing.assert_allclose(pendulum.accelerations([0.0], q, [5.0]), -residual / inertia, rtol=1e-12)
+    assert pendulum.output_values(q)[0] == 0.4
+
+
+def test_the_shift_of_the_equilibrium(study):
+    sine = np.sqrt(1 - COSINE**2)
+    shift = study.equilibrium_shift()
+    np.testing.assert_allclose(shift.by_design, [[0.0, COSINE / sine]], rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(shift.by_input, [[2 * COSINE / SPEED / sine]], rtol=1e-10)
+    np.testing.assert_allclose(study.outputs().by_design, shift.by_design, rtol=1e-12)

@@ -1,0 +1,173 @@
+//! The wheel is built, installed in a virtual environment under the target folder, and its tests run there, where Python is.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Why the tests cannot be run.
+struct Skipped(String);
+
+fn folder() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// What a command answers; one that cannot be started, or that fails, is told in the last line it wrote.
+fn answer(command: &mut Command) -> Result<Output, String> {
+    let output = command.output().map_err(|error| error.to_string())?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    let last = text.lines().rev().find(|line| !line.trim().is_empty());
+    Err(last.unwrap_or("it failed without a word").to_owned())
+}
+
+/// A virtual environment with these packages; one of an earlier run is used again.
+struct Environment {
+    folder: PathBuf,
+}
+
+impl Environment {
+    fn new(name: &str, packages: &[&str]) -> Result<Self, Skipped> {
+        let own = Self {
+            folder: Path::new(env!("CARGO_TARGET_TMPDIR")).join(name),
+        };
+        if own.python().output().is_err() {
+            let check = "import sys; sys.exit(sys.version_info < (3, 9))";
+            answer(Command::new("python3").args(["-c", check]))
+                .map_err(|_| Skipped("there is no Python 3.9 or later".to_owned()))?;
+            let made = answer(
+                Command::new("python3")
+                    .args(["-m", "venv"])
+                    .arg(&own.folder),
+            );
+            made.map_err(|why| Skipped(format!("no virtual environment can be made: {why}")))?;
+        }
+        own.install(packages).map_err(|why| {
+            Skipped(format!(
+                "{} cannot be installed: {why}",
+                packages.join(", ")
+            ))
+        })?;
+        Ok(own)
+    }
+
+    fn python(&self) -> Command {
+        let program = if cfg!(windows) {
+            "Scripts/python.exe"
+        } else {
+            "bin/python"
+        };
+        Command::new(self.folder.join(program))
+    }
+
+    fn install(&self, what: &[&str]) -> Result<Output, String> {
+        let pip = [
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+        ];
+        answer(self.python().args(pip).args(["--retries", "0"]).args(what))
+    }
+
+    /// Builds the wheel as it is now and installs it in place of any other.
+    fn install_wheel(&self) {
+        let wheels = self.folder.join("wheels");
+        let _ = std::fs::remove_dir_all(&wheels);
+        // With the dependencies that the tests of Rust have built.
+        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent();
+        let mut build = self.python();
+        build
+            .args([
+                "-m",
+                "maturin",
+                "build",
+                "--quiet",
+                "--profile",
+                "dev",
+                "--out",
+            ])
+            .arg(&wheels)
+            .env("CARGO_TARGET_DIR", target.expect("the target folder"))
+            .current_dir(folder());
+        if let Err(why) = answer(&mut build) {
+            panic!("the wheel cannot be built: {why}");
+        }
+        let wheel = std::fs::read_dir(&wheels).expect("a folder of wheels");
+        let wheel = wheel.flatten().next().expect("a wheel").path();
+        let wheel = wheel.to_str().expect("a path in Unicode");
+        if let Err(why) = self.install(&["--force-reinstall", "--no-deps", wheel]) {
+            panic!("the wheel cannot be installed: {why}");
+        }
+    }
+
+    /// Runs tests; their reasons for skipping are printed.
+    fn test(&self, files: &[&str]) {
+        let pytest = [
+            "-m",
+            "pytest",
+            "-q",
+            "-rs",
+            "--tb=short",
+            "-p",
+            "no:cacheprovider",
+        ];
+        let run = self
+            .python()
+            .args(pytest)
+            .args(files)
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .current_dir(folder().join("tests"))
+            .output()
+            .expect("pytest runs");
+        let text = String::from_utf8_lossy(&run.stdout);
+        print!("{text}");
+        let errors = String::from_utf8_lossy(&run.stderr);
+        assert!(
+            run.status.success(),
+            "tests of Python fail:\n{text}\n{errors}"
+        );
+    }
+}
+
+fn run(name: &str, packages: &[&str], files: &[&str]) {
+    match Environment::new(name, packages) {
+        Err(Skipped(why)) => println!("skipped, the Python module is not tested: {why}"),
+        Ok(environment) => {
+            environment.install_wheel();
+            environment.test(files);
+        }
+    }
+}
+
+#[test]
+fn the_module_passes_its_tests() {
+    let packages = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy"];
+    let files = [
+        "test_pendulum.py",
+        "test_tables.py",
+        "test_mistakes.py",
+        "test_motion.py",
+    ];
+    run("python", &packages, &files);
+}
+
+/// Hundreds of megabytes are downloaded for it.
+#[test]
+#[ignore = "installs ROSS, OpenTURNS, pandas and polars"]
+fn the_module_agrees_with_its_peers() {
+    let packages = [
+        "maturin>=1.9.4,<2",
+        "numpy",
+        "pytest",
+        "scipy",
+        "openturns",
+        "pandas",
+        "polars",
+        // ROSS 2 names a kind of figure that plotly 6 no longer has.
+        "plotly<6",
+        "ross-rotordynamics>=2,<3",
+    ];
+    run("python-peers", &packages, &["test_peers.py"]);
+}
