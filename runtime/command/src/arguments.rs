@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, merge, modes, new, sample,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, sample,
     sensitivities, tolerance,
 };
 use crate::diagnostics;
@@ -54,6 +54,7 @@ enum Command {
     Allocate(allocate::Allocate),
     Expand(expand::Expand),
     New(new::New),
+    Import(import::Import),
     Completions(completions::Completions),
 }
 
@@ -95,6 +96,7 @@ impl Command {
             Self::Allocate(own) => own.run(),
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),
+            Self::Import(own) => own.run(),
             Self::Completions(own) => own.run(),
         }
     }

@@ -7,6 +7,7 @@ mod declaration;
 mod diagnostics;
 mod failure;
 mod interrupt;
+mod mistake;
 mod output;
 mod parts;
 mod place;
