@@ -265,6 +265,7 @@ fn every_subcommand_has_help_with_its_values() {
         "allocate",
         "expand",
         "new",
+        "import",
         "completions",
     ] {
         assert!(help.contains(command), "{command}: {help}");
