@@ -46,14 +46,7 @@ fn write(text: &str) {
 }
 
 fn renderer(color: Color) -> Renderer {
-    // https://no-color.org
-    let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let styled = match color {
-        Color::Always => true,
-        Color::Never => false,
-        Color::Auto => wanted && stderr().is_terminal(),
-    };
-    if styled {
+    if color.on(stderr().is_terminal()) {
         Renderer::styled()
     } else {
         Renderer::plain()
