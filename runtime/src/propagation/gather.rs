@@ -5,7 +5,7 @@ use core::ops::Range;
 use eigentol_statistics::normal;
 use eigentol_statistics::sequence::Sequence;
 use eigentol_statistics::summary::{
-    Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
+    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
 };
 
 use super::model::Model;
@@ -13,7 +13,9 @@ use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::sampler::Sampler;
 use super::space::{Point, Space};
 use crate::Error;
+use crate::algebra::Vector;
 use crate::tolerance::gather::{Part, Work};
+use crate::tolerance::side_by_side::{Lanes, SideBySide};
 use crate::tolerance::{Counts, Outcome};
 
 /// What is known of some samples, by randomisation: responses, then the design variables that vary.
@@ -33,6 +35,16 @@ pub(super) struct Task<'a, M> {
     pub(super) scales: Vec<Scale>,
     /// Unknowns of the mechanism, which the stack of a thread depends on.
     pub(super) unknowns: usize,
+    /// Where every response is the frequency of a mode that can be solved side by side: these modes.
+    pub(super) side_by_side: Option<(SideBySide<'a>, Vec<usize>)>,
+}
+
+/// What one thread works in.
+struct Room<M: Model> {
+    model: M::Room,
+    point: Point,
+    lanes: Option<Lanes>,
+    values: Vec<Option<f64>>,
 }
 
 impl<M: Model> Task<'_, M> {
@@ -70,41 +82,111 @@ impl<M: Model> Task<'_, M> {
             progress: sampler.progress,
             stop: sampler.stop,
         };
-        let room = || (self.model.room(), self.space.point());
-        let solve = |room: &mut (M::Room, Point), part: &mut Part<'_, ()>| {
-            self.solve(room, &sequences[part.group], part)
+        let room = || Room::<M> {
+            model: self.model.room(),
+            point: self.space.point(),
+            lanes: (self.side_by_side.as_ref()).map(|(lanes, _)| lanes.room()),
+            values: vec![None; self.scales.len()],
+        };
+        let solve = |room: &mut Room<M>, part: &mut Part<'_, ()>| {
+            let sequence = &sequences[part.group];
+            match &self.side_by_side {
+                Some((lanes, modes)) => self.solve_together(room, sequence, part, (lanes, modes)),
+                None => self.solve(room, sequence, part),
+            }
         };
         let (parts, _) = work.gather(&plan, &groups, room, solve)?;
         Ok(Gathered { parts })
     }
 
+    /// One sample after the other.
     fn solve(
         &self,
-        (room, point): &mut (M::Room, Point),
+        room: &mut Room<M>,
         sequence: &Sequence,
         Part { chunk, samples, .. }: &mut Part<'_, ()>,
     ) -> Result<(), Error> {
         let mut walk = sequence.from(samples.start);
-        let mut values = vec![None; self.scales.len()];
         let variables = self.space.variables();
         for sample in samples.clone() {
             let Some(probabilities) = walk.next_point() else {
                 break;
             };
-            let z = probabilities.iter().map(|p| normal::quantile(*p));
-            let design = self.space.design(point, z);
-            values.fill(None);
-            let outcome = self.model.evaluate(room, design, &mut values)?;
-            chunk.count(outcome as usize, 1)?;
-            for (k, value) in values.iter().enumerate() {
-                chunk.set(sample, k, *value)?;
-            }
-            for (k, &variable) in variables.iter().enumerate() {
-                chunk.set(sample, values.len() + k, Some(design[variable]))?;
-            }
+            let design = self.space.design(&mut room.point, normals(probabilities));
+            room.values.fill(None);
+            let outcome = self
+                .model
+                .evaluate(&mut room.model, design, &mut room.values)?;
+            take(chunk, sample, outcome, &room.values, &variables, design)?;
         }
         Ok(())
     }
+
+    /// Samples side by side, and alone those that cannot be.
+    fn solve_together(
+        &self,
+        room: &mut Room<M>,
+        sequence: &Sequence,
+        Part { chunk, samples, .. }: &mut Part<'_, ()>,
+        (side_by_side, modes): (&SideBySide<'_>, &[usize]),
+    ) -> Result<(), Error> {
+        let Some(lanes) = &mut room.lanes else {
+            return Ok(());
+        };
+        let mut walk = sequence.from(samples.start);
+        let variables = self.space.variables();
+        let (model, values) = (&mut room.model, &mut room.values);
+        let mut rows: Vec<Vector> = Vec::with_capacity(SideBySide::MOST);
+        for first in samples.clone().step_by(SideBySide::MOST) {
+            rows.clear();
+            while rows.len() < SideBySide::MOST && first + (rows.len() as u64) < samples.end {
+                let Some(probabilities) = walk.next_point() else {
+                    break;
+                };
+                rows.push(self.space.standard(normals(probabilities)));
+            }
+            side_by_side.solve(lanes, &rows, |k, design, frequencies| {
+                let outcome = match frequencies {
+                    Some(all) => {
+                        for (value, mode) in values.iter_mut().zip(modes) {
+                            *value = all.get(*mode).copied();
+                        }
+                        Outcome::Stable
+                    }
+                    None => {
+                        values.fill(None);
+                        self.model.evaluate(model, design, values)?
+                    }
+                };
+                take(chunk, first + k as u64, outcome, values, &variables, design)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Standard normal numbers of probabilities.
+fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
+    probabilities.iter().map(|p| normal::quantile(*p))
+}
+
+/// Takes what became of a sample.
+fn take(
+    chunk: &mut Chunk,
+    sample: u64,
+    outcome: Outcome,
+    values: &[Option<f64>],
+    variables: &[usize],
+    design: &[f64],
+) -> Result<(), Error> {
+    chunk.count(outcome as usize, 1)?;
+    for (k, value) in values.iter().enumerate() {
+        chunk.set(sample, k, *value)?;
+    }
+    for (k, &variable) in variables.iter().enumerate() {
+        chunk.set(sample, values.len() + k, Some(design[variable]))?;
+    }
+    Ok(())
 }
 
 impl Gathered {

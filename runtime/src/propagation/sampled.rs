@@ -8,9 +8,11 @@ use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
+use crate::sensitivity::Quantity;
 #[cfg(feature = "serde")]
 use crate::tolerance::Outcome;
 use crate::tolerance::run::{Format, Run};
+use crate::tolerance::side_by_side::SideBySide;
 use crate::tolerance::{Counts, Fingerprint, Tolerances};
 use crate::{Description, Error, Shared};
 
@@ -74,13 +76,15 @@ pub fn sampled(
             .collect(),
         unknowns: at.coordinates.len(),
         space: &space,
+        side_by_side: side_by_side(responses, tolerances),
     };
+    let side_by_side = task.side_by_side.is_some();
     Ok(Samples {
         format: Format,
         points: sampler.points,
         wanted: responses.wanted().to_vec(),
         run: Run {
-            fingerprint: fingerprint(responses, tolerances, sampler),
+            fingerprint: fingerprint(responses, tolerances, sampler, side_by_side),
             groups: sampler.groups(),
             of_each: sampler.of_each()?,
         },
@@ -92,15 +96,42 @@ pub fn sampled(
     })
 }
 
+/// How to solve samples side by side, where all responses are frequencies of undamped modes.
+fn side_by_side<'a>(
+    responses: &Responses<'a>,
+    tolerances: &'a Tolerances,
+) -> Option<(SideBySide<'a>, Vec<usize>)> {
+    let (at, modes) = (responses.nominal(), responses.modes());
+    let wanted = responses.wanted().iter().map(|response| match response {
+        Response::Mode {
+            mode,
+            quantity: Quantity::Frequency | Quantity::NaturalFrequency,
+        } => Some(*mode),
+        _ => None,
+    });
+    let wanted = wanted.collect::<Option<Vec<usize>>>()?;
+    let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
+    Some((lanes, wanted))
+}
+
 /// What the samples are of.
 fn fingerprint(
     responses: &Responses<'_>,
     tolerances: &Tolerances,
     sampler: &Sampler<'_>,
+    side_by_side: bool,
 ) -> Fingerprint {
     let (at, modes) = (responses.nominal(), responses.modes());
     let mut all = Fingerprint::new(responses.mechanism(), at, modes, tolerances)
         .with("points", format!("{:?}", sampler.points))
+        .with(
+            "solved",
+            if side_by_side {
+                "side by side"
+            } else {
+                "one by one"
+            },
+        )
         .with("samples", sampler.samples)
         .with("randomisations", sampler.groups())
         .with("seed", sampler.seed)

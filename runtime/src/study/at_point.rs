@@ -383,13 +383,6 @@ impl<M: BatchKernels> Study<M> {
         self.solve()?.monte_carlo_with_progress(progress)
     }
 
-    /// How this study samples: what [`Study::samples`], [`Study::seed`] and other settings say. Range, progress and stop can be added
-    /// for [`Study::sample_modes`].
-    #[must_use]
-    pub fn sampling<'s>(&self) -> Sampling<'s> {
-        self.settings.sampling()
-    }
-
     /// Some samples of [`Study::monte_carlo`], on this machine or another: parts of a run merge to the same bits as the whole.
     ///
     /// ```

@@ -10,7 +10,7 @@ use crate::modes::{self, Whirl};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
-use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling};
+use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling, Tolerances};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 /// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
@@ -333,7 +333,7 @@ impl<M: BatchKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`]; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        Ok(self.sample_modes(&self.study.sampling())?.into_result())
+        self.drawn(&self.study.sampling())
     }
 
     /// As [`Solved::monte_carlo`]; `progress` is called with the number of samples done since its last call.
@@ -352,8 +352,13 @@ impl<M: BatchKernels> Solved<'_, M> {
         &self,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
-        let sampling = self.study.sampling().progress(Some(progress));
-        Ok(self.sample_modes(&sampling)?.into_result())
+        self.drawn(&self.study.sampling().progress(Some(progress)))
+    }
+
+    fn drawn(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
+        self.with_tolerances(|mechanism, at, modes, tolerances| {
+            tolerance::monte_carlo(mechanism, at, modes, tolerances, sampling)
+        })
     }
 
     /// See [`Study::samples_between`].
@@ -369,8 +374,18 @@ impl<M: BatchKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::sample_modes`].
     pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
+        self.with_tolerances(|mechanism, at, modes, tolerances| {
+            tolerance::partial_monte_carlo(mechanism, at, modes, tolerances, sampling)
+        })
+    }
+
+    /// Asks the mechanism, or that whose inputs deviate where inputs have tolerances.
+    fn with_tolerances<R>(
+        &self,
+        question: impl FnOnce(&dyn BatchKernels, &Equilibrium, &Modes, &Tolerances) -> Result<R, Error>,
+    ) -> Result<R, Error> {
         if let Some(wide) = deviating!(self.study, BatchKernels) {
-            return self.in_study(&wide).sample_modes(sampling);
+            return self.in_study(&wide).with_tolerances(question);
         }
         let Self {
             study,
@@ -378,7 +393,7 @@ impl<M: BatchKernels> Solved<'_, M> {
             modes,
         } = self;
         let tolerances = study.settings.tolerances()?;
-        tolerance::partial_monte_carlo(&study.mechanism, equilibrium, modes, tolerances, sampling)
+        question(&study.mechanism, equilibrium, modes, tolerances)
     }
 
     /// See [`Study::resume_samples`].

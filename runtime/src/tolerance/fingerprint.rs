@@ -8,7 +8,7 @@ use crate::modes::Family;
 use crate::{Description, Equilibrium, Error, Modes};
 
 /// What a run of samples was asked for, as facts with a name and a value. Samples of runs with equal fingerprints belong together.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint(Vec<(String, String)>);
 

@@ -7,6 +7,7 @@ use eigentol_statistics::summary::{CHUNK, Chunk, Partial, Plan, chunks};
 
 use super::pool;
 use crate::Error;
+use crate::scalar::{Instructions, Lanes, Task};
 
 /// Pieces that a thread works on before what they gave is put together.
 const ROUND: u64 = 4;
@@ -101,7 +102,7 @@ impl Work<'_> {
                 kept: &mut kept,
             };
             solve(room, &mut part_of_chunk)?;
-            part.add(chunk)?;
+            Instructions::best().run(Add(&mut part, chunk))?;
             if let Some(progress) = self.progress {
                 progress((own.end - own.start) as usize);
             }
@@ -144,6 +145,18 @@ impl Work<'_> {
 
     fn stopped(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+}
+
+/// Adding is summing, which vectors do as well.
+struct Add<'a>(&'a mut Partial, &'a Chunk);
+
+impl Task for Add<'_> {
+    type Output = Result<(), eigentol_statistics::Error>;
+
+    #[inline(always)]
+    fn run<V: Lanes>(self) -> Self::Output {
+        self.0.add(self.1)
     }
 }
 

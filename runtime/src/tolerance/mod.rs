@@ -18,6 +18,7 @@ mod sample;
 mod sampling;
 #[cfg(feature = "serde")]
 mod serial;
+pub(crate) mod side_by_side;
 mod solver;
 mod spread;
 mod standard_normal;

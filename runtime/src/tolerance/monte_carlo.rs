@@ -103,7 +103,10 @@ pub fn monte_carlo(
     tolerances: &Tolerances,
     sampling: &Sampling<'_>,
 ) -> Result<MonteCarlo, Error> {
-    let all = partial_monte_carlo(mechanism, nominal, modes, tolerances, sampling)?;
+    let about = (nominal, modes);
+    // Nothing will be merged with it: that takes no fingerprint.
+    let nobody = |_: &str| Fingerprint::default();
+    let all = gathered(mechanism, about, tolerances, sampling, nobody)?;
     Ok(all.into_result())
 }
 
@@ -117,6 +120,30 @@ pub fn partial_monte_carlo(
     modes: &Modes,
     tolerances: &Tolerances,
     sampling: &Sampling<'_>,
+) -> Result<PartialMonteCarlo, Error> {
+    let fingerprint = |method: &str| {
+        Fingerprint::new(mechanism, nominal, modes, tolerances)
+            .with("method", method)
+            .with("samples", sampling.samples)
+            .with("seed", sampling.seed)
+            .with("stream", sampling.stream)
+            .with("samples kept", sampling.keep_samples)
+    };
+    gathered(
+        mechanism,
+        (nominal, modes),
+        tolerances,
+        sampling,
+        fingerprint,
+    )
+}
+
+fn gathered(
+    mechanism: &dyn BatchKernels,
+    (nominal, modes): (&Equilibrium, &Modes),
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+    fingerprint: impl FnOnce(&str) -> Fingerprint,
 ) -> Result<PartialMonteCarlo, Error> {
     tolerances.check_count(nominal.design.len())?;
     let range = sampling.now()?;
@@ -144,16 +171,10 @@ pub fn partial_monte_carlo(
     } else {
         "Monte Carlo one by one"
     };
-    let fingerprint = Fingerprint::new(mechanism, nominal, modes, tolerances)
-        .with("method", method)
-        .with("samples", sampling.samples)
-        .with("seed", sampling.seed)
-        .with("stream", sampling.stream)
-        .with("samples kept", sampling.keep_samples);
     Ok(PartialMonteCarlo {
         format: Format,
         run: Run {
-            fingerprint,
+            fingerprint: fingerprint(method),
             groups: 1,
             of_each: sampling.samples as u64,
         },

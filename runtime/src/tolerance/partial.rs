@@ -91,7 +91,7 @@ impl PartialMonteCarlo {
         core::slice::from_ref(&self.part)
     }
 
-    pub(crate) fn into_result(self) -> MonteCarlo {
+    pub(super) fn into_result(self) -> MonteCarlo {
         let outcomes = self.part.outcomes();
         let counts = Counts::of_all(outcomes);
         let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();

@@ -141,6 +141,7 @@ impl Chunk {
     /// # Errors
     ///
     /// There is no such quantity, or not all of these are samples of this chunk.
+    #[inline]
     pub fn set_some(
         &mut self,
         first: u64,
@@ -149,15 +150,8 @@ impl Chunk {
         having: u64,
     ) -> Result<(), Error> {
         check_below("quantity", quantity, self.present.len())?;
-        let start = (first % CHUNK as u64) as usize;
-        let end = start + values.len();
-        let among = Mask::of(start..end.min(CHUNK));
-        if first / CHUNK as u64 != self.index
-            || end > CHUNK
-            || values.len() > 64
-            || among.and(self.covered) != among
-        {
-            let count = values.len();
+        let (start, count) = ((first % CHUNK as u64) as usize, values.len());
+        if first / CHUNK as u64 != self.index || !self.covered.has_all(start, count) {
             let reason =
                 format!("{first} and the next, {count} in all, are not among those of this chunk");
             return Err(Error::Setting {
@@ -166,11 +160,8 @@ impl Chunk {
             });
         }
         let place = quantity * CHUNK + start;
-        self.values[place..place + values.len()].copy_from_slice(values);
-        let present = &mut self.present[quantity];
-        *present = present
-            .without(among)
-            .or(among.and(Mask::shifted(having, start)));
+        self.values[place..place + count].copy_from_slice(values);
+        self.present[quantity].put(start, count, having);
         Ok(())
     }
 
@@ -186,6 +177,7 @@ impl Chunk {
     }
 
     /// The values of a quantity at all places of the chunk, and which are there.
+    #[inline(always)]
     pub(super) fn column(&self, quantity: usize) -> Option<(&[f64; CHUNK], Mask)> {
         let (columns, _) = self.values.as_chunks::<CHUNK>();
         Some((columns.get(quantity)?, *self.present.get(quantity)?))

@@ -40,6 +40,7 @@ impl Moments {
     /// Of these values, in two passes: their mean, then their deviations from it. They should be numbers of at most
     /// [`LARGEST`] in magnitude; others leave statistics that are not there.
     #[must_use]
+    #[inline(always)]
     pub fn of(values: &[f64]) -> Self {
         let Some(&pivot) = values.first() else {
             return Self::default();

@@ -47,6 +47,8 @@ impl Partial {
     ///
     /// Some of them have been added, the chunk is of another plan, or a value is no number of at most [`LARGEST`] in magnitude.
     /// Nothing has been added then.
+    // Inlined, so that it takes the vector instructions of its caller.
+    #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {
         if chunk.present.len() != self.plan.quantities()
             || chunk.outcomes.len() != self.plan.outcomes

@@ -11,6 +11,7 @@ const OCTAVE: i32 = 1 << FRACTION;
 const SMALLEST_SHARE: i32 = 24;
 
 /// Exponent and leading digits of a magnitude, which count up with it.
+#[inline(always)]
 fn key(deviation: f64) -> i32 {
     (deviation.abs().to_bits() >> SHIFT) as i32
 }
@@ -30,7 +31,7 @@ impl Places {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn of_deviation(self, deviation: f64) -> i32 {
         let place = (key(deviation) - self.smallest + 1).max(0);
         if deviation < 0.0 { -place } else { place }
@@ -82,7 +83,7 @@ impl Buckets {
     }
 
     /// Counts deviations at these places, for which there is room.
-    #[inline]
+    #[inline(always)]
     pub(super) fn count(&mut self, places: &[i32]) {
         let (first, counts) = (self.first, self.counts.as_mut_slice());
         for place in places {
@@ -155,7 +156,9 @@ impl TryFrom<Vec<(i32, u64)>> for Buckets {
         // Of any two numbers.
         let greatest = key(f64::MAX);
         let known = |place: i32| (-greatest..=greatest).contains(&place);
-        if !counted.iter().all(|(place, count)| known(*place) && *count > 0)
+        if !counted
+            .iter()
+            .all(|(place, count)| known(*place) && *count > 0)
             || !counted.is_sorted_by_key(|(place, _)| *place)
         {
             return Err("these are not the buckets of a sketch");

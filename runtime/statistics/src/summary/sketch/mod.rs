@@ -113,6 +113,7 @@ impl Sketch {
     }
 
     /// Values of at most [`LARGEST`](super::LARGEST), and their moments.
+    #[inline(always)]
     pub(in crate::summary) fn add_checked(&mut self, values: &[f64], moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
         self.count_all(values);
@@ -153,6 +154,7 @@ impl Sketch {
     }
 
     /// At most [`CHUNK`] values, which `min` and `max` include.
+    #[inline(always)]
     fn count_all(&mut self, values: &[f64]) {
         let all = self.places();
         // Apart from counting, so that it can be vectorised.
