@@ -1,11 +1,12 @@
 //! The command line.
 
+use std::io::{self, IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, merge, modes, new, sample,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, sample,
     sensitivities, tolerance,
 };
 use crate::diagnostics;
@@ -41,6 +42,47 @@ pub(crate) enum Color {
     Never,
 }
 
+impl Color {
+    /// What is asked for on a command line that could not be read.
+    fn asked() -> Self {
+        let mut arguments = std::env::args_os().map(|own| own.to_string_lossy().into_owned());
+        let value = arguments.find_map(|own| match own.strip_prefix("--color") {
+            Some("") => arguments.next(),
+            own => Some(own?.strip_prefix('=')?.to_owned()),
+        });
+        let known = value.and_then(|value| Self::from_str(&value, false).ok());
+        known.unwrap_or(Self::Auto)
+    }
+
+    /// Whether a text is coloured that is written to a terminal, or not.
+    pub(crate) fn on(self, terminal: bool) -> bool {
+        // https://no-color.org
+        let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => wanted && terminal,
+        }
+    }
+}
+
+/// Prints what is wrong with a command line, or the help that was asked for.
+pub(crate) fn explain(error: &clap::Error) {
+    let terminal = match error.use_stderr() {
+        true => io::stderr().is_terminal(),
+        false => io::stdout().is_terminal(),
+    };
+    let text = match Color::asked().on(terminal) {
+        true => error.render().ansi().to_string(),
+        false => error.render().to_string(),
+    };
+    // Where nobody reads it, there is nothing more to say.
+    let _ = match error.use_stderr() {
+        true => io::stderr().write_all(text.as_bytes()),
+        false => io::stdout().write_all(text.as_bytes()),
+    };
+}
+
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::Check),
@@ -54,6 +96,7 @@ enum Command {
     Allocate(allocate::Allocate),
     Expand(expand::Expand),
     New(new::New),
+    Import(import::Import),
     Completions(completions::Completions),
 }
 
@@ -95,6 +138,7 @@ impl Command {
             Self::Allocate(own) => own.run(),
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),
+            Self::Import(own) => own.run(),
             Self::Completions(own) => own.run(),
         }
     }

@@ -8,6 +8,8 @@ use eigentol::Error;
 use eigentol_interpreter::Mistakes;
 use thiserror::Error as ThisError;
 
+use crate::mistake::Mistake;
+
 #[derive(Debug, ThisError)]
 pub(crate) enum Failure {
     #[error("cannot read `{}`: {source}", .path.display())]
@@ -17,11 +19,11 @@ pub(crate) enum Failure {
     #[error("cannot write to standard output: {0}")]
     Print(io::Error),
     /// Drawn in the text.
-    #[error("{} {}", .mistakes.iter().count(), plural(.mistakes.iter().count(), "mistake", "mistakes"))]
+    #[error("`{name}` has {} {}", .mistakes.len(), plural(.mistakes.len(), "mistake", "mistakes"))]
     Declaration {
         name: String,
         text: String,
-        mistakes: Mistakes,
+        mistakes: Vec<Mistake>,
     },
     #[error("`{}` is no study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },

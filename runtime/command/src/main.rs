@@ -7,6 +7,7 @@ mod declaration;
 mod diagnostics;
 mod failure;
 mod interrupt;
+mod mistake;
 mod output;
 mod parts;
 mod place;
@@ -26,8 +27,7 @@ fn main() -> ExitCode {
     match Arguments::try_parse() {
         Ok(arguments) => arguments.run(),
         Err(error) => {
-            // Where nobody reads it, there is nothing more to say.
-            let _ = error.print();
+            arguments::explain(&error);
             ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
         }
     }

@@ -290,8 +290,9 @@ pub enum Error {
     NoReliability(Box<eigentol_statistics::Error>),
     /// No tolerances within their limits meet the requirements.
     #[error(
-        "no tolerances within the limits meet the requirements: at the best ones found, requirement {requirement} fails with \
-         probability {probability:.3e} where {wanted:.3e} is allowed"
+        "no tolerances within the limits meet the requirements: at the best ones found, requirement {} fails with \
+         probability {probability:.3e} where {wanted:.3e} is allowed",
+        .requirement + 1
     )]
     Infeasible {
         /// The best nominal values that were found, SI.

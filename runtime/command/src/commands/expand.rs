@@ -68,8 +68,9 @@ impl Expand {
 
 fn compiled(declaration: &Declaration) -> Result<Compilation, Failure> {
     let tokens = declaration.text.parse::<TokenStream>();
-    let tokens = tokens.map_err(|error| declaration.refused(error.into()))?;
-    compile(tokens, Limits::default()).map_err(|mistakes| declaration.refused(mistakes.into()))
+    let tokens = tokens.map_err(|error| declaration.not_compiled(&error.into()))?;
+    compile(tokens, Limits::default())
+        .map_err(|mistakes| declaration.not_compiled(&mistakes.into()))
 }
 
 fn dump(compilation: &Compilation, stage: &str) -> String {

@@ -33,11 +33,14 @@ pub(crate) struct Sample {
     /// Threads; as many as the machine has unless set
     #[arg(long, value_name = "COUNT")]
     threads: Option<usize>,
+    /// Keep every sample: `--csv --table samples` writes them
+    #[arg(long)]
+    keep: bool,
     /// Take one part of the samples, the third of 64, and write a partial result for `merge`
-    #[arg(long, value_name = "3/64")]
+    #[arg(long, value_name = "3/64", conflicts_with_all = ["json", "csv"])]
     shard: Option<Shard>,
     /// Write a partial result for `merge` or `--resume`, also after Ctrl-C
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["json", "csv"])]
     partial: bool,
     /// Go on with a partial result of this run
     #[arg(long, value_name = "FILE")]
@@ -57,7 +60,8 @@ impl Sample {
             .samples(samples)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(self.stream.or(file.stream).unwrap_or(0))
-            .threads(self.threads.unwrap_or(0));
+            .threads(self.threads.unwrap_or(0))
+            .keep_samples(self.keep);
         let solved = study.solve()?;
         let range = self.shard.unwrap_or(Shard::WHOLE).range(samples as u64);
         let part = self.sampled((&study, &solved), &range)?;

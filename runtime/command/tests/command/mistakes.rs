@@ -236,4 +236,7 @@ fn colours_only_where_they_are_wanted() {
     let with = |when: &str| run(&[&bad[..], &[when]].concat()).err;
     assert!(with("always").contains("\u{1b}["));
     assert!(!with("never").contains('\u{1b}') && !with("auto").contains('\u{1b}'));
+    let usage = |when: &str| run(&["mods", when]).err;
+    assert!(usage("--color=always").contains("\u{1b}["));
+    assert!(!usage("--color=never").contains('\u{1b}'));
 }

@@ -200,6 +200,56 @@ fn a_study_file_says_what_is_asked_again() {
     );
 }
 
+/// Bars whose lengths are the same in every sample are the double pendulum with one length.
+#[test]
+fn correlations_of_a_study_file() {
+    let folder = folder("correlated");
+    let declaration = crate::program::examples().join("independent_bars.mechanism");
+    let study = format!(
+        "mechanism = {:?}\nset = {{ omega = \"5 rad/s\" }}\nstart = {{ theta1 = \"60 deg\" }}\n\
+         tolerance = {{ m1 = \"0%\", m2 = \"0%\" }}\ncorrelation = [[\"l1\", \"l2\", 1.0]]\n",
+        declaration.display().to_string()
+    );
+    let study = file(&folder, "study.toml", &study);
+    let spreads = |question: &[&str]| -> Vec<f64> {
+        let csv = ["--csv"];
+        let text = answer(&[&["tolerance"], question, &csv].concat());
+        let mut lines = text.lines().map(|line| line.split(','));
+        let mut heading = lines.next().unwrap();
+        let place = heading
+            .position(|name| name == "sigma of frequency [rad/s]")
+            .unwrap();
+        lines
+            .map(|mut line| line.nth(place).unwrap().parse().unwrap())
+            .collect()
+    };
+    let one_length = [
+        "rotating_double_pendulum.mechanism",
+        "--set",
+        "omega=5rad/s",
+        "--start",
+        "theta1=60deg",
+    ];
+    let (found, expected) = (spreads(&["--study", &study]), spreads(&one_length));
+    assert_eq!(expected.len(), 2);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+    let apart = std::fs::read_to_string(&study)
+        .unwrap()
+        .replace("1.0]]", "0.0]]");
+    let apart = spreads(&["--study", &file(&folder, "apart.toml", &apart)]);
+    assert!(apart[0] < expected[0]);
+}
+
+#[test]
+fn samples_can_be_kept() {
+    let keep = ["--samples", "20", "--keep", "--csv", "--table", "samples"];
+    let text = answer(&pendulum("sample", &keep));
+    assert!(text.starts_with("sample,outcome,"), "{text}");
+    assert_eq!(text.lines().count(), 21);
+}
+
 /// The frequency depends on the length alone and nearly linearly: the cheapest half-width is the widest that keeps the
 /// frequency above the limit with a probability of 0.999, so that its distance from the mean is 3.09 of its sigmas.
 #[test]
@@ -265,6 +315,7 @@ fn every_subcommand_has_help_with_its_values() {
         "allocate",
         "expand",
         "new",
+        "import",
         "completions",
     ] {
         assert!(help.contains(command), "{command}: {help}");
