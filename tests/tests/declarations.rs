@@ -4,6 +4,8 @@
 mod common;
 #[path = "declarations/constraints.rs"]
 mod constraints;
+#[path = "declarations/every.rs"]
+mod every;
 #[path = "declarations/inertias.rs"]
 mod inertias;
 #[path = "declarations/language.rs"]

@@ -4,6 +4,7 @@ use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile, expand, expand_pretty};
 use eigentol_tests::corpus::corpus;
+use eigentol_tests::every;
 use eigentol_tests::fits;
 use eigentol_tests::loops::{geared_coasting, slider_crank};
 use eigentol_tests::wheels::disk;
@@ -21,13 +22,14 @@ const GENERATED: [&str; 5] = [
     "fits",
 ];
 
-/// The corpus, a closed loop, running coordinates, a rolling wheel and every kind of tolerance.
+/// The corpus, a closed loop, running coordinates, a rolling wheel, every kind of tolerance, and springs on all that is free.
 fn machines() -> Vec<(&'static str, &'static str)> {
     let constrained = [
         ("slider_crank", slider_crank::DECLARATION),
         ("geared_coasting", geared_coasting::DECLARATION),
         ("disk", disk::DECLARATION),
         ("fits", fits::DECLARATION),
+        ("every", every::DECLARATION),
     ];
     corpus().into_iter().chain(constrained).collect()
 }

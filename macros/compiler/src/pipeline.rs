@@ -59,9 +59,12 @@ fn accepted(declaration: TokenStream) -> Result<(Ast, Mechanism, Topology), Diag
     if !resolution.is_connected {
         return Err(mistakes);
     }
-    let mechanism = resolution.mechanism;
+    let mut mechanism = resolution.mechanism;
     match build(&mechanism) {
-        Ok(topology) => mistakes.into_result((ast, mechanism, topology)),
+        Ok(topology) => {
+            mechanism.forget_forces_of(&topology.cut);
+            mistakes.into_result((ast, mechanism, topology))
+        }
         Err(more) => {
             mistakes.append(more);
             Err(mistakes)

@@ -131,6 +131,9 @@ pub(crate) const OPEN_MECHANISM: &str = "
         force f12: follower(at: grip, moment: arm * 1 N);
         force f13: drag(at: knob, damping: 0.1 N*s/m, turning_damping: 0.1 N*m*s/rad);
         force f14: drag(at: grip, turning_damping: 0.1 N*m*s);
+        every angle: spring_damper(stiffness: 5 N*m/rad, damping: 0.1 N*m*s/rad, rest: skew);
+        every displacement: spring(stiffness: 5 N/m);
+        every displacement: damper(damping: 0.1 N*s/m);
 
         output tension_of_joint = norm(reaction_force(wrist));
         output bending = reaction_moment(spin).y / 2;
@@ -148,6 +151,7 @@ pub(crate) const CLOSED_MECHANISM: &str = "
         design r = 30 cm;
         design z1 = 20; design z2 = 35;
         design pitch_radius = 3 cm;
+        kernels only;
         gravity 9.81 m/s^2 along -z;
 
         body crank: rod(mass: 1 kg, length: l, along: x);

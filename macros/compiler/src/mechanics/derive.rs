@@ -53,7 +53,7 @@ pub fn derive(
     require_steady_state(g, &context)?;
     let equations = Equations::new(g, &context);
     let jacobians = Jacobians::new(g, &context, &equations);
-    require_determinate_motion(g, &context, &jacobians)?;
+    let undetermined = require_determinate_motion(g, &context, &jacobians)?;
     let properties = properties(g, &context, &jacobians);
     let linear = Linear::new(g, &jacobians, properties, &context);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
@@ -70,6 +70,7 @@ pub fn derive(
         requirements,
         poses,
         properties,
+        undetermined,
     })
 }
 

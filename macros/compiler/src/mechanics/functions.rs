@@ -18,6 +18,8 @@ pub struct Functions {
     pub poses: Vec<Pose>,
     /// What holds for every design, input and position.
     pub properties: Properties,
+    /// Coordinates that nothing resists, and the last of those that together move no mass: only where `kernels only` allows it.
+    pub undetermined: Vec<CoordinateId>,
 }
 
 /// An unknown of the steady motion.

@@ -26,6 +26,8 @@ pub struct Mechanism {
     pub constants: Vec<Constant>,
     /// Acceleration of gravity in the ground frame, m/s^2; zero when not declared.
     pub gravity: Vector,
+    /// Only the equations are wanted: that they determine a steady motion is not demanded.
+    pub kernels_only: bool,
     /// Bodies.
     pub bodies: Vec<Body>,
     /// Joints.
@@ -43,6 +45,18 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
+    /// Forgets what was declared for every coordinate where a joint closes a loop and has none.
+    pub fn forget_forces_of(&mut self, cut: &[JointId]) {
+        let joint_of = |id: CoordinateId| self.coordinates[id.index()].joint;
+        self.forces.retain(|force| match force.law {
+            ForceLaw::CoordinateSpring { coordinate, .. }
+            | ForceLaw::CoordinateDamper { coordinate, .. } => {
+                !force.of_every || !cut.contains(&joint_of(coordinate))
+            }
+            _ => true,
+        });
+    }
+
     /// Whether a joint is a planar one that coasts: its speeds are those along its turned axes.
     pub fn glides(&self, joint: &Joint) -> bool {
         let coasts =
@@ -269,6 +283,8 @@ pub struct Force {
     pub name: Ident,
     /// The law.
     pub law: ForceLaw,
+    /// Declared for every coordinate: it neither keeps a joint from being cut nor outlives one that is.
+    pub of_every: bool,
 }
 
 /// Force laws.

@@ -3,6 +3,7 @@
 pub mod constraint;
 pub mod evaluate;
 pub mod expression;
+pub mod inertia;
 pub mod mechanism;
 mod print;
 pub mod resolve;
@@ -12,5 +13,3 @@ mod simplify;
 pub mod tolerance;
 pub mod unit;
 pub mod welded;
-
-pub(crate) use rules::tensor::is_inertia_of_a_body;

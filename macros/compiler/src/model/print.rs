@@ -21,6 +21,9 @@ impl Display for Mechanism {
         let names = Names(self);
         writeln!(f, "mechanism {}", self.name)?;
         writeln!(f, "gravity {}", names.vector(&self.gravity))?;
+        if self.kernels_only {
+            writeln!(f, "kernels only")?;
+        }
         for input in &self.inputs {
             let tolerance = match input.tolerance.varies() {
                 true => tolerance(&input.tolerance),
@@ -87,7 +90,8 @@ impl Display for Mechanism {
             writeln!(f, "point {}: {frame} at {offset}{rotations}", point.name)?;
         }
         for force in &self.forces {
-            writeln!(f, "force {}: {}", force.name, names.law(&force.law))?;
+            let word = if force.of_every { "every" } else { "force" };
+            writeln!(f, "{word} {}: {}", force.name, names.law(&force.law))?;
         }
         for constraint in &self.constraints {
             let law = names.constraint(&constraint.law);

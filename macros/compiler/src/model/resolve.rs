@@ -7,6 +7,7 @@ mod constants;
 mod constraints;
 mod coordinates;
 mod directions;
+mod every;
 mod exerted;
 mod expected;
 mod forces;
@@ -14,6 +15,7 @@ mod functions;
 pub mod given;
 mod gravity;
 mod joints;
+mod kernels_only;
 mod nominal;
 mod operators;
 mod outputs;
@@ -64,11 +66,13 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let mut design = resolver.design_variables();
     resolver.named_constants();
     let gravity = resolver.gravity();
+    let kernels_only = resolver.kernels_only();
     let bodies = resolver.bodies();
     let joints = resolver.joints();
     resolver.require_inertias(&joints);
     let points = resolver.points();
-    let forces = resolver.forces();
+    let mut forces = resolver.forces();
+    forces.extend(resolver.forces_of_every(&forces));
     let constraints = resolver.constraints();
     let outputs = resolver.outputs();
     attributes::check(ast, &mut resolver.diagnostics);
@@ -91,6 +95,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         design,
         constants: resolver.constants,
         gravity,
+        kernels_only,
         bodies,
         joints,
         coordinates: resolver.declared_coordinates,
@@ -121,7 +126,12 @@ fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
         && mechanism.design.len() == count(ast, |kind| matches!(kind, ItemKind::Design(_)))
         && mechanism.constants.len() >= count(ast, |kind| matches!(kind, ItemKind::Let(_)))
         && mechanism.points.len() == count(ast, |kind| matches!(kind, ItemKind::Point(_)))
-        && mechanism.forces.len() == count(ast, |kind| matches!(kind, ItemKind::Force(_)))
+        && mechanism
+            .forces
+            .iter()
+            .filter(|force| !force.of_every)
+            .count()
+            == count(ast, |kind| matches!(kind, ItemKind::Force(_)))
         && mechanism.outputs.len() == count(ast, |kind| matches!(kind, ItemKind::Output(_)))
         && is_connected(ast, mechanism)
 }

@@ -19,6 +19,9 @@ pub struct Ast {
     pub unread: Vec<Unread>,
 }
 
+/// The words that start an item without a name.
+const NAMELESS: [&str; 3] = ["gravity", "kernels", "every"];
+
 /// What is known of an item that could not be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unread {
@@ -31,11 +34,20 @@ pub struct Unread {
 impl Unread {
     /// Unless its keyword says otherwise, it may be a body, a joint or a constraint.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 7] = [
-            "input", "design", "let", "gravity", "point", "force", "output",
+        const OTHERS: [&str; 9] = [
+            "input", "design", "let", "gravity", "kernels", "point", "force", "every", "output",
         ];
+        !self.starts_with(&OTHERS)
+    }
+
+    /// Its keyword says that it declares no name.
+    pub fn is_nameless(&self) -> bool {
+        self.starts_with(&NAMELESS)
+    }
+
+    fn starts_with(&self, words: &[&str]) -> bool {
         let keyword = self.keyword.as_ref();
-        !keyword.is_some_and(|keyword| OTHERS.iter().any(|other| keyword == other))
+        keyword.is_some_and(|keyword| words.iter().any(|word| keyword == word))
     }
 }
 
@@ -59,6 +71,8 @@ pub enum ItemKind {
     Let(Named),
     /// `gravity ...;`
     Gravity(Gravity),
+    /// `kernels only;`
+    KernelsOnly(Extent),
     /// `body NAME: SHAPE;`
     Body(Body),
     /// `joint NAME: KIND from FRAME to FRAME ...;`
@@ -67,6 +81,8 @@ pub enum ItemKind {
     Point(Point),
     /// `force NAME: LAW;`
     Force(Force),
+    /// `every QUANTITY: LAW;`
+    Every(Every),
     /// `constraint NAME: KIND(...);`
     Constraint(Constraint),
     /// `output NAME = VALUE;`
@@ -74,13 +90,13 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
-    /// The declared name; gravity has none.
+    /// The declared name, where there is one.
     pub fn name(&self) -> Option<&Ident> {
         match self {
             ItemKind::Input(input) => Some(&input.name),
             ItemKind::Design(design) => Some(&design.name),
             ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
-            ItemKind::Gravity(_) => None,
+            ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
             ItemKind::Point(point) => Some(&point.name),
@@ -358,6 +374,15 @@ pub struct Point {
 pub struct Force {
     /// Name.
     pub name: Ident,
+    /// The law with its arguments.
+    pub law: NamedCall,
+}
+
+/// A force on every free coordinate of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Every {
+    /// `angle` or `displacement`.
+    pub quantity: Ident,
     /// The law with its arguments.
     pub law: NamedCall,
 }

@@ -183,23 +183,29 @@ fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
 
 /// The keyword of an item and the names it declares: its own, and the named coordinates of a joint.
 fn what_is_known(mut tokens: Tokens) -> Unread {
-    let keyword = tokens.ident();
-    let mut names = Vec::new();
+    let mut item = Unread {
+        keyword: tokens.ident(),
+        names: Vec::new(),
+    };
+    if item.is_nameless() {
+        return item;
+    }
     while let Some(name) = tokens.ident() {
-        names.push(name);
+        item.names.push(name);
         if tokens.sign('-').is_none() {
             break;
         }
     }
-    let is_joint = keyword.as_ref().is_some_and(|word| word == "joint");
+    let is_joint = item.keyword.as_ref().is_some_and(|word| word == "joint");
     if is_joint && tokens.sign(':').is_some() && tokens.ident().is_some() {
         let mut arguments = tokens.group(Delimiter::Parenthesis);
         while let Some((_, content, _)) = arguments.as_mut().filter(|group| !group.1.is_empty()) {
-            names.extend(content.peek_ident().filter(|_| content.peek_named()));
+            let coordinate = content.peek_ident().filter(|_| content.peek_named());
+            item.names.extend(coordinate);
             content.skip();
         }
     }
-    Unread { keyword, names }
+    item
 }
 
 /// Skips the rest of a wrong item: past the next semicolon, or to what is clearly the next item.
@@ -228,6 +234,9 @@ fn starts_item(tokens: &Tokens) -> bool {
     };
     if word == "gravity" {
         return true;
+    }
+    if word == "kernels" {
+        return ahead.peek_word("only");
     }
     KEYWORDS.contains(&word.to_string().as_str())
         && ahead.ident().is_some()

@@ -82,8 +82,10 @@ fn item(kind: &ItemKind) -> String {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),
             None => format!("gravity {}", value(&gravity.value)),
         },
+        ItemKind::KernelsOnly(_) => "kernels only".to_string(),
         ItemKind::Body(item) => body(item),
         ItemKind::Force(force) => format!("force {}: {}", force.name, call(&force.law)),
+        ItemKind::Every(every) => format!("every {}: {}", every.quantity, call(&every.law)),
         ItemKind::Constraint(constraint) => {
             format!("constraint {}: {}", constraint.name, call(&constraint.law))
         }

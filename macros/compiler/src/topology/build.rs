@@ -46,7 +46,7 @@ pub fn build(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     }
     // Where loops close, a massless link may carry masses through the constraint.
     let open = topology.cut.is_empty() && mechanism.constraints.is_empty();
-    if diagnostics.is_empty() && open {
+    if diagnostics.is_empty() && open && !mechanism.kernels_only {
         massless::check(mechanism, &topology, &mut diagnostics);
     }
     diagnostics.into_result(topology)

@@ -16,7 +16,7 @@ pub(super) fn needed(mechanism: &Mechanism) -> Vec<bool> {
         .iter()
         .map(|output| &output.value)
         .collect();
-    for force in &mechanism.forces {
+    for force in mechanism.forces.iter().filter(|force| !force.of_every) {
         match &force.law {
             ForceLaw::CoordinateSpring { coordinate, .. }
             | ForceLaw::CoordinateDamper { coordinate, .. } => of_coordinate(*coordinate),

@@ -2,31 +2,33 @@
 
 use crate::algebra::{Evaluation, Graph};
 use crate::base::diagnostics::Diagnostics;
-use crate::base::ids::ExprId;
+use crate::base::ids::{CoordinateId, ExprId};
 use crate::mechanics::linear::Jacobians;
 use crate::mechanics::setup::{Context, probe, vanish};
 
 /// Rejects a mechanism with a singular mass matrix, with a coordinate that nothing resists, or with a constraint that no
-/// coordinate affects.
+/// coordinate affects. Only the last is wrong where nothing but the equations is wanted: of the others, the coordinates are
+/// returned.
 pub(crate) fn require_determinate_motion(
     g: &Graph,
     context: &Context,
     jacobians: &Jacobians,
-) -> Result<(), Diagnostics> {
+) -> Result<Vec<CoordinateId>, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
+    let mut undetermined = Vec::new();
     let (free, moving) = context.moving();
-    let name = |k: usize| {
-        let coordinates = context
-            .topology
-            .free
-            .iter()
-            .chain(&context.topology.coasting);
-        let id = coordinates.copied().nth(k).expect("it moves");
-        &context.mechanism.coordinates[id.index()].name
+    let coordinate = |k: usize| {
+        let topology = context.topology;
+        let mut coordinates = topology.free.iter().chain(&topology.coasting);
+        *coordinates.nth(k).expect("it moves")
     };
-    let massless = massless_motion(g, context, jacobians);
+    let name = |k: usize| &context.mechanism.coordinates[coordinate(k).index()].name;
+    let kernels_only = context.mechanism.kernels_only;
     let mut without_inertia = None;
-    if let Some(motion) = &massless {
+    let massless = massless_motion(g, context, jacobians);
+    if let (Some(motion), true) = (&massless, kernels_only) {
+        undetermined.extend(motion.last().map(|&(k, _)| coordinate(k)));
+    } else if let Some(motion) = &massless {
         let last = motion.last().map_or(0, |&(k, _)| k);
         let named = |&(k, _): &(usize, _)| format!("`{}`", name(k));
         let names: Vec<String> = motion.iter().map(named).collect();
@@ -60,7 +62,11 @@ pub(crate) fn require_determinate_motion(
         if !idle || without_inertia == Some(k) {
             continue;
         }
-        if k >= moving {
+        if k < moving && kernels_only {
+            if !undetermined.contains(&coordinate(k)) {
+                undetermined.push(coordinate(k));
+            }
+        } else if k >= moving {
             let row = &context.rows[k - moving];
             let source = row.source.name(context.mechanism);
             diagnostics.error_with_help(
@@ -85,7 +91,7 @@ pub(crate) fn require_determinate_motion(
             );
         }
     }
-    diagnostics.into_result(())
+    diagnostics.into_result(undetermined)
 }
 
 /// `a`, `b` and `c`.

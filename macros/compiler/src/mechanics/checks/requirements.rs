@@ -6,7 +6,7 @@ use crate::base::ids::ExprId;
 use crate::mechanics::functions::Requirement;
 use crate::mechanics::inertia::MassDistribution;
 use crate::mechanics::setup::Values;
-use crate::model::is_inertia_of_a_body;
+use crate::model::inertia::is_inertia_of_a_body;
 use crate::model::mechanism::{Body, ConstraintLaw, Mechanism};
 use crate::model::shape::{Reduced, Spread};
 use crate::model::welded::{Member, groups};

@@ -143,6 +143,7 @@ impl Resolver<'_> {
                 forces.push(Force {
                     name: force.name.clone(),
                     law,
+                    of_every: false,
                 });
             }
         }

@@ -82,14 +82,17 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Some coordinate is free or coasting. A joint of an unknown kind, or one that could not be read, gets the benefit of the
-    /// doubt.
+    /// Some coordinate is free or coasting. What could not be understood gets the benefit of the doubt.
     pub(super) fn can_move(&self) -> bool {
-        let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
         let moves =
             |coordinate: &Declared| coordinate.motion != DeclaredMotion::Driven && !coordinate.cut;
-        self.coordinates.iter().any(moves)
-            || coordinates::joints(self.ast).any(unknown)
+        self.coordinates.iter().any(moves) || self.may_have_more_coordinates()
+    }
+
+    /// There is a joint of an unknown kind, or an item that could not be read.
+    pub(super) fn may_have_more_coordinates(&self) -> bool {
+        let unknown = |joint: &Joint| Kind::find(&joint.kind.to_string()).is_none();
+        coordinates::joints(self.ast).any(unknown)
             || self.ast.unread.iter().any(Unread::may_connect)
     }
 }

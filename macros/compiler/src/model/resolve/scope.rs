@@ -95,18 +95,14 @@ impl Scope {
                 ItemKind::Force(_) => Meaning::Force,
                 ItemKind::Constraint(_) => Meaning::Constraint(ConstraintId::new(next(6))),
                 ItemKind::Output(_) => Meaning::Output,
-                ItemKind::Gravity(_) => continue,
+                ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) => continue,
             };
             if let Some(name) = item.kind.name() {
                 scope.declare(name, meaning, diagnostics);
             }
         }
         for unread in &ast.unread {
-            let is_gravity = unread
-                .keyword
-                .as_ref()
-                .is_some_and(|word| word == "gravity");
-            scope.is_incomplete |= unread.names.is_empty() && !is_gravity;
+            scope.is_incomplete |= unread.names.is_empty() && !unread.is_nameless();
             for name in unread.names.iter().map(Ident::to_string) {
                 if scope.find(&name).is_none() && reserved(&name).is_none() {
                     scope.enter(name, Meaning::Unclear);

@@ -1,7 +1,9 @@
 //! Symmetric matrices of three rows: principal values, and what makes an inertia that of a body.
 
-pub(crate) type Vector = [f64; 3];
-pub(crate) type Matrix = [Vector; 3];
+/// Three numbers along the axes of a frame.
+pub type Vector = [f64; 3];
+/// Rows of three numbers.
+pub type Matrix = [Vector; 3];
 
 /// A matrix by its entries.
 pub(super) fn matrix(entry: impl Fn(usize, usize) -> f64) -> Matrix {
@@ -30,7 +32,7 @@ pub(super) fn trace(a: &Matrix) -> f64 {
 }
 
 /// Principal values in ascending order, and their axes as columns in the same order (Jacobi 1846).
-pub(super) fn principal(symmetric: &Matrix) -> (Vector, Matrix) {
+pub fn principal(symmetric: &Matrix) -> (Vector, Matrix) {
     let (mut a, mut axes) = (*symmetric, matrix(identity));
     // Convergence is quadratic: a handful of sweeps reaches the last digit.
     for _ in 0..16 {
@@ -76,12 +78,12 @@ fn belongs_to_a_body([a, b, c]: Vector) -> bool {
 }
 
 /// An inertia about the centre of mass is one that a body can have.
-pub(crate) fn is_inertia_of_a_body(inertia: &Matrix) -> bool {
+pub fn is_inertia_of_a_body(inertia: &Matrix) -> bool {
     belongs_to_a_body(principal(inertia).0)
 }
 
 /// The inertia that a body can have and that differs least from this one (Frobenius norm): along the same principal axes.
-pub(super) fn nearest_of_a_body(inertia: &Matrix) -> Matrix {
+pub fn nearest_of_a_body(inertia: &Matrix) -> Matrix {
     let ([a, b, c], axes) = principal(inertia);
     let short = (c - a - b) / 3.0;
     let nearest = if belongs_to_a_body([a, b, c]) {

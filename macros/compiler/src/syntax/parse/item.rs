@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::super::ast::{Constraint, Design, Force, Gravity, Input, ItemKind, Named, Point};
+use super::super::ast::{Constraint, Design, Every, Force, Gravity, Input, ItemKind, Named, Point};
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
@@ -25,10 +25,12 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "design" => design,
         "let" => |tokens| named(tokens).map(ItemKind::Let),
         "gravity" => return gravity(tokens),
+        "kernels" => return kernels_only(tokens),
         "body" => body,
         "joint" => joint,
         "point" => point,
         "force" => force,
+        "every" => every,
         "constraint" => constraint,
         "output" => |tokens| named(tokens).map(ItemKind::Output),
         unknown => {
@@ -116,6 +118,24 @@ fn force(tokens: &mut Tokens) -> Parsed<ItemKind> {
     colon(tokens)?;
     let law = named_call(tokens, "a law such as `spring`")?;
     Ok(ItemKind::Force(Force { name, law }))
+}
+
+const EVERY: &str = "write `every angle: spring(stiffness: 10 N*m/rad);` or `every displacement: spring(stiffness: 10 N/m);`";
+
+fn every(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(EVERY));
+    let quantity = tokens.name("`angle` or `displacement`").map_err(help)?;
+    colon(tokens).map_err(help)?;
+    let law = named_call(tokens, "a law such as `spring`").map_err(help)?;
+    Ok(ItemKind::Every(Every { quantity, law }))
+}
+
+fn kernels_only(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let keyword = tokens.expect_word("kernels")?;
+    let only = tokens
+        .expect_word("only")
+        .map_err(|error| Box::new(error.with_help("write `kernels only;`")))?;
+    Ok(ItemKind::KernelsOnly(keyword.to(only)))
 }
 
 fn constraint(tokens: &mut Tokens) -> Parsed<ItemKind> {

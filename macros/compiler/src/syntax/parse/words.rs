@@ -3,21 +3,23 @@
 use crate::base::nearest::suggestion;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 10] = [
+pub(super) const KEYWORDS: [&str; 12] = [
     "input",
     "design",
     "let",
     "gravity",
+    "kernels",
     "body",
     "joint",
     "point",
     "force",
+    "every",
     "constraint",
     "output",
 ];
 
 /// What other tools and languages call an item.
-const SYNONYMS: [(&str, &str); 17] = [
+const SYNONYMS: [(&str, &str); 20] = [
     ("motor", "force"),
     ("param", "design"),
     ("parameter", "design"),
@@ -35,6 +37,9 @@ const SYNONYMS: [(&str, &str); 17] = [
     ("contact", "constraint"),
     ("element", "force"),
     ("result", "output"),
+    ("all", "every"),
+    ("each", "every"),
+    ("default", "every"),
 ];
 
 /// Words that stand behind the name of an item, not before it.

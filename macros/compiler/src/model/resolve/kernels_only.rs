@@ -1,0 +1,20 @@
+//! A mechanism of which nothing but the equations is wanted.
+
+use super::resolver::Resolver;
+use crate::syntax::ast::ItemKind;
+
+impl Resolver<'_> {
+    /// `kernels only` is declared.
+    pub(super) fn kernels_only(&mut self) -> bool {
+        let items = self.ast.items.iter().filter_map(|item| match item.kind {
+            ItemKind::KernelsOnly(extent) => Some(extent),
+            _ => None,
+        });
+        let all: Vec<_> = items.collect();
+        for extent in all.iter().skip(1) {
+            let message = "`kernels only` is declared twice";
+            self.diagnostics.error(*extent, message);
+        }
+        !all.is_empty()
+    }
+}

@@ -1,0 +1,91 @@
+//! What a declaration does not say, or says in another way than the file.
+
+use std::fmt;
+
+use crate::error::{of_links, three};
+
+/// A remark on an import.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// An element that has no meaning in a mechanism: a picture, a stop, a motor.
+    Ignored {
+        /// The element, such as `limit`.
+        element: String,
+        /// What has it: `links`, `joints` or `the robot`.
+        of: &'static str,
+        /// Their names in the file.
+        names: Vec<String>,
+    },
+    /// Links that fixed joints weld together: one body, the other links are points of it.
+    Welded {
+        /// The body, or `ground`.
+        body: String,
+        /// The links, by their names in the file.
+        links: Vec<String>,
+    },
+    /// An inertia that no body can have was replaced by the nearest possible one.
+    Replaced {
+        /// The links that are welded together.
+        links: Vec<String>,
+        /// Principal moments before, kg m^2.
+        principal: [f64; 3],
+        /// And after.
+        nearest: [f64; 3],
+    },
+    /// A joint that follows one that stands still, or that has a multiplier of zero.
+    Held {
+        /// Its name in the file.
+        joint: String,
+    },
+    /// `mimic` of a joint that is fixed says nothing.
+    FixedMimic {
+        /// Its name in the file.
+        joint: String,
+    },
+    /// A coordinate that nothing resists, or a joint that moves no mass, is driven at 0.
+    Driven {
+        /// The coordinate in the declaration.
+        coordinate: String,
+        /// Why.
+        why: &'static str,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Note::Ignored { element, of, names } => match (*of, names.as_slice()) {
+                ("the robot", _) => write!(f, "`{element}` has no meaning in a mechanism"),
+                (_, [only]) => write!(f, "`{element}` of `{only}` has no meaning in a mechanism"),
+                (of, names) => write!(
+                    f,
+                    "`{element}` of {} {of} has no meaning in a mechanism: {}",
+                    names.len(),
+                    names.join(", ")
+                ),
+            },
+            Note::Welded { body, links } => {
+                write!(
+                    f,
+                    "welded to `{body}`, and points of it: {}",
+                    links.join(", ")
+                )
+            }
+            Note::Replaced {
+                links,
+                principal,
+                nearest,
+            } => write!(
+                f,
+                "the inertia of {} is replaced by the nearest that a body can have: principal moments {} kg*m^2 in place of {}",
+                of_links(links),
+                three(nearest),
+                three(principal)
+            ),
+            Note::Held { joint } => write!(f, "`{joint}` follows what stands still: it is fixed"),
+            Note::FixedMimic { joint } => write!(f, "`{joint}` is fixed: its `mimic` says nothing"),
+            Note::Driven { coordinate, why } => write!(f, "`{coordinate}` is driven at 0: {why}"),
+        }
+    }
+}

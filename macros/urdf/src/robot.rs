@@ -1,0 +1,97 @@
+//! A robot as its file describes it; links and joints by their places in the lists.
+
+use std::collections::BTreeMap;
+
+use crate::error::{Mistake, Reason};
+use crate::geometry::{Matrix, Vector};
+
+#[derive(Clone, Debug)]
+pub(crate) struct Robot {
+    pub(crate) name: String,
+    pub(crate) at: Place,
+    pub(crate) links: Vec<Link>,
+    pub(crate) joints: Vec<Joint>,
+    /// What the file says that is not in this type: of what (`joints`), element, and the names of those who have it.
+    pub(crate) ignored: BTreeMap<(&'static str, String), Vec<String>>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Link {
+    pub(crate) name: String,
+    pub(crate) at: Place,
+    pub(crate) inertial: Option<Inertial>,
+}
+
+/// About the centre of mass, along the axes of `pose`.
+#[derive(Clone, Debug)]
+pub(crate) struct Inertial {
+    pub(crate) pose: Pose,
+    /// kg.
+    pub(crate) mass: f64,
+    /// kg m^2.
+    pub(crate) inertia: Matrix,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Joint {
+    pub(crate) name: String,
+    pub(crate) at: Place,
+    pub(crate) kind: JointKind,
+    pub(crate) parent: usize,
+    pub(crate) child: usize,
+    /// Of the child in the parent, where the coordinate is zero.
+    pub(crate) pose: Pose,
+    pub(crate) axis: Vector,
+    pub(crate) mimic: Option<Mimic>,
+    /// N m s/rad or N s/m.
+    pub(crate) damping: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum JointKind {
+    Fixed,
+    Revolute,
+    Prismatic,
+    Planar,
+    Floating,
+}
+
+impl JointKind {
+    pub(crate) fn has_one_coordinate(self) -> bool {
+        matches!(self, JointKind::Revolute | JointKind::Prismatic)
+    }
+}
+
+/// The coordinate is `ratio` times that of another joint, plus `offset`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mimic {
+    pub(crate) of: usize,
+    pub(crate) ratio: f64,
+    pub(crate) offset: f64,
+}
+
+/// Where a frame is in another: `xyz`, then rotations, each about the axes left by the one before.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Pose {
+    /// m.
+    pub(crate) offset: Vector,
+    /// Axis and angle in rad.
+    pub(crate) rotations: Vec<(Vector, f64)>,
+}
+
+/// Line and column, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Place {
+    pub(crate) line: u32,
+    pub(crate) column: u32,
+}
+
+impl Place {
+    pub(crate) fn mistake(self, reason: Reason) -> Mistake {
+        Mistake {
+            line: self.line,
+            column: self.column,
+            reason,
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Robots from URDF files give the numbers of Pinocchio: three files that are here, the robots of `truth/robots`, and every file of the
+//! package example-robot-data where Python has it. `EIGENTOL_PYTHON` names an interpreter that can import `pinocchio` and has that
+//! package beside it (`pip install pin example-robot-data`).
+
+#[path = "urdf/files.rs"]
+mod files;
+#[path = "urdf/package.rs"]
+mod package;
+#[path = "urdf/reference.rs"]
+mod reference;
+#[path = "urdf/table.rs"]
+mod table;

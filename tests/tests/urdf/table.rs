@@ -1,0 +1,1 @@
+//! The table of all files in the documentation.
