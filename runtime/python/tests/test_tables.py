@@ -3,7 +3,9 @@
 import ast
 import inspect
 import pickle
+import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -39,24 +41,36 @@ def test_studies_and_mechanisms_can_be_sent_to_other_processes(study):
     )
 
 
-def test_python_goes_on_while_samples_are_solved(study):
-    study = study.replace(samples=300_000, vectors=False)
-    done = threading.Event()
-    found = []
+def steps_during(work):
+    """How often another thread runs while this one works; it does so only where this one gives up the interpreter's lock."""
+    steps, stop = [0], threading.Event()
 
-    def sample():
-        found.append(study.monte_carlo())
-        done.set()
+    def run():
+        while not stop.is_set():
+            steps[0] += 1
+            time.sleep(0)
 
-    thread = threading.Thread(target=sample)
-    thread.start()
-    steps = 0
-    while not done.is_set():
-        steps += 1
-    thread.join()
-    assert found[0].samples == 300_000
-    # With the lock held throughout, at most a few steps happen before and after.
-    assert steps > 1000
+    usual = sys.getswitchinterval()
+    # Nobody is made to give up the lock.
+    sys.setswitchinterval(1000)
+    other = threading.Thread(target=run)
+    try:
+        other.start()
+        before = steps[0]
+        work()
+        return steps[0] - before
+    finally:
+        stop.set()
+        sys.setswitchinterval(usual)
+        other.join()
+
+
+def test_python_goes_on_while_a_question_is_answered(study):
+    assert steps_during(lambda: sum(range(1_000_000))) == 0
+    study = study.replace(samples=60_000, vectors=False)
+    assert steps_during(study.monte_carlo) > 100
+    response = study.response("frequency", 0)
+    assert steps_during(lambda: response(np.tile(response.nominal, (20_000, 1)))) > 100
 
 
 def public(kind):
