@@ -15,6 +15,7 @@ use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
 /// One mode at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CampbellMode {
     /// Number of the motion along the diagram.
     pub label: usize,
@@ -35,6 +36,7 @@ pub struct CampbellMode {
 /// All modes at one value of the input.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CampbellPoint {
     /// The value, SI.
     pub value: f64,
@@ -47,6 +49,7 @@ pub struct CampbellPoint {
 /// A Campbell diagram.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Campbell {
     /// The input along which it is drawn.
     pub input: Input,

@@ -11,6 +11,7 @@ use crate::{Equilibrium, Error, Modes, Output};
 /// A number that a design gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Response {
     /// A quantity of a nominal mode, counted from 0: frequencies in rad/s, growth in 1/s.
     Mode {
@@ -29,6 +30,7 @@ pub enum Response {
 /// The responses to one design.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Realisation {
     /// What becomes of it at the operating point.
     pub outcome: Outcome,

@@ -17,6 +17,7 @@ use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 /// Total derivatives of the shapes of one mode, normalised as the mode is ([`Mode::shape`]).
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShapeSensitivity {
     /// `right_by_input[j]`: derivative of `phi` by input `j`.
     pub right_by_input: Matrix<Complex>,

@@ -8,6 +8,7 @@ use crate::{Description, Error, PoseMargin, Shared, Text};
 /// A dynamic equilibrium `g(0, 0, q*; u, b) = 0` (eq. 10) and the linearised mechanism there.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Equilibrium {
     /// `q*`: coordinates, rad or m; after them, where there are any, speeds and the reactions of constraints, SI: what `from`
     /// exerts on `to`, of a distance the tension; with the sign that outputs have ([`Role`](crate::Role)).
@@ -21,6 +22,7 @@ pub struct Equilibrium {
     /// Eigenvalues `lambda` up to this size cannot be told from zero, 1/s^2: what rounding of inputs, design and coordinates
     /// changes in one that nearly vanishes, and what its iteration leaves at a critical state that was located. Zero where no
     /// eigenvalue is so small that it matters, and where `Khat` is not symmetric.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub rounding: f64,
     /// `Mhat`, `Chat`, `Khat` at `q*` (eqs. 15-17).
     pub linear: Linear,
@@ -29,6 +31,7 @@ pub struct Equilibrium {
     pub residual: Vector,
     /// Greatest remaining residual, each relative to the forces in its own equation and to what a millimetre or
     /// milliradian of each coordinate, with 1.5e-5 of the coordinate itself, restores there. A result has at most 2e-10.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub relative_residual: f64,
     /// Iterations spent.
     pub iterations: usize,
@@ -104,6 +107,7 @@ pub(crate) fn dependent_names(
 /// Stability of an equilibrium against small disturbances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stability {
     /// Stable: no small disturbance grows.
     Stable,

@@ -11,6 +11,8 @@ mod cholesky;
 mod lu;
 mod matrix;
 mod nalgebra;
+#[cfg(feature = "serde")]
+mod serial;
 mod vector;
 
 pub use matrix::Matrix;

@@ -17,6 +17,7 @@ pub struct HalfWidth<'a> {
 
 /// A nominal value that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Nominal {
     /// Position among the design variables.
     pub variable: usize,

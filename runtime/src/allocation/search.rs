@@ -24,6 +24,7 @@ const CONFIDENCE: f64 = 0.99;
 /// The cheapest tolerances that were found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Allocation {
     /// Nominal values of all design variables, SI.
     pub nominal: Vector,

@@ -32,6 +32,7 @@ use crate::{Description, Error, Input, Shared};
 /// A point of a branch.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BranchPoint {
     /// The input there, SI.
     pub value: f64,
@@ -55,6 +56,7 @@ impl BranchPoint {
 /// Where and why a branch ends.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BranchEnd {
     /// At the low end of the range.
     Low,
@@ -77,6 +79,7 @@ pub enum BranchEnd {
 /// A connected line of equilibria.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Branch {
     /// The input that varies.
     pub input: Input,
@@ -138,6 +141,7 @@ impl Branch {
 /// The branches that were found.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Branches {
     /// The branches, in the order in which they were found; each once.
     pub branches: Vec<Branch>,

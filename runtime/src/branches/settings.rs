@@ -11,6 +11,8 @@ use crate::{Any, Description, Error, Input};
 /// compared with the work of all other forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound = ""))]
 pub struct Continuation<M = Any> {
     /// The input that varies.
     pub input: Input<M>,

@@ -13,6 +13,7 @@ use crate::{DampingKind, Input};
 /// What happens where `Khat` is singular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SpecialKind {
     /// A limit point: the branch turns back, `w^T dg/du` is not zero.
     Fold,
@@ -31,6 +32,7 @@ pub enum SpecialKind {
 /// A point of a branch at which `Khat` is singular.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpecialPoint {
     /// What happens there.
     pub kind: SpecialKind,

@@ -11,6 +11,7 @@ use crate::{Behaviour, Complex, Equilibrium, Error, Mode, Modes};
 /// `diag(eigenvalues) + sum_k db_k by_design[k]`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModalCouplings {
     /// Positions of the modes.
     pub modes: Vec<usize>,

@@ -10,6 +10,7 @@ use crate::{Complex, Equilibrium, Error, Modes};
 /// How the eigenvalues of a cluster move along one direction.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DirectionalDerivatives {
     /// Positions of its modes, from 0. Which derivative belongs to which mode is not defined.
     pub modes: Vec<usize>,

@@ -14,6 +14,7 @@ use crate::{Complex, Error, Quantity};
 /// How to sample a cluster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClusterSampling {
     /// Number of samples.
     pub samples: usize,
@@ -40,6 +41,7 @@ impl Default for ClusterSampling {
 /// Spread of a cluster: what its sorted members do.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClusterSpread {
     /// Number of samples.
     pub samples: usize,
@@ -60,6 +62,7 @@ pub struct ClusterSpread {
 /// Spread of one quantity over the members of a cluster, sorted by this quantity in every sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SortedSpread {
     /// By position, ascending. A member without the quantity counts as lower than all others.
     pub members: Vec<MemberSpread>,
@@ -84,6 +87,7 @@ impl SortedSpread {
 /// Spread of one position of a sorted cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MemberSpread {
     /// Over the samples whose member has the quantity, in its unit; `None` without any.
     pub value: Option<Statistics>,

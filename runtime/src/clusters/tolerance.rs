@@ -14,6 +14,7 @@ use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
 /// is a defective cluster of one.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClusterTolerance {
     /// Positions of the modes, from 0, ascending.
     pub modes: Vec<usize>,
@@ -23,6 +24,7 @@ pub struct ClusterTolerance {
     pub eigenvalues: Vec<Complex>,
     /// Least distance of two members, in standard deviations of what moves their difference
     /// ([`clusters`] defines it); zero for equal eigenvalues.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
     /// Mean of the eigenvalues with its derivatives; `None` for a defective cluster.
     pub mean: Option<MeanEigenvalue>,
@@ -48,6 +50,7 @@ impl ClusterTolerance {
 /// Mean of the eigenvalues of a cluster. Whatever its members do, it has exact derivatives: a trace.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MeanEigenvalue {
     /// The mean: of `lambda`, 1/s^2, or of `s`, 1/s.
     pub value: Complex,
@@ -56,8 +59,10 @@ pub struct MeanEigenvalue {
     /// Total derivatives by the design variables, per SI unit.
     pub by_design: Vector<Complex>,
     /// Standard deviation of the real part: of `lambda`, or of the growth.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma_re: f64,
     /// Standard deviation of the imaginary part; zero for undamped modes.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma_im: f64,
     /// First-order spread of the frequency that belongs to the mean, `sqrt(lambda)` or `Im s`, rad/s; `None` without one.
     pub frequency: Option<Spread>,

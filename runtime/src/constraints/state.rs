@@ -7,6 +7,7 @@ use crate::kernels::{Gradient, Kernels};
 /// The constraints at one state. Rows have the places of their reactions among the unknowns.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ConstraintState {
     /// Number of directions in which the coordinates can move: all of them for an open mechanism.
     pub freedom: usize,

@@ -13,6 +13,7 @@ use crate::{Coordinate, Description, Error, Shared, Text};
 /// the first). Any motion from one side to the other, with the held coordinates free to move, passes through a dead centre:
 /// states on different sides are in different assembly modes. States on the same side may be, too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AssemblyMode {
     /// The determinant is positive.
     Positive,
@@ -23,6 +24,7 @@ pub enum AssemblyMode {
 /// An assembled mechanism.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assembly {
     /// Coordinates that meet the constraints, rad or m; speeds that meet those on velocities as far as speeds can; reactions
     /// that balance the forces as far as reactions can. SI.
@@ -42,6 +44,7 @@ pub struct Assembly {
     /// dead centre.
     pub mode: Option<AssemblyMode>,
     /// How well the constraints determine the coordinates that are not held: one at best, zero at a dead centre.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub margin: f64,
     /// The state is a dead centre or a singular configuration: to first order, coordinates that are not held can move by
     /// themselves, or cannot follow those that are.

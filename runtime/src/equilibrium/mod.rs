@@ -41,6 +41,7 @@ use crate::kernels::Kernels;
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Policy {
     /// A stable one, by descent in the amended potential; where descent finds none, the nearest one, whose
     /// [`Stability`] then says what it is. From a start without positive stiffness the nearest one is taken when

@@ -13,6 +13,7 @@ use crate::{Equilibrium, Error, Stability};
 /// Where to start from.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Search {
     /// Least start value of each coordinate, rad or m; then of speeds and reactions, of which the latter are ignored.
     pub lower: Vector,

@@ -8,25 +8,32 @@ use thiserror::Error as ThisError;
 
 use crate::Text;
 
+/// A constant of the program. By this name serde does not look for it in what is read.
+type Word = &'static str;
+
 /// A failure of one of the solvers. Values are SI.
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Error {
     /// An input, a design variable or a start value is NaN or infinite.
     #[error("{kind} `{name}` is {value}: give a finite value")]
     NotFinite {
         /// What kind of quantity it is: `input`, `design variable`, `start value of coordinate` ...
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        kind: Word,
         /// Its declared name.
         name: Text,
         /// What it is.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         value: f64,
     },
     /// A list has not one value for each input, design variable or unknown.
     #[error("{found} {kind} given where the mechanism has {expected}")]
     WrongLength {
         /// What kind of list it is: `inputs`, `design variables`, `start values` ...
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        kind: Word,
         /// How many values were given.
         found: usize,
         /// How many the mechanism has.
@@ -40,6 +47,7 @@ pub enum Error {
         /// What it has to be.
         requirement: Text,
         /// What it is.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         value: f64,
     },
     /// The residual or its derivatives are NaN or infinite although everything given is finite.
@@ -51,8 +59,10 @@ pub enum Error {
         /// Name of the mechanism.
         mechanism: Text,
         /// What was evaluated.
-        what: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        what: Word,
         /// Where.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
     /// No equilibrium was found from the start value.
@@ -66,8 +76,10 @@ pub enum Error {
         /// Iterations spent.
         iterations: usize,
         /// Last state.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
         /// Residual there, relative to the forces and stiffnesses in it.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         relative_residual: f64,
     },
     /// The constraints cannot be met together from the start values.
@@ -81,12 +93,15 @@ pub enum Error {
         /// The row that stays open most, in relation to the motions that could close it.
         constraint: Text,
         /// By how much, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         gap: f64,
         /// Unit of the gap: `m` or `rad`, of a constraint on velocities `m/s` or `rad/s`; empty for a pure number.
-        unit: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        unit: Word,
         /// The other rows that stay open, and by how much, SI.
         others: Vec<(Text, f64)>,
         /// Where the gaps are least.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
         /// Iterations spent.
         iterations: usize,
@@ -113,6 +128,7 @@ pub enum Error {
         /// The rows.
         constraints: Vec<Text>,
         /// Last state.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         coordinates: Vec<f64>,
     },
     /// The mass matrix is not positive definite: a coordinate moves no mass.
@@ -147,6 +163,7 @@ pub enum Error {
     )]
     NonsymmetricStiffness {
         /// Greatest difference of mirrored elements relative to the greatest element.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         asymmetry: f64,
     },
     /// Undamped modes were asked for, but speeds or constraints on velocities make motions of first order.
@@ -160,6 +177,7 @@ pub enum Error {
         /// Position of the worst pair, from 0.
         mode: usize,
         /// Its residual relative to the sizes of `Khat` and `lambda Mhat`.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         residual: f64,
     },
     /// The square of an eigenvalue exceeds the range of a double.
@@ -172,6 +190,7 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
         /// `|s|`, 1/s.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         size: f64,
     },
     /// A mode's frequency was asked for that does not oscillate.
@@ -180,6 +199,7 @@ pub enum Error {
         /// Position of the mode, from 0.
         mode: usize,
         /// Its eigenvalue, 1/s^2.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         lambda: f64,
     },
     /// A mode was asked for that does not exist.
@@ -213,12 +233,15 @@ pub enum Error {
     #[error("no {what} in the range {low} to {high} of input `{input}`")]
     NotInRange {
         /// What was looked for: `critical value` or `crossing`.
-        what: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        what: Word,
         /// Name of the input.
         input: Text,
         /// Low end, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
         /// High end, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
     /// The sensitivity of a critical value or crossing does not exist.
@@ -231,7 +254,8 @@ pub enum Error {
     #[error("{setting}: {reason}")]
     Setting {
         /// Which one.
-        setting: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        setting: Word,
         /// Why it is refused.
         reason: String,
     },
@@ -239,7 +263,8 @@ pub enum Error {
     #[error("there is no {kind} number {index} in `{mechanism}`, which has {count}")]
     UnknownHandle {
         /// `coordinate`, `input` or `design variable`.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        kind: Word,
         /// The handle's index.
         index: usize,
         /// Name of the mechanism.
@@ -251,7 +276,8 @@ pub enum Error {
     #[error("`{mechanism}` has no {kind} `{name}`: it has {}", names(.known))]
     UnknownName {
         /// `coordinate`, `input`, `design variable` or `output`.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        kind: Word,
         /// The name that was looked for.
         name: String,
         /// Name of the mechanism.
@@ -269,14 +295,18 @@ pub enum Error {
     )]
     Infeasible {
         /// The best nominal values that were found, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         nominal: Vec<f64>,
         /// The best half-widths, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         half_widths: Vec<f64>,
         /// Position of the requirement that is missed most.
         requirement: usize,
         /// Its probability of failure to first order.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         probability: f64,
         /// The one that is allowed.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         wanted: f64,
     },
     /// A response has no value at some of the designs that a method needs.
@@ -292,7 +322,8 @@ pub enum Error {
         /// How many designs there are.
         needed: usize,
         /// What needs them.
-        method: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
+        method: Word,
     },
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]

@@ -10,6 +10,7 @@ const FUNCTION: usize = 40;
 /// out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Costs {
     /// Of [`Kernels::linear_partials_into`](super::Kernels::linear_partials_into).
     pub linear_partials: Option<usize>,

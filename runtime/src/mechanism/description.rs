@@ -7,6 +7,7 @@ use super::tolerance::ToleranceInfo;
 
 /// What a mechanism is made of, and what the compiler proved about it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Description {
     /// Name of the declared type.
     pub name: Text,
@@ -70,6 +71,7 @@ const fn same(a: &[u8], b: &[u8]) -> bool {
 
 /// What the compiler proved about `Chat`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum DampingKind {
     /// Zero for every design, input and position.
     Zero,
@@ -81,6 +83,7 @@ pub enum DampingKind {
 
 /// A unit of measure: a value in SI is the value in this unit times `scale`.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unit {
     /// As declared, for example `mm` or `N*m/rad`; empty for a pure number.
     pub symbol: Text,
@@ -104,6 +107,7 @@ impl Unit {
 
 /// An unknown of the steady motion.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CoordinateInfo {
     /// Declared name; of a reaction the constraint's, with the component where it has several: `pin.x`.
     pub name: Text,
@@ -136,6 +140,7 @@ pub struct CoordinateInfo {
 /// and no time derivative of all unknowns. Without speeds and constraints on velocities
 /// `Khat = [[K_c, Phi_q^T], [Phi_q, 0]]`, `K_c = d(g + Phi_q^T mu)/dq`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Role {
     /// A coordinate that rests in steady motion; the equation is that of its motion.
     Position,
@@ -149,6 +154,7 @@ pub enum Role {
 
 /// An input: an operating parameter chosen at run time.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InputInfo {
     /// Declared name.
     pub name: Text,
@@ -160,6 +166,7 @@ pub struct InputInfo {
 
 /// A design variable.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesignInfo {
     /// Declared name.
     pub name: Text,
@@ -173,6 +180,7 @@ pub struct DesignInfo {
 
 /// A declared output.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputInfo {
     /// Declared name.
     pub name: Text,
@@ -182,6 +190,7 @@ pub struct OutputInfo {
 
 /// The cost of one generated function.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KernelInfo {
     /// Method name.
     pub name: Text,

@@ -4,6 +4,8 @@ mod array;
 mod description;
 mod handles;
 mod results;
+#[cfg(feature = "serde")]
+mod serial;
 mod shared;
 mod tolerance;
 

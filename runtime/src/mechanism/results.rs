@@ -4,6 +4,7 @@ use super::shared::Text;
 
 /// A physical requirement that is not met.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Violation<T> {
     /// What is wrong, for example `mass of bar1`.
     pub quantity: Text,
@@ -15,6 +16,7 @@ pub struct Violation<T> {
 
 /// How far a joint is from the pose in which its coordinates fail.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseMargin<T> {
     /// Name of the joint.
     pub joint: Text,
@@ -24,6 +26,7 @@ pub struct PoseMargin<T> {
 
 /// The residual at rest in two parts, `g = inertia - applied` (eq. 10); `V` a list of `N` numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RestParts<V> {
     /// `B_R^T (M Bdot_D u + gyroscopic terms)`: N or N m by coordinate.
     pub inertia: V,
@@ -33,6 +36,7 @@ pub struct RestParts<V> {
 
 /// Linearised mass, damping and stiffness (eqs. 15-17), or a derivative of the three; `A` an `N` by `N` matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Linear<A> {
     /// `Mhat`, symmetric.
     pub mass: A,
@@ -56,6 +60,7 @@ impl<A> Linear<A> {
 /// Explicit partial derivatives of the linearised matrices, each list one of [`Linear`]; `by_coordinate[k]` is the derivative
 /// by coordinate `k`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinearPartials<C, I = C, D = C> {
     /// By each free coordinate.
     pub by_coordinate: C,
@@ -67,6 +72,7 @@ pub struct LinearPartials<C, I = C, D = C> {
 
 /// Partial derivatives of one scalar by everything it depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gradient<C, I = C, D = C> {
     /// By each free coordinate.
     pub coordinates: C,

@@ -2,6 +2,7 @@
 
 /// How a design variable or an input varies about its value.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ToleranceInfo {
     /// Lower limit less the value, SI or a fraction of the value.
     pub lower: f64,
@@ -45,6 +46,7 @@ impl ToleranceInfo {
 /// three unless set: a few values lie beyond them. The others never leave them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Law {
     /// Normal: the mean midway between the limits.
     Normal,

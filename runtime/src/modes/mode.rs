@@ -2,10 +2,12 @@
 
 use crate::Complex;
 use crate::algebra::Vector;
+use crate::eigenproblem::Near;
 use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Behaviour {
     /// It oscillates and neither grows nor decays within rounding; angular frequency, rad/s.
     Oscillating(f64),
@@ -41,6 +43,7 @@ impl Behaviour {
 /// One mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mode {
     /// Eigenvalue, 1/s: the motion goes as `exp(s t)`. Of a conjugate pair the one with positive imaginary part; of an
     /// undamped divergent mode the growing one.
@@ -58,17 +61,29 @@ pub struct Mode {
     /// What `s` means.
     pub behaviour: Behaviour,
     /// Greatest component of the equation of the mode, left or right, relative to the terms in it.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub residual: f64,
     /// Estimated absolute error of `s`, 1/s.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: f64,
     /// Condition number of `s` as an eigenvalue of the balanced first-order system: 1 for an undamped mode, great where
     /// eigenvalues and their vectors are about to merge, infinite where they have.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub condition: f64,
     /// Number of the motion: modes with one number along a sweep are one motion. Without a sweep, the position.
     pub label: usize,
 }
 
 impl Mode {
+    /// As what predicts the mode of a problem near by.
+    pub(super) fn near(&self) -> Near<'_> {
+        Near {
+            s: self.s,
+            right: &self.shape,
+            left: &self.left,
+        }
+    }
+
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
     #[must_use]
     pub fn frequency(&self) -> Option<f64> {

@@ -5,6 +5,7 @@ use crate::{Equilibrium, Mode, Modes};
 
 /// Sense in which a vibration circles about the axes of the spinning bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sense {
     /// With the spin.
     Forward,
@@ -17,6 +18,7 @@ pub enum Sense {
 /// How a mode whirls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Whirl {
     /// From 1 (every orbit a circle run through with the spin) through 0 (straight) to -1 (circles against it). Orbits are
     /// those of the centres of mass and of the small rotations of the bodies, weighted with mass, second moment and

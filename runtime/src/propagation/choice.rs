@@ -20,6 +20,7 @@ const FEW: u64 = 64;
 /// What an answer may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Effort {
     /// Solutions of the equilibrium that may be spent: one for each design, and one more for each step of the range of each critical
     /// value.

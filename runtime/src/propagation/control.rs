@@ -16,6 +16,7 @@ use crate::{Description, Error, Shared};
 /// Mean and standard deviation of a response, corrected by those of its Taylor model. SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ControlledSpread {
     /// Mean, with its standard error.
     pub mean: Estimated,
@@ -23,8 +24,10 @@ pub struct ControlledSpread {
     pub sigma: Estimated,
     /// How many plain samples one of these is worth for the mean: the variance of the response over what the model leaves of it.
     /// Infinite where the model is exact.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub worth: f64,
     /// The same for the standard deviation.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub worth_of_sigma: f64,
     /// Order of the model: [`Method::FirstOrder`] or [`Method::SecondOrder`].
     pub model: Method,
@@ -33,6 +36,7 @@ pub struct ControlledSpread {
 /// Spreads of several responses by sampling with control variates.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Controlled {
     /// What was asked for.
     pub wanted: Vec<Response>,

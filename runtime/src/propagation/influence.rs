@@ -21,6 +21,7 @@ const PIECE: usize = 64;
 /// How one response depends on one variable.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VariableInfluence {
     /// Position of the design variable.
     pub variable: usize,
@@ -45,6 +46,7 @@ pub struct VariableInfluence {
 /// How one response depends on all variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResponseInfluence {
     /// Value at the nominal design, SI.
     pub nominal: Option<f64>,
@@ -59,6 +61,7 @@ pub struct ResponseInfluence {
 /// How several responses depend on the variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Influence {
     /// What was asked for.
     pub wanted: Vec<Response>,

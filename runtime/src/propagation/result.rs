@@ -22,10 +22,13 @@ pub const QUANTILES: [f64; 7] = [
 /// A number and how far it may be off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimated {
     /// The estimate.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub value: f64,
     /// Its error, by the method's own estimate: one standard error of a sampled value. `None` where nothing is known of it.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: Option<f64>,
 }
 
@@ -38,18 +41,21 @@ impl Estimated {
 /// The value below which a response lies with some probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quantile {
     /// The probability.
     pub probability: f64,
     /// The value, in the unit of the response.
     pub value: f64,
     /// Its error, as of [`Estimated`].
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub error: Option<f64>,
 }
 
 /// How a response is spread, over the designs that have it. Values are in its SI unit.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResponseSpread {
     /// Value at the nominal design; `None` where it has none.
     pub nominal: Option<f64>,
@@ -68,6 +74,7 @@ pub struct ResponseSpread {
 /// Where a result comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Method {
     /// [`first_order`](super::first_order).
     FirstOrder,
@@ -90,6 +97,7 @@ pub enum Method {
 /// How tolerances spread responses.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Propagation {
     /// How it was found.
     pub method: Method,

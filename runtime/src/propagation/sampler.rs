@@ -11,6 +11,7 @@ use crate::setters::setters;
 /// What kind of points to sample at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Points {
     /// Independent random ones.
     Random,

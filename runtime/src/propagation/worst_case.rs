@@ -19,6 +19,7 @@ const ROUNDING: f64 = 1e-13;
 /// Where a response is least or greatest of all designs that were looked at.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme {
     /// The value, SI.
     pub value: f64,
@@ -31,6 +32,7 @@ pub struct Extreme {
 /// A corner at which a response has no value.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MissingCorner {
     /// The design, SI.
     pub design: Vector,
@@ -41,6 +43,7 @@ pub struct MissingCorner {
 /// The worst case of one response.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ResponseLimits {
     /// Value at the nominal design, SI.
     pub nominal: Option<f64>,
@@ -71,6 +74,7 @@ impl ResponseLimits {
 /// The worst case of several responses.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WorstCase {
     /// What was asked for.
     pub wanted: Vec<Response>,

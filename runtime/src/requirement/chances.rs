@@ -15,6 +15,7 @@ const CHUNK: usize = 64;
 /// How many samples met a requirement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tally {
     /// Those that met it.
     pub met: usize,
@@ -82,6 +83,7 @@ impl Tally {
 /// Chances of meeting requirements, from samples.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chances {
     /// Of all requirements at once.
     pub all: Tally,

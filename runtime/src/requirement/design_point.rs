@@ -13,6 +13,7 @@ const STEP: f64 = 1e-3;
 /// A design point: of all designs on a limit, the most probable one, at least in its neighbourhood.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesignPoint {
     /// The design variables there, SI.
     pub design: Vector,

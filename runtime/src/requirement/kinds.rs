@@ -8,14 +8,17 @@ use crate::tolerance::Outcome;
 /// Something that a design has to meet. Numbers are in the SI unit of the response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Requirement {
     /// A response lies in a band, ends included; either may be infinite.
     Within {
         /// What has to lie there.
         response: Response,
         /// Low end.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
         /// High end.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
     /// A response lies outside a forbidden band, or on one of its ends; either may be infinite.
@@ -23,8 +26,10 @@ pub enum Requirement {
         /// What must not lie there.
         response: Response,
         /// Low end.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
         /// High end.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
     /// The equilibrium is stable: the design has [`Outcome::Stable`].

@@ -10,6 +10,7 @@ use crate::response::{Realisation, Response, Responses, Workspace};
 /// Where a response fails, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Edge {
     /// Below this.
     AtLeast(f64),
@@ -18,8 +19,10 @@ pub enum Edge {
     /// Between these.
     Outside {
         /// Low end of the forbidden band.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
         /// High end of the forbidden band.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
 }
@@ -46,6 +49,7 @@ impl Edge {
 /// A limit that a requirement puts to a response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limit {
     /// Position of the requirement.
     pub requirement: usize,

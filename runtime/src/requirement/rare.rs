@@ -22,6 +22,7 @@ const CHUNKS: u64 = 16;
 /// standard normal variables.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RareFailure {
     /// What the samples say. Samples without a response to tell are counted and do not count as failures.
     pub failure: SampledProbability,

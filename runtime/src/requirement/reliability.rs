@@ -15,6 +15,7 @@ use crate::{Description, Error, Shared};
 /// One limit and its design points.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LimitReliability {
     /// The limit.
     pub limit: Limit,
@@ -47,6 +48,7 @@ impl LimitReliability {
 /// Probability that at least one of several limits is passed, each replaced by its tangent plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SystemFailure {
     /// The probability, with the error of its integration.
     pub probability: Estimate,
@@ -57,6 +59,7 @@ pub struct SystemFailure {
 /// Reliability of a design.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reliability {
     /// Every limit that the requirements put to responses.
     pub limits: Vec<LimitReliability>,

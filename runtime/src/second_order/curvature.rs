@@ -15,6 +15,11 @@ use crate::{Complex, Description, Equilibrium, Error, Mode, Modes, Shared};
 /// Second derivatives of one number, SI.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
+)]
 pub struct SecondDerivatives<T> {
     /// By two inputs.
     pub by_input: Matrix<T>,
@@ -27,6 +32,7 @@ pub struct SecondDerivatives<T> {
 /// First and second total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeCurvature {
     /// Position of the mode.
     pub mode: usize,

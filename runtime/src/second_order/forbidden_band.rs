@@ -14,12 +14,15 @@ use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 /// A band of values to avoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Band {
     /// Between two values, SI; either may be infinite.
     Between {
         /// Low end, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         low: f64,
         /// High end, SI.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         high: f64,
     },
     /// Within a fraction of a multiple of an input: from `(1 - fraction) order u` to `(1 + fraction) order u`. Where the input
@@ -139,6 +142,7 @@ fn relative(model: &Quadratic, reciprocal: &[f64]) -> Quadratic {
 /// The margin of a quantity of a mode against a forbidden band.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeMargin {
     /// Position of the mode, from 0.
     pub mode: usize,

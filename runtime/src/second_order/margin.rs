@@ -10,15 +10,20 @@ use crate::tolerance::Tolerances;
 /// Margin of a quantity against a forbidden band, in the units of the quantity.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
     /// The band; an end may be infinite.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub band: (f64, f64),
     /// Nominal value.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub value: f64,
     /// First-order standard deviation.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
     /// Distance of the first-order mean to the nearest end of the band in standard deviations: negative inside, infinite when
     /// nothing varies.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance: f64,
     /// Probability of the band at first order; of normal variables, that of a normal distribution.
     pub first_order: f64,
@@ -37,6 +42,7 @@ pub struct Margin {
 /// (a tolerance in percent) adds its `by_half_width` times its own derivative.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MarginDerivatives {
     /// By the mean.
     pub by_mean: f64,

@@ -10,10 +10,13 @@ use crate::tolerance::Tolerances;
 /// does not converge, and the distance to it in standard deviations is the measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Nonlinearity {
     /// Shift of the mean, `|tr(H Sigma) / 2| / sigma`.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean_shift: f64,
     /// Standard deviation that curvature adds, `sqrt(tr((H Sigma)^2) / 2) / sigma`.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub spread: f64,
 }
 

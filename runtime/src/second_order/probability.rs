@@ -9,6 +9,7 @@ use crate::tolerance::Tolerances;
 /// A probability and how far it may be wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Probability {
     /// In [0, 1].
     pub value: f64,

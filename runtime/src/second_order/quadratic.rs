@@ -10,6 +10,7 @@ use crate::{Error, Text};
 ///
 /// Slopes and curvature are total derivatives: they follow the equilibrium. All in SI units.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quadratic {
     /// Nominal value.
     pub value: f64,
@@ -24,21 +25,29 @@ pub struct Quadratic {
 /// digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModelMoments {
     /// Mean `f(b0 + d) + tr(H Sigma) / 2`, `d` what the means of the variables differ from `b0` by.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean: f64,
     /// What spread adds to the mean, `tr(H Sigma) / 2`, not rounded against the value.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean_shift: f64,
     /// First-order standard deviation `sqrt(S Sigma S^T)`.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub first_order_sigma: f64,
     /// What curvature alone adds, `sqrt(tr((H Sigma)^2) / 2)`; of variables that are not normal, in which curvature also acts with
     /// their skewness, the root of how much the variances with and without it differ.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub curvature_sigma: f64,
     /// Standard deviation; of normal variables `sqrt(S Sigma S^T + tr((H Sigma)^2) / 2)`, `S` at their means.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
     /// Third central moment over `sigma^3`; zero when nothing varies.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub skewness: f64,
     /// Fourth central moment over `sigma^4`, less the 3 of a normal distribution; zero when nothing varies.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub excess_kurtosis: f64,
 }
 

@@ -12,6 +12,7 @@ use crate::{Description, Equilibrium, Error, Modes, Shared};
 /// A quantity of a mode to second order.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondOrderSpread {
     /// Value, gradient and Hessian by the design variables.
     pub model: Quadratic,
@@ -24,6 +25,7 @@ pub struct SecondOrderSpread {
 /// A mode to second order.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeSecondOrder {
     /// Frequency `Im s`, rad/s.
     pub frequency: SecondOrderSpread,
@@ -36,6 +38,7 @@ pub struct ModeSecondOrder {
 /// All modes to second order.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SecondOrder {
     /// In the order of the modes; a mode that does not oscillate or has no derivatives of its own says so.
     pub modes: Vec<Result<ModeSecondOrder, Error>>,

@@ -39,6 +39,7 @@ use crate::{Description, Equilibrium, Error, Mode, Modes, Shared};
 /// How derivatives were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Method {
     /// Adjoint: all variables at once.
     Adjoint,
@@ -53,6 +54,7 @@ pub enum Method {
 /// Total derivatives of all modes at one equilibrium, in the order of the modes.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sensitivities {
     /// One entry for each mode.
     pub modes: Vec<ModeSensitivity>,

@@ -8,6 +8,11 @@ use crate::{Complex, Mode};
 /// First derivatives of one number by every input and design variable.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound = "T: eigentol_statistics::serial::Exact + Copy + Default")
+)]
 pub struct Slopes<T> {
     /// By each input, per SI unit.
     pub by_input: Vector<T>,
@@ -40,6 +45,7 @@ impl<T: Copy + Default> Slopes<T> {
 /// Total derivatives of one mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeSensitivity {
     /// `dlambda/du`, 1/s^2 per SI unit of the input; `lambda = -Re s^2`. Zero, as by the design variables, where `s` has no
     /// derivative because it has merged with another eigenvalue.

@@ -8,6 +8,7 @@ use crate::{Description, Equilibrium, Error, Shared};
 /// Outputs at an equilibrium and their total derivatives, SI.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputSensitivities {
     /// Values.
     pub values: Vector,

@@ -5,6 +5,7 @@ use crate::{Complex, Mode};
 /// A real number that describes a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// Angular frequency of the oscillation `Im s`, rad/s.
     Frequency,

@@ -9,6 +9,7 @@ use crate::{Description, Equilibrium, Error, Shared};
 /// Derivatives of the equilibrium coordinates.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EquilibriumShift {
     /// `by_input[i][j] = dq*_i/du_j`, SI.
     pub by_input: Matrix,

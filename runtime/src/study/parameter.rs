@@ -5,6 +5,8 @@ use crate::{DesignVariable, Input};
 
 /// A design variable or an input: what may have a tolerance. Made from a handle of either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound = ""))]
 pub enum Parameter<M = Any> {
     /// A design variable.
     Design(DesignVariable<M>),

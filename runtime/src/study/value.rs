@@ -42,6 +42,7 @@ pub struct InDeclaredUnit(pub f64);
 
 /// A value as it is given: an `f64` in SI, or one [`InDeclaredUnit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Value {
     /// SI.
     Si(f64),

@@ -11,6 +11,7 @@ const CONFIDENCE: f64 = 0.95;
 /// How probable something is, by samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chance {
     /// Samples to which it happened.
     pub count: usize,
@@ -44,6 +45,7 @@ impl Chance {
 /// What became of the samples.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sampled {
     /// How many were drawn.
     pub samples: usize,
@@ -76,14 +78,17 @@ impl Sampled {
 /// Whether samples were asked.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Sampling {
     /// They were.
     Done(Sampled),
     /// They would cost more than they may: verdicts rest on distances and the second-order model.
     TooDear {
         /// Operations of the fewest samples that decide anything.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         operations: f64,
         /// Operations that they may cost.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         budget: f64,
     },
     /// There is no quantity that varies.

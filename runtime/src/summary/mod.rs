@@ -44,6 +44,7 @@ pub const BUDGET: f64 = 1.5e8;
 /// What tolerances do to the modes, with a verdict for each.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
     /// First-order spread.
     pub first: FirstOrder,

@@ -10,6 +10,7 @@ pub const TRUSTED_SIGMA_ERROR: f64 = 0.05;
 /// The verdict on the first-order standard deviation of one mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Trust {
     /// Position of the mode, from 0.
     pub mode: usize,
@@ -39,6 +40,7 @@ impl Trust {
 /// The method that gives the standard deviation of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Advice {
     /// First order.
     FirstOrder,
@@ -56,6 +58,7 @@ pub enum Advice {
 /// it does, on whatever branch of equilibria these lie. The number of the others is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Check {
     /// Of what: the frequency in rad/s, or the damping ratio.
     pub quantity: Quantity,
@@ -77,6 +80,7 @@ pub struct Check {
 /// Why a first-order standard deviation is not to be trusted.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Doubt {
     /// The mode does not oscillate: it has no frequency.
     NoFrequency,
@@ -85,6 +89,7 @@ pub enum Doubt {
         /// Positions of all modes of the cluster, its own included.
         modes: Vec<usize>,
         /// Least distance of two of them, in standard deviations.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
         /// They have merged into one defective eigenvalue.
         defective: bool,
@@ -93,18 +98,21 @@ pub enum Doubt {
     /// rounding of it, negative beyond it. Of a mode that was sampled it is said where first order was found wrong.
     NearCritical {
         /// Standard deviations.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
     /// The mode begins to grow this many standard deviations away; zero when it neither grows nor decays within rounding,
     /// negative when it grows. It is said whatever samples show: sigma tells nothing of the unstable ones.
     NearInstability {
         /// Standard deviations.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
     /// The mode ceases to oscillate this many standard deviations away: it meets its conjugate and becomes two real ones. Of a mode
     /// that was sampled it is said where first order was found wrong.
     NearCriticalDamping {
         /// Standard deviations, `Im s / (2 sigma)`: the distance of `(Im s)^2` from zero.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         distance: f64,
     },
     /// First order misses the standard deviation of the second-order model. Asked only where samples did not decide, and where the
@@ -113,6 +121,7 @@ pub enum Doubt {
         /// Of what.
         quantity: Quantity,
         /// By how much, as a fraction of the second-order one.
+        #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
         sigma_error: f64,
     },
     /// First order misses the standard deviation of samples.

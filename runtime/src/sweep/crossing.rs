@@ -12,6 +12,7 @@ use crate::{Equilibrium, Error, Input, Mode, Modes};
 
 /// A line `ratio u + offset` that a frequency is compared with: an engine order, or a fixed excitation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
     /// Multiple of the input; rad/s per SI unit of the input.
     pub ratio: f64,
@@ -29,6 +30,7 @@ impl From<f64> for Line {
 /// What a mode meets at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Condition {
     /// Its frequency equals a line: `Im s = ratio u + offset`.
     Line(Line),
@@ -39,6 +41,7 @@ pub enum Condition {
 /// A state where a mode meets a condition.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
     /// The input that was varied.
     pub input: Input,

@@ -12,6 +12,7 @@ use crate::{Complex, Description, Error, Input, Shared};
 /// What happens at a value of an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Event {
     /// The lowest mode loses its stiffness.
     Critical,
@@ -31,6 +32,7 @@ pub enum Event {
 /// A value of an input at which something happens, and how tolerances move it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EventTolerance {
     /// What happens.
     pub event: Event,

@@ -7,6 +7,7 @@ use crate::{Description, Equilibrium, Error, Input, Modes, Shared};
 /// A sweep; iterating over it yields its points.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sweep {
     /// The swept input.
     pub input: Input,
@@ -43,6 +44,7 @@ impl<'a> IntoIterator for &'a Sweep {
 /// One point of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SweepPoint {
     /// Value of the swept input, SI.
     pub value: f64,
@@ -67,6 +69,7 @@ impl SweepPoint {
 /// A state where `Khat` is singular.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CriticalState {
     /// The input that was varied.
     pub input: Input,

@@ -7,6 +7,8 @@ use crate::{Any, Description, Error, Input};
 /// Where to look: `steps` equal steps of one input from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(bound = ""))]
 pub struct Range<M = Any> {
     /// The input that varies.
     pub input: Input<M>,

@@ -18,6 +18,7 @@ pub const TRUSTED_DISTANCE: f64 = 4.5;
 /// First-order spread of one mode.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ModeTolerance {
     /// What it does, with the nominal frequency of a mode that oscillates.
     pub behaviour: Behaviour,
@@ -35,13 +36,16 @@ pub struct ModeTolerance {
     /// Standard deviations between this mode and the state where its stiffness vanishes: `lambda` over its own, with
     /// `|s|^2` for `lambda` of a general mode; negative when the mode diverges, zero when it is neutral, infinite when nothing moves it or when
     /// it has no derivative.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_critical: f64,
     /// Standard deviations between the growth of this mode and zero: negative when it grows, zero when it neither grows nor
     /// decays within rounding though tolerances move its growth. Infinite when nothing moves the growth beyond rounding, as for undamped
     /// modes.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_instability: f64,
     /// Standard deviations of the difference between this mode's eigenvalue and the nearest one: where it is small, samples
     /// exchange the two modes or mix their shapes. Infinite for a single mode or when nothing moves the difference.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_neighbour: f64,
     /// The mode is a member of a cluster of nearly equal eigenvalues ([`Modes::cluster_of`]): first order does not apply to it,
     /// and the numbers here belong to the computed basis of the cluster. Whether tolerances mix modes
@@ -83,6 +87,7 @@ impl ModeTolerance {
 /// First-order spread of all modes.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstOrder {
     /// One entry for each mode.
     pub modes: Vec<ModeTolerance>,
@@ -90,6 +95,7 @@ pub struct FirstOrder {
     pub sigma_level: f64,
     /// The least of the modes' distances to the critical state. Beyond the critical state the equilibrium changes
     /// branch, which changes every mode, so the nearest mode limits the trust in all.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub distance_to_critical: f64,
     /// Which modes they belong to.
     pub family: Family,

@@ -69,6 +69,7 @@ impl Default for Sampling<'_> {
 /// Result of a Monte Carlo run.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MonteCarlo {
     /// Number of samples.
     pub samples: usize,

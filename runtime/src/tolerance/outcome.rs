@@ -6,6 +6,7 @@ use crate::equilibrium::Failure;
 /// What became of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
     /// It has a stable equilibrium, or one that is marginal, held by gyroscopic forces, or free in some directions.
     Stable,
@@ -64,6 +65,7 @@ impl From<Stability> for Outcome {
 /// How many samples had each outcome; the numbers sum to the number of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Counts {
     /// [`Outcome::Stable`].
     pub stable: usize,

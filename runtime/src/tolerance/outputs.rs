@@ -8,6 +8,7 @@ use crate::{Description, Error, Shared};
 /// First-order spread of every output.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutputTolerances {
     /// Nominal values in the order of the declaration, SI.
     pub values: Vector,

@@ -10,6 +10,7 @@ use crate::{Complex, Equilibrium, Mode, Modes, Policy};
 /// One sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample {
     /// Its design variables, SI.
     pub design: Vector,
@@ -68,7 +69,7 @@ impl Solution {
             return;
         }
         let (found, state) = (&mut self.modes, &self.state);
-        match found.solve(&state.linear, state.rounding) {
+        match found.solve_near(&state.linear, state.rounding, &modes.modes) {
             Ok(()) => {
                 self.places = match_with_assurance(modes, found, &state.linear).map(position);
             }

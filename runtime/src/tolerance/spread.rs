@@ -6,14 +6,18 @@ use crate::algebra::Vector;
 /// First-order spread of one quantity.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spread {
     /// Mean, SI: the nominal value, and what means of design variables beside their nominal values add to it.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub mean: f64,
     /// Derivatives by the design variables, per SI unit.
     pub by_design: Vector,
     /// Standard deviation, SI.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub sigma: f64,
     /// Half-width of the band that holds as many standard deviations as the tolerances do, SI.
+    #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::exact"))]
     pub band: f64,
     /// Share of each design variable in the variance; they sum to 1, or are all zero when nothing varies. Correlated
     /// variables can have negative shares.

@@ -3,6 +3,7 @@
 /// Statistics of one quantity over the samples that have it, such as a mode's frequency where it oscillates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Number of values.
     pub count: usize,

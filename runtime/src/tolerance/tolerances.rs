@@ -26,17 +26,19 @@ use crate::{Description, Error};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "super::serial::Unchecked"))]
 pub struct Tolerances {
-    half_widths: Vector,
-    sigma_level: f64,
-    sigmas: Vector,
+    pub(super) half_widths: Vector,
+    pub(super) sigma_level: f64,
+    pub(super) sigmas: Vector,
     /// Mean less nominal value.
-    shifts: Vector,
-    correlation: Option<Matrix>,
+    pub(super) shifts: Vector,
+    pub(super) correlation: Option<Matrix>,
     /// Lower factor of the covariance matrix.
-    factor: Matrix,
+    pub(super) factor: Matrix,
     /// The values where they are not jointly normal, and the nominal values that these were made for.
-    joint: Option<(Joint, Vector)>,
+    pub(super) joint: Option<(Joint, Vector)>,
 }
 
 impl Tolerances {

@@ -2,15 +2,20 @@
 
 use crate::reliability::Closest;
 
+/// A constant of the program. By this name serde does not look for it in what is read.
+type Word = &'static str;
+
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Error {
     /// An argument or a setting makes no sense.
     #[error("{setting}: {reason}")]
     Setting {
         /// Which one.
-        setting: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        setting: Word,
         /// What is wrong with it.
         reason: String,
     },
@@ -18,7 +23,8 @@ pub enum Error {
     #[error("{found} {kind}, expected {expected}")]
     WrongLength {
         /// What they are.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        kind: Word,
         /// How many there are.
         found: usize,
         /// How many there should be.
@@ -28,7 +34,8 @@ pub enum Error {
     #[error("there is no {kind} {index}: they are numbered from 0, and there are {number}")]
     BeyondLast {
         /// What is counted.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        kind: Word,
         /// The number that was asked for.
         index: u64,
         /// How many there are.
@@ -38,13 +45,15 @@ pub enum Error {
     #[error("{kind} is not finite")]
     NotFinite {
         /// What it is.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        kind: Word,
     },
     /// There are not enough of something.
     #[error("{found} {kind}, at least {needed} are needed")]
     TooFew {
         /// Of what.
-        kind: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        kind: Word,
         /// How many there are.
         found: usize,
         /// How many are needed.
@@ -96,7 +105,8 @@ pub enum Error {
     #[error("the limit state has no value {place}: {reason}")]
     NoLimitValue {
         /// Where.
-        place: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        place: Word,
         /// What the limit state said.
         reason: String,
     },
@@ -114,10 +124,13 @@ pub enum Error {
     #[error("{formula}: no value for curvature {curvature} at beta = {beta}")]
     Curvature {
         /// Whose formula.
-        formula: &'static str,
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::word"))]
+        formula: Word,
         /// The principal curvature at fault, in 1.
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
         curvature: f64,
         /// The reliability index.
+        #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
         beta: f64,
     },
 }

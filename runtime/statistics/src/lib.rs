@@ -12,6 +12,8 @@ pub mod quadrature;
 pub mod reliability;
 pub mod sensitivity;
 pub mod sequence;
+#[cfg(feature = "serde")]
+pub mod serial;
 pub mod summary;
 
 pub use distribution::Distribution;

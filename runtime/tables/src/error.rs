@@ -34,6 +34,34 @@ pub enum Error {
         /// Those of the first column.
         expected: usize,
     },
+    /// The file is not one of ours.
+    #[error(
+        "this is no document of eigentol: it has no `\"format\": \"eigentol\"` with a version and a kind"
+    )]
+    Foreign,
+    /// The document is of another version.
+    #[error(
+        "the document is of version {found}, written by {by}; this program reads version {expected}: write it again with this program, or read it with the one that wrote it"
+    )]
+    Version {
+        /// Its version.
+        found: String,
+        /// What wrote it.
+        by: String,
+        /// The version that can be read.
+        expected: u64,
+    },
+    /// The document holds another result.
+    #[error("the document holds `{found}`, not `{expected}`")]
+    Kind {
+        /// What it holds.
+        found: String,
+        /// What was to be read.
+        expected: &'static str,
+    },
+    /// The content does not make sense.
+    #[error("the document is damaged: {0}")]
+    Content(String),
     /// Rows of one kind follow rows of another in one file.
     #[error(
         "these rows have the columns {found}, those before them {expected}: write them to a file of their own"

@@ -1,10 +1,15 @@
 #![doc = include_str!("../README.md")]
 
+mod answer;
 pub mod csv;
 mod error;
+pub mod json;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 mod results;
 mod table;
 
+pub use answer::{Answer, Subject};
 pub use error::Error;
-pub use results::{Tables, samples_table, tables};
+pub use results::{Tables, samples_table, sweep_table, tables};
 pub use table::{Column, Table, Values};

@@ -1,9 +1,11 @@
 //! Named columns of equal length, each with a unit.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Error;
 
 /// A table: columns of equal length.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// What it is a table of, in one or two words: `modes`.
     pub name: String,
@@ -12,18 +14,20 @@ pub struct Table {
 }
 
 /// One column of a table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// What stands in it.
     pub name: String,
     /// The symbol of the unit of its numbers, as declarations write it; empty of what has none.
     pub unit: String,
     /// One entry for each row; `None` where there is nothing, or no finite number.
+    #[serde(flatten)]
     pub values: Values,
 }
 
 /// The entries of a column.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", content = "values", rename_all = "lowercase")]
 pub enum Values {
     /// Finite numbers.
     Numbers(Vec<Option<f64>>),

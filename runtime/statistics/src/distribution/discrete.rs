@@ -3,12 +3,14 @@
 use crate::{Error, normal};
 
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Discrete {
     /// In increasing order.
     values: Vec<f64>,
     /// Probability of each.
     weights: Vec<f64>,
     /// The standard normal `z` at which the value changes to the next one.
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
     steps: Vec<f64>,
 }
 

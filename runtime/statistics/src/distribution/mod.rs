@@ -26,6 +26,7 @@ pub(crate) use expansion::Expansion;
 /// # Ok::<(), eigentol_statistics::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distribution {
     kind: Kind,
     mean: f64,
@@ -33,6 +34,7 @@ pub struct Distribution {
 }
 
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 enum Kind {
     Normal,
     Lognormal {

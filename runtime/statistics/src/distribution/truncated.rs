@@ -5,8 +5,11 @@ use crate::{Error, normal};
 
 /// An interval of standard normal values.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Interval {
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
     low: f64,
+    #[cfg_attr(feature = "serde", serde(with = "crate::serial::exact"))]
     high: f64,
     /// The limits change sign, so that most of the probability is on the left of zero.
     mirrored: bool,

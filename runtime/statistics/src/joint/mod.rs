@@ -2,6 +2,8 @@
 
 mod copula;
 mod factor;
+#[cfg(feature = "serde")]
+mod serial;
 
 use crate::{Distribution, Error};
 use copula::normal_correlation;
@@ -24,12 +26,15 @@ pub use factor::semidefinite_factor;
 /// # Ok::<(), eigentol_statistics::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "serial::Unchecked"))]
 pub struct Joint {
     variables: Vec<Distribution>,
     dependence: Option<Dependence>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct Dependence {
     /// Linear correlations, row by row.
     correlation: Vec<f64>,

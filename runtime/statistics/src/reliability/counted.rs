@@ -8,6 +8,7 @@ use crate::Error;
 
 /// How often a limit state was asked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Evaluations {
     /// Evaluations of value and gradient.
     pub total: usize,

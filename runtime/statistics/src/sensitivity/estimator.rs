@@ -3,6 +3,7 @@
 /// How to estimate the indices of an input from the values `a` of the rows of `A`, `b` of `B` and `c` of `A` with that input of `B`.
 /// `V` is the variance of all `a` and `b`, `m` their mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Estimator {
     /// First order `mean((b - m) (c - a)) / V` (Saltelli et al. 2010, table 2 b), total `mean((a - c)^2) / 2 V` (table 2 f). Small
     /// indices of first order have small errors.

@@ -9,6 +9,7 @@ use crate::sequence::generator;
 /// How to find confidence intervals: by the percentiles of estimates from rows drawn with replacement (Efron 1979; Archer,
 /// Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bootstrap {
     /// Samples drawn.
     pub resamples: usize,
@@ -31,6 +32,7 @@ impl Default for Bootstrap {
 
 /// An index and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The estimate, which an error may carry out of 0 to 1.
     pub value: f64,
@@ -42,6 +44,7 @@ pub struct Estimate {
 
 /// How the variance of a model is shared out among its inputs (Sobol' 1993; Homma and Saltelli 1996).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SobolIndices {
     /// By input: the part of the variance that goes if this input is known.
     pub first: Vec<Estimate>,

@@ -11,6 +11,7 @@ const INDEPENDENT: f64 = 1e-10;
 
 /// The linear function of the inputs that fits the result best.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Regression {
     /// By input: standard deviations of the result for one of the input (standardised regression coefficient, SRC).
     pub coefficients: Vec<f64>,

@@ -9,6 +9,7 @@ use crate::reliability::vector::{add_scaled, dot, norm, scaled, unit};
 
 /// How far a point is from being a design point. The unit of the limit state does not matter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
     /// `|g| / |grad g| / max(1, |z|)`: distance from the limit, to first order.
     pub limit: f64,
@@ -26,6 +27,7 @@ impl Residuals {
 
 /// The point nearest to a design point that a search came across.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Closest {
     /// Its coordinates.
     pub point: Vec<f64>,
@@ -58,6 +60,7 @@ impl fmt::Display for Closest {
 
 /// A design point: the point of the limit nearest to the origin, at least in its neighbourhood.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesignPoint {
     /// Its coordinates `z*`.
     pub point: Vec<f64>,
@@ -73,6 +76,7 @@ pub struct DesignPoint {
 
 /// Derivatives by a parameter of the limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormSensitivity {
     /// `d beta / d theta`, per unit of the parameter.
     pub beta: f64,

@@ -18,6 +18,7 @@ use crate::Error;
 
 /// The nearest design point, and what it took to find it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormResult {
     /// The design point nearest to the origin.
     pub design_point: DesignPoint,

@@ -12,6 +12,7 @@ use crate::reliability::vector::{add_scaled, distance, dot, norm, scaled, unit};
 
 /// Design points of separate failure regions.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FailureRegions {
     /// The design points, the nearest to the origin first; at least one.
     pub design_points: Vec<DesignPoint>,

@@ -4,6 +4,7 @@ use crate::Error;
 
 /// How to search for design points.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FormSettings {
     /// Greatest residual of a design point, both of the limit and of the direction; see [`super::Residuals`].
     pub tolerance: f64,

@@ -7,6 +7,7 @@ use crate::normal::quantile;
 
 /// An interval of probabilities.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval {
     /// Its lower end.
     pub lower: f64,

@@ -16,6 +16,7 @@ use crate::Error;
 
 /// What counts as failure where there are several limit states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Failure {
     /// One of them fails: a series system, requirements that must all be met.
     Any,
@@ -25,6 +26,7 @@ pub enum Failure {
 
 /// Which samples to draw, and when to stop.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SamplingSettings {
     /// Seed of all samples.
     pub seed: u64,
@@ -59,6 +61,7 @@ const GREATEST_LN_WEIGHT: f64 = 300.0;
 
 /// A probability of failure from samples.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SampledProbability {
     /// Probability of failure. Samples without a value do not count as failures.
     pub probability: Estimate,

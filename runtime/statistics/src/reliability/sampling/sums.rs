@@ -2,6 +2,7 @@
 
 /// An estimate with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
@@ -11,6 +12,7 @@ pub struct Estimate {
 
 /// Sum and sum of squares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Moments {
     pub(super) sum: f64,
     pub(super) squares: f64,
@@ -42,6 +44,7 @@ impl Moments {
 
 /// Sums over a range of samples. Ranges that are joined in the same order give the same bits, whoever computed them.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SampleSums {
     pub(super) samples: u64,
     pub(super) failures: u64,

@@ -11,6 +11,7 @@ use crate::normal;
 
 /// The paraboloid that touches and osculates the limit at a design point.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sorm {
     beta: f64,
     curvatures: Vec<f64>,

@@ -33,6 +33,7 @@ use crate::normal::cdf;
 /// # Ok::<(), eigentol_statistics::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstOrderSystem {
     /// Descending by probability of failure.
     betas: Vec<f64>,

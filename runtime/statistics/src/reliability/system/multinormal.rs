@@ -10,6 +10,7 @@ use crate::reliability::sampling::{Estimate, Interval};
 
 /// How finely to integrate.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct QuadratureSettings {
     /// Points of the lattice rule, each taken once for every shift.
     pub points: usize,

@@ -1,0 +1,28 @@
+//! Words that are constants of the program, in errors: `#[serde(with = "word")]`.
+
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+use serde::{Deserialize, Deserializer, Serializer};
+
+/// Those that were read, each kept once as long as the program runs.
+static READ: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+
+/// # Errors
+/// Those of the format.
+pub fn serialize<S: Serializer>(word: &str, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(word)
+}
+
+/// # Errors
+/// Those of the format.
+pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<&'static str, D::Error> {
+    let word = String::deserialize(from)?;
+    let mut all = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(own) = all.get(&word[..]) {
+        return Ok(own);
+    }
+    let own: &'static str = word.leak();
+    all.insert(own);
+    Ok(own)
+}

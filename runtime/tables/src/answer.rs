@@ -1,0 +1,191 @@
+//! What a document can hold.
+
+use eigentol::allocation::Allocation;
+use eigentol::branches::{Branch, Branches};
+use eigentol::campbell::Campbell;
+use eigentol::clusters::ClusterTolerance;
+use eigentol::equilibrium::Assembly;
+use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
+use eigentol::requirement::{Chances, RareFailure, Reliability};
+use eigentol::second_order::{ModeMargin, SecondOrder};
+use eigentol::sensitivity::{EquilibriumShift, OutputSensitivities};
+use eigentol::summary::Summary;
+use eigentol::sweep::{CriticalState, Crossing, EventTolerance, Sweep};
+use eigentol::tolerance::OutputTolerances;
+use eigentol::{
+    Description, Equilibrium, FirstOrder, Input, Modes, MonteCarlo, Sensitivities, Shared,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::Tables;
+
+/// A result that a document can hold.
+pub trait Answer: Tables + Serialize + DeserializeOwned {
+    /// What kind of result it is, as documents call it.
+    const KIND: &'static str;
+
+    /// What it belongs to; nothing of an empty list.
+    fn subject(&self) -> Option<Subject<'_>>;
+}
+
+/// The mechanism and the operating point that a result belongs to.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The mechanism.
+    pub description: &'a Shared<Description>,
+    /// Its inputs, SI.
+    pub inputs: &'a [f64],
+    /// The one that varies.
+    pub varied: Option<Input>,
+}
+
+impl<'a> Subject<'a> {
+    fn new(description: &'a Shared<Description>, inputs: &'a [f64], varied: Option<Input>) -> Self {
+        Self {
+            description,
+            inputs,
+            varied,
+        }
+    }
+}
+
+macro_rules! at_one_point {
+    ($($kind:literal: $result:ty;)+) => {
+        $(
+            impl Answer for $result {
+                const KIND: &'static str = $kind;
+
+                fn subject(&self) -> Option<Subject<'_>> {
+                    Some(Subject::new(&self.description, &self.inputs, None))
+                }
+            }
+        )+
+    };
+}
+
+at_one_point! {
+    "allocation": Allocation;
+    "assembly": Assembly;
+    "chances": Chances;
+    "controlled spreads": Controlled;
+    "equilibrium": Equilibrium;
+    "equilibrium shift": EquilibriumShift;
+    "first-order tolerances": FirstOrder;
+    "influence": Influence;
+    "margin": ModeMargin;
+    "modes": Modes;
+    "Monte Carlo": MonteCarlo;
+    "output sensitivities": OutputSensitivities;
+    "output tolerances": OutputTolerances;
+    "rare failure": RareFailure;
+    "reliability": Reliability;
+    "second-order tolerances": SecondOrder;
+    "sensitivities": Sensitivities;
+    "spreads": Propagation;
+    "summary": Summary;
+    "worst case": WorstCase;
+}
+
+macro_rules! along_an_input {
+    ($($kind:literal: $result:ty;)+) => {
+        $(
+            impl Answer for $result {
+                const KIND: &'static str = $kind;
+
+                fn subject(&self) -> Option<Subject<'_>> {
+                    Some(Subject::new(&self.description, &self.inputs, Some(self.input)))
+                }
+            }
+        )+
+    };
+}
+
+along_an_input! {
+    "Campbell diagram": Campbell;
+    "event": EventTolerance;
+    "sweep": Sweep;
+}
+
+macro_rules! at_an_equilibrium {
+    ($($kind:literal: $result:ty;)+) => {
+        $(
+            impl Answer for $result {
+                const KIND: &'static str = $kind;
+
+                fn subject(&self) -> Option<Subject<'_>> {
+                    let at = &self.equilibrium;
+                    Some(Subject::new(&at.description, &at.inputs, Some(self.input)))
+                }
+            }
+        )+
+    };
+}
+
+at_an_equilibrium! {
+    "critical state": CriticalState;
+    "crossing": Crossing;
+}
+
+impl Answer for Branch {
+    const KIND: &'static str = "branch";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        let at = self.points.first().map(|own| &own.equilibrium.inputs[..]);
+        Some(Subject::new(
+            &self.description,
+            at.unwrap_or_default(),
+            Some(self.input),
+        ))
+    }
+}
+
+impl Answer for Branches {
+    const KIND: &'static str = "branches";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        self.branches.first()?.subject()
+    }
+}
+
+macro_rules! lists {
+    ($($kind:literal: $one:ty;)+) => {
+        $(
+            impl Tables for Vec<$one> {
+                fn tables(&self) -> Vec<crate::Table> {
+                    self[..].tables()
+                }
+            }
+
+            impl Answer for Vec<$one> {
+                const KIND: &'static str = $kind;
+
+                fn subject(&self) -> Option<Subject<'_>> {
+                    self.first()?.subject()
+                }
+            }
+        )+
+    };
+}
+
+lists! {
+    "critical states": CriticalState;
+    "crossings": Crossing;
+    "equilibria": Equilibrium;
+    "events": EventTolerance;
+}
+
+impl Tables for Vec<ClusterTolerance> {
+    fn tables(&self) -> Vec<crate::Table> {
+        self[..].tables()
+    }
+}
+
+impl Answer for Vec<ClusterTolerance> {
+    const KIND: &'static str = "clusters";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        let one = self.first()?;
+        Some(Subject::new(&one.description, &one.inputs, None))
+    }
+}

@@ -1,0 +1,223 @@
+//! Results as JSON documents, for programs in any language and for reading back bit by bit.
+//!
+//! ```json
+//! {
+//!   "format": "eigentol",
+//!   "version": 1,
+//!   "by": "eigentol-tables 0.1.0",
+//!   "kind": "modes",
+//!   "mechanism": "Pendulum",
+//!   "inputs": {"speed": {"value": 3000.0, "unit": "rpm"}},
+//!   "tables": [
+//!     {"name": "modes", "columns": [
+//!       {"name": "mode", "unit": "", "kind": "whole", "values": [1, 2]},
+//!       {"name": "frequency", "unit": "rad/s", "kind": "numbers", "values": [2.5, null]}
+//!     ]}
+//!   ],
+//!   "description": {"name": "Pendulum", "...": "names and units of coordinates, inputs, design variables and outputs"},
+//!   "result": {"...": "every field of the result, SI"}
+//! }
+//! ```
+//!
+//! - `format` and `version` come first. Another version is refused by name; within a version fields may be added, none changes.
+//! - `inputs` has the operating point in declared units, without an input that varies.
+//! - `tables` has what people and other programs want ([`tables`](crate::tables)): columns of equal length, each of the `kind`
+//!   `numbers`, `whole`, `texts` or `flags`, in declared units; `null` where there is nothing.
+//! - `result` has all there is to the result, in the words of the Rust type and in SI, so that [`read`] gives the same result. Complex
+//!   numbers are `[real, imaginary]`, matrices lists of rows, infinite numbers the words `"Infinity"` and `"-Infinity"`. A `description`
+//!   that is `null` is that of the document.
+
+use std::collections::BTreeMap;
+use std::io::{Read, Write};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::answer::Answer;
+use crate::{Error, Table};
+
+/// The word that says what a file is.
+const FORMAT: &str = "eigentol";
+/// The version of documents that is written and read.
+pub const VERSION: u64 = 1;
+
+#[derive(Serialize)]
+struct Written<'a> {
+    format: &'a str,
+    version: u64,
+    by: &'a str,
+    kind: &'a str,
+    mechanism: Option<&'a str>,
+    inputs: BTreeMap<&'a str, Quantity<'a>>,
+    tables: Vec<Table>,
+    description: Value,
+    result: Value,
+}
+
+#[derive(Serialize)]
+struct Quantity<'a> {
+    value: f64,
+    unit: &'a str,
+}
+
+#[derive(Deserialize)]
+struct Whole {
+    description: Value,
+    result: Value,
+}
+
+/// Writes a document.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
+    let subject = answer.subject();
+    let description = match subject {
+        Some(own) => value(&**own.description)?,
+        None => Value::Null,
+    };
+    let mut result = value(answer)?;
+    leave_out(&mut result, &description);
+    let each = subject.iter().flat_map(|own| {
+        let each = own.description.inputs.iter().zip(own.inputs).enumerate();
+        let varied = own.varied.map(eigentol::Input::index);
+        each.filter(move |(k, _)| Some(*k) != varied)
+    });
+    let inputs = each.map(|(_, (info, &value))| {
+        let value = info.unit.from_si(value);
+        let unit = &*info.unit.symbol;
+        (&*info.name, Quantity { value, unit })
+    });
+    let document = Written {
+        format: FORMAT,
+        version: VERSION,
+        by: concat!("eigentol-tables ", env!("CARGO_PKG_VERSION")),
+        kind: A::KIND,
+        mechanism: subject.map(|own| &*own.description.name),
+        inputs: inputs.collect(),
+        tables: answer.tables(),
+        description,
+        result,
+    };
+    serde_json::to_writer(&mut file, &document).map_err(|error| Error::Write(error.into()))?;
+    file.write_all(b"\n").map_err(Error::Write)?;
+    file.flush().map_err(Error::Write)
+}
+
+/// A document as text.
+///
+/// # Errors
+/// None that is known of.
+pub fn to_string<A: Answer>(answer: &A) -> Result<String, Error> {
+    let mut text = Vec::new();
+    write(answer, &mut text)?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}
+
+/// Reads the result of a document back, bit by bit.
+///
+/// # Errors
+/// [`Error::Read`]; [`Error::Malformed`] for a file that is cut off or no JSON; [`Error::Foreign`] for JSON of other programs,
+/// [`Error::Version`] for a document of another version, [`Error::Kind`] for one of another result; [`Error::Content`].
+pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
+    let document: Value = serde_json::from_reader(file).map_err(reading)?;
+    let kind = kind(&document)?;
+    if kind != A::KIND {
+        return Err(Error::Kind {
+            found: kind.to_owned(),
+            expected: A::KIND,
+        });
+    }
+    let Whole {
+        description,
+        mut result,
+    } = serde_json::from_value(document).map_err(content)?;
+    put_back(&mut result, &description);
+    serde_json::from_value(result).map_err(content)
+}
+
+/// Reads the tables of a document, whatever it holds.
+///
+/// # Errors
+/// As [`read`], but for the kind.
+pub fn read_tables(file: impl Read) -> Result<Vec<Table>, Error> {
+    let mut document: Value = serde_json::from_reader(file).map_err(reading)?;
+    kind(&document)?;
+    let tables = document.get_mut("tables").map(Value::take);
+    let tables: Vec<Table> = serde_json::from_value(tables.unwrap_or_default()).map_err(content)?;
+    tables.iter().try_for_each(Table::check)?;
+    Ok(tables)
+}
+
+/// The kind of a document of this format and version.
+fn kind(document: &Value) -> Result<&str, Error> {
+    if document.get("format").and_then(Value::as_str) != Some(FORMAT) {
+        return Err(Error::Foreign);
+    }
+    let version = document.get("version").and_then(Value::as_u64);
+    if version != Some(VERSION) {
+        let word = |field: &str| document.get(field).map(ToString::to_string);
+        return Err(Error::Version {
+            found: word("version").unwrap_or_else(|| "none".to_owned()),
+            by: word("by").unwrap_or_else(|| "an unknown program".to_owned()),
+            expected: VERSION,
+        });
+    }
+    let kind = document.get("kind").and_then(Value::as_str);
+    kind.ok_or(Error::Foreign)
+}
+
+/// Every state and every set of modes names its mechanism; a document says once what all have in common.
+fn leave_out(value: &mut Value, description: &Value) {
+    match value {
+        Value::Array(all) => all.iter_mut().for_each(|own| leave_out(own, description)),
+        Value::Object(fields) => {
+            for (name, own) in fields {
+                if name == "description" && own == description {
+                    *own = Value::Null;
+                } else {
+                    leave_out(own, description);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn put_back(value: &mut Value, description: &Value) {
+    match value {
+        Value::Array(all) => all.iter_mut().for_each(|own| put_back(own, description)),
+        Value::Object(fields) => {
+            for (name, own) in fields {
+                if name == "description" && own.is_null() {
+                    *own = description.clone();
+                } else {
+                    put_back(own, description);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn value<T: Serialize + ?Sized>(of: &T) -> Result<Value, Error> {
+    serde_json::to_value(of).map_err(|error| Error::Write(error.into()))
+}
+
+fn reading(error: serde_json::Error) -> Error {
+    if error.is_io() {
+        return Error::Read(error.into());
+    }
+    let reason = match error.is_eof() {
+        true => "the file is cut off".to_owned(),
+        false => error.to_string(),
+    };
+    Error::Malformed {
+        line: error.line() as u64,
+        reason,
+    }
+}
+
+fn content(error: serde_json::Error) -> Error {
+    Error::Content(error.to_string())
+}

@@ -1,0 +1,187 @@
+//! Every answer about every machine, as JSON and back.
+
+use std::fmt::Debug;
+
+use eigentol::allocation::{Choices, Cost, HalfWidth};
+use eigentol::clusters::ClusterTolerance;
+use eigentol::requirement::{Requirement, SamplingSettings};
+use eigentol::response::Response;
+use eigentol::second_order::Band;
+use eigentol::sweep::{CriticalState, Crossing, EventTolerance};
+use eigentol::{Coordinate, Error, Input, Mechanism, Output, Quantity, Study};
+use eigentol_tables::{Answer, json};
+use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::machines;
+use eigentol_tests::resolved::{Operation, operating_points};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Of more unknowns only what is cheap is asked.
+const SMALL: usize = 3;
+
+#[derive(Default)]
+struct Answers {
+    answered: usize,
+    refused: usize,
+}
+
+impl Answers {
+    /// Comes back in the format of serde alone.
+    fn plain<T: Serialize + DeserializeOwned + PartialEq + Debug>(
+        &mut self,
+        name: &str,
+        answer: &T,
+    ) {
+        let text = serde_json::to_string(answer).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let back: T =
+            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        // Debug tells infinite numbers, and zeros by their sign.
+        assert_eq!(format!("{back:?}"), format!("{answer:?}"), "{name}");
+        assert_eq!(back, *answer, "{name}");
+        self.answered += 1;
+    }
+
+    /// Comes back in a document; a refusal comes back, too.
+    fn both<A: Answer + PartialEq + Debug>(&mut self, name: &str, answer: Result<A, Error>) {
+        self.plain(name, &answer);
+        let Ok(answer) = answer else {
+            self.refused += 1;
+            return;
+        };
+        let text = json::to_string(&answer).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let back: A =
+            json::read(text.as_bytes()).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        assert_eq!(back, answer, "{name}");
+        let tables = json::read_tables(text.as_bytes()).expect("tables");
+        assert_eq!(tables, answer.tables(), "{name}");
+    }
+
+    fn ask<M: Mechanism + Copy>(&mut self, name: &str, machine: M, operation: &Operation) {
+        let mut study = Study::new(machine)
+            .policy(operation.policy)
+            .samples(20)
+            .steps(4)
+            .threads(1)
+            .keep_samples(true);
+        for (k, &value) in operation.inputs.iter().enumerate() {
+            study = study.input(Input::new(k), value);
+        }
+        for (k, &value) in operation.start.iter().enumerate() {
+            study = study.guess(Coordinate::new(k), value);
+        }
+        let solved = study.solve().expect("an equilibrium with modes");
+        self.both(name, Ok(solved.equilibrium.clone()));
+        self.both(name, Ok(solved.modes.clone()));
+        self.both(name, study.assembly());
+        self.both(name, solved.equilibrium_shift());
+        self.both(name, solved.outputs());
+        self.both(name, solved.output_tolerances());
+        self.both(name, solved.sensitivities());
+        self.both(name, solved.first_order());
+        self.both(name, solved.second_order());
+        self.both::<Vec<ClusterTolerance>>(name, solved.clusters());
+        self.both(
+            name,
+            solved.margin(
+                0,
+                Band::Between {
+                    low: 0.0,
+                    high: f64::INFINITY,
+                },
+            ),
+        );
+        self.both(name, study.monte_carlo());
+        self.plain(name, &solved.whirls());
+        self.plain(name, &solved.shape_sensitivity(0));
+        self.plain(name, &solved.mode_curvature(0));
+        let (u, b) = (
+            vec![1.0; operation.inputs.len()],
+            vec![1.0; study.design_values().len()],
+        );
+        self.plain(name, &solved.directional_derivatives(0, (&u, &b)));
+        if solved.equilibrium.coordinates.len() <= SMALL {
+            self.ask_of_chance(name, &study);
+            if let Some(&value) = operation.inputs.first() {
+                self.ask_along(name, &study, value);
+            }
+        }
+    }
+
+    fn ask_of_chance<M: Mechanism + Copy>(&mut self, name: &str, study: &Study<M>) {
+        let mode = Response::Mode {
+            mode: 0,
+            quantity: Quantity::Frequency,
+        };
+        let mut responses = vec![mode];
+        if !study.description().outputs.is_empty() {
+            responses.push(Response::Output(Output::new(0)));
+        }
+        self.both(name, study.summary());
+        self.both(name, study.propagate(&responses));
+        self.both(name, study.worst_case(&responses));
+        self.both(name, study.controlled(&responses));
+        self.both(name, study.influence(&responses));
+        let frequency = study.modes().expect("modes").frequencies()[0].unwrap_or(1.0);
+        let wanted = [
+            Requirement::at_least(mode, 0.99 * frequency),
+            Requirement::Stable,
+        ];
+        self.plain(name, &wanted.to_vec());
+        self.both(name, study.chances(&wanted));
+        self.both(name, study.reliability(&wanted));
+        let settings = SamplingSettings {
+            samples: 50,
+            ..SamplingSettings::default()
+        };
+        self.plain(name, &settings);
+        self.both(name, study.rare_failure(&wanted, &settings));
+        if name == "rotating_pendulum" {
+            let widths = HalfWidth {
+                variable: 0,
+                limits: (1e-6, 1e-1),
+                cost: Cost::reciprocal(0.0, 1.0, 1.0),
+            };
+            let choices = Choices {
+                half_widths: vec![widths],
+                nominals: Vec::new(),
+                failure: vec![0.1, 0.1],
+            };
+            self.both(name, study.allocation(&wanted, &choices));
+        }
+    }
+
+    fn ask_along<M: Mechanism + Copy>(&mut self, name: &str, study: &Study<M>, value: f64) {
+        let input = Input::new(0);
+        let values = [value, 1.01 * value, 1.02 * value];
+        let (low, high) = (0.5 * value, 1.5 * value);
+        self.both(name, study.sweep(input, &values));
+        self.both(name, study.campbell(input, &values, &[1.0]));
+        self.both(name, study.branches(input, low, high));
+        self.both::<CriticalState>(name, study.critical_state(input, low, high));
+        self.both::<EventTolerance>(name, study.critical_tolerance(input, low, high));
+        self.both::<Vec<Crossing>>(name, study.crossings(input, low, high, 1.0));
+        self.both::<Vec<EventTolerance>>(name, study.crossing_tolerances(input, low, high, 1.0));
+        self.both::<Vec<Crossing>>(name, study.flutter_onsets(input, low, high));
+        self.plain(name, &study.continuation(input, low, high));
+    }
+}
+
+impl Visitor for Answers {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
+        let first = operating_points(name).into_iter().next().expect("a point");
+        self.ask(name, machine, &first);
+    }
+}
+
+#[test]
+fn answers_come_back() {
+    let mut answers = Answers::default();
+    corpus::visit(&mut answers);
+    machines::visit(&mut answers);
+    assert!(
+        answers.answered > 400 && answers.refused > 10,
+        "{} {}",
+        answers.answered,
+        answers.refused
+    );
+}

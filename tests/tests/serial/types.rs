@@ -1,0 +1,120 @@
+//! Every public type of the runtime that holds data can be written and read, or it is said here why not.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What cannot be written, and why.
+const NOT_WRITTEN: [(&str, &str); 32] = [
+    ("Any", "has no values"),
+    ("Axes", "borrows its values"),
+    ("Batch", "a register"),
+    ("BatchPoint", "borrows its values"),
+    ("Choices", "holds functions"),
+    ("Cost", "a function"),
+    ("Coordinate", "written by hand"),
+    ("DesignVariable", "written by hand"),
+    ("DeviatingInputs", "kernels"),
+    ("Dual", "a scalar of kernels"),
+    ("Following", "holds what the processor can do"),
+    ("HalfWidth", "holds a function"),
+    ("InDeclaredUnit", "an argument"),
+    ("Input", "written by hand"),
+    ("Instructions", "what the processor can do"),
+    ("Interval", "a scalar of kernels"),
+    ("IntoIter", "an iterator"),
+    ("MarginTable", "borrows its values"),
+    ("Matrix", "written by hand"),
+    ("Output", "written by hand"),
+    ("PartialMatrices", "an intermediate result of kernels"),
+    ("Requirements", "borrows a mechanism"),
+    ("Responses", "borrows a mechanism"),
+    ("Sampler", "holds a function"),
+    ("Samples", "a partial result"),
+    ("Sampling", "that of Monte Carlo holds a function"),
+    ("Shared", "written by hand"),
+    ("Sizes", "an intermediate result of kernels"),
+    ("Solved", "borrows a study"),
+    ("Study", "holds a mechanism"),
+    ("Vector", "written by hand"),
+    ("Workspace", "room for computations"),
+];
+
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|own| own == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// Names of the public types of a text that are not written.
+fn not_written(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut written = false;
+    for line in text.lines() {
+        if line.starts_with("#[cfg_attr(feature = \"serde\", derive(serde::Serialize")
+            || line.starts_with("    derive(serde::Serialize, serde::Deserialize)")
+        {
+            written = true;
+        }
+        for word in ["pub struct ", "pub enum "] {
+            if let Some(rest) = line.strip_prefix(word) {
+                let name = rest.chars().take_while(char::is_ascii_alphanumeric);
+                if !written {
+                    found.push(name.collect());
+                }
+            }
+        }
+        // Attributes stand together before what they belong to.
+        if !(line.starts_with('#')
+            || line.starts_with("///")
+            || line.starts_with(' ')
+            || line.starts_with(")]"))
+        {
+            written = false;
+        }
+    }
+    found
+}
+
+#[test]
+fn every_type_is_written_or_excused() {
+    let mut files = Vec::new();
+    let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src");
+    sources(&runtime, &mut files);
+    assert!(files.len() > 200);
+    let mut used = Vec::new();
+    for file in files {
+        let text = fs::read_to_string(&file).expect("text");
+        for name in not_written(&text) {
+            let excuse = NOT_WRITTEN.iter().position(|(own, _)| *own == name);
+            let place = file.display();
+            used.push(excuse.unwrap_or_else(|| {
+                panic!(
+                    "{place}: `{name}` cannot be written: derive serde's traits under the feature"
+                )
+            }));
+        }
+    }
+    for (k, (name, _)) in NOT_WRITTEN.iter().enumerate() {
+        let by_macro = ["Coordinate", "DesignVariable", "Input", "Output"];
+        assert!(
+            used.contains(&k) || by_macro.contains(name),
+            "`{name}` needs no excuse"
+        );
+    }
+}
+
+#[test]
+fn a_type_without_is_found() {
+    let text = "/// One.\n#[derive(Clone)]\npub struct One {\n    field: f64,\n}\n";
+    assert_eq!(not_written(text), ["One"]);
+    let with = format!(
+        "#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]\n{text}"
+    );
+    assert_eq!(not_written(&with), Vec::<String>::new());
+    assert_eq!(not_written(&format!("{with}{text}")), ["One"]);
+}
