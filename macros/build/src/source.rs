@@ -47,12 +47,14 @@ impl Source {
     }
 }
 
-/// Writes a file that is not there yet or says something else: what has not changed need not be built again.
+/// Writes a file that is not there yet or says something else, and the folders around it: what has not changed need not be built again.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
     if fs::read_to_string(path).is_ok_and(|there| there == text) {
         return Ok(());
     }
-    fs::write(path, text).map_err(|source| Error::Write {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, text));
+    written.map_err(|source| Error::Write {
         path: path.to_owned(),
         source,
     })

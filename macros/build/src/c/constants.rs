@@ -7,7 +7,7 @@ use eigentol_compiler::mechanics::Role;
 use eigentol_compiler::model::mechanism::Unit;
 use proc_macro2::Ident;
 
-use super::{Names, bare};
+use super::Names;
 
 /// Constants: how long each array is, and where a quantity stands in it.
 pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
@@ -73,7 +73,6 @@ impl Constants<'_> {
     /// Names are spelled as declared: `m` and `M` may both exist.
     fn place(&mut self, list: &str, name: &Ident, docs: &[String], unit: &str, k: usize) {
         let Self { text, prefix } = self;
-        let name = bare(name);
         for line in docs.iter().flat_map(|docs| docs.lines()) {
             let _ = writeln!(text, "/// {}", line.trim());
         }

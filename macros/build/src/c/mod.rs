@@ -77,17 +77,10 @@ impl Interface {
 impl Names {
     fn of(name: &Ident) -> Self {
         let rust = name.to_string();
-        let bare = bare(name);
         Self {
-            prefix: bare.to_snake_case(),
-            shouted: bare.to_shouty_snake_case(),
+            prefix: rust.to_snake_case(),
+            shouted: rust.to_shouty_snake_case(),
             rust,
         }
     }
-}
-
-/// A name as C spells it: `type`, not `r#type`.
-fn bare(name: &Ident) -> String {
-    let text = name.to_string();
-    text.strip_prefix("r#").unwrap_or(&text).to_owned()
 }
