@@ -7,6 +7,7 @@ mod kernels;
 mod mechanism;
 mod motion;
 mod names;
+mod parts;
 mod questions;
 mod response;
 mod results;
@@ -33,6 +34,8 @@ mod module {
     use crate::mechanism::Mechanism;
     #[pymodule_export]
     use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::parts::Part;
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]

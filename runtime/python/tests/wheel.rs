@@ -149,19 +149,21 @@ fn the_module_passes_its_tests() {
         "test_tables.py",
         "test_mistakes.py",
         "test_motion.py",
+        "test_parts.py",
     ];
     run("python", &packages, &files);
 }
 
 /// Hundreds of megabytes are downloaded for it.
 #[test]
-#[ignore = "installs ROSS, OpenTURNS, pandas and polars"]
+#[ignore = "installs ROSS, OpenTURNS, Dask, pandas and polars"]
 fn the_module_agrees_with_its_peers() {
     let packages = [
         "maturin>=1.9.4,<2",
         "numpy",
         "pytest",
         "scipy",
+        "dask[distributed]",
         "openturns",
         "pandas",
         "polars",
@@ -169,5 +171,9 @@ fn the_module_agrees_with_its_peers() {
         "plotly<6",
         "ross-rotordynamics>=2,<3",
     ];
-    run("python-peers", &packages, &["test_peers.py"]);
+    run(
+        "python-peers",
+        &packages,
+        &["test_peers.py", "test_parts.py"],
+    );
 }

@@ -1,9 +1,9 @@
 //! Springs and dampers on every free coordinate, and mechanisms of which only the equations are wanted.
 
+use eigentol::Study;
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::mechanism::Mechanism;
 use eigentol_compiler::{Compilation, compile};
-use eigentol::Study;
 use eigentol_consistency::interpreter::interpret;
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::every;

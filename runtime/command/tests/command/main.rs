@@ -5,6 +5,8 @@ mod declarations;
 mod import;
 #[cfg(target_os = "linux")]
 mod interrupt;
+#[cfg(unix)]
+mod many_machines;
 mod mistakes;
 mod outputs;
 mod parts;

@@ -1,0 +1,80 @@
+//! Samples in parts, for many processes and machines.
+
+use eigentol::tolerance::PartialMonteCarlo;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+use crate::errors::{Kind, new, raise};
+use crate::spreads::MonteCarlo;
+use crate::study::Study;
+
+/// Some samples of a Monte Carlo run: parts merge to the same bits as the whole, in any order and from any machine.
+#[pyclass(name = "PartialMonteCarlo", module = "eigentol")]
+pub(crate) struct Part(PartialMonteCarlo);
+
+#[pymethods]
+impl Part {
+    /// The text of a file: what the command `eigentol sample --partial` writes and `eigentol merge` reads.
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        serde_json::to_string(&self.0).map_err(|error| new(py, Kind::Error, error.to_string()))
+    }
+
+    /// A part from such a text.
+    #[classmethod]
+    fn from_json(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str) -> PyResult<Self> {
+        let read = serde_json::from_str(text).map(Self);
+        read.map_err(|error| {
+            let message = match error.is_eof() {
+                true => "the partial result is cut off".to_owned(),
+                false => format!("this is no partial result: {error}"),
+            };
+            new(py, Kind::InvalidValue, message)
+        })
+    }
+
+    /// Adds samples of the same run; those of another one, and samples that are here already, are refused.
+    fn merge(&mut self, py: Python<'_>, other: PyRef<'_, Self>) -> PyResult<()> {
+        let other = other.0.clone();
+        self.0.merge(other).map_err(|error| raise(py, error))
+    }
+
+    /// First sample and the one behind the last of each range that is done.
+    #[getter]
+    fn ranges(&self) -> Vec<(u64, u64)> {
+        let ends = self.0.ranges().into_iter();
+        ends.map(|range| (range.start, range.end)).collect()
+    }
+
+    /// The same of the ranges that are missing.
+    #[getter]
+    fn missing(&self) -> Vec<(u64, u64)> {
+        let ends = self.0.missing().into_iter();
+        ends.map(|range| (range.start, range.end)).collect()
+    }
+
+    /// Statistics of the samples that are done.
+    fn result(&self) -> MonteCarlo {
+        MonteCarlo(self.0.result())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("PartialMonteCarlo(ranges={:?})", self.ranges())
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let text = slf.borrow().to_json(py)?;
+        Ok((slf.get_type().getattr("from_json")?, (text,)))
+    }
+}
+
+#[pymethods]
+impl Study {
+    /// The samples `start` to below `stop` of `monte_carlo`, with the same seed: parts merge to the same bits as the whole run.
+    fn samples_between(&self, py: Python<'_>, start: u64, stop: u64) -> PyResult<Part> {
+        self.ask(py, |study| study.samples_between(start..stop))
+            .map(Part)
+    }
+}
