@@ -45,12 +45,17 @@ pub(crate) enum Color {
 impl Color {
     /// What is asked for on a command line that could not be read.
     fn asked() -> Self {
-        let mut arguments = std::env::args_os().map(|own| own.to_string_lossy().into_owned());
-        let value = arguments.find_map(|own| match own.strip_prefix("--color") {
-            Some("") => arguments.next(),
-            own => Some(own?.strip_prefix('=')?.to_owned()),
-        });
-        let known = value.and_then(|value| Self::from_str(&value, false).ok());
+        let arguments: Vec<String> = (std::env::args_os())
+            .map(|own| own.to_string_lossy().into_owned())
+            .collect();
+        let apart = arguments.iter().position(|own| own == "--color");
+        let value = match apart {
+            Some(k) => arguments.get(k + 1).map(String::as_str),
+            None => arguments
+                .iter()
+                .find_map(|own| own.strip_prefix("--color=")),
+        };
+        let known = value.and_then(|value| Self::from_str(value, false).ok());
         known.unwrap_or(Self::Auto)
     }
 

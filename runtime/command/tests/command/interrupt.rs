@@ -92,6 +92,36 @@ fn an_answer_says_that_it_is_not_complete() {
     }
 }
 
+/// What cannot be kept half done leaves what was there.
+#[test]
+fn other_work_ends_at_once() {
+    let path = folder("ended").join("diagram.csv");
+    fs::write(&path, "old").unwrap();
+    let name = path.display().to_string();
+    let sweep = [
+        "--sweep",
+        "speed=0..6000rpm",
+        "--points",
+        "5000000",
+        "--csv",
+        "-o",
+        &name,
+    ];
+    let mut command = command(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat());
+    let child = command.stderr(Stdio::piped()).spawn().unwrap();
+    listens(&child);
+    sleep(Duration::from_millis(300));
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(
+        (output.status.code(), err.as_str()),
+        (Some(130), "stopped: nothing was written\n")
+    );
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+}
+
 /// No bar where nobody looks at it.
 #[test]
 fn progress_is_for_terminals() {
