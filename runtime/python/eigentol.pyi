@@ -42,6 +42,33 @@ class Settings(TypedDict, total=False):
     vectors: bool
     steps: int
 
+class UrdfOptions(TypedDict, total=False):
+    """How a URDF file becomes a declaration."""
+
+    base: Literal["fixed", "floating", "planar"]
+    resistance: Literal["springs", "drives", "none"]
+    stiffness: float
+    damping: float
+    linear_stiffness: float
+    linear_damping: float
+    file_damping: bool
+    nearest_inertias: bool
+    name: str | None
+
+def import_urdf(path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Import: ...
+
+@final
+class Import:
+    """A robot as a declaration; numbers are SI."""
+
+    @property
+    def declaration(self) -> str: ...
+    @property
+    def names(self) -> dict[str, str]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def mechanism(self) -> Mechanism: ...
+
 class Error(Exception):
     """Any failure of this module."""
 
@@ -93,6 +120,8 @@ class Mechanism:
 
     @classmethod
     def from_file(cls, path: str | PathLike[str]) -> Mechanism: ...
+    @classmethod
+    def from_urdf(cls, path: str | PathLike[str], **options: Unpack[UrdfOptions]) -> Mechanism: ...
     @classmethod
     def from_text(cls, text: str) -> Mechanism: ...
     @property

@@ -10,6 +10,7 @@ mod names;
 mod questions;
 mod response;
 mod results;
+mod robots;
 mod settings;
 mod spreads;
 mod study;
@@ -40,6 +41,8 @@ mod module {
         Branch, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
         OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
     };
+    #[pymodule_export]
+    use crate::robots::{Import, import_urdf};
     #[pymodule_export]
     use crate::spreads::{
         FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,

@@ -168,6 +168,11 @@ fn the_module_agrees_with_its_peers() {
         // ROSS 2 names a kind of figure that plotly 6 no longer has.
         "plotly<6",
         "ross-rotordynamics>=2,<3",
+        "example-robot-data",
     ];
-    run("python-peers", &packages, &["test_peers.py"]);
+    run(
+        "python-peers",
+        &packages,
+        &["test_peers.py", "test_robots.py"],
+    );
 }
