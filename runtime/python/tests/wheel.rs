@@ -149,6 +149,7 @@ fn the_module_passes_its_tests() {
         "test_tables.py",
         "test_mistakes.py",
         "test_motion.py",
+        "test_robots.py",
     ];
     run("python", &packages, &files);
 }
