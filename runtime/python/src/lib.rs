@@ -8,6 +8,7 @@ mod mechanism;
 mod motion;
 mod names;
 mod questions;
+mod requirements;
 mod response;
 mod results;
 mod robots;
@@ -34,6 +35,8 @@ mod module {
     use crate::mechanism::Mechanism;
     #[pymodule_export]
     use crate::motion::Motion;
+    #[pymodule_export]
+    use crate::requirements::{Chances, Reliability};
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]
