@@ -219,16 +219,43 @@ impl From<&eigentol_interpreter::Mistake> for Mistake {
 pub(crate) fn file(py: Python<'_>, error: ReadError) -> PyErr {
     match error {
         ReadError::Mistakes { path, mistakes } => declaration(py, &mistakes, Some(&path)),
-        ReadError::File { path, source } => match source.raw_os_error() {
-            // With number, text and file Python chooses the kind: FileNotFoundError, PermissionError ...
-            Some(number) => {
-                let text = source.to_string();
-                let text = text.split(" (os error").next().unwrap_or_default();
-                let path = path.to_string_lossy().into_owned();
-                PyOSError::new_err((number, text.to_owned(), path))
-            }
-            None => PyOSError::new_err(format!("cannot read {}: {source}", path.display())),
-        },
+        ReadError::File { path, source } => unreadable(&path, &source),
         other => new(py, Kind::Error, other.to_string()),
     }
+}
+
+/// A file that cannot be read.
+pub(crate) fn unreadable(path: &Path, source: &std::io::Error) -> PyErr {
+    match source.raw_os_error() {
+        // With number, text and file Python chooses the kind: FileNotFoundError, PermissionError ...
+        Some(number) => {
+            let text = source.to_string();
+            let text = text.split(" (os error").next().unwrap_or_default();
+            let path = path.to_string_lossy().into_owned();
+            PyOSError::new_err((number, text.to_owned(), path))
+        }
+        None => PyOSError::new_err(format!("cannot read {}: {source}", path.display())),
+    }
+}
+
+/// A URDF file that describes no robot.
+pub(crate) fn urdf(py: Python<'_>, error: &eigentol_urdf::ImportError, path: &Path) -> PyErr {
+    let each = error.mistakes.iter();
+    let lines: Vec<String> = each
+        .map(|own| format!("{}:{own}", path.display()))
+        .collect();
+    let raised = new(py, Kind::Declaration, lines.join("\n"));
+    let mistake = |own: &eigentol_urdf::Mistake| Mistake {
+        line: own.line as usize,
+        column: own.column as usize,
+        end_line: own.line as usize,
+        end_column: own.column as usize,
+        message: own.reason.to_string(),
+        help: Some(own.reason.help()),
+    };
+    let all: Vec<Mistake> = error.mistakes.iter().map(mistake).collect();
+    with(py, raised, |exception| {
+        exception.setattr("mistakes", all)?;
+        exception.setattr("path", path)
+    })
 }

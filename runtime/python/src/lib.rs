@@ -9,8 +9,10 @@ mod motion;
 mod names;
 mod parts;
 mod questions;
+mod requirements;
 mod response;
 mod results;
+mod robots;
 mod settings;
 mod spreads;
 mod study;
@@ -37,12 +39,16 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
+    use crate::requirements::{Chances, Reliability};
+    #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
         Branch, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
         OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
     };
+    #[pymodule_export]
+    use crate::robots::{Import, import_urdf};
     #[pymodule_export]
     use crate::spreads::{
         FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,

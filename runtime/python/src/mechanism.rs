@@ -19,6 +19,16 @@ pub(crate) struct Mechanism {
     text: String,
 }
 
+impl Mechanism {
+    /// The mechanism that a text declares.
+    pub(crate) fn read(py: Python<'_>, text: String) -> PyResult<Self> {
+        match py.detach(|| Interpreted::from_text(&text)) {
+            Ok(inner) => Ok(Self { inner, text }),
+            Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
+        }
+    }
+}
+
 #[pymethods]
 impl Mechanism {
     /// The mechanism that a file declares.
@@ -40,11 +50,7 @@ impl Mechanism {
     /// Raises DeclarationError with line and column of every mistake.
     #[classmethod]
     fn from_text(class: &Bound<'_, PyType>, text: String) -> PyResult<Self> {
-        let py = class.py();
-        match py.detach(|| Interpreted::from_text(&text)) {
-            Ok(inner) => Ok(Self { inner, text }),
-            Err(mistakes) => Err(errors::declaration(py, &mistakes, None)),
-        }
+        Self::read(class.py(), text)
     }
 
     /// Its name.

@@ -4,6 +4,8 @@ With the angle theta of the bar (length l, mass m, hinged at its end) about the 
 cos theta* = 3 g / (2 l omega^2), and the natural frequency is omega sin theta*.
 """
 
+import math
+
 import numpy as np
 import pytest
 
@@ -170,6 +172,19 @@ def test_probability_of_a_band(study):
     low = frequency(1.0) - 1.0
     margin = study.margin(0, low, frequency(1.01))
     assert margin.probability == pytest.approx(0.8413447, abs=2e-3)
+
+
+def test_requirements(study):
+    # The frequency grows with the length: at least that of 0.99 m is at least one standard deviation below.
+    wanted = [(("frequency", 0), frequency(0.99), None), "stable"]
+    expected = 0.5 * math.erfc(1 / math.sqrt(2))
+    found = study.reliability(wanted)
+    np.testing.assert_allclose(found.failure, [expected], rtol=1e-6)
+    np.testing.assert_allclose(found.beta, [1.0], rtol=1e-6)
+    chances = study.replace(samples=20_000).chances(wanted)
+    error = math.sqrt(expected * (1 - expected) / 20_000)
+    assert abs(chances.failure[0] - expected) < 4 * error
+    assert chances.failure[1] == 0.0 and chances.all_met == 1 - chances.failure[0]
 
 
 def test_kernels(pendulum):

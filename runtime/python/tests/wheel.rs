@@ -150,6 +150,7 @@ fn the_module_passes_its_tests() {
         "test_mistakes.py",
         "test_motion.py",
         "test_parts.py",
+        "test_robots.py",
     ];
     run("python", &packages, &files);
 }
@@ -170,10 +171,11 @@ fn the_module_agrees_with_its_peers() {
         // ROSS 2 names a kind of figure that plotly 6 no longer has.
         "plotly<6",
         "ross-rotordynamics>=2,<3",
+        "example-robot-data",
     ];
     run(
         "python-peers",
         &packages,
-        &["test_peers.py", "test_parts.py"],
+        &["test_peers.py", "test_parts.py", "test_robots.py"],
     );
 }

@@ -1,0 +1,118 @@
+//! How probable it is that requirements are met.
+
+use eigentol::requirement::{self, Requirement};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyString, PyTuple};
+
+use crate::arrays::{Array1, optional, vector};
+use crate::response::wanted;
+use crate::results::result;
+use crate::study::Study;
+use crate::values::not_finite;
+
+/// One requirement: "stable", or a response, a low and a high end, None for no end.
+fn requirement(
+    study: &eigentol::Study<eigentol_interpreter::Interpreted>,
+    given: &Bound<'_, PyAny>,
+) -> PyResult<Requirement> {
+    if given
+        .cast::<PyString>()
+        .is_ok_and(|word| word.to_cow().is_ok_and(|word| word == "stable"))
+    {
+        return Ok(Requirement::Stable);
+    }
+    let read = given.extract::<(Bound<'_, PyTuple>, Option<f64>, Option<f64>)>();
+    let (response, low, high) = read.map_err(|_| {
+        let message = "a requirement is \"stable\", or a response, a low and a high end: ((\"frequency\", 0), 3.0, None)";
+        PyTypeError::new_err(message)
+    })?;
+    for end in [low, high].into_iter().flatten() {
+        if end.is_nan() {
+            return Err(not_finite(given.py(), "end of a requirement", end));
+        }
+    }
+    let what = response.get_item(0)?.extract::<String>()?;
+    let of = response.get_slice(1, response.len());
+    Ok(Requirement::Within {
+        response: wanted(study, &what, &of)?,
+        low: low.unwrap_or(f64::NEG_INFINITY),
+        high: high.unwrap_or(f64::INFINITY),
+    })
+}
+
+#[pymethods]
+impl Study {
+    /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low and a high
+    /// end, None for no end: `(("frequency", 0), 3.9, None)`; frequencies are in rad/s.
+    fn chances(&self, py: Python<'_>, requirements: Vec<Bound<'_, PyAny>>) -> PyResult<Chances> {
+        let wanted = self.requirements(&requirements)?;
+        self.ask(py, |study| study.chances(&wanted)).map(Chances)
+    }
+
+    /// Reliability by way of design points (FORM and SORM); requirements as `chances` takes them.
+    fn reliability(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Bound<'_, PyAny>>,
+    ) -> PyResult<Reliability> {
+        let wanted = self.requirements(&requirements)?;
+        self.ask(py, |study| study.reliability(&wanted))
+            .map(Reliability)
+    }
+}
+
+impl Study {
+    fn requirements(&self, given: &[Bound<'_, PyAny>]) -> PyResult<Vec<Requirement>> {
+        let one = |given| requirement(&self.inner, given);
+        given.iter().map(one).collect()
+    }
+}
+
+result! {
+    /// Chances of meeting requirements. `k` is their number.
+    Chances(requirement::Chances)
+}
+
+#[pymethods]
+impl Chances {
+    /// Share of the samples that fail each requirement, shape (k,).
+    #[getter]
+    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.each.iter().map(requirement::Tally::failure))
+    }
+
+    /// Share of the samples that meet all requirements.
+    #[getter]
+    fn all_met(&self) -> f64 {
+        self.0.all.yield_of()
+    }
+}
+
+result! {
+    /// Reliability of a design. `l` is the number of limits that requirements put to responses.
+    Reliability(requirement::Reliability)
+}
+
+#[pymethods]
+impl Reliability {
+    /// Probability that each limit is passed, of second order where there is one, shape (l,); NaN without a design point.
+    #[getter]
+    fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        let all = self.0.limits.iter();
+        optional(py, all.map(requirement::LimitReliability::probability))
+    }
+
+    /// Reliability index of each limit, shape (l,); NaN without a design point.
+    #[getter]
+    fn beta<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        let all = self.0.limits.iter();
+        optional(py, all.map(requirement::LimitReliability::beta))
+    }
+
+    /// Probability that any limit is passed; None where it is not known.
+    #[getter]
+    fn any_failure(&self) -> Option<f64> {
+        self.0.system.as_ref().map(|own| own.probability.value)
+    }
+}

@@ -1,0 +1,172 @@
+//! Robots from URDF files.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use eigentol_urdf::{Base, Options, Resistance, import};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::errors;
+use crate::mechanism::Mechanism;
+use crate::names::did_you_mean;
+use crate::values::word;
+
+/// A robot as a declaration; numbers are SI.
+#[pyclass(frozen, module = "eigentol")]
+pub(crate) struct Import {
+    inner: eigentol_urdf::Import,
+}
+
+/// The options by name.
+const OPTIONS: [&str; 9] = [
+    "base",
+    "resistance",
+    "stiffness",
+    "damping",
+    "linear_stiffness",
+    "linear_damping",
+    "file_damping",
+    "nearest_inertias",
+    "name",
+];
+
+fn options(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
+    let mut options = Options::default();
+    let Some(given) = given else {
+        return Ok(options);
+    };
+    for key in given.keys() {
+        let key = key.extract::<String>()?;
+        if !OPTIONS.contains(&key.as_str()) {
+            let message = format!("there is no option `{key}`{}", did_you_mean(&key, OPTIONS));
+            return Err(PyTypeError::new_err(message));
+        }
+    }
+    if let Some(base) = given.get_item("base")? {
+        let words = [
+            ("fixed", Base::Fixed),
+            ("floating", Base::Floating),
+            ("planar", Base::Planar),
+        ];
+        options.base = word(py, "base", &base.extract::<String>()?, &words)?;
+    }
+    if let Some(resistance) = given.get_item("resistance")? {
+        let words = [
+            ("springs", Resistance::default()),
+            ("drives", Resistance::Drives),
+            ("none", Resistance::KernelsOnly),
+        ];
+        options.resistance = word(py, "resistance", &resistance.extract::<String>()?, &words)?;
+    }
+    if let Resistance::Springs {
+        stiffness,
+        damping,
+        linear_stiffness,
+        linear_damping,
+    } = &mut options.resistance
+    {
+        for (name, place) in [
+            ("stiffness", stiffness),
+            ("damping", damping),
+            ("linear_stiffness", linear_stiffness),
+            ("linear_damping", linear_damping),
+        ] {
+            let Some(value) = given.get_item(name)? else {
+                continue;
+            };
+            *place = value.extract()?;
+            if !(place.is_finite() && *place >= 0.0) {
+                let message =
+                    format!("`{name}` is {place}: give a finite value that is not negative");
+                return Err(errors::invalid(py, message));
+            }
+        }
+    }
+    if let Some(damping) = given.get_item("file_damping")? {
+        options.damping = damping.extract()?;
+    }
+    if let Some(nearest) = given.get_item("nearest_inertias")? {
+        options.nearest_inertias = nearest.extract()?;
+    }
+    if let Some(name) = given.get_item("name")?.filter(|name| !name.is_none()) {
+        options.name = Some(name.extract()?);
+    }
+    Ok(options)
+}
+
+fn read(
+    py: Python<'_>,
+    path: &Path,
+    given: Option<&Bound<'_, PyDict>>,
+) -> PyResult<eigentol_urdf::Import> {
+    let options = options(py, given)?;
+    let text = std::fs::read_to_string(path).map_err(|source| errors::unreadable(path, &source))?;
+    let found = py.detach(|| import(&text, &options));
+    found.map_err(|error| errors::urdf(py, &error, path))
+}
+
+/// The declaration of a robot from its URDF file.
+///
+/// Options: `base`, "fixed", "floating" or "planar"; `resistance` of the joints, "springs" on every coordinate, "drives" that hold at 0
+/// the joints that nothing resists, or "none" for a mechanism of kernels alone; of springs `stiffness` (50 N m/rad), `damping`
+/// (0.5 N m s/rad), `linear_stiffness` (50 N/m), `linear_damping` (0.5 N s/m); `file_damping`, whether the damping of the file is taken
+/// (True); `nearest_inertias`, whether impossible inertias are replaced by the nearest possible ones (False); `name` of the mechanism.
+///
+/// Raises OSError when the file cannot be read, DeclarationError with line and column of every mistake.
+#[pyfunction]
+#[pyo3(signature = (path, **options))]
+pub(crate) fn import_urdf(
+    py: Python<'_>,
+    path: PathBuf,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Import> {
+    let inner = read(py, &path, options)?;
+    Ok(Import { inner })
+}
+
+#[pymethods]
+impl Import {
+    /// Text in the language of eigentol.
+    #[getter]
+    fn declaration(&self) -> &str {
+        &self.inner.declaration
+    }
+
+    /// By the name in the declaration, that in the file: of every link and joint that had to be renamed.
+    #[getter]
+    fn names(&self) -> BTreeMap<String, String> {
+        self.inner.names.clone()
+    }
+
+    /// What the declaration does not say, or says in another way than the file.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.inner.notes.iter().map(ToString::to_string).collect()
+    }
+
+    /// The mechanism.
+    fn mechanism(&self, py: Python<'_>) -> PyResult<Mechanism> {
+        Mechanism::read(py, self.inner.declaration.clone())
+    }
+
+    fn __repr__(&self) -> &str {
+        &self.inner.declaration
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// The robot that a URDF file describes; options as of `import_urdf`, which also tells names and remarks.
+    #[classmethod]
+    #[pyo3(signature = (path, **options))]
+    fn from_urdf(
+        class: &Bound<'_, PyType>,
+        path: PathBuf,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let found = read(class.py(), &path, options)?;
+        Self::read(class.py(), found.declaration)
+    }
+}
