@@ -42,6 +42,20 @@ pub enum Error {
         /// Everything that is wrong with it.
         mistakes: Mistakes,
     },
+    /// The name of the mechanism, which stands before the names of its functions for C.
+    #[error(
+        "{}:{line}:{column}: `{name}` cannot be spelt in C\nhelp: a name for C begins with a letter and has letters and digits of ASCII", .path.display()
+    )]
+    Name {
+        /// The declaration.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The name.
+        name: String,
+    },
     /// cbindgen wrote no header.
     #[error("no header for {}: {reason}", .path.display())]
     Header {

@@ -1,4 +1,5 @@
 #![doc = include_str!("../README.md")]
+#![allow(clippy::needless_doctest_main, reason = "a build script is a program")]
 
 #[cfg(feature = "c")]
 mod c;

@@ -46,7 +46,9 @@ pub fn try_compile_for_c(
     rerun_if_changed(path.as_ref());
     rerun_if_changed(header.as_ref());
     let source = Source::read(path.as_ref())?;
-    let interface = crate::c::Interface::of(&source.compilation);
+    let Some(interface) = crate::c::Interface::of(&source.compilation) else {
+        return Err(unspeakable(source));
+    };
     // cbindgen reads files only.
     let functions = source.output("c.rs");
     write(&functions, &interface.items)?;
@@ -58,6 +60,19 @@ pub fn try_compile_for_c(
     let items = source.compilation.emit();
     write(&code, &format!("{items}\n\n{}", interface.module()))?;
     Ok(code)
+}
+
+/// The error for a name that C cannot spell.
+#[cfg(feature = "c")]
+fn unspeakable(source: Source) -> Error {
+    let name = source.compilation.mechanism.name;
+    let start = name.span().start();
+    Error::Name {
+        path: source.path,
+        line: start.line,
+        column: start.column + 1,
+        name: name.to_string(),
+    }
 }
 
 fn rerun_if_changed(path: &Path) {

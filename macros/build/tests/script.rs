@@ -230,4 +230,32 @@ mod for_c {
             "{last}"
         );
     }
+
+    #[test]
+    fn names_that_c_cannot_spell_are_refused() {
+        for name in ["Läufer", "_2d"] {
+            let folder = folder("names", &RIGHT.replace("Pendulum", name));
+            let output = run(&folder, &WITH_HEADER);
+            assert_eq!(output.status.code(), Some(1));
+            let said = said(&output);
+            let expected =
+                format!("cargo::error=pendulum.mechanism:2:15: `{name}` cannot be spelt in C");
+            assert_eq!(said[2], expected);
+            assert!(
+                said[3].starts_with("cargo::error=help: a name for C begins"),
+                "{said:?}"
+            );
+            // without functions for C it is a good name
+            assert!(run(&folder, &HERE).status.success());
+        }
+    }
+
+    #[test]
+    fn documentation_cannot_end_a_comment_of_c() {
+        let text = RIGHT.replace("    design l", "    /// Ratio */ of lengths.\n    design l");
+        let folder = folder("comment", &text);
+        assert!(run(&folder, &WITH_HEADER).status.success());
+        let header = fs::read_to_string(folder.join("include/pendulum.h")).unwrap();
+        assert!(header.contains("Ratio * / of lengths."), "{header}");
+    }
 }

@@ -74,7 +74,9 @@ impl Constants<'_> {
     fn place(&mut self, list: &str, name: &Ident, docs: &[String], unit: &str, k: usize) {
         let Self { text, prefix } = self;
         for line in docs.iter().flat_map(|docs| docs.lines()) {
-            let _ = writeln!(text, "/// {}", line.trim());
+            // It would end the comment of C.
+            let line = line.trim().replace("*/", "* /");
+            let _ = writeln!(text, "/// {line}");
         }
         let _ = writeln!(
             text,

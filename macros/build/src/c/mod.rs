@@ -40,9 +40,10 @@ pub(crate) struct Names {
 }
 
 impl Interface {
-    pub(crate) fn of(compilation: &Compilation) -> Self {
+    /// `None` where C cannot spell the name of the mechanism.
+    pub(crate) fn of(compilation: &Compilation) -> Option<Self> {
         let mechanism = &compilation.mechanism;
-        let names = Names::of(&mechanism.name);
+        let names = Names::of(&mechanism.name)?;
         let sizes = function::Sizes::of(compilation);
         let mut items = constants::constants(compilation, &names);
         for kernel in kernels::kernels(compilation) {
@@ -51,13 +52,13 @@ impl Interface {
         items += &special::functions(compilation, &names);
         let conditions = mechanism.attributes.iter();
         let conditions = conditions.filter(|attribute| attribute.path().is_ident("cfg"));
-        Self {
+        Some(Self {
             items,
             conditions: conditions
                 .map(|c| quote::quote!(#c).to_string() + "\n")
                 .collect(),
             names,
-        }
+        })
     }
 
     /// The functions as a module of the crate that includes the generated code.
@@ -67,7 +68,7 @@ impl Interface {
         } = self;
         let Names { rust, prefix, .. } = &self.names;
         format!(
-            "/// Kernels of [`{rust}`] for C.\n{conditions}\
+            "/// Kernels of `{rust}` for C.\n{conditions}\
             #[allow(unsafe_code, dead_code, non_upper_case_globals, clippy::all, clippy::pedantic)]\n\
             pub mod {prefix}_c {{\n{items}\n{HELPERS}}}\n"
         )
@@ -75,12 +76,14 @@ impl Interface {
 }
 
 impl Names {
-    fn of(name: &Ident) -> Self {
+    fn of(name: &Ident) -> Option<Self> {
         let rust = name.to_string();
-        Self {
-            prefix: rust.to_snake_case(),
+        let prefix = rust.to_snake_case();
+        let spelt = prefix.is_ascii() && prefix.starts_with(|c: char| c.is_ascii_alphabetic());
+        spelt.then(|| Self {
+            prefix,
             shouted: rust.to_shouty_snake_case(),
             rust,
-        }
+        })
     }
 }
