@@ -1,5 +1,6 @@
 //! The table of all files in the documentation: what it says is what happens. `UPDATE_ROBOTS=1` writes it anew.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
@@ -59,7 +60,8 @@ fn said(error: &ImportError) -> String {
         true => vec![format!("inertias that no body has: {}", reasons.join(", "))],
         false => reasons,
     };
-    reasons.dedup();
+    let mut seen = BTreeSet::new();
+    reasons.retain(|reason| seen.insert(reason.clone()));
     format!("refused: {}", reasons.join("; "))
 }
 
