@@ -23,7 +23,7 @@ pub use whirl::{Sense, Whirl, whirls};
 
 use crate::algebra::{Matrix, Vector, asymmetry, dot_complex};
 use crate::constraints::Structure;
-use crate::eigenproblem::{Eigenproblem, Pairs, Root, Trouble, roots_of};
+use crate::eigenproblem::{Eigenproblem, Pairs, Root, Trouble, roots_near};
 use crate::kernels::{DeviatingInputs, Kernels, Linear};
 use crate::rounding::{Sign, sign};
 use crate::{Complex, DampingKind, Description, Equilibrium, Error, Shared};
@@ -297,13 +297,23 @@ impl Modes {
     /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
     /// `floor` is zero.
     pub(crate) fn solve(&mut self, linear: &Linear, floor: f64) -> Result<(), ModesFailure> {
+        self.solve_near(linear, floor, &[])
+    }
+
+    /// The same; damped modes of an open mechanism in less time from all modes of one near by.
+    pub(crate) fn solve_near(
+        &mut self,
+        linear: &Linear,
+        floor: f64,
+        nearby: &[Mode],
+    ) -> Result<(), ModesFailure> {
         let damping = linear.damping.as_flattened();
         self.damping_ignored = self.family == Family::Undamped
             && self.description.damping != DampingKind::Zero
             && damping.iter().any(|&value| value != 0.0);
         match self.family {
             Family::Undamped => undamped(linear, &self.description, floor, &mut self.modes),
-            Family::General => damped(linear, &self.description, floor, &mut self.modes),
+            Family::General => damped(linear, &self.description, floor, nearby, &mut self.modes),
         }
     }
 }
@@ -340,11 +350,13 @@ fn damped(
     linear: &Linear,
     description: &Description,
     floor: f64,
+    nearby: &[Mode],
     modes: &mut Vec<Mode>,
 ) -> Result<(), ModesFailure> {
     let structure = Structure::of(description);
     let roots = if structure.open() {
-        roots_of(Eigenproblem::Quadratic(linear))
+        let nearby: Vec<_> = nearby.iter().map(Mode::near).collect();
+        roots_near(Eigenproblem::Quadratic(linear), &nearby)
     } else {
         constrained::general_roots(linear, structure)
     };

@@ -2,6 +2,7 @@
 
 use crate::Complex;
 use crate::algebra::Vector;
+use crate::eigenproblem::Near;
 use crate::rounding::{Sign, sign};
 
 /// How a disturbance along a mode develops.
@@ -74,6 +75,15 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// As what predicts the mode of a problem near by.
+    pub(super) fn near(&self) -> Near<'_> {
+        Near {
+            s: self.s,
+            right: &self.shape,
+            left: &self.left,
+        }
+    }
+
     /// Angular frequency at which the mode oscillates, `Im s`, rad/s; `None` for a mode that does not.
     #[must_use]
     pub fn frequency(&self) -> Option<f64> {

@@ -6,10 +6,15 @@ use crate::kernels::Linear;
 
 /// `(s^2 M + s C + K) x` for three given matrices.
 pub(crate) fn pencil_times(linear: &Linear, s: Complex, x: &[Complex]) -> Vector<Complex> {
-    let m = times_complex(&linear.mass, x);
-    let c = times_complex(&linear.damping, x);
-    let k = times_complex(&linear.stiffness, x);
-    Vector::from_fn(x.len(), |i| s * (s * m[i] + c[i]) + k[i])
+    Vector::from_fn(linear.mass.row_count(), |i| {
+        let rows = linear.mass[i].iter().zip(&linear.damping[i]);
+        let rows = rows.zip(&linear.stiffness[i]).zip(x);
+        let zero = Complex::default();
+        let [m, c, k] = rows.fold([zero; 3], |[m, c, k], (((mass, damping), stiffness), x)| {
+            [m + x * mass, c + x * damping, k + x * stiffness]
+        });
+        s * (s * m + c) + k
+    })
 }
 
 /// `(2 s M + C) x`: the derivative of the pencil by `s`.

@@ -1,4 +1,5 @@
 //! How tolerances of design variables spread frequencies and outputs (eqs. 26-27).
+#![doc = include_str!("where_first_order_fails.md")]
 
 mod batched;
 mod first_order;

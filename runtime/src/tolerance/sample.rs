@@ -69,7 +69,7 @@ impl Solution {
             return;
         }
         let (found, state) = (&mut self.modes, &self.state);
-        match found.solve(&state.linear, state.rounding) {
+        match found.solve_near(&state.linear, state.rounding, &modes.modes) {
             Ok(()) => {
                 self.places = match_with_assurance(modes, found, &state.linear).map(position);
             }

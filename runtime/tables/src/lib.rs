@@ -4,10 +4,12 @@ mod answer;
 pub mod csv;
 mod error;
 pub mod json;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 mod results;
 mod table;
 
 pub use answer::{Answer, Subject};
 pub use error::Error;
-pub use results::{Tables, samples_table, tables};
+pub use results::{Tables, samples_table, sweep_table, tables};
 pub use table::{Column, Table, Values};

@@ -1,7 +1,7 @@
 //! Tables of results: the numbers of the results in declared units, the same columns whatever the values are.
 
 use eigentol::{InDeclaredUnit, Study, mechanism};
-use eigentol_tables::{Table, Values, csv, tables};
+use eigentol_tables::{Table, Values, csv, sweep_table, tables};
 
 mechanism! {
     /// The rotating bar with a closed form: `cos theta = 3 g / (2 l Omega^2)`, `omega^2 = Omega^2 sin^2 theta`.
@@ -105,4 +105,24 @@ fn every_table_comes_back_from_its_file() {
     }
     let kept = all[6].last().expect("samples");
     assert_eq!((kept.name.as_str(), kept.rows()), ("samples", 50));
+}
+
+#[test]
+fn parts_of_a_sweep_are_the_sweep() {
+    let study = study();
+    let speeds: Vec<f64> = (0..40).map(|k| 6.0 + 0.05 * f64::from(k)).collect();
+    let sweep = study.sweep(RotatingBar::speed, &speeds).expect("a sweep");
+    let whole = &tables(&sweep)[0];
+    assert_eq!(whole.columns[0].heading(), "speed [rpm]");
+    close(
+        number(whole, "speed", 39),
+        speeds[39] * 60.0 / std::f64::consts::TAU,
+    );
+    let mut writer = csv::Writer::new(Vec::new());
+    for part in sweep.points.chunks(7) {
+        let table = sweep_table(&sweep.description, &sweep.inputs, sweep.input, part, 1);
+        writer.write(&table).expect("written");
+    }
+    let parts = String::from_utf8(writer.finish().expect("finished")).expect("text");
+    assert_eq!(parts, csv::to_string(whole).expect("text"));
 }

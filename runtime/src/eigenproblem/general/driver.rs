@@ -7,6 +7,7 @@ use super::linearisation::Linearisation;
 use super::measure::Pair;
 use super::order::{finish, sort};
 use super::pencil::{Pencil, Products};
+use super::prediction::{Near, predict};
 use super::scaled_pencil::{Eigenproblem, Scaled, not_found, scaled};
 use super::scratch::{Work, take};
 use super::solver::Solver;
@@ -46,6 +47,11 @@ fn linear_values(
 
 /// Roots with `Im s >= 0`, conjugates left out, ascending in `|s|`, those of equal size by `Im s`, then by `Re s`.
 pub(crate) fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
+    solve_near(problem, &[])
+}
+
+/// The same, from the roots of a problem near by where these predict all of them.
+pub(crate) fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Root>, Trouble> {
     let n = problem.size();
     if n == 0 {
         return Ok(Vec::new());
@@ -70,7 +76,6 @@ pub(crate) fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
     let label = take(&mut indices, count);
     let open = take(&mut flags, count);
     let marked = take(&mut flags, count);
-    linear_values(&pencil, companion, vector, spare, order, open, values);
     let mut solver = Solver {
         of_right: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 3 * n)),
         of_left: Products::new(n, take(&mut complex, 3 * n), take(&mut real, 3 * n)),
@@ -88,7 +93,16 @@ pub(crate) fn solve(problem: Eigenproblem) -> Result<Vec<Root>, Trouble> {
         right: take(&mut complex, count * n),
         left: take(&mut complex, count * n),
     };
-    let troubles = find(&mut solver, &mut found, values, label);
+    let predicted = predict(problem, near, rate, values);
+    let mut troubles = match predicted {
+        true => find(&mut solver, &mut found, values, label),
+        false => usize::MAX,
+    };
+    if troubles > 0 {
+        let (pencil, order) = (&solver.pencil, &mut *solver.order);
+        linear_values(pencil, companion, vector, spare, order, open, values);
+        troubles = find(&mut solver, &mut found, values, label);
+    }
     if troubles > 0 {
         let second = take(&mut complex, count);
         second_values(&mut solver, &found, second, spare, open, marked);

@@ -25,6 +25,7 @@ mod order;
 mod pair;
 mod pencil;
 mod powers;
+mod prediction;
 mod scaled_pencil;
 mod scaling;
 mod schur;
@@ -35,7 +36,8 @@ mod tests;
 
 use num_complex::Complex64;
 
-pub(crate) use driver::solve as roots_of;
+pub(crate) use driver::{solve as roots_of, solve_near as roots_near};
+pub(crate) use prediction::Near;
 pub(crate) use scaled_pencil::Eigenproblem;
 
 use super::symmetric::Trouble;

@@ -1,7 +1,7 @@
 //! What a pair of vectors says about an eigenvalue of the bordered pencil.
 
 use crate::Complex;
-use crate::algebra::{Lu, Matrix, Vector, dot_complex, largest_element};
+use crate::algebra::{Lu, Matrix, Vector, dot, dot_complex, largest_element, times};
 use crate::kernels::Linear;
 use crate::modes::pencil::{pencil_slope_times, pencil_times, pencil_transposed_times, transposed};
 
@@ -37,22 +37,14 @@ impl Measure {
     ) -> Self {
         let of_right = pencil_times(linear, s, right);
         let of_left = pencil_transposed_times(linear, s, left);
-        let size = |i: usize, j: usize| {
-            let (m, c, k) = (
-                linear.mass[i][j],
-                linear.damping[i][j],
-                linear.stiffness[i][j],
-            );
-            s.norm() * (s.norm() * m.abs() + c.abs()) + k.abs()
-        };
-        let by_right = Residual::of(motions, right, &of_right, size);
-        let by_left = Residual::of(motions, left, &of_left, |i, j| size(j, i));
+        let sizes = sizes(linear, s.norm());
+        let (of_rows, of_columns) = (lengths(right), lengths(left));
+        let by_right = Residual::of(motions, &of_rows, &of_right, &sizes);
+        let by_left = Residual::of(motions, &of_columns, &of_left, &sizes.transpose());
         let slope = dot_complex(left, &pencil_slope_times(linear, s, right));
         let value = dot_complex(left, &of_right);
-        let n = right.len();
-        let row = |i: usize| (0..n).map(|j| size(i, j) * right[j].norm()).sum::<f64>();
-        let terms: f64 = (0..n).map(|i| left[i].norm() * row(i)).sum();
-        let rounding = (n as f64 + 4.0) * f64::EPSILON * terms;
+        let terms = dot(&of_columns, &times(&sizes, &of_rows));
+        let rounding = (right.len() as f64 + 4.0) * f64::EPSILON * terms;
         Self {
             residual: by_right.relative.max(by_left.relative),
             rounding_only: by_right.rounding_only && by_left.rounding_only,
@@ -70,6 +62,26 @@ impl Measure {
     }
 }
 
+/// Sums of the absolute terms in the elements of `P(s)`.
+fn sizes(linear: &Linear, s: f64) -> Matrix {
+    let n = linear.mass.row_count();
+    let mut sizes = Matrix::zeros(n, n);
+    let elements = sizes.as_flattened_mut().iter_mut();
+    let (m, c, k) = (
+        linear.mass.as_flattened(),
+        linear.damping.as_flattened(),
+        linear.stiffness.as_flattened(),
+    );
+    for (size, ((m, c), k)) in elements.zip(m.iter().zip(c).zip(k)) {
+        *size = s * (s * m.abs() + c.abs()) + k.abs();
+    }
+    sizes
+}
+
+fn lengths(x: &[Complex]) -> Vector {
+    x.iter().map(|x| x.norm()).collect()
+}
+
 /// What is left of `P(s) x`.
 struct Residual {
     relative: f64,
@@ -77,42 +89,38 @@ struct Residual {
 }
 
 impl Residual {
-    fn of(
-        motions: usize,
-        x: &[Complex],
-        product: &[Complex],
-        size: impl Fn(usize, usize) -> f64,
-    ) -> Self {
+    /// `x` by the size of each component, `product` is `P(s) x`.
+    fn of(motions: usize, x: &[f64], product: &[Complex], sizes: &Matrix) -> Self {
         let n = x.len();
+        let greatest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let (of_motion, of_reactions) = x.split_at(motions);
+        let most_of = [greatest(of_motion), greatest(of_reactions)];
         let mut relative = 0.0_f64;
         let mut rounding_only = true;
         for rows in [0..motions, motions..n] {
             let (mut most, mut terms, mut possible) = (0.0_f64, 0.0_f64, 0.0_f64);
             let constraints = rows.start == motions;
             for i in rows {
-                let elements = (0..n).map(|j| size(i, j));
-                let greatest = elements.fold(0.0, f64::max);
+                let (moving, reacting) = sizes[i].split_at(motions);
+                let elements = [greatest(moving), greatest(reacting)];
+                let largest = elements[0].max(elements[1]);
                 // Constraints in units of their own are of order one.
-                let unit = if constraints && greatest > 0.0 {
-                    greatest
+                let unit = if constraints && largest > 0.0 {
+                    largest
                 } else {
                     1.0
                 };
                 let value = product[i].norm() / unit;
-                let sum: f64 = (0..n).map(|j| size(i, j) * x[j].norm()).sum();
                 most = if value.is_finite() {
                     most.max(value)
                 } else {
                     f64::INFINITY
                 };
-                terms = terms.max(sum / unit);
+                terms = terms.max(dot(&sizes[i], x) / unit);
                 // A vector that the matrix takes to zero has nothing but rounding in the terms that act: motions are
                 // measured by the greatest of them, and reactions too.
-                let largest = [0..motions, motions..n].map(|columns| {
-                    let element = columns.clone().map(|j| size(i, j)).fold(0.0, f64::max);
-                    element * columns.map(|j| x[j].norm()).fold(0.0, f64::max)
-                });
-                possible = possible.max(largest[0].max(largest[1]) / unit);
+                let acting = (elements[0] * most_of[0]).max(elements[1] * most_of[1]);
+                possible = possible.max(acting / unit);
             }
             rounding_only &= most <= ROUNDING * n as f64 * possible;
             if most > 0.0 {

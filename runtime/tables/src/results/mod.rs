@@ -18,6 +18,7 @@ mod sweep;
 mod tolerance;
 
 pub use samples::samples_table;
+pub use sweep::sweep_table;
 
 use crate::Table;
 

@@ -6,7 +6,7 @@ use crate::Table;
 
 /// A row for each sample: its number in the run, what became of it, design variables, unknowns, and of each mode the frequency, the
 /// damping ratio and the eigenvalue. `first` is the number of the first of them, counted from 0, so that parts of a run can be written one
-/// after the other; all have the same columns.
+/// after the other: all that are not empty have the same columns.
 ///
 /// ```
 /// # use eigentol::{Study, mechanism};
@@ -40,7 +40,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
         d,
         all.clone().map(|sample| sample.coordinates.as_deref()),
     );
-    // All samples of a mechanism have as many modes, or none where they were not found.
+    // A sample has a place for each nominal mode, also where it was not found.
     let modes = all.clone().map(|own| own.frequencies.len()).max();
     for r in 0..modes.unwrap_or(0) {
         let frequency = all.clone().map(|own| *own.frequencies.get(r)?);

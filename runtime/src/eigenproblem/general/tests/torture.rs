@@ -8,15 +8,15 @@ use super::known::{below, check_known, known};
 use super::*;
 
 /// Uniform in -1 .. 1.
-fn uniform(rng: &mut ChaCha8Rng) -> f64 {
+pub(super) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-fn integers(n: usize, rng: &mut ChaCha8Rng, most: u32) -> Matrix {
+pub(super) fn integers(n: usize, rng: &mut ChaCha8Rng, most: u32) -> Matrix {
     Matrix::from_fn(n, n, |_, _| below(rng, 2 * most + 1) as f64 - most as f64)
 }
 
-fn symmetric(matrix: &Matrix, sign: f64) -> Matrix {
+pub(super) fn symmetric(matrix: &Matrix, sign: f64) -> Matrix {
     let n = matrix.row_count();
     Matrix::from_fn(n, n, |i, j| matrix[i][j] + sign * matrix[j][i])
 }
@@ -28,7 +28,7 @@ fn graded(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
 }
 
 /// Well conditioned, after scaling the coordinates by up to `10^spread` either way.
-fn mass(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
+pub(super) fn mass(n: usize, rng: &mut ChaCha8Rng, spread: f64) -> Matrix {
     let units = Vector::from_fn(n, |_| 10.0_f64.powf(spread * uniform(rng)));
     let coupling = Matrix::from_fn(n, n, |_, _| 0.4 * uniform(rng) / n as f64);
     Matrix::from_fn(n, n, |i, j| {

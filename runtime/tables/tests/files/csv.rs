@@ -1,21 +1,10 @@
 //! Tables written and read back, and files that cannot be.
 
-use std::io::{self, Write};
+use std::io;
 
 use eigentol_tables::{Column, Error, Table, Values, csv};
 
-fn table() -> Table {
-    let mut table = Table::new("mixed");
-    table.whole("mode", [Some(1), None, Some(3)]);
-    table.numbers("length", "mm", [0.1 + 0.2, f64::MIN_POSITIVE, -1.0e300]);
-    table.numbers("sigma", "rad/s", [Some(5e-324), None, Some(-0.0)]);
-    table.texts(
-        "name, with \"marks\"",
-        ["a,b", "line\nline", " \"c\" "].map(|own| Some(own.to_owned())),
-    );
-    table.flags("met", [Some(true), None, Some(false)]);
-    table
-}
+use crate::common::{Disk, table};
 
 #[test]
 fn a_table_comes_back_bit_by_bit() {
@@ -87,24 +76,6 @@ fn columns_of_different_lengths_are_refused() {
             ..
         })
     ));
-}
-
-/// Has room for so many bytes.
-struct Disk(usize);
-
-impl Write for Disk {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.0 == 0 {
-            return Err(io::ErrorKind::StorageFull.into());
-        }
-        let written = bytes.len().min(self.0);
-        self.0 -= written;
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
 }
 
 #[test]

@@ -1,0 +1,137 @@
+//! Roots by those of a pencil near by are those that are found from nothing.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::checks::check;
+use super::torture::{integers, mass, symmetric, uniform};
+use super::*;
+use crate::eigenproblem::general::prediction::predict;
+use crate::eigenproblem::general::{Eigenproblem, Near, roots_near};
+
+/// Gyroscopic, damped, circulatory, with eigenvalues that meet or vanish.
+fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
+    let any = Matrix::from_fn(n, n, |_, _| uniform(rng));
+    let stiffness = symmetric(&any, 1.0);
+    match kind {
+        0 => linear(identity(n), symmetric(&any, -1.0), stiffness),
+        1 => linear(mass(n, rng, 0.5), any, stiffness),
+        2 => linear(identity(n), integers(n, rng, 1), integers(n, rng, 1)),
+        _ => linear(mass(n, rng, 0.0), zeros(n), stiffness),
+    }
+}
+
+/// The same with every element changed by up to this share, symmetric parts and signs kept.
+fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
+    let n = pencil.mass.row_count();
+    let factors = Matrix::from_fn(n, n, |_, _| 0.5 * share * uniform(rng));
+    let factor = |i: usize, j: usize| 1.0 + factors[i][j] + factors[j][i];
+    let change = |matrix: &Matrix| Matrix::from_fn(n, n, |i, j| matrix[i][j] * factor(i, j));
+    linear(
+        change(&pencil.mass),
+        change(&pencil.damping),
+        change(&pencil.stiffness),
+    )
+}
+
+fn near(roots: &[Root]) -> Vec<Near<'_>> {
+    fn near(root: &Root) -> Near<'_> {
+        Near {
+            s: root.s,
+            right: &root.right,
+            left: &root.left,
+        }
+    }
+    roots.iter().map(near).collect()
+}
+
+/// Every root with its error, conjugates written out.
+fn with_errors(roots: &[Root]) -> Vec<(Complex64, f64)> {
+    let both = |root: &Root| {
+        let conjugate = (root.s.im > 0.0).then(|| root.s.conj());
+        let values = [Some(root.s), conjugate].into_iter().flatten();
+        values.map(|s| (s, root.error)).collect::<Vec<_>>()
+    };
+    roots.iter().flat_map(both).collect()
+}
+
+#[test]
+fn roots_by_those_near_by_are_those_from_nothing() {
+    let mut rng = ChaCha8Rng::seed_from_u64(16);
+    let mut compared = 0;
+    for round in 0..4000 {
+        let (n, kind) = (1 + round % 5, (round / 5 % 4) as u32);
+        let share = [1e-9, 1e-4, 0.02, 0.3][round / 20 % 4];
+        let there = pencil(n, &mut rng, kind);
+        let here = moved(&there, &mut rng, share);
+        let (Ok(known), Ok(wanted)) = (solve(&there), solve(&here)) else {
+            continue;
+        };
+        let found = roots_near(Eigenproblem::Quadratic(&here), &near(&known))
+            .unwrap_or_else(|_| panic!("round {round}: not found"));
+        check(&here, &found).unwrap_or_else(|message| panic!("round {round}: {message}"));
+        // Roots of equal size stand in an order that rounding decides, and a double root is a pair or two real ones.
+        let mut left = with_errors(&wanted);
+        for (s, error) in with_errors(&found) {
+            let same = |other: &(Complex64, f64)| {
+                (s - other.0).norm() <= error + other.1 + 1e-12 * s.norm()
+            };
+            let place = left.iter().position(same);
+            left.remove(place.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
+        }
+        assert!(left.is_empty(), "round {round}");
+        compared += 1;
+    }
+    assert!(compared > 3500, "{compared}");
+}
+
+#[test]
+fn small_changes_are_predicted_to_second_order() {
+    let mut rng = ChaCha8Rng::seed_from_u64(17);
+    for _ in 0..200 {
+        let there = linear(
+            identity(3),
+            symmetric(&Matrix::from_fn(3, 3, |_, _| uniform(&mut rng)), -1.0),
+            diagonal(&[10.0, 25.0, 60.0]),
+        );
+        let known = solve(&there).expect("a gyroscopic pencil");
+        let errors = [1e-3, 1e-4].map(|share| {
+            let mut rng = ChaCha8Rng::seed_from_u64(18);
+            let here = moved(&there, &mut rng, share);
+            let mut values = [Complex64::ZERO; 6];
+            assert!(predict(
+                Eigenproblem::Quadratic(&here),
+                &near(&known),
+                1.0,
+                &mut values
+            ));
+            let wanted = all(&solve(&here).expect("a gyroscopic pencil"));
+            let off = values.iter().zip(&wanted).map(|(a, b)| (a - b).norm());
+            off.fold(0.0, f64::max)
+        });
+        assert!(errors[0] < 1e-3, "{errors:?}");
+        assert!(errors[1] < 0.02 * errors[0], "{errors:?}");
+    }
+}
+
+#[test]
+fn what_is_far_away_or_incomplete_is_not_predicted() {
+    let here = linear(identity(2), zeros(2), diagonal(&[1.0, 4.0]));
+    let far = linear(identity(2), zeros(2), diagonal(&[2.0, 4.0]));
+    let mut values = [Complex64::ZERO; 4];
+    let mut predicted = |known: &[Root]| {
+        predict(
+            Eigenproblem::Quadratic(&here),
+            &near(known),
+            1.0,
+            &mut values,
+        )
+    };
+    let own = solve(&here).expect("two modes");
+    assert!(predicted(&own));
+    assert!(!predicted(&own[..1]));
+    assert!(!predicted(&[]));
+    assert!(!predicted(&solve(&far).expect("two modes")));
+    let twice = [own[0].clone(), own[1].clone(), own[1].clone()];
+    assert!(!predicted(&twice));
+}

@@ -1,0 +1,146 @@
+//! Documents: what a program in another language sees, and documents that are refused.
+
+use std::io;
+
+use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Study, mechanism};
+use eigentol_tables::{Error, Values, json, tables};
+use serde_json::Value;
+
+use crate::common::Disk;
+
+mechanism! {
+    mechanism Swing {
+        input speed: rpm;
+        design l = 1000 mm +/- 30 mm;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: 3 kg, length: l, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at speed;
+        joint theta: revolute(y) from shaft to bar;
+    }
+}
+
+fn modes() -> Modes {
+    let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
+    study.start(Swing::theta, 1.0).modes().expect("modes")
+}
+
+fn text() -> String {
+    json::to_string(&modes()).expect("text")
+}
+
+/// The document with another value in a field.
+fn with(field: &str, value: Value) -> String {
+    let mut document: Value = serde_json::from_str(&text()).expect("JSON");
+    document[field] = value;
+    document.to_string()
+}
+
+#[test]
+fn another_program_finds_its_way() {
+    let document: Value = serde_json::from_str(&text()).expect("JSON");
+    assert_eq!(document["format"], "eigentol");
+    assert_eq!(document["version"], 1);
+    assert_eq!(document["kind"], "modes");
+    assert_eq!(document["mechanism"], "Swing");
+    assert_eq!(document["inputs"]["speed"]["unit"], "rpm");
+    let speed = document["inputs"]["speed"]["value"]
+        .as_f64()
+        .expect("a number");
+    assert!((speed - 60.0).abs() < 1e-12);
+    let columns = document["tables"][0]["columns"]
+        .as_array()
+        .expect("columns");
+    let frequency = columns
+        .iter()
+        .find(|own| own["name"] == "frequency")
+        .expect("a column");
+    assert_eq!(frequency["unit"], "rad/s");
+    assert_eq!(frequency["kind"], "numbers");
+    assert_eq!(frequency["values"][0].as_f64(), modes().frequencies()[0]);
+}
+
+#[test]
+fn a_result_comes_back_with_its_description() {
+    let back: Modes = json::read(text().as_bytes()).expect("modes");
+    assert_eq!(back, modes());
+    assert_eq!(tables(&back), tables(&modes()));
+}
+
+/// A mode without a neighbour is infinitely far from the next one.
+#[test]
+fn what_is_infinite_is_a_word_in_the_result_and_missing_in_the_tables() {
+    let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
+    let first = study
+        .start(Swing::theta, 1.0)
+        .first_order()
+        .expect("spreads");
+    let text = json::to_string(&first).expect("text");
+    assert!(
+        text.contains(r#""distance_to_neighbour":"Infinity""#),
+        "{text}"
+    );
+    assert_eq!(
+        json::read::<FirstOrder>(text.as_bytes()).expect("spreads"),
+        first
+    );
+    let tables = json::read_tables(text.as_bytes()).expect("tables");
+    let column = tables[0].column("distance to neighbour").expect("a column");
+    assert_eq!(column.values, Values::Numbers(vec![None]));
+}
+
+#[test]
+fn other_documents_are_refused() {
+    let refused = |text: String| json::read::<Modes>(text.as_bytes()).expect_err("refused");
+    let error = refused(with("version", 7.into()));
+    assert_eq!(
+        error.to_string(),
+        "the document is of version 7, written by \"eigentol-tables 0.1.0\"; this program reads version 1: write it again with this \
+         program, or read it with the one that wrote it"
+    );
+    assert!(matches!(
+        refused(with("version", Value::Null)),
+        Error::Version { .. }
+    ));
+    assert!(matches!(
+        refused(with("format", "other".into())),
+        Error::Foreign
+    ));
+    assert!(matches!(refused("[1, 2]".to_owned()), Error::Foreign));
+    assert!(matches!(
+        refused("no JSON".to_owned()),
+        Error::Malformed { line: 1, .. }
+    ));
+    assert!(matches!(
+        refused(with("result", Value::Null)),
+        Error::Content(_)
+    ));
+    let error = json::read::<Equilibrium>(text().as_bytes()).expect_err("another kind");
+    assert_eq!(
+        error.to_string(),
+        "the document holds `modes`, not `equilibrium`"
+    );
+}
+
+#[test]
+fn a_document_that_is_cut_off_is_refused() {
+    let text = text();
+    let whole = text.trim_end().len();
+    for end in 0..whole {
+        let error = json::read::<Modes>(&text.as_bytes()[..end]).expect_err("cut off");
+        assert!(error.to_string().contains("cut off"), "{end}: {error}");
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error() {
+    let size = text().len();
+    assert!(json::write(&modes(), Disk(size)).is_ok());
+    for room in 0..size {
+        let error = json::write(&modes(), Disk(room)).expect_err("no room");
+        assert!(
+            matches!(&error, Error::Write(own) if own.kind() == io::ErrorKind::StorageFull),
+            "{error:?}"
+        );
+    }
+}
