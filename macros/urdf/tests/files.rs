@@ -87,7 +87,8 @@ fn every_type_of_joint() {
 
 #[test]
 fn bases() {
-    let text = chain(&[("j", "revolute", "")]);
+    let root = format!("<link name=\"l0\">{MASS}</link>");
+    let text = chain(&[("j", "revolute", "")]).replace("<link name=\"l0\"/>", &root);
     let unknowns_of = |base| unknowns(&with(&text, &Options::default().base(base)));
     assert_eq!(unknowns_of(Base::Fixed), ["j"]);
     // Upright, nothing but the springs holds the heading: they do.
@@ -129,6 +130,10 @@ fn what_nothing_resists() {
     );
     assert_eq!(unknowns(&alone), ["pan", "tilt"]);
     assert_eq!(lines(&alone, "kernels"), ["kernels only;"]);
+    // Next to nothing.
+    let tilted = text.replace("0 0 1", "0 -1e-12 -1");
+    let drives = with(&tilted, &Options::default().resistance(Resistance::Drives));
+    assert_eq!(unknowns(&drives), ["tilt"]);
     let upright = chain(&[
         ("pan", "revolute", "<axis xyz=\"0 0 1\"/>"),
         ("turn", "revolute", "<axis xyz=\"0 0 -1\"/>"),

@@ -119,7 +119,7 @@ fn axes_and_masses() {
         "<child link=\"arm\"/>",
         "<child link=\"arm\"/><axis xyz=\"0 0 0\"/>",
     );
-    assert_eq!(only(&axis), "4:72 the axis of the joint `j` has no length");
+    assert_eq!(only(&axis), "4:73 the axis of the joint `j` has no length");
     let negative = robot("").replace("mass value=\"1\"", "mass value=\"-1\"");
     assert_eq!(only(&negative), "3:18 the mass of the link `arm` is -1 kg");
     let weightless = robot("").replace("mass value=\"1\"", "mass value=\"0\"");
@@ -150,9 +150,9 @@ fn mimics() {
     );
     assert_eq!(
         only(&with("<mimic joint=\"k\"/>")),
-        "4:72 there is no joint `k`"
+        "4:73 there is no joint `k`"
     );
-    assert_eq!(only(&with("<mimic/>")), "4:72 `mimic` has no `joint`");
+    assert_eq!(only(&with("<mimic/>")), "4:73 `mimic` has no `joint`");
     let floating = robot(
         "<link name=\"c\"/><joint name=\"k\" type=\"floating\"><parent link=\"arm\"/><child link=\"c\"/><mimic joint=\"j\"/></joint>",
     );
