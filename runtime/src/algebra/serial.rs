@@ -46,7 +46,10 @@ impl<'de, T: Exact + Copy + Default> Deserialize<'de> for Matrix<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let (rows, columns, entries) = if from.is_human_readable() {
             match Rows::<T::Written>::deserialize(from)? {
-                Rows::None { rows, columns } => (rows, columns, Vec::new()),
+                Rows::None { rows: 0, columns } => (0, columns, Vec::new()),
+                Rows::None { .. } => {
+                    return Err(D::Error::custom("a matrix with rows is a list of them"));
+                }
                 Rows::Rows(all) => {
                     let columns = all.first().map_or(0, Vec::len);
                     if all.iter().any(|row| row.len() != columns) {

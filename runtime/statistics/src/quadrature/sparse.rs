@@ -39,6 +39,7 @@ pub struct SparseGrid {
 
 /// The mean of a function and how far the level below is from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Integral {
     /// The mean, in the unit of the function.
     pub value: f64,

@@ -4,6 +4,7 @@ use core::fmt::Display;
 
 /// Value and gradient of a limit state at a point.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LimitValue {
     /// `g(z)`, in the unit of the limit state.
     pub value: f64,

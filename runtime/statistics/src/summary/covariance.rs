@@ -5,6 +5,7 @@ use super::Comoments;
 /// Two quantities over the samples that have both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Covariance {
     /// Number of samples that have both.
     pub count: u64,

@@ -23,6 +23,7 @@ pub struct Sorted(Vec<f64>);
 /// An interval that has a quantile of the distribution with some probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Interval {
     /// Lower end, in the unit of the values.
     pub lower: f64,

@@ -92,7 +92,7 @@ impl Tables for Propagation {
         let count = self.wanted.len();
         if count > 1 {
             let pairs = || (0..count).flat_map(|i| (i + 1..count).map(move |j| (i, j)));
-            let name = |k: usize| Some(response(&self.wanted[k], d).0);
+            let name = |k: usize| Some(response(self.wanted.get(k)?, d).0);
             let mut table = Table::new("correlations");
             table.texts("response", pairs().map(|(i, _)| name(i)));
             table.texts("with", pairs().map(|(_, j)| name(j)));

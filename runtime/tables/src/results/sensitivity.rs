@@ -53,7 +53,9 @@ impl Tables for EquilibriumShift {
         table.texts("by", rows().map(|(_, _, (name, _))| Some(name.to_string())));
         table.texts("per", rows().map(|(_, _, (_, unit))| by(unit)));
         let slopes = infos().flat_map(|(i, info)| {
-            let slopes = both(&self.by_input[i], &self.by_design[i]).zip(&all);
+            let inputs = self.by_input.iter().nth(i).unwrap_or_default();
+            let design = self.by_design.iter().nth(i).unwrap_or_default();
+            let slopes = both(inputs, design).zip(&all);
             slopes.map(|(slope, (_, unit))| in_unit(per_unit(slope, unit), &info.unit))
         });
         table.numbers("derivative", "", slopes);
@@ -83,8 +85,8 @@ impl Tables for OutputSensitivities {
         table.texts("by", rows().map(|(_, _, (name, _))| Some(name.to_string())));
         table.texts("per", rows().map(|(_, _, (_, unit))| by(unit)));
         let slopes = infos().flat_map(|(o, info)| {
-            let slopes = match (&self.by_input[o], &self.by_design[o]) {
-                (Some(inputs), Some(design)) => both(inputs, design).collect(),
+            let slopes = match (self.by_input.get(o), self.by_design.get(o)) {
+                (Some(Some(inputs)), Some(Some(design))) => both(inputs, design).collect(),
                 _ => Vec::new(),
             };
             let each = all.iter().enumerate();

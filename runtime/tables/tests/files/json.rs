@@ -2,8 +2,10 @@
 
 use std::io;
 
-use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Study, mechanism};
-use eigentol_tables::{Error, Values, json, tables};
+use eigentol::requirement::Requirement;
+use eigentol::response::Response;
+use eigentol::{Equilibrium, FirstOrder, InDeclaredUnit, Modes, Quantity, Study, mechanism};
+use eigentol_tables::{Answer, Error, Values, json, tables};
 use serde_json::Value;
 
 use crate::common::Disk;
@@ -120,6 +122,73 @@ fn other_documents_are_refused() {
         error.to_string(),
         "the document holds `modes`, not `equilibrium`"
     );
+}
+
+/// Every list of the result in turn loses its last entry: what comes back has tables all the same, or is refused.
+fn survives_lists_that_are_too_short<A: Answer>(answer: &A) {
+    let text = json::to_string(answer).expect("text");
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    for list in 0.. {
+        let mut damaged = whole.clone();
+        let mut left = list;
+        if !shorten(&mut damaged["result"], &mut left) {
+            assert!(list > 0);
+            break;
+        }
+        if let Ok(back) = json::read::<A>(damaged.to_string().as_bytes()) {
+            let _ = back.tables();
+        }
+    }
+}
+
+/// Shortens the list that comes after `left` others; whether there was one.
+fn shorten(value: &mut Value, left: &mut usize) -> bool {
+    match value {
+        Value::Array(all) if *left == 0 => {
+            all.pop();
+            true
+        }
+        Value::Array(all) => {
+            *left -= 1;
+            all.iter_mut().any(|own| shorten(own, left))
+        }
+        Value::Object(fields) => fields.values_mut().any(|own| shorten(own, left)),
+        _ => false,
+    }
+}
+
+#[test]
+fn damaged_results_do_no_harm() {
+    let study = Study::new(Swing).input(Swing::speed, InDeclaredUnit(60.0));
+    let study = study
+        .start(Swing::theta, 1.0)
+        .samples(64)
+        .keep_samples(true);
+    let solved = study.solve().expect("a state");
+    survives_lists_that_are_too_short(&solved.equilibrium);
+    survives_lists_that_are_too_short(&solved.modes);
+    survives_lists_that_are_too_short(&solved.equilibrium_shift().expect("derivatives"));
+    survives_lists_that_are_too_short(&solved.outputs().expect("outputs"));
+    survives_lists_that_are_too_short(&solved.sensitivities().expect("derivatives"));
+    survives_lists_that_are_too_short(&solved.first_order().expect("spreads"));
+    survives_lists_that_are_too_short(&solved.second_order().expect("spreads"));
+    survives_lists_that_are_too_short(&solved.summary().expect("a summary"));
+    let few = study.clone().samples(3);
+    survives_lists_that_are_too_short(&few.monte_carlo().expect("samples"));
+    let sweep = study
+        .sweep(Swing::speed, &[6.0, 6.1, 6.2])
+        .expect("a sweep");
+    survives_lists_that_are_too_short(&sweep);
+    let responses = [Response::Mode {
+        mode: 0,
+        quantity: Quantity::Frequency,
+    }];
+    survives_lists_that_are_too_short(&study.propagate(&responses).expect("spreads"));
+    survives_lists_that_are_too_short(&study.worst_case(&responses).expect("limits"));
+    survives_lists_that_are_too_short(&study.influence(&responses).expect("shares"));
+    let wanted = [Requirement::at_least(responses[0], 5.8)];
+    survives_lists_that_are_too_short(&study.chances(&wanted).expect("chances"));
+    survives_lists_that_are_too_short(&study.reliability(&wanted).expect("points"));
 }
 
 #[test]

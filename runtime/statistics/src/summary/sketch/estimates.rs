@@ -8,6 +8,7 @@ use crate::summary::sorted::{Interval, place};
 /// A number that is known to lie near `value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
@@ -18,6 +19,7 @@ pub struct Estimate {
 /// A distribution in bins of equal width from the least to the greatest value.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Histogram {
     /// Where bins begin and end, one more than there are bins, in the unit of the values.
     pub edges: Vec<f64>,
