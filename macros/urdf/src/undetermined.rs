@@ -1,7 +1,7 @@
 //! Coordinates that nothing resists: only the equations tell which.
 
-use eigentol_compiler::compile;
-use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::mechanics::{Limits, Role};
+use eigentol_compiler::{Compilation, compile};
 
 use crate::assemble::Assembly;
 use crate::error::{ImportError, Mistake, Reason};
@@ -55,9 +55,38 @@ fn undetermined(declaration: &str) -> Result<Vec<String>, ImportError> {
     let compiled = compiled.map_err(|mistakes| refused(Reason::Refused(mistakes.to_string())))?;
     let coordinates = &compiled.mechanism.coordinates;
     let names = compiled.functions.undetermined.iter();
-    Ok(names
+    let mut names: Vec<String> = names
         .map(|id| coordinates[id.index()].name.to_string())
-        .collect())
+        .collect();
+    for (unknown, share) in compiled.functions.unknowns.iter().zip(stiffness(&compiled)) {
+        let is_position = matches!(unknown.role, Role::Position(_));
+        if is_position && share < NEARLY_NOTHING && !names.contains(&unknown.name) {
+            names.push(unknown.name.clone());
+        }
+    }
+    Ok(names)
+}
+
+/// Share of the largest stiffness. An axis that a file turns upright by `3.14159265359` is not quite upright.
+const NEARLY_NOTHING: f64 = 1e-10;
+
+/// By unknown, how much the residual at rest changes with it at a few states, as a share of the largest such change.
+fn stiffness(compiled: &Compilation) -> Vec<f64> {
+    let n = compiled.functions.unknowns.len();
+    let mut columns = vec![0.0_f64; n];
+    for state in 0..4 {
+        let place = |k: usize| ((1 + 7 * k + 13 * state) as f64).sin();
+        let q: Vec<f64> = (0..n).map(place).collect();
+        let kernel = "residual_and_stiffness";
+        let values = compiled.program.evaluate(kernel, &[&q, &[], &[]]);
+        let matrix = values.and_then(|values| values.into_iter().nth(1));
+        for (k, entry) in matrix.unwrap_or_default().into_iter().enumerate() {
+            columns[k % n] = columns[k % n].max(entry.abs());
+        }
+    }
+    let most = columns.iter().fold(0.0_f64, |most, x| most.max(*x));
+    let share = |x: f64| if most > 0.0 { x / most } else { 0.0 };
+    columns.into_iter().map(share).collect()
 }
 
 fn refused(reason: Reason) -> ImportError {

@@ -130,6 +130,10 @@ fn what_nothing_resists() {
     );
     assert_eq!(unknowns(&alone), ["pan", "tilt"]);
     assert_eq!(lines(&alone, "kernels"), ["kernels only;"]);
+    // Next to nothing.
+    let tilted = text.replace("0 0 1", "0 -1e-12 -1");
+    let drives = with(&tilted, &Options::default().resistance(Resistance::Drives));
+    assert_eq!(unknowns(&drives), ["tilt"]);
     let upright = chain(&[
         ("pan", "revolute", "<axis xyz=\"0 0 1\"/>"),
         ("turn", "revolute", "<axis xyz=\"0 0 -1\"/>"),
