@@ -161,7 +161,7 @@ impl TryFrom<Unchecked> for PartialMonteCarlo {
         let covered = all.ranges().into_iter().flatten();
         let kept = all.kept.is_none() || numbers.eq(covered);
         let inputs = all.inputs.len() == all.description.inputs.len();
-        if quantities % of_each_mode == 0 && kept && inputs {
+        if quantities.is_multiple_of(of_each_mode) && kept && inputs {
             Ok(all)
         } else {
             Err("the parts of these samples do not fit together")
