@@ -83,7 +83,7 @@ impl Import {
             .map_err(|error| file.refused(error.mistakes.iter().map(Mistake::from).collect()))?;
         self.place.write(&robot.declaration)?;
         if !self.quiet {
-            robot.notes.iter().for_each(|note| diagnostics::note(note));
+            robot.notes.iter().for_each(diagnostics::note);
         }
         Ok(Verdict::Yes)
     }
