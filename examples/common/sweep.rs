@@ -139,7 +139,7 @@ fn row<M: Mechanism>(
             // would look like a systematic one.
             let first_stream = place * question.levels.len() as u64;
             for ((k, &level), stream) in question.levels.iter().enumerate().zip(first_stream..) {
-                let sampling = sampling.map(|sampling| sampling.stream(stream));
+                let sampling = sampling.map(|sampling| sampling.clone().stream(stream));
                 let tolerances = question.varied_by(study, level).tolerances();
                 let filled = tolerances.and_then(|tolerances| {
                     let at = Place {
@@ -229,8 +229,8 @@ impl Spread {
             .modes
             .iter()
             .map(|mode| Moments {
-                mean: mode.map(|mode| mode.mean),
-                sigma: mode.and_then(|mode| mode.sigma),
+                mean: mode.as_ref().map(|mode| mode.mean),
+                sigma: mode.as_ref().and_then(|mode| mode.sigma),
             })
             .collect();
     }

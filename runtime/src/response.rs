@@ -2,7 +2,7 @@
 //! total derivatives.
 
 use crate::algebra::Vector;
-use crate::kernels::{DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
 use crate::sweep::{Range, critical_sensitivity, critical_state};
 use crate::tolerance::{Outcome, Solution};
@@ -44,6 +44,8 @@ pub struct Realisation {
 /// Responses of designs near a nominal one. Modes are matched to the nominal modes by shape.
 pub struct Responses<'a> {
     mechanism: &'a dyn DirectionalKernels,
+    /// The same where designs can be solved side by side.
+    batches: Option<&'a dyn BatchKernels>,
     nominal: &'a Equilibrium,
     modes: &'a Modes,
     wanted: Vec<Response>,
@@ -88,10 +90,32 @@ impl<'a> Responses<'a> {
         }
         Ok(Self {
             mechanism,
+            batches: None,
             nominal,
             modes,
             wanted,
         })
+    }
+
+    /// The same of a mechanism that can be evaluated at several designs side by side: samples of frequencies of undamped modes are
+    /// then solved in the vectors of the processor where [`monte_carlo`](crate::tolerance::monte_carlo) does so.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn side_by_side(
+        mechanism: &'a dyn BatchKernels,
+        nominal: &'a Equilibrium,
+        modes: &'a Modes,
+        wanted: Vec<Response>,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            batches: Some(mechanism),
+            ..Self::new(mechanism, nominal, modes, wanted)?
+        })
+    }
+
+    pub(crate) fn batches(&self) -> Option<&'a dyn BatchKernels> {
+        self.batches
     }
 
     /// The responses in order.
@@ -103,6 +127,10 @@ impl<'a> Responses<'a> {
     /// The design about which responses are asked for, and its equilibrium.
     pub(crate) fn nominal(&self) -> &'a Equilibrium {
         self.nominal
+    }
+
+    pub(crate) fn mechanism(&self) -> &'a dyn DirectionalKernels {
+        self.mechanism
     }
 
     /// The nominal modes.

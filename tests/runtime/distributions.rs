@@ -71,7 +71,7 @@ fn monte_carlo_has_the_exact_moments() {
             .seed(seed as u64);
         for study in [study.clone(), study.vectors(None)] {
             let run = study.monte_carlo().unwrap();
-            let found = run.modes[0].unwrap();
+            let found = run.modes[0].as_ref().unwrap();
             let error = sigma / (SAMPLES as f64).sqrt();
             assert_eq!(run.counts.stable, SAMPLES);
             assert!((found.mean - mean).abs() < 4.0 * error, "{length:?}");
@@ -251,7 +251,7 @@ fn a_speed_that_wanders() {
     );
 
     let run = study.clone().samples(SAMPLES).monte_carlo().unwrap();
-    let found = run.modes[0].unwrap();
+    let found = run.modes[0].as_ref().unwrap();
     assert!((found.sigma.unwrap() / with.sigma - 1.0).abs() < 0.03);
     assert!(run.side_by_side && run.counts.stable == SAMPLES);
 

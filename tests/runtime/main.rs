@@ -16,6 +16,7 @@ mod events;
 mod handwritten;
 mod lanes;
 mod modes;
+mod partial;
 mod propagate;
 mod quadratic;
 mod range;

@@ -161,7 +161,7 @@ fn verdicts_on_two_bars_are_right_at_every_speed_and_tolerance() {
             let summary = study.summary().unwrap();
             let sampled = study.samples(SAMPLES).seed(77).monte_carlo().unwrap();
             for (mode, sampled) in sampled.modes.iter().enumerate() {
-                let sigma = sampled.unwrap().sigma.unwrap();
+                let sigma = sampled.as_ref().unwrap().sigma.unwrap();
                 judged(&summary, mode, sigma, 0.012, &format!("{k} {tolerance}"));
             }
         }

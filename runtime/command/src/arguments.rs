@@ -1,15 +1,17 @@
 //! The command line.
 
+use std::io::{self, IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, modes, new, sample, sensitivities,
-    tolerance,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, sample,
+    sensitivities, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::verdict::Verdict;
 
 /// Natural frequencies of mechanisms in steady motion, and how tolerances move them.
@@ -20,7 +22,13 @@ use crate::verdict::Verdict;
 #[command(name = "eigentol", version, subcommand_required = true)]
 pub(crate) struct Arguments {
     /// Whether messages are coloured; `auto` does it on a terminal
-    #[arg(long, global = true, value_enum, default_value = "auto", value_name = "WHEN")]
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value = "auto",
+        value_name = "WHEN"
+    )]
     color: Color,
     #[command(subcommand)]
     command: Command,
@@ -34,6 +42,52 @@ pub(crate) enum Color {
     Never,
 }
 
+impl Color {
+    /// What is asked for on a command line that could not be read.
+    fn asked() -> Self {
+        let arguments: Vec<String> = (std::env::args_os())
+            .map(|own| own.to_string_lossy().into_owned())
+            .collect();
+        let apart = arguments.iter().position(|own| own == "--color");
+        let value = match apart {
+            Some(k) => arguments.get(k + 1).map(String::as_str),
+            None => arguments
+                .iter()
+                .find_map(|own| own.strip_prefix("--color=")),
+        };
+        let known = value.and_then(|value| Self::from_str(value, false).ok());
+        known.unwrap_or(Self::Auto)
+    }
+
+    /// Whether a text is coloured that is written to a terminal, or not.
+    pub(crate) fn on(self, terminal: bool) -> bool {
+        // https://no-color.org
+        let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => wanted && terminal,
+        }
+    }
+}
+
+/// Prints what is wrong with a command line, or the help that was asked for.
+pub(crate) fn explain(error: &clap::Error) {
+    let terminal = match error.use_stderr() {
+        true => io::stderr().is_terminal(),
+        false => io::stdout().is_terminal(),
+    };
+    let text = match Color::asked().on(terminal) {
+        true => error.render().ansi().to_string(),
+        false => error.render().to_string(),
+    };
+    // Where nobody reads it, there is nothing more to say.
+    let _ = match error.use_stderr() {
+        true => io::stderr().write_all(text.as_bytes()),
+        false => io::stdout().write_all(text.as_bytes()),
+    };
+}
+
 #[derive(Debug, Subcommand)]
 enum Command {
     Check(check::Check),
@@ -43,9 +97,11 @@ enum Command {
     Campbell(campbell::Campbell),
     Branches(branches::Branches),
     Sample(sample::Sample),
+    Merge(merge::Merge),
     Allocate(allocate::Allocate),
     Expand(expand::Expand),
     New(new::New),
+    Import(import::Import),
     Completions(completions::Completions),
 }
 
@@ -53,11 +109,15 @@ impl Arguments {
     /// Does what was asked for; messages go to standard error.
     pub(crate) fn run(self) -> ExitCode {
         let color = self.color;
-        let code = match self.command.run() {
+        let code = match interrupt::watch().and_then(|()| self.command.run()) {
             Ok(Verdict::Yes) => 0,
             Ok(Verdict::No(reason)) => {
-                diagnostics::say_no(&reason, color);
+                diagnostics::say_no("no", &reason, color);
                 1
+            }
+            Ok(Verdict::Stopped(reason)) => {
+                diagnostics::say_no("stopped", &reason, color);
+                interrupt::INTERRUPTED
             }
             Err(Failure::NobodyReads) => 0,
             Err(failure) => {
@@ -79,9 +139,11 @@ impl Command {
             Self::Campbell(own) => own.run(),
             Self::Branches(own) => own.run(),
             Self::Sample(own) => own.run(),
+            Self::Merge(own) => own.run(),
             Self::Allocate(own) => own.run(),
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),
+            Self::Import(own) => own.run(),
             Self::Completions(own) => own.run(),
         }
     }

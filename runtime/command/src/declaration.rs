@@ -7,6 +7,7 @@ use std::path::Path;
 use eigentol_interpreter::{Interpreted, Mistakes};
 
 use crate::failure::Failure;
+use crate::mistake::Mistake;
 
 /// A declaration as it was read.
 pub(crate) struct Declaration {
@@ -32,10 +33,15 @@ impl Declaration {
 
     /// The mechanism that it declares.
     pub(crate) fn mechanism(&self) -> Result<Interpreted, Failure> {
-        Interpreted::from_text(&self.text).map_err(|mistakes| self.refused(mistakes))
+        Interpreted::from_text(&self.text).map_err(|mistakes| self.not_compiled(&mistakes))
     }
 
-    pub(crate) fn refused(&self, mistakes: Mistakes) -> Failure {
+    /// The compiler refuses it.
+    pub(crate) fn not_compiled(&self, mistakes: &Mistakes) -> Failure {
+        self.refused(mistakes.iter().map(Mistake::from).collect())
+    }
+
+    pub(crate) fn refused(&self, mistakes: Vec<Mistake>) -> Failure {
         Failure::Declaration {
             name: self.name.clone(),
             text: self.text.clone(),

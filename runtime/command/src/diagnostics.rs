@@ -1,13 +1,14 @@
 //! Messages as rustc draws them.
 
+use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _, stderr};
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use eigentol_interpreter::Mistake;
 
 use crate::arguments::Color;
 use crate::failure::Failure;
+use crate::mistake::Mistake;
 
 /// Writes a failure to standard error.
 pub(crate) fn say(failure: &Failure, color: Color) {
@@ -19,23 +20,24 @@ pub(crate) fn say(failure: &Failure, color: Color) {
         mistakes,
     } = failure
     {
-        for mistake in mistakes.iter() {
+        for mistake in mistakes {
             text += &drawn(name, source, mistake, &renderer);
             text += "\n\n";
         }
-        let count = mistakes.iter().count();
-        let errors = if count == 1 { "a mistake".to_owned() } else { format!("{count} mistakes") };
-        text += &title(&format!("`{name}` has {errors}"), None, &renderer);
-    } else {
-        text = title(&failure.to_string(), failure.help().as_deref(), &renderer);
     }
+    text += &title(&failure.to_string(), failure.help().as_deref(), &renderer);
     write(&text);
 }
 
-/// Writes why the analysis says no to standard error.
-pub(crate) fn say_no(reason: &str, color: Color) {
-    let group = Group::with_title(Level::WARNING.with_name("no").primary_title(reason));
+/// Writes to standard error why the answer is not all that was hoped for.
+pub(crate) fn say_no(word: &str, reason: &str, color: Color) {
+    let group = Group::with_title(Level::WARNING.with_name(word).primary_title(reason));
     write(&renderer(color).render(&[group]));
+}
+
+/// Writes a remark to standard error.
+pub(crate) fn note(note: &impl Display) {
+    write(&format!("note: {note}"));
 }
 
 /// Where standard error cannot be written to, nobody can be told.
@@ -44,14 +46,7 @@ fn write(text: &str) {
 }
 
 fn renderer(color: Color) -> Renderer {
-    // https://no-color.org
-    let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let styled = match color {
-        Color::Always => true,
-        Color::Never => false,
-        Color::Auto => wanted && stderr().is_terminal(),
-    };
-    if styled {
+    if color.on(stderr().is_terminal()) {
         Renderer::styled()
     } else {
         Renderer::plain()
@@ -80,8 +75,8 @@ fn drawn(name: &str, source: &str, mistake: &Mistake, renderer: &Renderer) -> St
 
 /// The bytes between two places that count lines and characters from 1.
 fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
-    let start = byte(source, mistake.line, mistake.column);
-    let end = byte(source, mistake.end_line, mistake.end_column);
+    let start = byte(source, mistake.start);
+    let end = byte(source, mistake.end);
     // At the end of a text there is nothing to point at but its last character.
     let start = start.min(source.trim_end().len().saturating_sub(1));
     let start = (0..=start).rev().find(|&at| source.is_char_boundary(at));
@@ -89,10 +84,14 @@ fn bytes(source: &str, mistake: &Mistake) -> Range<usize> {
     start..end.max(start)
 }
 
-fn byte(source: &str, line: usize, column: usize) -> usize {
-    let lines = source.split_inclusive('\n');
-    let before: usize = lines.clone().take(line.saturating_sub(1)).map(str::len).sum();
-    let own = lines.skip(line.saturating_sub(1)).next().unwrap_or("");
+fn byte(source: &str, (line, column): (usize, usize)) -> usize {
+    let mut lines = source.split_inclusive('\n');
+    let before: usize = lines
+        .clone()
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let own = lines.nth(line.saturating_sub(1)).unwrap_or("");
     let own = own.trim_end_matches(['\n', '\r']);
     let inside = own.char_indices().nth(column.saturating_sub(1));
     before + inside.map_or(own.len(), |(at, _)| at)
@@ -105,10 +104,16 @@ mod tests {
     #[test]
     fn lines_and_characters_become_bytes() {
         let text = "ab\nµ c\r\nd";
-        for (place, expected) in [((1, 1), 0), ((2, 1), 3), ((2, 2), 5), ((2, 9), 7), ((3, 1), 9)] {
-            assert_eq!(byte(text, place.0, place.1), expected, "{place:?}");
+        for (place, expected) in [
+            ((1, 1), 0),
+            ((2, 1), 3),
+            ((2, 2), 5),
+            ((2, 9), 7),
+            ((3, 1), 9),
+        ] {
+            assert_eq!(byte(text, place), expected, "{place:?}");
         }
-        assert_eq!(byte(text, 9, 1), text.len());
-        assert_eq!(byte("", 1, 1), 0);
+        assert_eq!(byte(text, (9, 1)), text.len());
+        assert_eq!(byte("", (1, 1)), 0);
     }
 }

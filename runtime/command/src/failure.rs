@@ -8,6 +8,8 @@ use eigentol::Error;
 use eigentol_interpreter::Mistakes;
 use thiserror::Error as ThisError;
 
+use crate::mistake::Mistake;
+
 #[derive(Debug, ThisError)]
 pub(crate) enum Failure {
     #[error("cannot read `{}`: {source}", .path.display())]
@@ -17,14 +19,18 @@ pub(crate) enum Failure {
     #[error("cannot write to standard output: {0}")]
     Print(io::Error),
     /// Drawn in the text.
-    #[error("{} {}", .mistakes.iter().count(), plural(.mistakes.iter().count(), "mistake", "mistakes"))]
+    #[error("`{name}` has {} {}", .mistakes.len(), plural(.mistakes.len(), "mistake", "mistakes"))]
     Declaration {
         name: String,
         text: String,
-        mistakes: Mistakes,
+        mistakes: Vec<Mistake>,
     },
     #[error("`{}` is no study file: {message}", .path.display())]
     StudyFile { path: PathBuf, message: String },
+    #[error("`{}` cannot be merged: {message}", .path.display())]
+    Part { path: PathBuf, message: String },
+    #[error("cannot listen for Ctrl-C: {0}")]
+    Signal(#[from] ctrlc::Error),
     #[error("`{exists}` exists already")]
     Exists { exists: String },
     #[error("{0}")]
@@ -44,8 +50,8 @@ pub(crate) enum Failure {
     },
     #[error("{0}")]
     Analysis(#[from] Error),
-    #[error("cannot listen for Ctrl-C: {0}")]
-    Signal(#[from] ctrlc::Error),
+    #[error("{0}")]
+    Table(#[from] eigentol_tables::Error),
     /// The reader of a pipe has gone: no failure.
     #[error("nobody reads the output")]
     NobodyReads,
@@ -67,7 +73,9 @@ impl Failure {
             },
             Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }
+            | Self::Table(_)
             | Self::Signal(_)
+            | Self::Part { .. }
             | Self::Read { .. }
             | Self::Write { .. }
             | Self::Print(_)

@@ -1,4 +1,4 @@
-//! Ctrl-C: work that can stop half-way does, any other ends at once.
+//! Ctrl-C: work that can stop half-way keeps what it has done, any other ends at once.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,19 +8,28 @@ use crate::failure::Failure;
 /// Exit code of a program that SIGINT has ended: 128 and the number of the signal.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-static WANTED: AtomicBool = AtomicBool::new(false);
+static STOP: AtomicBool = AtomicBool::new(false);
+static STOPPABLE: AtomicBool = AtomicBool::new(false);
 
-/// From now on Ctrl-C is remembered; the second one ends the program.
+/// From now on Ctrl-C ends the program with a message.
 pub(crate) fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
-        if WANTED.swap(true, Ordering::Relaxed) {
+        let again = STOP.swap(true, Ordering::Relaxed);
+        if again || !STOPPABLE.load(Ordering::Relaxed) {
+            eprintln!("stopped: nothing was written");
             process::exit(i32::from(INTERRUPTED));
         }
     })?;
     Ok(())
 }
 
-/// Whether Ctrl-C was pressed.
-pub(crate) fn wanted() -> bool {
-    WANTED.load(Ordering::Relaxed)
+/// From now on the first Ctrl-C sets this flag, and the second one ends the program.
+pub(crate) fn stop() -> &'static AtomicBool {
+    STOPPABLE.store(true, Ordering::Relaxed);
+    &STOP
+}
+
+/// Whether Ctrl-C has set the flag.
+pub(crate) fn stopped() -> bool {
+    STOP.load(Ordering::Relaxed)
 }

@@ -1,12 +1,16 @@
 //! The command `eigentol`: a declaration in a file, a question, an answer. What it asks, the library answers.
 
+mod answer;
 mod arguments;
 mod commands;
 mod declaration;
 mod diagnostics;
 mod failure;
 mod interrupt;
+mod mistake;
 mod output;
+mod parts;
+mod place;
 mod point;
 mod progress;
 mod study_file;
@@ -23,8 +27,7 @@ fn main() -> ExitCode {
     match Arguments::try_parse() {
         Ok(arguments) => arguments.run(),
         Err(error) => {
-            // Where nobody reads it, there is nothing more to say.
-            let _ = error.print();
+            arguments::explain(&error);
             ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
         }
     }

@@ -1,123 +1,52 @@
-//! Where an answer goes, and in which form.
-
-use std::fmt::Display;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::process;
+//! In which form an answer is written.
 
 use clap::Args;
 
+use crate::answer::{Answer, Form};
 use crate::failure::Failure;
+use crate::place::Place;
 
 /// Form and place of the answer.
 #[derive(Args, Debug)]
 pub(crate) struct Output {
-    /// Write to a file instead of standard output; a file that exists is replaced when the answer is complete
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
-/// The answer to a question.
-#[derive(Default)]
-pub(crate) struct Answer {
-    text: String,
-}
-
-impl Answer {
-    /// Adds a result.
-    pub(crate) fn add(&mut self, result: &impl Display) {
-        if !self.text.is_empty() {
-            self.text.push('\n');
-        }
-        self.text += &result.to_string();
-    }
+    /// Numbers as one JSON document, with every digit
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// Numbers as CSV, units in the headings
+    #[arg(long)]
+    csv: bool,
+    /// Which result is written, of a question with several [default for JSON and CSV: the one that answers it]
+    #[arg(long, value_name = "NAME")]
+    result: Option<String>,
+    /// Which table of the result is written as CSV [default: the one that answers the question]
+    #[arg(long, value_name = "NAME", requires = "csv")]
+    table: Option<String>,
+    #[command(flatten)]
+    place: Place,
 }
 
 impl Output {
     /// Refuses, before long work, a file that cannot be written.
     pub(crate) fn check(&self) -> Result<(), Failure> {
-        match &self.output {
-            Some(path) => Place::of(path).check().map_err(|source| Failure::write(path, source)),
-            None => Ok(()),
-        }
+        self.place.check()
+    }
+
+    /// An answer to fill.
+    pub(crate) fn answer(&self) -> Answer {
+        Answer::new(match (self.json, self.csv) {
+            (true, _) => Form::Json,
+            (false, true) => Form::Csv,
+            (false, false) => Form::Text,
+        })
+    }
+
+    /// Writes a text that has only one form.
+    pub(crate) fn write_text(&self, text: &str) -> Result<(), Failure> {
+        self.place.write(text)
     }
 
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
-        self.write_text(&answer.text)
-    }
-
-    /// Writes a text as it is.
-    pub(crate) fn write_text(&self, text: &str) -> Result<(), Failure> {
-        match &self.output {
-            Some(path) => {
-                let written = Place::of(path).write(text.as_bytes());
-                written.map_err(|source| Failure::write(path, source))
-            }
-            None => print(text),
-        }
-    }
-}
-
-/// Writes to standard output.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|error| match error.kind() {
-        io::ErrorKind::BrokenPipe => Failure::NobodyReads,
-        _ => Failure::Print(error),
-    })
-}
-
-/// A file to write.
-enum Place<'a> {
-    /// Written beside and moved into place, so that a failure leaves what was there.
-    File { path: &'a Path, beside: PathBuf },
-    /// A device or a pipe.
-    Device(&'a Path),
-}
-
-impl<'a> Place<'a> {
-    fn of(path: &'a Path) -> Self {
-        let device = fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
-        if device {
-            return Self::Device(path);
-        }
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.part", process::id()));
-        let beside = path.with_file_name(name);
-        Self::File { path, beside }
-    }
-
-    fn check(&self) -> io::Result<()> {
-        match self {
-            Self::Device(path) => OpenOptions::new().write(true).open(path).map(|_| ()),
-            Self::File { path, beside } => {
-                if path.is_dir() {
-                    return Err(io::ErrorKind::IsADirectory.into());
-                }
-                File::create(beside)?;
-                fs::remove_file(beside)
-            }
-        }
-    }
-
-    fn write(&self, content: &[u8]) -> io::Result<()> {
-        self.check()?;
-        match self {
-            Self::Device(path) => OpenOptions::new().write(true).open(path)?.write_all(content),
-            Self::File { path, beside } => {
-                let written = File::create(beside).and_then(|mut file| {
-                    file.write_all(content)?;
-                    file.sync_all()
-                });
-                let moved = written.and_then(|()| fs::rename(beside, path));
-                if moved.is_err() {
-                    // What is left of it is of no use; that it stays is no other failure.
-                    let _ = fs::remove_file(beside);
-                }
-                moved
-            }
-        }
+        let text = answer.written(self.result.as_deref(), self.table.as_deref())?;
+        self.place.write(&text)
     }
 }

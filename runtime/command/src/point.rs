@@ -191,11 +191,19 @@ pub(crate) fn parameter(
     }
     let description = study.description();
     if let Ok(variable) = study.find_design(name) {
-        return Ok((variable.into(), description.design[variable.index()].unit.clone()));
+        return Ok((
+            variable.into(),
+            description.design[variable.index()].unit.clone(),
+        ));
     }
     let inputs = description.inputs.iter().map(|info| &info.name);
     let known = inputs.chain(description.design.iter().map(|info| &info.name));
-    Err(unknown(description, "input or design variable", name, known))
+    Err(unknown(
+        description,
+        "input or design variable",
+        name,
+        known,
+    ))
 }
 
 /// The design variable of this name, and its unit.

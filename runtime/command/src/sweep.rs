@@ -1,7 +1,7 @@
 //! A range of an input: `speed=0..6000rpm`.
 
 use clap::Args;
-use eigentol::{Input, Unit};
+use eigentol::Input;
 use eigentol_interpreter::{Interpreted, value};
 
 use crate::failure::Failure;
@@ -81,14 +81,11 @@ fn with_unit_of(low: &str, high: &str) -> String {
 
 /// Length of the number at the start of a text.
 fn number(text: &str) -> usize {
-    let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
+    let ends = (1..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end));
     let mut numbers = ends.filter(|&end| text[..end].trim().parse::<f64>().is_ok());
     numbers.next().unwrap_or(0)
-}
-
-/// A value in the unit of its declaration.
-pub(crate) fn in_unit(value: f64, unit: &Unit) -> String {
-    format!("{} {}", unit.from_si(value), unit.symbol)
 }
 
 #[cfg(test)]
@@ -99,7 +96,7 @@ mod tests {
     fn the_low_end_takes_the_unit_of_the_high_end() {
         for (low, high, expected) in [
             ("0", "6000rpm", "0 rpm"),
-            ("-1e3", "1.5e3 rad/s", "-1e3  rad/s"),
+            ("-1e3", "1.5e3 rad/s", "-1e3 rad/s"),
             ("10Hz", "6000rpm", "10Hz"),
             ("1", "2", "1 "),
             ("1", "rpm", "1 rpm"),

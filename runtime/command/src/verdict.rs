@@ -8,6 +8,8 @@ pub(crate) enum Verdict {
     Yes,
     /// With the reason.
     No(String),
+    /// Ctrl-C came before the end; with how far it came.
+    Stopped(String),
 }
 
 impl Verdict {
@@ -20,14 +22,6 @@ impl Verdict {
         match growing {
             Some(mode) => Self::No(format!("mode {} {}", mode.label + 1, mode.behaviour)),
             None => Self::Yes,
-        }
-    }
-
-    /// This one, or the other where this one is yes.
-    pub(crate) fn and(self, other: Self) -> Self {
-        match self {
-            Self::Yes => other,
-            no => no,
         }
     }
 }

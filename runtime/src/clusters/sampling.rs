@@ -1,6 +1,8 @@
 //! A cluster of eigenvalues that tolerances mix: no member has a derivative of its own, but the small matrix that splits
 //! them has.
 
+use eigentol_statistics::summary::{CHUNK, Moments};
+
 use super::couplings::ModalCouplings;
 use crate::algebra::{Matrix, Vector};
 use crate::eigenproblem::diagonalise;
@@ -8,7 +10,7 @@ use crate::modes::Family;
 use crate::rounding::{Sign, of_elements, sign};
 use crate::sensitivity::eigenvalues;
 use crate::setters::setters;
-use crate::tolerance::{Draw, Moments, Statistics, Tolerances};
+use crate::tolerance::{Draw, Statistics, Tolerances};
 use crate::{Complex, Error, Quantity};
 
 /// How to sample a cluster.
@@ -85,11 +87,11 @@ impl SortedSpread {
 }
 
 /// Spread of one position of a sorted cluster.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MemberSpread {
-    /// Over the samples whose member has the quantity, in its unit; `None` without any.
+    /// Over the samples whose member has the quantity, in its unit, without quantiles; `None` without any.
     pub value: Option<Statistics>,
     /// Samples whose member has no such quantity, for example no frequency.
     pub without: usize,
@@ -284,19 +286,42 @@ impl Work {
     }
 }
 
+/// Moments of values that come one by one, summed as many at a time.
+#[derive(Clone, Default)]
+struct Sums {
+    moments: Moments,
+    behind: Vec<f64>,
+}
+
+impl Sums {
+    fn add(&mut self, value: f64) {
+        if self.behind.len() == CHUNK {
+            self.moments.merge(&Moments::of(&self.behind));
+            self.behind.clear();
+        }
+        self.behind.push(value);
+    }
+
+    fn statistics(&self) -> Option<Statistics> {
+        let mut all = self.moments;
+        all.merge(&Moments::of(&self.behind));
+        Statistics::of(&all, None)
+    }
+}
+
 /// Sums over samples of one quantity of the members, sorted by it.
 struct Sorted {
     values: Vec<f64>,
-    members: Vec<Moments>,
-    splitting: Moments,
+    members: Vec<Sums>,
+    splitting: Sums,
 }
 
 impl Sorted {
     fn new(m: usize) -> Self {
         Self {
             values: vec![0.0; m],
-            members: vec![Moments::EMPTY; m],
-            splitting: Moments::EMPTY,
+            members: vec![Sums::default(); m],
+            splitting: Sums::default(),
         }
     }
 
@@ -318,11 +343,12 @@ impl Sorted {
     }
 
     fn spread(&self, samples: usize) -> SortedSpread {
-        let member = |sums: &Moments| {
+        let member = |sums: &Sums| {
             let value = sums.statistics();
+            let count = value.as_ref().map_or(0, |found| found.count);
             MemberSpread {
                 value,
-                without: samples - value.map_or(0, |found| found.count),
+                without: samples - count as usize,
             }
         };
         SortedSpread {

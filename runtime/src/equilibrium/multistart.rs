@@ -1,7 +1,6 @@
 //! Several equilibria of one mechanism, from a reproducible set of start values.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use eigentol_statistics::random::RandomNumbers;
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
 use super::{OperatingPoint, Policy, solve};
@@ -66,7 +65,7 @@ pub fn find_equilibria(
     point.check_start(start)?;
     point.check_start(&search.lower)?;
     point.check_start(&search.upper)?;
-    let mut random = ChaCha8Rng::seed_from_u64(search.seed);
+    let mut random = RandomNumbers::new(search.seed, 0);
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut from = Vector::from(start);
     let (mut isolated, mut met) = (0, 0);
@@ -87,8 +86,7 @@ pub fn find_equilibria(
             }
         }
         from = Vector::from_fn(start.len(), |i| {
-            let fraction = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-            search.lower[i] + fraction * (search.upper[i] - search.lower[i])
+            search.lower[i] + random.fraction() * (search.upper[i] - search.lower[i])
         });
     }
     Ok(found)

@@ -290,8 +290,9 @@ pub enum Error {
     NoReliability(Box<eigentol_statistics::Error>),
     /// No tolerances within their limits meet the requirements.
     #[error(
-        "no tolerances within the limits meet the requirements: at the best ones found, requirement {requirement} fails with \
-         probability {probability:.3e} where {wanted:.3e} is allowed"
+        "no tolerances within the limits meet the requirements: at the best ones found, requirement {} fails with \
+         probability {probability:.3e} where {wanted:.3e} is allowed",
+        .requirement + 1
     )]
     Infeasible {
         /// The best nominal values that were found, SI.
@@ -325,6 +326,30 @@ pub enum Error {
         #[cfg_attr(feature = "serde", serde(with = "eigentol_statistics::serial::word"))]
         method: Word,
     },
+    /// Samples of different runs were to be put together.
+    #[error("these samples are of another run: {what} is {own} here and {other} there")]
+    OtherRun {
+        /// What differs.
+        what: String,
+        /// What it is in the run that was to be added to.
+        own: String,
+        /// What it is in the other.
+        other: String,
+    },
+    /// Samples were to be added that are there already.
+    #[error("samples {start} to below {end} have been added already")]
+    SamplesOverlap {
+        /// The first of them.
+        start: u64,
+        /// The one behind the last.
+        end: u64,
+    },
+    /// Samples of a run are not done.
+    #[error("samples are missing: {}", ranges(.missing))]
+    SamplesMissing {
+        /// Which ones.
+        missing: Vec<core::ops::Range<u64>>,
+    },
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),
@@ -336,6 +361,13 @@ fn names(names: &[Text]) -> String {
     }
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
+}
+
+fn ranges(all: &[core::ops::Range<u64>]) -> String {
+    let each: Vec<_> = (all.iter())
+        .map(|range| format!("{} to below {}", range.start, range.end))
+        .collect();
+    each.join(", ")
 }
 
 fn listed(others: &[(Text, f64)]) -> String {
@@ -363,6 +395,9 @@ impl From<eigentol_statistics::Error> for Error {
             error @ (eigentol_statistics::Error::NoLimitValue { .. }
             | eigentol_statistics::Error::NoDesignPoint { .. }
             | eigentol_statistics::Error::Curvature { .. }) => Self::NoReliability(Box::new(error)),
+            eigentol_statistics::Error::Overlap { start, end } => {
+                Self::SamplesOverlap { start, end }
+            }
             other => Self::Setting {
                 setting: "statistics",
                 reason: other.to_string(),

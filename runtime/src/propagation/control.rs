@@ -106,6 +106,7 @@ pub fn controlled(
         },
         space: &space,
         unknowns: at.coordinates.len(),
+        side_by_side: None,
     };
     let samples = task.gather(sampler)?;
     let spreads = controls.iter().enumerate();

@@ -1,12 +1,11 @@
 //! Samples of any model, in parallel, and their statistics.
 
 use core::ops::Range;
-use std::sync::atomic::Ordering;
 
 use eigentol_statistics::normal;
 use eigentol_statistics::sequence::Sequence;
 use eigentol_statistics::summary::{
-    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics, chunks,
+    Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
 };
 
 use super::model::Model;
@@ -14,13 +13,14 @@ use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::sampler::Sampler;
 use super::space::{Point, Space};
 use crate::Error;
-use crate::tolerance::{Counts, Outcome, pool};
-
-/// Chunks that are solved before their sums are added up: memory for some ten thousand samples.
-const ROUND: usize = 256;
+use crate::algebra::Vector;
+use crate::tolerance::gather::{Part, Work};
+use crate::tolerance::side_by_side::{Lanes, SideBySide};
+use crate::tolerance::{Counts, Outcome};
 
 /// What is known of some samples, by randomisation: responses, then the design variables that vary.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathered {
     pub(super) parts: Vec<Partial>,
 }
@@ -35,10 +35,17 @@ pub(super) struct Task<'a, M> {
     pub(super) scales: Vec<Scale>,
     /// Unknowns of the mechanism, which the stack of a thread depends on.
     pub(super) unknowns: usize,
+    /// Where every response is the frequency of a mode that can be solved side by side: these modes.
+    pub(super) side_by_side: Option<(SideBySide<'a>, Vec<usize>)>,
 }
 
-/// Samples of one chunk of one randomisation.
-type Piece = (usize, Range<u64>);
+/// What one thread works in.
+struct Room<M: Model> {
+    model: M::Room,
+    point: Point,
+    lanes: Option<Lanes>,
+    values: Vec<Option<f64>>,
+}
 
 impl<M: Model> Task<'_, M> {
     /// What is to be learnt from the samples of each randomisation.
@@ -61,88 +68,132 @@ impl<M: Model> Task<'_, M> {
         let sequences = (0..sampler.groups())
             .map(|group| sampler.sequence(group, self.space.dimensions()))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut parts = vec![Partial::new(plan.clone()); sequences.len()];
-        let mut pieces = (0..sequences.len()).flat_map(|group| {
-            let first = group as u64 * of_each;
-            let start = now.start.clamp(first, first + of_each) - first;
-            let end = now.end.clamp(first, first + of_each) - first;
-            chunks(start..end).map(move |samples| (group, samples))
-        });
-        let stopped = || (sampler.stop).is_some_and(|stop| stop.load(Ordering::Relaxed));
-        let size = (self.unknowns, self.space.nominal.len());
-        let room = || (self.model.room(), self.space.point());
-        while !stopped() {
-            let round: Vec<Piece> = pieces.by_ref().take(ROUND).collect();
-            if round.is_empty() {
-                break;
+        let groups: Vec<Range<u64>> = (0..sampler.groups())
+            .map(|group| {
+                let first = group * of_each;
+                let inside = |sample: u64| sample.clamp(first, first + of_each) - first;
+                inside(now.start)..inside(now.end)
+            })
+            .collect();
+        let work = Work {
+            threads: sampler.threads,
+            size: (self.unknowns, self.space.nominal.len()),
+            least: 1,
+            progress: sampler.progress,
+            stop: sampler.stop,
+        };
+        let room = || Room::<M> {
+            model: self.model.room(),
+            point: self.space.point(),
+            lanes: (self.side_by_side.as_ref()).map(|(lanes, _)| lanes.room()),
+            values: vec![None; self.scales.len()],
+        };
+        let solve = |room: &mut Room<M>, part: &mut Part<'_, ()>| {
+            let sequence = &sequences[part.group];
+            match &self.side_by_side {
+                Some((lanes, modes)) => self.solve_together(room, sequence, part, (lanes, modes)),
+                None => self.solve(room, sequence, part),
             }
-            let solve = |room: &mut _, at: usize| {
-                let (group, samples) = &round[at];
-                if stopped() {
-                    return Ok(None);
-                }
-                let chunk = self.chunk(room, &plan, &sequences[*group], samples.clone())?;
-                if let Some(progress) = sampler.progress {
-                    progress((samples.end - samples.start) as usize);
-                }
-                Ok::<_, Error>(Some(chunk))
-            };
-            let found = pool::run(sampler.threads, size, round.len(), room, solve)?;
-            for ((group, _), chunk) in round.iter().zip(found) {
-                if let Some(chunk) = chunk? {
-                    parts[*group].add(&chunk)?;
-                }
-            }
-        }
+        };
+        let (parts, _) = work.gather(&plan, &groups, room, solve)?;
         Ok(Gathered { parts })
     }
 
-    fn chunk(
+    /// One sample after the other.
+    fn solve(
         &self,
-        (room, point): &mut (M::Room, Point),
-        plan: &Plan,
+        room: &mut Room<M>,
         sequence: &Sequence,
-        samples: Range<u64>,
-    ) -> Result<Chunk, Error> {
-        let mut chunk = Chunk::new(plan, samples.clone())?;
+        Part { chunk, samples, .. }: &mut Part<'_, ()>,
+    ) -> Result<(), Error> {
         let mut walk = sequence.from(samples.start);
-        let mut values = vec![None; self.scales.len()];
         let variables = self.space.variables();
-        for sample in samples {
+        for sample in samples.clone() {
             let Some(probabilities) = walk.next_point() else {
                 break;
             };
-            let z = probabilities.iter().map(|p| normal::quantile(*p));
-            let design = self.space.design(point, z);
-            values.fill(None);
-            let outcome = self.model.evaluate(room, design, &mut values)?;
-            chunk.count(outcome as usize)?;
-            for (k, value) in values.iter().enumerate() {
-                chunk.set(sample, k, *value)?;
-            }
-            for (k, &variable) in variables.iter().enumerate() {
-                chunk.set(sample, values.len() + k, Some(design[variable]))?;
-            }
-        }
-        Ok(chunk)
-    }
-}
-
-impl Gathered {
-    /// Adds other samples of the same kind.
-    pub(super) fn merge(&mut self, other: Self) -> Result<(), Error> {
-        for (own, other) in self.parts.iter_mut().zip(other.parts) {
-            own.merge(other)?;
+            let design = self.space.design(&mut room.point, normals(probabilities));
+            room.values.fill(None);
+            let outcome = self
+                .model
+                .evaluate(&mut room.model, design, &mut room.values)?;
+            take(chunk, sample, outcome, &room.values, &variables, design)?;
         }
         Ok(())
     }
 
+    /// Samples side by side, and alone those that cannot be.
+    fn solve_together(
+        &self,
+        room: &mut Room<M>,
+        sequence: &Sequence,
+        Part { chunk, samples, .. }: &mut Part<'_, ()>,
+        (side_by_side, modes): (&SideBySide<'_>, &[usize]),
+    ) -> Result<(), Error> {
+        let Some(lanes) = &mut room.lanes else {
+            return Ok(());
+        };
+        let mut walk = sequence.from(samples.start);
+        let variables = self.space.variables();
+        let (model, values) = (&mut room.model, &mut room.values);
+        let mut rows: Vec<Vector> = Vec::with_capacity(SideBySide::MOST);
+        for first in samples.clone().step_by(SideBySide::MOST) {
+            rows.clear();
+            while rows.len() < SideBySide::MOST && first + (rows.len() as u64) < samples.end {
+                let Some(probabilities) = walk.next_point() else {
+                    break;
+                };
+                rows.push(self.space.standard(normals(probabilities)));
+            }
+            side_by_side.solve(lanes, &rows, |k, design, frequencies| {
+                let outcome = match frequencies {
+                    Some(all) => {
+                        for (value, mode) in values.iter_mut().zip(modes) {
+                            *value = all.get(*mode).copied();
+                        }
+                        Outcome::Stable
+                    }
+                    None => {
+                        values.fill(None);
+                        self.model.evaluate(model, design, values)?
+                    }
+                };
+                take(chunk, first + k as u64, outcome, values, &variables, design)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// Standard normal numbers of probabilities.
+fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
+    probabilities.iter().map(|p| normal::quantile(*p))
+}
+
+/// Takes what became of a sample.
+fn take(
+    chunk: &mut Chunk,
+    sample: u64,
+    outcome: Outcome,
+    values: &[Option<f64>],
+    variables: &[usize],
+    design: &[f64],
+) -> Result<(), Error> {
+    chunk.count(outcome as usize, 1)?;
+    for (k, value) in values.iter().enumerate() {
+        chunk.set(sample, k, *value)?;
+    }
+    for (k, &variable) in variables.iter().enumerate() {
+        chunk.set(sample, values.len() + k, Some(design[variable]))?;
+    }
+    Ok(())
+}
+
+impl Gathered {
     pub(super) fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         for part in &self.parts {
-            for (outcome, number) in Outcome::ALL.into_iter().zip(part.outcomes()) {
-                counts.add(outcome, *number as usize);
-            }
+            counts.merge(&Counts::of_all(part.outcomes()));
         }
         counts
     }

@@ -2,30 +2,41 @@
 
 use core::ops::Range;
 
-use super::gather::{Gathered, Scale, Task};
+use super::gather::{Gathered, Task};
 use super::result::{Method, Propagation};
 use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
-use crate::tolerance::{Counts, Tolerances};
+use crate::sensitivity::Quantity;
+#[cfg(feature = "serde")]
+use crate::tolerance::Outcome;
+use crate::tolerance::run::{Format, Run};
+use crate::tolerance::side_by_side::SideBySide;
+use crate::tolerance::{Counts, Fingerprint, Tolerances};
 use crate::{Description, Error, Shared};
 
 /// What is known of some samples. Parts of a run merge to the same bits as the whole, however it was split.
+///
+/// With the feature `serde` it can be written and read, by the same version of the format only.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Unchecked")
+)]
 #[non_exhaustive]
 pub struct Samples {
+    format: Format,
     /// Which points.
     pub points: Points,
     /// What was asked for.
     pub wanted: Vec<Response>,
-    /// Seed, stream, and samples of each randomisation.
-    run: (u64, u64, u64),
+    run: Run,
     gathered: Gathered,
     nominal: Vec<Option<f64>>,
-    /// The design variables that vary.
-    variables: Vec<usize>,
-    tolerances: Tolerances,
+    /// The design variables that vary, and how many there are.
+    variables: (Vec<usize>, usize),
     inputs: Vector,
     description: Shared<Description>,
 }
@@ -57,80 +68,115 @@ pub fn sampled(
     let space = Space::new(at, tolerances)?;
     let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
     let slopes = nominal.gradients.iter().map(Option::as_deref);
-    let scales = slopes.zip(&nominal.values);
+    let scales = nominal.values.iter().zip(slopes);
     let task = Task {
         model: responses,
         scales: scales
-            .map(|(slopes, value)| scale(*value, slopes, tolerances))
+            .map(|(value, slopes)| tolerances.scale(*value, slopes))
             .collect(),
         unknowns: at.coordinates.len(),
         space: &space,
+        side_by_side: side_by_side(responses, tolerances),
     };
+    let side_by_side = task.side_by_side.is_some();
     Ok(Samples {
+        format: Format,
         points: sampler.points,
         wanted: responses.wanted().to_vec(),
-        run: (sampler.seed, sampler.stream, sampler.of_each()?),
+        run: Run {
+            fingerprint: fingerprint(responses, tolerances, sampler, side_by_side),
+            groups: sampler.groups(),
+            of_each: sampler.of_each()?,
+        },
         gathered: task.gather(sampler)?,
         nominal: nominal.values,
-        variables: space.variables(),
-        tolerances: tolerances.clone(),
+        variables: (space.variables(), at.design.len()),
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
 }
 
-/// About the nominal value, as far as first order says.
-fn scale(value: Option<f64>, slopes: Option<&[f64]>, tolerances: &Tolerances) -> Scale {
-    let value = value.unwrap_or(0.0);
-    let sigma = slopes.map_or(0.0, |slopes| tolerances.sigma(slopes));
-    let candidates = [sigma, 1e-3 * value.abs()];
-    let usable = candidates
-        .into_iter()
-        .find(|scale| *scale > 0.0 && scale.is_finite());
-    (value, usable.unwrap_or(1.0))
+/// How to solve samples side by side, where all responses are frequencies of undamped modes.
+fn side_by_side<'a>(
+    responses: &Responses<'a>,
+    tolerances: &'a Tolerances,
+) -> Option<(SideBySide<'a>, Vec<usize>)> {
+    let (at, modes) = (responses.nominal(), responses.modes());
+    let wanted = responses.wanted().iter().map(|response| match response {
+        Response::Mode {
+            mode,
+            quantity: Quantity::Frequency | Quantity::NaturalFrequency,
+        } => Some(*mode),
+        _ => None,
+    });
+    let wanted = wanted.collect::<Option<Vec<usize>>>()?;
+    let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
+    Some((lanes, wanted))
+}
+
+/// What the samples are of.
+fn fingerprint(
+    responses: &Responses<'_>,
+    tolerances: &Tolerances,
+    sampler: &Sampler<'_>,
+    side_by_side: bool,
+) -> Fingerprint {
+    let (at, modes) = (responses.nominal(), responses.modes());
+    let mut all = Fingerprint::new(responses.mechanism(), at, modes, tolerances)
+        .with("points", format!("{:?}", sampler.points))
+        .with(
+            "solved",
+            if side_by_side {
+                "side by side"
+            } else {
+                "one by one"
+            },
+        )
+        .with("samples", sampler.samples)
+        .with("randomisations", sampler.groups())
+        .with("seed", sampler.seed)
+        .with("stream", sampler.stream);
+    for (k, response) in responses.wanted().iter().enumerate() {
+        all = all.with(format!("response {}", k + 1), format!("{response:?}"));
+    }
+    all
 }
 
 impl Samples {
     /// Adds other samples of the same run.
     ///
     /// # Errors
-    /// [`Error::Setting`] for samples of another run, and for those that have been added already; nothing has been added then.
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for those that have been added already; nothing has
+    /// been added then.
     pub fn merge(&mut self, other: Self) -> Result<(), Error> {
-        let key = |one: &Self| (one.points, one.run, one.gathered.parts.len());
-        let same = key(self) == key(&other)
-            && self.wanted == other.wanted
-            && self.tolerances == other.tolerances
-            && self.inputs == other.inputs
-            && self.nominal == other.nominal;
-        if !same {
-            return Err(Error::Setting {
-                setting: "samples",
-                reason: "they are of another run: ask the same of the same study, with the same sampler but for its range"
-                    .to_owned(),
-            });
-        }
-        let mut gathered = self.gathered.clone();
-        gathered.merge(other.gathered)?;
-        self.gathered = gathered;
-        Ok(())
+        let added = (&other.run, other.gathered.parts);
+        self.run.merge(&mut self.gathered.parts, added)
     }
 
     /// The ranges of samples that are done, in order and apart.
     #[must_use]
     pub fn ranges(&self) -> Vec<Range<u64>> {
-        let of_each = self.run.2;
-        let mut all: Vec<Range<u64>> = Vec::new();
-        for (group, part) in self.gathered.parts.iter().enumerate() {
-            let first = group as u64 * of_each;
-            for own in part.ranges() {
-                let own = own.start + first..own.end + first;
-                match all.last_mut() {
-                    Some(last) if last.end == own.start => last.end = own.end,
-                    _ => all.push(own),
-                }
-            }
-        }
-        all
+        self.run.ranges(&self.gathered.parts)
+    }
+
+    /// The ranges of samples that are not done, in order and apart.
+    #[must_use]
+    pub fn missing(&self) -> Vec<Range<u64>> {
+        self.run.missing(&self.gathered.parts)
+    }
+
+    /// Refuses a run that is not complete.
+    ///
+    /// # Errors
+    /// [`Error::SamplesMissing`], which names the gaps.
+    pub fn check_complete(&self) -> Result<(), Error> {
+        self.run.check_complete(&self.gathered.parts)
+    }
+
+    /// What the run was asked for: equal for parts that can be merged.
+    #[must_use]
+    pub fn fingerprint(&self) -> &Fingerprint {
+        &self.run.fingerprint
     }
 
     /// What became of the samples.
@@ -147,14 +193,13 @@ impl Samples {
         let responses = self.wanted.len();
         let mut spreads = Vec::new();
         let mut covariance = Matrix::zeros(responses, responses);
-        let mut with_design =
-            Matrix::from_fn(responses, self.tolerances.sigmas().len(), |_, _| Some(0.0));
+        let mut with_design = Matrix::from_fn(responses, self.variables.1, |_, _| Some(0.0));
         for i in 0..responses {
             spreads.push(self.gathered.spread(i, self.nominal[i])?);
             for j in 0..responses {
                 covariance[i][j] = self.gathered.covariance(i, j)?;
             }
-            for (k, &variable) in self.variables.iter().enumerate() {
+            for (k, &variable) in self.variables.0.iter().enumerate() {
                 with_design[i][variable] = self.gathered.covariance(i, responses + k)?;
             }
         }
@@ -170,6 +215,51 @@ impl Samples {
             counts,
             inputs: self.inputs.clone(),
             description: self.description.clone(),
+        })
+    }
+}
+
+/// [`Samples`] as they were read.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    format: Format,
+    points: Points,
+    wanted: Vec<Response>,
+    run: Run,
+    gathered: Gathered,
+    nominal: Vec<Option<f64>>,
+    variables: (Vec<usize>, usize),
+    inputs: Vector,
+    description: Shared<Description>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Samples {
+    type Error = &'static str;
+
+    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
+        let (varied, variables) = &read.variables;
+        let quantities = read.wanted.len() + varied.len();
+        let outcomes = Outcome::ALL.len();
+        read.run
+            .check_parts(&read.gathered.parts, quantities, outcomes)?;
+        let fits = read.nominal.len() == read.wanted.len()
+            && varied.iter().all(|variable| variable < variables)
+            && read.inputs.len() == read.description.inputs.len();
+        if !fits {
+            return Err("the parts of these samples do not fit together");
+        }
+        Ok(Self {
+            format: read.format,
+            points: read.points,
+            wanted: read.wanted,
+            run: read.run,
+            gathered: read.gathered,
+            nominal: read.nominal,
+            variables: read.variables,
+            inputs: read.inputs,
+            description: read.description,
         })
     }
 }

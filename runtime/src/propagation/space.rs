@@ -45,6 +45,15 @@ impl<'a> Space<'a> {
         }
     }
 
+    /// One standard normal number for each design variable, from those that matter.
+    pub(super) fn standard(&self, z: impl Iterator<Item = f64>) -> Vector {
+        let mut all = Vector::zeros(self.nominal.len());
+        for (&j, z) in self.dimensions.iter().zip(z) {
+            all[j] = z;
+        }
+        all
+    }
+
     /// The design, SI, that belongs to one standard normal number for each dimension.
     pub(super) fn design<'p>(
         &self,

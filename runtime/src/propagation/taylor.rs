@@ -160,6 +160,7 @@ fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gather
         space,
         scales: [&scales[..], &scales].concat(),
         unknowns: 0,
+        side_by_side: None,
     };
     task.gather(&Sampler::new(Points::Sobol).samples(SAMPLES))
 }

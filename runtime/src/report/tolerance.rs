@@ -197,6 +197,13 @@ impl fmt::Display for MonteCarlo {
         }
         write!(f, "{table}")?;
         undamped(f, self.family, &self.description)?;
+        if self.samples < self.planned {
+            writeln!(
+                f,
+                "  Not complete: {} samples were asked for.",
+                self.planned
+            )?;
+        }
         if self.side_by_side {
             writeln!(
                 f,

@@ -98,8 +98,8 @@ pub struct Chances {
 }
 
 impl Requirements<'_> {
-    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Of `sampling`, what is kept
-    /// and which vectors are used does not matter.
+    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Of `sampling`, what is kept,
+    /// which vectors are used, a range and a stop do not matter.
     ///
     /// # Errors
     /// [`Error::Setting`] for no sample, [`Error::Threads`].

@@ -1,5 +1,7 @@
 //! What a study can be asked at one operating point.
 
+use core::ops::Range;
+
 use super::deviating::deviating;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
@@ -11,7 +13,7 @@ use crate::sensitivity;
 use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::ShapeSensitivity;
 use crate::tolerance;
-use crate::tolerance::OutputTolerances;
+use crate::tolerance::{OutputTolerances, PartialMonteCarlo, Sampling};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 impl<M: Kernels> Study<M> {
@@ -379,5 +381,61 @@ impl<M: BatchKernels> Study<M> {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
         self.solve()?.monte_carlo_with_progress(progress)
+    }
+
+    /// Some samples of [`Study::monte_carlo`], on this machine or another: parts of a run merge to the same bits as the whole.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let study = study.samples(3000);
+    /// let mut all = study.samples_between(1000..3000)?;
+    /// all.merge(study.samples_between(0..1000)?)?;
+    /// all.check_complete()?;
+    /// assert_eq!(all.result(), study.monte_carlo()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::monte_carlo`]; [`Error::Setting`] for a range beyond the samples.
+    pub fn samples_between(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
+        self.solve()?.samples_between(range)
+    }
+
+    /// As [`Study::samples_between`], with any settings ([`tolerance::partial_monte_carlo`]): a run that is watched, and stopped.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// let study = study.samples(10_000).threads(1);
+    /// let stop = AtomicBool::new(false);
+    /// // Enough after the first samples; a handler of Ctrl-C would do the same.
+    /// let progress = |_| stop.store(true, Ordering::Relaxed);
+    /// let sampling = study.sampling().progress(Some(&progress)).stop(Some(&stop));
+    /// let mut part = study.sample_modes(&sampling)?;
+    /// assert_eq!((part.result().samples, part.result().planned), (256, 10_000));
+    ///
+    /// // Nothing is lost: later the rest follows.
+    /// study.resume_samples(&mut part, &study.sampling())?;
+    /// assert_eq!(part.result(), study.monte_carlo()?);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::samples_between`].
+    pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
+        self.solve()?.sample_modes(sampling)
+    }
+
+    /// Does the samples of a run that are missing, unless it is stopped again; see [`Study::sample_modes`].
+    ///
+    /// # Errors
+    /// As [`Study::sample_modes`]; [`Error::OtherRun`] where it is not a run of this study.
+    pub fn resume_samples(
+        &self,
+        done: &mut PartialMonteCarlo,
+        sampling: &Sampling<'_>,
+    ) -> Result<(), Error> {
+        self.solve()?.resume_samples(done, sampling)
     }
 }

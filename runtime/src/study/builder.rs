@@ -8,7 +8,7 @@ use crate::equilibrium::Policy;
 use crate::kernels::Kernels;
 use crate::modes::Family;
 use crate::scalar::Instructions;
-use crate::tolerance::{Distribution, Tolerances};
+use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{Coordinate, Description, DesignVariable, Error, Input, Law, Matrix, Output, Text};
 
 /// A mechanism at one operating point, with tolerances and settings.
@@ -420,5 +420,12 @@ impl<M: Kernels> Study<M> {
     /// [`Error::Setting`] where they make no sense; [`Error::UnknownHandle`].
     pub fn tolerances(&self) -> Result<Tolerances, Error> {
         self.settings.tolerances().cloned()
+    }
+
+    /// How this study samples: what [`Study::samples`], [`Study::seed`] and other settings say. Range, progress and stop can be added
+    /// for [`Study::sample_modes`].
+    #[must_use]
+    pub fn sampling<'s>(&self) -> Sampling<'s> {
+        self.settings.sampling()
     }
 }

@@ -3,14 +3,14 @@
 use super::deviating::deviating;
 use super::{Solved, Study};
 use crate::Error;
-use crate::kernels::CurvatureKernels;
+use crate::kernels::{CurvatureKernels, SummaryKernels};
 use crate::propagation::{
     self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
 };
 use crate::response::{Response, Responses};
 use crate::tolerance::Tolerances;
 
-impl<M: CurvatureKernels> Study<M> {
+impl<M: SummaryKernels> Study<M> {
     /// How tolerances spread any responses, several at once with their covariance, by the method that answers best for what it costs
     /// ([`propagation::propagate`]).
     ///
@@ -110,7 +110,7 @@ impl<M: CurvatureKernels> Study<M> {
     }
 }
 
-impl<M: CurvatureKernels> Solved<'_, M> {
+impl<M: SummaryKernels> Solved<'_, M> {
     /// See [`Study::propagate`].
     ///
     /// # Errors
@@ -189,12 +189,13 @@ impl<M: CurvatureKernels> Solved<'_, M> {
         wanted: &[Response],
         question: impl FnOnce(&dyn CurvatureKernels, &Responses<'_>, &Tolerances) -> Result<R, Error>,
     ) -> Result<R, Error> {
-        if let Some(wide) = deviating!(self.study, CurvatureKernels) {
+        if let Some(wide) = deviating!(self.study, SummaryKernels) {
             return self.in_study(&wide).about(wanted, question);
         }
         let mechanism = &self.study.mechanism;
         let tolerances = self.study.settings.tolerances()?;
-        let responses = Responses::new(mechanism, &self.equilibrium, &self.modes, wanted.to_vec())?;
+        let (at, modes) = (&self.equilibrium, &self.modes);
+        let responses = Responses::side_by_side(mechanism, at, modes, wanted.to_vec())?;
         question(mechanism, &responses, tolerances)
     }
 }

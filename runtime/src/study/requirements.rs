@@ -31,7 +31,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         if let Some(wide) = deviating!(self.study, DirectionalKernels) {
             return self.in_study(&wide).chances(wanted);
         }
-        let sampling = self.study.settings.sampling(None);
+        let sampling = self.study.settings.sampling();
         self.requirements(wanted)?.chances(&sampling)
     }
 
@@ -127,7 +127,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
         if let Some(wide) = deviating!(self.study, DirectionalKernels) {
             return self.in_study(&wide).allocation(wanted, choices);
         }
-        let sampling = self.study.settings.sampling(None);
+        let sampling = self.study.settings.sampling();
         allocate(&self.requirements(wanted)?, choices, &sampling)
     }
 

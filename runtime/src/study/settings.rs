@@ -277,10 +277,7 @@ impl Settings {
         values.iter().map(si).collect()
     }
 
-    pub(super) fn sampling<'a>(
-        &self,
-        progress: Option<&'a (dyn Fn(usize) + Sync)>,
-    ) -> Sampling<'a> {
+    pub(super) fn sampling<'a>(&self) -> Sampling<'a> {
         Sampling {
             samples: self.samples,
             seed: self.seed,
@@ -288,7 +285,9 @@ impl Settings {
             threads: self.threads,
             keep_samples: self.keep_samples,
             vectors: self.vectors,
-            progress,
+            range: None,
+            progress: None,
+            stop: None,
         }
     }
 

@@ -1,5 +1,7 @@
 //! A study with its equilibrium and modes, which are solved once for all questions.
 
+use core::ops::Range;
+
 use super::Study;
 use super::deviating::deviating;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
@@ -8,7 +10,7 @@ use crate::modes::{self, Whirl};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
-use crate::tolerance::{self, OutputTolerances};
+use crate::tolerance::{self, OutputTolerances, PartialMonteCarlo, Sampling, Tolerances};
 use crate::{Equilibrium, Error, FirstOrder, Modes, MonteCarlo, Sensitivities};
 
 /// The equilibrium and the modes of a study, solved once for the questions that build on them. Its methods are those of [`Study`] of
@@ -331,7 +333,7 @@ impl<M: BatchKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`]; [`Error::Threads`].
     pub fn monte_carlo(&self) -> Result<MonteCarlo, Error> {
-        self.sample(None)
+        self.drawn(&self.study.sampling())
     }
 
     /// As [`Solved::monte_carlo`]; `progress` is called with the number of samples done since its last call.
@@ -350,12 +352,40 @@ impl<M: BatchKernels> Solved<'_, M> {
         &self,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<MonteCarlo, Error> {
-        self.sample(Some(progress))
+        self.drawn(&self.study.sampling().progress(Some(progress)))
     }
 
-    fn sample(&self, progress: Option<&(dyn Fn(usize) + Sync)>) -> Result<MonteCarlo, Error> {
+    fn drawn(&self, sampling: &Sampling<'_>) -> Result<MonteCarlo, Error> {
+        self.with_tolerances(|mechanism, at, modes, tolerances| {
+            tolerance::monte_carlo(mechanism, at, modes, tolerances, sampling)
+        })
+    }
+
+    /// See [`Study::samples_between`].
+    ///
+    /// # Errors
+    /// As [`Study::samples_between`].
+    pub fn samples_between(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
+        self.sample_modes(&self.study.sampling().range(Some(range)))
+    }
+
+    /// See [`Study::sample_modes`].
+    ///
+    /// # Errors
+    /// As [`Study::sample_modes`].
+    pub fn sample_modes(&self, sampling: &Sampling<'_>) -> Result<PartialMonteCarlo, Error> {
+        self.with_tolerances(|mechanism, at, modes, tolerances| {
+            tolerance::partial_monte_carlo(mechanism, at, modes, tolerances, sampling)
+        })
+    }
+
+    /// Asks the mechanism, or that whose inputs deviate where inputs have tolerances.
+    fn with_tolerances<R>(
+        &self,
+        question: impl FnOnce(&dyn BatchKernels, &Equilibrium, &Modes, &Tolerances) -> Result<R, Error>,
+    ) -> Result<R, Error> {
         if let Some(wide) = deviating!(self.study, BatchKernels) {
-            return self.in_study(&wide).sample(progress);
+            return self.in_study(&wide).with_tolerances(question);
         }
         let Self {
             study,
@@ -363,7 +393,24 @@ impl<M: BatchKernels> Solved<'_, M> {
             modes,
         } = self;
         let tolerances = study.settings.tolerances()?;
-        let sampling = study.settings.sampling(progress);
-        tolerance::monte_carlo(&study.mechanism, equilibrium, modes, tolerances, &sampling)
+        question(&study.mechanism, equilibrium, modes, tolerances)
+    }
+
+    /// See [`Study::resume_samples`].
+    ///
+    /// # Errors
+    /// As [`Study::resume_samples`].
+    pub fn resume_samples(
+        &self,
+        done: &mut PartialMonteCarlo,
+        sampling: &Sampling<'_>,
+    ) -> Result<(), Error> {
+        let part = |range| self.sample_modes(&sampling.clone().range(Some(range)));
+        // Of another run? That is to be known before the work is done.
+        done.merge(part(0..0)?)?;
+        for range in done.missing() {
+            done.merge(part(range)?)?;
+        }
+        Ok(())
     }
 }

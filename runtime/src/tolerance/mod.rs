@@ -2,34 +2,43 @@
 #![doc = include_str!("where_first_order_fails.md")]
 
 mod batched;
+mod fingerprint;
 mod first_order;
+pub(crate) mod gather;
 mod law;
 mod monte_carlo;
 mod normal_sampling;
 mod outcome;
 mod outputs;
+mod partial;
 pub(crate) mod pool;
+mod result;
+pub(crate) mod run;
 mod sample;
 mod sampling;
 #[cfg(feature = "serde")]
 mod serial;
+pub(crate) mod side_by_side;
+mod solver;
 mod spread;
 mod standard_normal;
-mod statistics;
 mod tolerances;
 
+/// Statistics of samples, their quantiles and histograms, from [`eigentol_statistics`].
+pub use eigentol_statistics::summary::{Histogram, Sketch, Statistics};
 /// Distributions of one variable and of several, from [`eigentol_statistics`].
 pub use eigentol_statistics::{Distribution, Joint};
+pub use fingerprint::Fingerprint;
 pub use first_order::{FirstOrder, ModeTolerance, TRUSTED_DISTANCE, first_order};
 pub use law::distribution;
-pub use monte_carlo::{MonteCarlo, Sampling, monte_carlo};
+pub use monte_carlo::{Sampling, monte_carlo, partial_monte_carlo};
 pub use outcome::{Counts, Outcome};
 pub use outputs::{OutputTolerances, output_tolerances};
+pub use partial::PartialMonteCarlo;
+pub use result::MonteCarlo;
 pub use sample::Sample;
 pub use spread::Spread;
-pub use statistics::Statistics;
 pub use tolerances::Tolerances;
 
 pub(crate) use sample::Solution;
 pub(crate) use sampling::Draw;
-pub(crate) use statistics::Moments;

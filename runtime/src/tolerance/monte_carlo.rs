@@ -1,23 +1,25 @@
 //! Monte Carlo: every sample solves its own equilibrium and its own eigenproblem, and every failure is counted.
 
-use super::batched::{Memory, Solved, Sums, TOGETHER, TaylorModel};
-use super::pool;
-use super::sample::Solution;
-use super::sampling::{Batches, Draw};
-use super::statistics::Moments;
-use super::{Counts, Outcome, Sample, Statistics, Tolerances};
-use crate::algebra::Vector;
-use crate::kernels::BatchKernels;
-use crate::modes::{CLUSTER_GAP, Family, clusters};
-use crate::scalar::{Batch, Instructions, WIDTH};
-use crate::setters::setters;
-use crate::{Complex, Description, Equilibrium, Error, Modes, Shared};
+use core::ops::Range;
+use std::sync::atomic::AtomicBool;
 
-/// Samples worked on by one thread at a time, whole batches; fixed, so that sums are formed in the same order on any machine.
-const CHUNK: usize = 256;
+use eigentol_statistics::summary::Partial;
+
+use super::gather::{Part, Work};
+use super::run::{Format, Run};
+use super::solver::{Numbered, Room, Solver};
+use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Tolerances};
+use crate::kernels::BatchKernels;
+use crate::modes::{CLUSTER_GAP, clusters};
+use crate::scalar::Instructions;
+use crate::setters::setters;
+use crate::{Equilibrium, Error, Modes};
+
+/// Chunks of samples that are worth a thread of their own: side by side they take some ten microseconds each.
+const CHUNKS_SIDE_BY_SIDE: u64 = 4;
 
 /// How to sample.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 #[non_exhaustive]
 pub struct Sampling<'a> {
     /// Number of samples.
@@ -36,8 +38,12 @@ pub struct Sampling<'a> {
     /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one. The result says
     /// which it was ([`MonteCarlo::side_by_side`]).
     pub vectors: Option<Instructions>,
+    /// Which of the samples to take now; all unless set. Results of other ranges are added by [`PartialMonteCarlo::merge`].
+    pub range: Option<Range<u64>>,
     /// Called with the number of samples done since the last call, from any thread.
     pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
+    /// Ends the run soon after it becomes true, with the samples that are done.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 impl<'a> Sampling<'a> {
@@ -48,8 +54,23 @@ impl<'a> Sampling<'a> {
         threads: usize,
         keep_samples: bool,
         vectors: Option<Instructions>,
+        range: Option<Range<u64>>,
         progress: Option<&'a (dyn Fn(usize) + Sync)>,
+        stop: Option<&'a AtomicBool>,
     );
+
+    /// The samples to take now.
+    fn now(&self) -> Result<Range<u64>, Error> {
+        let total = self.samples as u64;
+        let range = self.range.clone().unwrap_or(0..total);
+        if range.start > range.end || range.end > total {
+            return Err(Error::Setting {
+                setting: "range",
+                reason: format!("{range:?} is not a range of the {total} samples"),
+            });
+        }
+        Ok(range)
+    }
 }
 
 impl Default for Sampling<'_> {
@@ -61,50 +82,20 @@ impl Default for Sampling<'_> {
             threads: 0,
             keep_samples: false,
             vectors: Some(Instructions::best()),
+            range: None,
             progress: None,
+            stop: None,
         }
     }
 }
 
-/// Result of a Monte Carlo run.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct MonteCarlo {
-    /// Number of samples.
-    pub samples: usize,
-    /// What became of them.
-    pub counts: Counts,
-    /// Stable samples for which the nominal position itself is unstable: they settled on another branch.
-    pub left_nominal_branch: usize,
-    /// Statistics of the frequency over the stable samples where the mode oscillates, rad/s, by nominal mode; `None`
-    /// without any value.
-    pub modes: Vec<Option<Statistics>>,
-    /// Statistics of the damping ratio over the same samples.
-    pub damping_ratios: Vec<Option<Statistics>>,
-    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), except those that had to be solved alone. Solved one by
-    /// one, the statistics differ in the last bits.
-    pub side_by_side: bool,
-    /// Some nominal modes have equal eigenvalues. Which of them a sample's mode is matched to is arbitrary, and only
-    /// statistics of all of them together mean something ([`clusters`](crate::clusters::clusters)).
-    pub clustered: bool,
-    /// Every sample in order, when asked for.
-    pub all: Option<Vec<Sample>>,
-    /// Which modes they belong to.
-    pub family: Family,
-    /// The inputs they belong to, SI.
-    pub inputs: Vector,
-    /// The mechanism they belong to.
-    pub description: Shared<Description>,
-}
-
-/// Samples the design variables about those of `nominal` (normal, by `tolerances`), re-solves each sample from the
+/// Samples the design variables about those of `nominal` (by `tolerances`), re-solves each sample from the
 /// nominal equilibrium and gathers the statistics of its frequencies, matched to the nominal modes by shape. Samples
 /// settle on a stable equilibrium, whatever policy found the nominal one.
 ///
 /// # Errors
-/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Threads`] when worker threads cannot be started. Samples
-/// that fail are counted, not errors.
+/// [`Error::WrongLength`] for tolerances of another mechanism, [`Error::Setting`] for a range that is none of the samples,
+/// [`Error::Threads`] when worker threads cannot be started. Samples that fail are counted, not errors.
 pub fn monte_carlo(
     mechanism: &dyn BatchKernels,
     nominal: &Equilibrium,
@@ -112,225 +103,87 @@ pub fn monte_carlo(
     tolerances: &Tolerances,
     sampling: &Sampling<'_>,
 ) -> Result<MonteCarlo, Error> {
-    tolerances.check_count(nominal.design.len())?;
-    let prepared = (sampling.vectors)
-        .and_then(|vectors| TaylorModel::new(mechanism, nominal, modes, tolerances, vectors));
-    let side_by_side = prepared.is_some();
-    let run = Run {
+    let about = (nominal, modes);
+    // Nothing will be merged with it: that takes no fingerprint.
+    let nobody = |_: &str| Fingerprint::default();
+    let all = gathered(mechanism, about, tolerances, sampling, nobody)?;
+    Ok(all.into_result())
+}
+
+/// As [`monte_carlo`], to be merged with other ranges of the same run.
+///
+/// # Errors
+/// As [`monte_carlo`].
+pub fn partial_monte_carlo(
+    mechanism: &dyn BatchKernels,
+    nominal: &Equilibrium,
+    modes: &Modes,
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+) -> Result<PartialMonteCarlo, Error> {
+    let fingerprint = |method: &str| {
+        Fingerprint::new(mechanism, nominal, modes, tolerances)
+            .with("method", method)
+            .with("samples", sampling.samples)
+            .with("seed", sampling.seed)
+            .with("stream", sampling.stream)
+            .with("samples kept", sampling.keep_samples)
+    };
+    gathered(
         mechanism,
-        nominal,
-        modes,
+        (nominal, modes),
         tolerances,
         sampling,
-        prepared,
+        fingerprint,
+    )
+}
+
+fn gathered(
+    mechanism: &dyn BatchKernels,
+    (nominal, modes): (&Equilibrium, &Modes),
+    tolerances: &Tolerances,
+    sampling: &Sampling<'_>,
+    fingerprint: impl FnOnce(&str) -> Fingerprint,
+) -> Result<PartialMonteCarlo, Error> {
+    tolerances.check_count(nominal.design.len())?;
+    let range = sampling.now()?;
+    let solver = Solver::new(
+        mechanism,
+        (nominal, modes),
+        tolerances,
+        sampling.vectors,
+        (sampling.seed, sampling.stream),
+        sampling.keep_samples,
+    );
+    let side_by_side = solver.side_by_side();
+    let work = Work {
+        threads: sampling.threads,
+        size: (nominal.coordinates.len(), nominal.design.len()),
+        least: if side_by_side { CHUNKS_SIDE_BY_SIDE } else { 1 },
+        progress: sampling.progress,
+        stop: sampling.stop,
     };
-    let room = || run.room();
-    let chunk = |room: &mut Room, index: usize| run.chunk(room, index);
-    let chunks = sampling.samples.div_ceil(CHUNK);
-    let size = (nominal.coordinates.len(), nominal.design.len());
-    let pieces = pool::run(sampling.threads, size, chunks, room, chunk)?;
-    let mut sum = Piece::empty(modes.modes.len());
-    sum.samples = Vec::with_capacity(run.kept(sampling.samples));
-    for piece in pieces {
-        sum.merge(piece);
-    }
-    let statistics = |moments: &[Moments]| moments.iter().map(Moments::statistics).collect();
-    Ok(MonteCarlo {
-        samples: sampling.samples,
-        counts: sum.counts,
-        left_nominal_branch: sum.left_nominal_branch,
-        modes: statistics(&sum.frequencies),
-        damping_ratios: statistics(&sum.damping_ratios),
+    let plan = solver.plan()?;
+    let solve = |room: &mut Room, part: &mut Part<'_, Numbered>| solver.solve(room, part);
+    let (mut parts, kept) = work.gather(&plan, &[range], || solver.room(), solve)?;
+    let method = if side_by_side {
+        "Monte Carlo side by side"
+    } else {
+        "Monte Carlo one by one"
+    };
+    Ok(PartialMonteCarlo {
+        format: Format,
+        run: Run {
+            fingerprint: fingerprint(method),
+            groups: 1,
+            of_each: sampling.samples as u64,
+        },
+        part: parts.pop().unwrap_or_else(|| Partial::new(plan)),
+        kept: sampling.keep_samples.then_some(kept),
         side_by_side,
         clustered: clusters(modes, CLUSTER_GAP).contains(&true),
-        all: sampling.keep_samples.then_some(sum.samples),
         family: modes.family,
         inputs: nominal.inputs.clone(),
         description: nominal.description.clone(),
     })
-}
-
-/// What is gathered of some samples.
-struct Piece {
-    counts: Counts,
-    left_nominal_branch: usize,
-    frequencies: Vec<Moments>,
-    damping_ratios: Vec<Moments>,
-    samples: Vec<Sample>,
-}
-
-impl Piece {
-    fn empty(modes: usize) -> Self {
-        Self {
-            counts: Counts::default(),
-            left_nominal_branch: 0,
-            frequencies: vec![Moments::EMPTY; modes],
-            damping_ratios: vec![Moments::EMPTY; modes],
-            samples: Vec::new(),
-        }
-    }
-
-    fn merge(&mut self, other: Self) {
-        self.counts.merge(&other.counts);
-        self.left_nominal_branch += other.left_nominal_branch;
-        for (own, other) in [
-            (&mut self.frequencies, &other.frequencies),
-            (&mut self.damping_ratios, &other.damping_ratios),
-        ] {
-            for (sum, part) in own.iter_mut().zip(other) {
-                sum.merge(part);
-            }
-        }
-        self.samples.extend(other.samples);
-    }
-}
-
-/// What one thread solves samples in.
-struct Room {
-    /// For those solved together; none where samples are solved one by one.
-    together: Memory,
-    alone: Solution,
-}
-
-/// Everything that a chunk of samples needs.
-struct Run<'a> {
-    mechanism: &'a dyn BatchKernels,
-    nominal: &'a Equilibrium,
-    modes: &'a Modes,
-    tolerances: &'a Tolerances,
-    sampling: &'a Sampling<'a>,
-    prepared: Option<TaylorModel<'a>>,
-}
-
-impl Run<'_> {
-    /// How many of `number` samples are returned.
-    fn kept(&self, number: usize) -> usize {
-        if self.sampling.keep_samples {
-            number
-        } else {
-            0
-        }
-    }
-
-    fn room(&self) -> Room {
-        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
-        let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
-        Room {
-            together: Memory::new(count, n, p),
-            alone: Solution::about(self.nominal, self.modes),
-        }
-    }
-
-    fn chunk(&self, room: &mut Room, index: usize) -> Piece {
-        let first = index * CHUNK;
-        let number = CHUNK.min(self.sampling.samples - first);
-        let sequence = (self.sampling.seed, self.sampling.stream);
-        let mut piece = Piece::empty(self.modes.modes.len());
-        piece.samples = Vec::with_capacity(self.kept(number));
-        match &self.prepared {
-            Some(prepared) => {
-                let mut draw = Batches::from(sequence, first as u64, self.nominal.design.len());
-                self.side_by_side(prepared, room, &mut draw, number, &mut piece);
-            }
-            None => {
-                let nominal = &self.nominal.design;
-                let mut draw = Draw::from(sequence, first as u64, nominal, self.tolerances);
-                for _ in 0..number {
-                    self.alone(&mut room.alone, draw.next(), &mut piece);
-                }
-            }
-        }
-        if let Some(progress) = self.sampling.progress {
-            progress(number);
-        }
-        piece
-    }
-
-    /// Solves samples in batches, and alone those that no batch can vouch for.
-    fn side_by_side(
-        &self,
-        prepared: &TaylorModel<'_>,
-        room: &mut Room,
-        draw: &mut Batches,
-        number: usize,
-        piece: &mut Piece,
-    ) {
-        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
-        let mut sums = Sums::new(n);
-        let mut together = room.together.batches::<TOGETHER>(n, p);
-        let mut left = number;
-        while left > 0 {
-            let used = TOGETHER.min(left.div_ceil(WIDTH));
-            let batches = &mut together[..used];
-            for batch in &mut *batches {
-                batch.members = WIDTH.min(left);
-                left -= batch.members;
-                draw.next(batch.bits);
-            }
-            prepared.solve(batches, &mut sums);
-            for batch in &*batches {
-                self.decided(batch, &mut room.alone, piece);
-            }
-        }
-        for (r, nominal) in prepared.frequencies.iter().enumerate() {
-            piece.frequencies[r].merge(&sums.frequency(r, *nominal));
-            piece.damping_ratios[r].merge(&sums.damping_ratio());
-        }
-    }
-
-    /// Counts what a batch accepted, and solves the others alone.
-    fn decided(&self, batch: &Solved<'_>, alone: &mut Solution, piece: &mut Piece) {
-        let accepted = batch.accepted.count_ones() as usize;
-        piece.counts.add(Outcome::Stable, accepted);
-        if accepted == batch.members && !self.sampling.keep_samples {
-            return;
-        }
-        for member in 0..batch.members {
-            if batch.accepted >> member & 1 == 0 {
-                self.alone(alone, &member_of(batch.design, member), piece);
-            } else if self.sampling.keep_samples {
-                piece.samples.push(Self::accepted(batch, member));
-            }
-        }
-    }
-
-    /// Solves a sample by itself.
-    fn alone(&self, solved: &mut Solution, design: &[f64], piece: &mut Piece) {
-        solved.solve(self.mechanism, self.nominal, self.modes, design);
-        piece.counts.add(solved.outcome, 1);
-        if solved.outcome == Outcome::Stable {
-            piece.left_nominal_branch += usize::from(solved.state.left_unstable_region);
-            for r in 0..self.modes.modes.len() {
-                let Some(mode) = solved.mode(r) else { continue };
-                if let Some(omega) = mode.frequency() {
-                    piece.frequencies[r].add(omega);
-                    piece.damping_ratios[r].add(mode.damping_ratio().unwrap_or(0.0));
-                }
-            }
-        }
-        if self.sampling.keep_samples {
-            piece
-                .samples
-                .push(solved.sample(design, self.modes.modes.len()));
-        }
-    }
-
-    /// A sample that passed the checks of its batch.
-    fn accepted(solved: &Solved<'_>, member: usize) -> Sample {
-        let frequencies = member_of(solved.frequencies, member);
-        let eigenvalue = |omega: &f64| Some(Complex::new(0.0, *omega));
-        Sample {
-            design: member_of(solved.design, member),
-            outcome: Outcome::Stable,
-            coordinates: Some(member_of(solved.coordinates, member)),
-            eigenvalues: frequencies.iter().map(eigenvalue).collect(),
-            damping_ratios: vec![Some(0.0); frequencies.len()],
-            frequencies: frequencies.into_iter().map(Some).collect(),
-        }
-    }
-}
-
-/// What belongs to one member of a batch.
-fn member_of(batches: &[Batch], member: usize) -> Vector {
-    batches.iter().map(|batch| batch.0[member]).collect()
 }

@@ -99,6 +99,15 @@ impl Counts {
             + self.no_modes
     }
 
+    /// From numbers in the order of [`Outcome::ALL`].
+    pub(crate) fn of_all(numbers: &[u64]) -> Self {
+        let mut counts = Self::default();
+        for (outcome, number) in Outcome::ALL.into_iter().zip(numbers) {
+            counts.add(outcome, *number as usize);
+        }
+        counts
+    }
+
     /// How many had this outcome.
     #[must_use]
     pub fn of(mut self, outcome: Outcome) -> usize {

@@ -29,7 +29,7 @@ const fn stack(n: usize, p: usize) -> Option<usize> {
 type Pools = BTreeMap<(usize, Option<usize>), Arc<ThreadPool>>;
 
 /// Most threads of a run, unless the machine has more: beyond the processors they only cost.
-const MOST: usize = 256;
+pub(super) const MOST: usize = 256;
 
 static POOLS: Mutex<Pools> = Mutex::new(BTreeMap::new());
 

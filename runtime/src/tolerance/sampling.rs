@@ -1,19 +1,18 @@
 //! Random designs: sample `k` is a function of seed, stream and `k` alone, so any sample can be drawn on any machine.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use eigentol_statistics::random::RandomNumbers;
 
 use super::Tolerances;
 use super::normal_sampling::standard_normal_pair;
 use crate::algebra::Vector;
-use crate::scalar::{Lanes, WIDTH};
+use crate::scalar::WIDTH;
 
 /// Random bits of one probability of each sample of a batch.
 pub(crate) type Bits = [u64; WIDTH];
 
 /// Draws designs in sequence from a given sample on.
 pub(crate) struct Draw<'a> {
-    random: ChaCha8Rng,
+    random: RandomNumbers,
     nominal: &'a [f64],
     tolerances: &'a Tolerances,
     /// Whether anything depends on this pair of random numbers.
@@ -41,7 +40,7 @@ impl<'a> Draw<'a> {
         let all = tolerances.joint().is_some();
         let used = |pair| all || variable(2 * pair) || variable(2 * pair + 1);
         Self {
-            random: generator(sequence, first, variables),
+            random: numbers(sequence, first, variables),
             nominal,
             tolerances,
             used: (0..pairs_of(variables)).map(used).collect(),
@@ -53,9 +52,9 @@ impl<'a> Draw<'a> {
     /// The next sample.
     pub(crate) fn next(&mut self) -> &[f64] {
         for (values, used) in self.standard.chunks_mut(2).zip(&self.used) {
-            let (radius, angle) = (self.random.next_u64(), self.random.next_u64());
+            let (radius, angle) = (self.random.probability(), self.random.probability());
             if *used {
-                let (x, y) = standard_normal_pair(probability(radius), probability(angle));
+                let (x, y) = standard_normal_pair(radius, angle);
                 for (value, normal) in values.iter_mut().zip([x, y]) {
                     *value = normal;
                 }
@@ -68,12 +67,12 @@ impl<'a> Draw<'a> {
 }
 
 /// The random bits of the samples that [`Draw`] gives, batch after batch.
-pub(crate) struct Batches(ChaCha8Rng);
+pub(crate) struct Batches(RandomNumbers);
 
 impl Batches {
     /// Prepares to draw sample `first` of this many variables and its successors.
     pub(crate) fn from(sequence: (u64, u64), first: u64, variables: usize) -> Self {
-        Self(generator(sequence, first, variables))
+        Self(numbers(sequence, first, variables))
     }
 
     /// Writes those of a batch, by pair of variables.
@@ -81,19 +80,17 @@ impl Batches {
         for sample in 0..WIDTH {
             for pair in &mut *pairs {
                 for number in pair {
-                    number[sample] = self.0.next_u64();
+                    number[sample] = self.0.bits();
                 }
             }
         }
     }
 }
 
-/// The generator at the numbers of sample `first`: each takes two by pair of design variables.
-fn generator((seed, stream): (u64, u64), first: u64, variables: usize) -> ChaCha8Rng {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(stream);
-    random.set_word_pos(u128::from(first) * 4 * pairs_of(variables) as u128);
-    random
+/// The random numbers from those of sample `first` on: each takes two by pair of design variables.
+fn numbers((seed, stream): (u64, u64), first: u64, variables: usize) -> RandomNumbers {
+    let index = u128::from(first) * 2 * pairs_of(variables) as u128;
+    RandomNumbers::starting_at(seed, stream, index)
 }
 
 /// Variables `2 p` and `2 p + 1` share pair `p`.
@@ -101,14 +98,11 @@ fn pairs_of(variables: usize) -> usize {
     variables.div_ceil(2)
 }
 
-/// A probability strictly inside (0, 1) of 64 random bits.
-fn probability(bits: u64) -> f64 {
-    f64::probability(&[bits; WIDTH], 0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::Lanes;
+    use eigentol_statistics::random::probability;
 
     fn upper(z: f64) -> f64 {
         0.5 * libm::erfc(z * core::f64::consts::FRAC_1_SQRT_2)
@@ -122,9 +116,11 @@ mod tests {
     }
 
     #[test]
-    fn probabilities_lie_inside() {
-        assert_eq!(probability(0), 2.0_f64.powi(-53));
-        assert_eq!(probability(u64::MAX), 1.0 - 2.0_f64.powi(-53));
+    fn vectors_take_the_same_probability_from_bits() {
+        for k in 0..200_u32 {
+            let bits = u64::MAX.rotate_right(k) >> (k % 64) ^ u64::from(k) << 40;
+            assert_eq!(f64::probability(&[bits; WIDTH], 0), probability(bits));
+        }
     }
 
     /// The greatest distance of the empirical distribution from the normal one (Kolmogorov), of each variable, and their

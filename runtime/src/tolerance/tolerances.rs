@@ -221,6 +221,17 @@ impl Tolerances {
         }
     }
 
+    /// About which value to look for those of a quantity, and how far apart they may be, SI: its nominal value, and its standard
+    /// deviation to first order where there are derivatives. A power of two, which rounding does not change.
+    pub(crate) fn scale(&self, value: Option<f64>, slopes: Option<&[f64]>) -> (f64, f64) {
+        let value = value.unwrap_or(0.0);
+        let sigma = slopes.map_or(0.0, |slopes| self.sigma(slopes));
+        let power = |scale: f64| f64::from_bits(scale.to_bits() & EXPONENT);
+        let usable = [sigma, 1e-3 * value.abs()].map(power);
+        let usable = (usable.into_iter()).find(|scale| (1e-300..1e300).contains(scale));
+        (value, usable.unwrap_or(1.0))
+    }
+
     /// Covariance of two quantities from their derivatives by the design variables, `A Sigma B^T`; NaN as [`Self::sigma`].
     #[must_use]
     pub fn covariance(&self, a: &[f64], b: &[f64]) -> f64 {
@@ -308,6 +319,9 @@ impl Tolerances {
 fn sum(values: &[f64]) -> f64 {
     values.iter().fold(-0.0, |sum, value| sum + value)
 }
+
+/// The exponent of a positive number.
+const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
 
 /// Variances whose parts neither overflow nor lose digits: what is far below the greatest part does not matter.
 const ORDINARY: core::ops::Range<f64> = 1e-200..1e200;

@@ -9,6 +9,7 @@ mod joint;
 mod legendre;
 pub mod normal;
 pub mod quadrature;
+pub mod random;
 pub mod reliability;
 pub mod sensitivity;
 pub mod sequence;

@@ -56,7 +56,7 @@ fn speed_splits_a_double_frequency_by_plus_and_minus_the_speed() {
     let sigma = 0.4 / 10.0;
     close(mean.sigma_im, sigma / 2.0_f64.sqrt(), 1e-12);
     let frequency = &found[0].spread.as_ref().unwrap().frequency;
-    let highest = frequency.highest().unwrap().value.unwrap();
+    let highest = frequency.highest().unwrap().value.as_ref().unwrap();
     within(highest.mean, 10.0 + sigma / PI.sqrt(), 4.0 * sigma / 64.0);
     let expected = sigma * (1.0 - 1.0 / PI).sqrt();
     within(highest.sigma.unwrap(), expected, 4.0 * sigma / 64.0);
@@ -192,7 +192,7 @@ fn next_to_a_defective_root_the_spread_is_right_or_refused() {
                     right += 1;
                     let expected = column_moments(load);
                     for (member, (mean, sigma)) in spread.frequency.members.iter().zip(expected) {
-                        let value = member.value.unwrap();
+                        let value = member.value.as_ref().unwrap();
                         within(value.mean, mean, 0.1 * sigma);
                         within(value.sigma.unwrap(), sigma, 0.1 * sigma);
                     }
@@ -255,7 +255,7 @@ fn overdamped_roots_form_a_pair() {
     assert!(found.eigenvalues.iter().all(|s| s.im == 0.0));
     let spread = found.spread.as_ref().unwrap();
     let growth = spread.growth.as_ref().unwrap();
-    let highest = growth.highest().unwrap().value.unwrap();
+    let highest = growth.highest().unwrap().value.as_ref().unwrap();
     let (mut sum, mut weight, mut oscillating) = (0.0, 0.0, 0.0);
     for i in -40_000..=40_000 {
         let z = f64::from(i) / 5000.0;
@@ -272,7 +272,7 @@ fn overdamped_roots_form_a_pair() {
         5.0 * highest.standard_error.unwrap(),
     );
     let frequency = spread.frequency.highest().unwrap();
-    let share = frequency.value.unwrap().count as f64 / 4096.0;
+    let share = frequency.value.as_ref().unwrap().count as f64 / 4096.0;
     within(share, oscillating / weight, 0.03);
     assert_eq!(spread.frequency.lowest().unwrap().without, 4096);
     assert_eq!(spread.unstable, 0);
@@ -309,7 +309,7 @@ fn a_pair_of_a_general_family_meets_the_undamped_one() {
     let undamped = study.family(Family::Undamped).clusters().unwrap();
     let of = |k: usize, found: &eigentol::clusters::ClusterTolerance| {
         let spread = found.spread.as_ref().unwrap();
-        spread.frequency.members[k].value.unwrap()
+        spread.frequency.members[k].value.clone().unwrap()
     };
     for k in 0..2 {
         let (a, b) = (of(k, &general[0]), of(k, &undamped[0]));

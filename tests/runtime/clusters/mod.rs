@@ -80,10 +80,10 @@ fn agree(found: &SortedSpread, samples: &[Vec<f64>], model: f64) {
     let count = found.members.len();
     for (k, member) in found.members.iter().enumerate() {
         let values: Vec<f64> = samples.iter().map(|sample| sample[k]).collect();
-        Moments::of(&values).agrees(member.value, model);
+        Moments::of(&values).agrees(member.value.clone(), model);
     }
     let splitting: Vec<f64> = samples.iter().map(|one| one[count - 1] - one[0]).collect();
-    Moments::of(&splitting).agrees(found.splitting, model);
+    Moments::of(&splitting).agrees(found.splitting.clone(), model);
 }
 
 #[track_caller]

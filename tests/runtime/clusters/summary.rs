@@ -107,7 +107,7 @@ fn at_the_critical_speed_sampling_is_what_to_use() {
         .start(Coordinate::new(0), 1.0)
         .tolerance(LENGTH, 0.03);
     let sampled = study.clone().samples(40_000).monte_carlo().unwrap();
-    let sigma = sampled.modes[0].unwrap().sigma.unwrap();
+    let sigma = sampled.modes[0].as_ref().unwrap().sigma.unwrap();
     close(sigma, exact, 0.02);
     let summary = study.summary().unwrap();
     let second = &summary.second.modes[0].as_ref().unwrap().frequency;

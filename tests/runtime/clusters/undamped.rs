@@ -43,7 +43,7 @@ fn a_coupling_that_splits_a_double_frequency_is_half_normal() {
     let spread = found.spread.unwrap();
     let lambda = spread.lambda.unwrap();
     let (low, high) = (lambda.lowest().unwrap(), lambda.highest().unwrap());
-    let (low, high) = (low.value.unwrap(), high.value.unwrap());
+    let (low, high) = (low.value.as_ref().unwrap(), high.value.as_ref().unwrap());
     let (half, sigma) = ((2.0 / PI).sqrt(), (1.0 - 2.0 / PI).sqrt());
     within(high.mean, 100.0 + half, 4.0 * sigma / 64.0);
     within(low.mean, 100.0 - half, 4.0 * sigma / 64.0);
@@ -120,7 +120,7 @@ fn what_mixes_modes_counts_as_well_as_what_moves_them_apart() {
 fn without_tolerances_only_rounding_makes_a_cluster() {
     let equal = only(pair(0.0, 0.0, [0.0; 3]).clusters().unwrap());
     let frequency = equal.spread.unwrap().frequency;
-    let highest = frequency.highest().unwrap().value.unwrap();
+    let highest = frequency.highest().unwrap().value.as_ref().unwrap();
     close(highest.mean, 10.0, 1e-14);
     within(highest.sigma.unwrap(), 0.0, 1e-14);
     assert_eq!(pair(1e-5, 0.0, [0.0; 3]).clusters().unwrap().len(), 1);
@@ -135,7 +135,7 @@ fn three_equal_modes_have_order_statistics() {
     assert_eq!(found.modes, [0, 1, 2]);
     close(found.mean.unwrap().sigma_re, 1.0 / 3.0_f64.sqrt(), 1e-13);
     let lambda = found.spread.unwrap().lambda.unwrap();
-    let member = |k: usize| lambda.members[k].value.unwrap();
+    let member = |k: usize| lambda.members[k].value.as_ref().unwrap();
     let shift = 1.5 / PI.sqrt();
     for (k, mean) in [(0, -shift), (1, 0.0), (2, shift)] {
         within(member(k).mean, 100.0 + mean, 4.0 * 0.75 / 64.0);

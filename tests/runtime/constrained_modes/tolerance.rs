@@ -84,7 +84,7 @@ fn every_sample_is_that_of_minimal_coordinates() {
     }
     let first = chain().first_order().unwrap();
     for (sampled, first) in own.modes.iter().zip(&first.modes) {
-        let (sampled, first) = (sampled.unwrap(), first.frequency.as_ref().unwrap());
+        let (sampled, first) = (sampled.as_ref().unwrap(), first.frequency.as_ref().unwrap());
         // 600 samples tell a standard deviation to 3 %.
         near(sampled.sigma.unwrap(), first.sigma, 0.12, first.sigma);
         near(sampled.mean, first.mean, 0.15, first.sigma);

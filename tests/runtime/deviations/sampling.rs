@@ -58,7 +58,7 @@ fn monte_carlo_matches_quadrature() {
             let run = sampled(machine, speed, sigma, vectors, 60_000);
             assert_eq!(run.counts.stable, run.samples);
             assert_eq!(run.side_by_side, vectors.is_some() && speed >= 5.0);
-            let found = run.modes[0].unwrap();
+            let found = run.modes[0].as_ref().unwrap();
             let error = (found.mean - mean).abs() / found.standard_error.unwrap();
             assert!(error < 4.0, "{speed}: mean {} is not {mean}", found.mean);
             // Its standard error from the sample itself, by the fourth moment.

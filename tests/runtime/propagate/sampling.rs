@@ -271,7 +271,11 @@ fn a_sampler_that_makes_no_sense_is_refused() {
         ));
         let mut one = found(sobol().range(Some(0..10))).unwrap();
         let other = found(sobol().seed(1).range(Some(10..20))).unwrap();
-        assert!(is_setting(one.merge(other), "samples"));
+        let refused = one.merge(other).unwrap_err();
+        assert_eq!(
+            refused.to_string(),
+            "these samples are of another run: seed is 0 here and 1 there"
+        );
     });
 }
 

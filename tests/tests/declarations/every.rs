@@ -3,7 +3,9 @@
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::model::mechanism::Mechanism;
 use eigentol_compiler::{Compilation, compile};
+use eigentol::Study;
 use eigentol_consistency::interpreter::interpret;
+use eigentol_interpreter::Interpreted;
 use eigentol_tests::every;
 
 fn compiled(text: &str) -> Compilation {
@@ -162,4 +164,28 @@ fn without_a_steady_motion_there_are_kernels() {
         matrices[1][..],
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5]
     );
+}
+
+/// Where there is no equilibrium, a study says so: a bar that nothing resists, and one that falls.
+#[test]
+fn a_study_of_kernels_alone_answers() {
+    let bar = |more: &str| {
+        format!(
+            "mechanism Bar {{
+                kernels only;
+                {more}
+                body frame: massless;
+                body bar: rod(mass: 3 kg, length: 1 m, along: x);
+                joint slide: prismatic(z) from ground to bar;
+                joint shake: prismatic(x) from bar to frame;
+            }}"
+        )
+    };
+    for more in ["", "gravity 9.81 m/s^2 along -z;"] {
+        let machine: Interpreted = bar(more).parse().expect("kernels");
+        let solved = Study::new(machine).solve();
+        let text = format!("{solved:?}");
+        assert!(!text.contains("NaN"), "{text}");
+        println!("{more}: {}", text.chars().take(600).collect::<String>());
+    }
 }

@@ -37,7 +37,7 @@ fn assert_complete(run: &MonteCarlo, samples: usize) {
         let mean = values.iter().sum::<f64>() / number;
         let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
         let deviation = (squares / (number - 1.0)).sqrt();
-        assert_eq!(found.count, values.len());
+        assert_eq!(found.count, values.len() as u64);
         assert!((found.mean - mean).abs() <= 1e-12 * mean);
         let sigma = found.sigma.expect("several values");
         assert!((sigma - deviation).abs() <= 1e-9 * deviation);

@@ -24,7 +24,7 @@ fn sampled(omega: f64, half_width: f64) -> MonteCarlo {
 fn assert_moments(run: &MonteCarlo, mean: f64, deviation: f64, what: &str) {
     assert_eq!(run.counts.stable, SAMPLES, "{what}");
     let found = run.modes[0].as_ref().expect("values");
-    assert_eq!(found.count, SAMPLES, "{what}");
+    assert_eq!(found.count, SAMPLES as u64, "{what}");
     let error = deviation / (SAMPLES as f64).sqrt();
     let off = (found.mean - mean) / error;
     assert!(

@@ -96,6 +96,14 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question
                 black_box(done);
             }));
         }),
+        ("samples_between", |s, _| answered(s.samples_between(0..1))),
+        ("sample_modes", |s, _| {
+            answered(s.sample_modes(&s.sampling()))
+        }),
+        ("resume_samples", |s, _| {
+            let mut part = s.samples_between(1..2).expect("samples");
+            answered(s.resume_samples(&mut part, &s.sampling()));
+        }),
     ]
 }
 
@@ -124,7 +132,14 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Que
         monte_carlo_with_progress(&|done| {
             black_box(done);
         });
+        samples_between(0..1);
+        sample_modes(&study.sampling());
     };
+    questions.push(("resume_samples", |s, _| {
+        let solved = s.solve().expect("solved");
+        let mut part = solved.samples_between(1..2).expect("samples");
+        answered(solved.resume_samples(&mut part, &s.sampling()));
+    }));
     questions.push(("whirls", |s, _| {
         black_box(s.solve().expect("solved").whirls());
     }));

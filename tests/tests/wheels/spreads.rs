@@ -63,7 +63,7 @@ fn samples_spread_as_the_derivatives_say() {
     close(model.sigma, spread, 0.0, "sigma of second order");
     close(model.mean_shift, mean, 0.0, "mean of second order");
 
-    let omega = drawn.modes[weave].expect("it oscillates");
+    let omega = drawn.modes[weave].as_ref().expect("it oscillates");
     let deviation = omega.sigma.expect("many samples");
     let error = spread / (SAMPLES as f64).sqrt();
     let off = omega.mean - s.im - mean;

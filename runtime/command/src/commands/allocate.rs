@@ -1,15 +1,15 @@
 //! The cheapest tolerances that meet requirements.
 
 use clap::Args;
-use eigentol::{Parameter, Study};
 use eigentol::allocation::{Choices, Cost, HalfWidth, Nominal};
 use eigentol::requirement::Requirement;
 use eigentol::response::Response;
+use eigentol::{Parameter, Study};
 use eigentol::{Quantity, Unit};
 use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::{Point, Question, design, parameter, unknown, written};
 use crate::study_file::{self, Choose, Require, Written};
 use crate::verdict::Verdict;
@@ -52,8 +52,8 @@ impl Allocate {
             choose(&study, choice, &mut choices)?;
         }
         let found = study.allocation(&wanted, &choices)?;
-        let mut answer = Answer::default();
-        answer.add(&found);
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
         self.output.write(&answer)?;
         Ok(match found.refuted.first() {
             None => Verdict::Yes,
@@ -67,9 +67,9 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
         (true, None, None) => return Ok(Requirement::Stable),
         (false, Some(mode), None) => {
             let quantity = own.quantity.into();
-            let mode = mode.checked_sub(1).ok_or_else(|| {
-                Failure::usage("there is no mode 0", "modes are counted from 1")
-            })?;
+            let mode = mode
+                .checked_sub(1)
+                .ok_or_else(|| Failure::usage("there is no mode 0", "modes are counted from 1"))?;
             (Response::Mode { mode, quantity }, unit_of(quantity))
         }
         (false, None, Some(name)) => output(study, name)?,
@@ -92,8 +92,12 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
         )),
         (low, high, None) => Ok(Requirement::Within {
             response,
-            low: low.as_ref().map_or(Ok(f64::NEG_INFINITY), |text| read("at_least", text))?,
-            high: high.as_ref().map_or(Ok(f64::INFINITY), |text| read("at_most", text))?,
+            low: low
+                .as_ref()
+                .map_or(Ok(f64::NEG_INFINITY), |text| read("at_least", text))?,
+            high: high
+                .as_ref()
+                .map_or(Ok(f64::INFINITY), |text| read("at_most", text))?,
         }),
     }
 }
@@ -101,7 +105,10 @@ fn requirement(study: &Study<Interpreted>, own: &Require) -> Result<Requirement,
 fn output(study: &Study<Interpreted>, name: &str) -> Result<(Response, Unit), Failure> {
     let all = &study.description().outputs;
     match study.find_output(name) {
-        Ok(found) => Ok((Response::Output(found.any()), all[found.index()].unit.clone())),
+        Ok(found) => Ok((
+            Response::Output(found.any()),
+            all[found.index()].unit.clone(),
+        )),
         Err(_) => {
             let known = all.iter().map(|info| &info.name);
             Err(unknown(study.description(), "output", name, known))
@@ -138,7 +145,10 @@ fn choose(
     choices: &mut Choices<'_>,
 ) -> Result<(), Failure> {
     let limits = |unit: &Unit| -> Result<(f64, f64), Failure> {
-        Ok((written("least", &own.least, unit)?, written("most", &own.most, unit)?))
+        Ok((
+            written("least", &own.least, unit)?,
+            written("most", &own.most, unit)?,
+        ))
     };
     match (&own.tolerance, &own.nominal, own.cost) {
         (Some(name), None, Some(cost)) => {
@@ -159,7 +169,10 @@ fn choose(
         }
         _ => {
             let help = "write `tolerance = \"l\"` with a `cost`, or `nominal = \"l\"` without one";
-            return Err(Failure::usage("a choice is a tolerance or a nominal value", help));
+            return Err(Failure::usage(
+                "a choice is a tolerance or a nominal value",
+                help,
+            ));
         }
     }
     Ok(())
@@ -175,9 +188,14 @@ fn place(
         Parameter::Design(variable) => return Ok(variable.index()),
         Parameter::Input(input) => input,
     };
-    let found = study.deviating_inputs().iter().position(|own| *own == input);
-    found.map(|k| study.design_values().len() + k).ok_or_else(|| {
-        let help = format!("give `{name}` any tolerance, which says how it is distributed");
-        Failure::usage(format!("`{name}` has no tolerance"), help)
-    })
+    let found = study
+        .deviating_inputs()
+        .iter()
+        .position(|own| *own == input);
+    found
+        .map(|k| study.design_values().len() + k)
+        .ok_or_else(|| {
+            let help = format!("give `{name}` any tolerance, which says how it is distributed");
+            Failure::usage(format!("`{name}` has no tolerance"), help)
+        })
 }

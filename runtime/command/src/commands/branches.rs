@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::sweep::Sweep;
 use crate::verdict::Verdict;
@@ -24,9 +24,11 @@ impl Branches {
         self.output.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range(&question)?;
-        let found = question.study.branches(range.input, range.low, range.high)?;
-        let mut answer = Answer::default();
-        answer.add(&found);
+        let found = question
+            .study
+            .branches(range.input, range.low, range.high)?;
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
         self.output.write(&answer)?;
         if found.stable().next().is_some() {
             return Ok(Verdict::Yes);

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
@@ -31,10 +31,14 @@ impl Campbell {
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question)?;
         let given = question.file.orders.clone().unwrap_or_default();
-        let orders = if self.orders.is_empty() { &given } else { &self.orders };
+        let orders = if self.orders.is_empty() {
+            &given
+        } else {
+            &self.orders
+        };
         let found = question.study.campbell(range.input, &values, orders)?;
-        let mut answer = Answer::default();
-        answer.add(&found);
+        let mut answer = self.output.answer();
+        answer.add(&found)?;
         self.output.write(&answer)?;
         let mut states = found.points.iter().map(|point| point.modes.is_ok());
         if states.any(|found| found) {

@@ -7,7 +7,7 @@ use eigentol::{Description, Role};
 
 use crate::declaration::Declaration;
 use crate::failure::{Failure, plural};
-use crate::output::print;
+use crate::place::print;
 use crate::verdict::Verdict;
 
 /// Check declarations: every mistake with its place, or what they declare

@@ -5,7 +5,7 @@ use clap_complete::{Shell, generate};
 
 use crate::arguments::Arguments;
 use crate::failure::Failure;
-use crate::output::print;
+use crate::place::print;
 use crate::verdict::Verdict;
 
 /// Print what a shell needs to complete this command: `eigentol completions bash > /etc/bash_completion.d/eigentol`
@@ -17,7 +17,12 @@ pub(crate) struct Completions {
 impl Completions {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         let mut script = Vec::new();
-        generate(self.shell, &mut Arguments::command(), "eigentol", &mut script);
+        generate(
+            self.shell,
+            &mut Arguments::command(),
+            "eigentol",
+            &mut script,
+        );
         print(&String::from_utf8_lossy(&script))?;
         Ok(Verdict::Yes)
     }

@@ -10,7 +10,7 @@ use proc_macro2::TokenStream;
 
 use crate::declaration::Declaration;
 use crate::failure::Failure;
-use crate::output::Output;
+use crate::place::Place;
 use crate::verdict::Verdict;
 
 /// Show what the compiler makes of a declaration: Rust, any stage before it, or what each kernel costs
@@ -23,7 +23,7 @@ pub(crate) struct Expand {
     #[arg(long, value_enum, default_value = "rust")]
     stage: Stage,
     #[command(flatten)]
-    output: Output,
+    place: Place,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -46,7 +46,7 @@ enum Stage {
 
 impl Expand {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
-        self.output.check()?;
+        self.place.check()?;
         let declaration = Declaration::read(&self.file)?;
         let compilation = compiled(&declaration)?;
         let mut text = match self.stage {
@@ -61,15 +61,16 @@ impl Expand {
         if !text.ends_with('\n') {
             text.push('\n');
         }
-        self.output.write_text(&text)?;
+        self.place.write(&text)?;
         Ok(Verdict::Yes)
     }
 }
 
 fn compiled(declaration: &Declaration) -> Result<Compilation, Failure> {
     let tokens = declaration.text.parse::<TokenStream>();
-    let tokens = tokens.map_err(|error| declaration.refused(error.into()))?;
-    compile(tokens, Limits::default()).map_err(|mistakes| declaration.refused(mistakes.into()))
+    let tokens = tokens.map_err(|error| declaration.not_compiled(&error.into()))?;
+    compile(tokens, Limits::default())
+        .map_err(|mistakes| declaration.not_compiled(&mistakes.into()))
 }
 
 fn dump(compilation: &Compilation, stage: &str) -> String {
@@ -80,7 +81,10 @@ fn dump(compilation: &Compilation, stage: &str) -> String {
 
 /// A line for each kernel: additions and the like, and functions such as sines.
 fn operations(compilation: &Compilation) -> String {
-    let mut text = format!("{:<24} {:>10} {:>10}\n", "kernel", "operations", "functions");
+    let mut text = format!(
+        "{:<24} {:>10} {:>10}\n",
+        "kernel", "operations", "functions"
+    );
     for kernel in &compilation.program.kernels {
         let cost = &kernel.cost;
         // A string takes everything.

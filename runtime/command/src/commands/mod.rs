@@ -6,6 +6,8 @@ pub(crate) mod campbell;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod expand;
+pub(crate) mod import;
+pub(crate) mod merge;
 pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod sample;

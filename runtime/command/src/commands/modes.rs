@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::verdict::Verdict;
 
@@ -21,9 +21,9 @@ impl Modes {
         self.output.check()?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
-        let mut answer = Answer::default();
-        answer.add(&solved.equilibrium);
-        answer.add(&solved.modes);
+        let mut answer = self.output.answer();
+        answer.add(&solved.modes)?;
+        answer.add(&solved.equilibrium)?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

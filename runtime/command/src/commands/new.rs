@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::print;
+use crate::place::print;
 use crate::verdict::Verdict;
 
 const MANIFEST: &str = include_str!("../../starter/manifest.toml");
@@ -37,10 +37,15 @@ impl New {
             None => format!("\"{version}\""),
             Some(path) => {
                 let path = fs::canonicalize(path).map_err(|source| Failure::read(path, source))?;
-                format!("{{ version = \"{version}\", path = {:?} }}", path.display().to_string())
+                format!(
+                    "{{ version = \"{version}\", path = {:?} }}",
+                    path.display().to_string()
+                )
             }
         };
-        let manifest = MANIFEST.replace("NAME", name).replace("DEPENDENCY", &dependency);
+        let manifest = MANIFEST
+            .replace("NAME", name)
+            .replace("DEPENDENCY", &dependency);
         let files = [
             ("Cargo.toml", manifest.as_str()),
             ("src/main.rs", PROGRAM),

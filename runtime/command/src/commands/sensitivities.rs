@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::verdict::Verdict;
 
@@ -21,11 +21,11 @@ impl Sensitivities {
         self.output.check()?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
-        let mut answer = Answer::default();
-        answer.add(&solved.equilibrium_shift()?);
-        answer.add(&solved.sensitivities()?);
+        let mut answer = self.output.answer();
+        answer.add(&solved.sensitivities()?)?;
+        answer.add(&solved.equilibrium_shift()?)?;
         if !question.study.description().outputs.is_empty() {
-            answer.add(&solved.outputs()?);
+            answer.add(&solved.outputs()?)?;
         }
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

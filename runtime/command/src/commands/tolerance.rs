@@ -3,7 +3,7 @@
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::output::{Answer, Output};
+use crate::output::Output;
 use crate::point::Point;
 use crate::verdict::Verdict;
 
@@ -21,11 +21,11 @@ impl Tolerance {
         self.output.check()?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
-        let mut answer = Answer::default();
-        answer.add(&solved.first_order()?);
-        answer.add(&solved.summary()?);
+        let mut answer = self.output.answer();
+        answer.add(&solved.first_order()?)?;
+        answer.add(&solved.summary()?)?;
         if !question.study.description().outputs.is_empty() {
-            answer.add(&solved.output_tolerances()?);
+            answer.add(&solved.output_tolerances()?)?;
         }
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

@@ -13,10 +13,8 @@
 mod samples;
 mod solve;
 mod stages;
-mod sums;
 mod taylor_model;
 
 pub(super) use samples::{Memory, Solved};
 pub(super) use solve::TOGETHER;
-pub(super) use sums::Sums;
 pub(super) use taylor_model::TaylorModel;

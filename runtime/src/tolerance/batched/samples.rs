@@ -17,7 +17,9 @@ pub(in crate::tolerance) struct Solved<'a> {
     /// How many of them are samples.
     pub(in crate::tolerance) members: usize,
     /// Standard normal numbers, one for each design variable.
-    pub(super) standard: &'a mut [Batch],
+    pub(in crate::tolerance) standard: &'a mut [Batch],
+    /// They are given, not drawn.
+    pub(in crate::tolerance) given: bool,
     /// One for those that passed every check so far.
     pub(super) flags: Batch,
     /// One for those at whose equilibrium Newton's method came to rest.
@@ -63,6 +65,7 @@ impl Memory {
             bits: bits.next().unwrap_or_default(),
             members: 0,
             standard: room.take(2 * pairs),
+            given: false,
             flags: Batch::default(),
             resting: Batch::default(),
             residual: room.take(n),

@@ -1,8 +1,8 @@
 //! Some batches of samples, through each stage together.
 
+use super::TaylorModel;
 use super::samples::Solved;
 use super::stages;
-use super::{Sums, TaylorModel};
 use crate::batched::algebra::for_size;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
@@ -14,12 +14,11 @@ const STEPS: usize = 6;
 pub(in crate::tolerance) const TOGETHER: usize = 4;
 
 impl TaylorModel<'_> {
-    /// Solves the members of some batches from their random bits, and adds them to `sums`.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>], sums: &mut Sums) {
+    /// Solves the members of some batches from their random bits.
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>]) {
         self.instructions.run(Work {
             prepared: self,
             batches,
-            sums,
         });
     }
 
@@ -35,7 +34,6 @@ impl TaylorModel<'_> {
 struct Work<'a, 'b> {
     prepared: &'a TaylorModel<'a>,
     batches: &'a mut [Solved<'b>],
-    sums: &'a mut Sums,
 }
 
 impl Task for Work<'_, '_> {
@@ -43,26 +41,17 @@ impl Task for Work<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self {
-            prepared,
-            batches,
-            sums,
-        } = self;
+        let Self { prepared, batches } = self;
         for_size(
-            prepared.frequencies.len(),
+            prepared.nominal.coordinates.len(),
             #[inline(always)]
-            |n| through::<V>(n, prepared, batches, sums),
+            |n| through::<V>(n, prepared, batches),
         );
     }
 }
 
 #[inline(always)]
-fn through<V: Lanes>(
-    n: usize,
-    prepared: &TaylorModel<'_>,
-    batches: &mut [Solved<'_>],
-    sums: &mut Sums,
-) {
+fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved<'_>]) {
     let one = V::constant(1.0);
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
@@ -120,17 +109,13 @@ fn through<V: Lanes>(
         let members = (1_u32 << batch.members) - 1;
         for at in (0..WIDTH).step_by(V::WIDTH) {
             let (lambda, flag) = stages::modes::<V>(n, prepared, batch, at);
-            let (frequencies, nominal) = (&mut batch.frequencies[..n], &prepared.frequencies[..n]);
+            let frequencies = &mut batch.frequencies[..n];
             for r in 0..n {
-                let frequency = lambda[r].sqrt();
-                frequency.store(&mut frequencies[r], at);
-                let nominal = V::constant(nominal[r]);
-                sums.add(r, at, frequency - nominal, flag);
+                lambda[r].sqrt().store(&mut frequencies[r], at);
             }
             let accepted = V::bits(one.at_most(flag));
             batch.accepted |= accepted << at;
         }
         batch.accepted &= members;
-        sums.count(batch.accepted.count_ones());
     }
 }

@@ -27,7 +27,7 @@ pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved<'_>,
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
     let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
     for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
-        if *drawn {
+        if *drawn && !batch.given {
             let (first, second) =
                 standard_normal_pair(V::probability(radius, at), V::probability(angle, at));
             first.store(&mut normal[0], at);

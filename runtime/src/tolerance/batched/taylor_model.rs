@@ -49,9 +49,8 @@ pub(in crate::tolerance) struct TaylorModel<'a> {
     pub(super) second: Vec<Square<f64>>,
     /// Nominal modes, one in each row.
     pub(super) shapes: Square<f64>,
-    /// Their `lambda`, 1/s^2, and frequencies, rad/s.
+    /// Their `lambda`, 1/s^2.
     pub(super) lambda: Row<f64>,
-    pub(in crate::tolerance) frequencies: Vector,
     /// No design that can be drawn breaks a physical requirement: samples need not ask.
     pub(super) all_possible: bool,
     /// Displacements that one standard deviation of every variable causes.
@@ -81,7 +80,6 @@ impl<'a> TaylorModel<'a> {
         }
         let shapes = modes.real_shapes();
         let lambda: Vector = modes.modes.iter().map(|mode| mode.lambda).collect();
-        let frequencies = lambda.map(f64::sqrt);
         if !lambda.iter().all(|&value| value > 0.0) || !well_conditioned(nominal, &shapes, &lambda)
         {
             return None;
@@ -150,7 +148,6 @@ impl<'a> TaylorModel<'a> {
             first: first.iter().map(|slope| row(slope)).collect(),
             shapes: small(&shapes),
             lambda: row(&lambda),
-            frequencies,
         })
     }
 }

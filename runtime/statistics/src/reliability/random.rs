@@ -1,26 +1,21 @@
 //! Samples of independent standard normal variables: sample `k` is a function of seed, stream and `k` alone.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
 use crate::normal::quantile;
+use crate::random::RandomNumbers;
 
 /// Draws samples in sequence from a given one on.
 pub(super) struct NormalSamples {
-    random: ChaCha8Rng,
+    random: RandomNumbers,
     sample: Vec<f64>,
 }
 
 impl NormalSamples {
     /// Prepares to draw sample `first` of this many variables and its successors.
     pub(super) fn new(seed: u64, stream: u64, first: u64, dimension: usize) -> Self {
-        // Two words of 32 bits for each variable, and as many for the choice that comes with each sample.
-        let words = 2 * (dimension as u128 + 1);
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(stream);
-        random.set_word_pos(u128::from(first) * words);
+        // One for each variable, and one for the choice that comes with each sample.
+        let numbers = dimension as u128 + 1;
         Self {
-            random,
+            random: RandomNumbers::starting_at(seed, stream, u128::from(first) * numbers),
             sample: vec![0.0; dimension],
         }
     }
@@ -32,28 +27,17 @@ impl NormalSamples {
 
     /// The next sample, and a number uniform in (0, 1) that is independent of it.
     pub(super) fn next_with_choice(&mut self) -> (f64, &[f64]) {
-        let choice = probability(self.random.next_u64());
+        let choice = self.random.probability();
         for value in &mut self.sample {
-            *value = quantile(probability(self.random.next_u64()));
+            *value = quantile(self.random.probability());
         }
         (choice, &self.sample)
     }
 }
 
-/// A probability strictly inside (0, 1).
-fn probability(bits: u64) -> f64 {
-    ((bits >> 12) as f64 + 0.5) * 2.0_f64.powi(-52)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn probabilities_lie_inside() {
-        assert_eq!(probability(0), 2.0_f64.powi(-53));
-        assert_eq!(probability(u64::MAX), 1.0 - 2.0_f64.powi(-53));
-    }
 
     #[test]
     fn samples_are_addressable() {

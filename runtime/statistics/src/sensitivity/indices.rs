@@ -1,10 +1,8 @@
 //! Variance-based indices with intervals by the bootstrap.
 
-use rand_chacha::rand_core::Rng;
-
 use super::estimator::{Estimator, Sums};
 use crate::Error;
-use crate::sequence::generator;
+use crate::random::RandomNumbers;
 
 /// How to find confidence intervals: by the percentiles of estimates from rows drawn with replacement (Efron 1979; Archer,
 /// Saltelli and Sobol', J. Stat. Comput. Simul. 58, 1997). For quasi-random rows the intervals are too wide.
@@ -180,10 +178,10 @@ impl Rows {
 
 /// How often each row is among as many drawn with replacement.
 fn drawn(rows: usize, seed: u64, stream: u64) -> Vec<f64> {
-    let mut random = generator(seed, stream);
+    let mut random = RandomNumbers::new(seed, stream);
     let mut times = vec![0.0; rows];
     for _ in 0..rows {
-        let row = (u128::from(random.next_u64()) * rows as u128) >> 64;
+        let row = (u128::from(random.bits()) * rows as u128) >> 64;
         times[row as usize] += 1.0;
     }
     times

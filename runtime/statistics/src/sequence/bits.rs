@@ -1,7 +1,6 @@
 //! Random bits that are a function of a key and a number, and how they become a number in the open unit interval.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use crate::random::RandomNumbers;
 
 /// Output number `word` of SplitMix64 with the state `key` (Steele, Lea and Flood, OOPSLA 2014).
 pub(super) fn hash(key: u64, word: u64) -> u64 {
@@ -13,15 +12,8 @@ pub(super) fn hash(key: u64, word: u64) -> u64 {
 
 /// Independent keys, as many as asked for.
 pub(super) fn keys(seed: u64, stream: u64, number: usize) -> Vec<u64> {
-    let mut random = generator(seed, stream);
-    (0..number).map(|_| random.next_u64()).collect()
-}
-
-/// The generator of a stream, at its beginning.
-pub(crate) fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(stream);
-    random
+    let mut random = RandomNumbers::new(seed, stream);
+    (0..number).map(|_| random.bits()).collect()
 }
 
 /// A binary fraction of 64 digits, the last one taken as one, cut to the 53 digits of a float: inside the open interval, and

@@ -1,9 +1,8 @@
 //! Point after point.
 
-use rand_chacha::ChaCha8Rng;
-
 use super::random::draw;
 use super::{Kind, Sequence};
+use crate::random::RandomNumbers;
 
 /// Walks along a [`Sequence`]: see [`Sequence::from`].
 #[derive(Clone, Debug)]
@@ -17,7 +16,7 @@ pub struct Cursor<'a> {
 /// What a point leaves for the next one.
 #[derive(Clone, Debug)]
 enum State {
-    Random(Box<ChaCha8Rng>),
+    Random(Box<RandomNumbers>),
     Sobol(Vec<u64>),
     Nothing,
 }

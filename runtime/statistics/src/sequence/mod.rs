@@ -30,7 +30,6 @@ use random::{Random, draw};
 use scrambling::DIGITS;
 use sobol::Sobol;
 
-pub(crate) use bits::generator;
 pub use cursor::Cursor;
 
 /// A set of points in the open unit cube of some dimension.

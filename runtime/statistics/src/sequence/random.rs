@@ -1,9 +1,7 @@
 //! Independent points.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
-
-use super::bits::{generator, open_unit};
+use super::bits::open_unit;
+use crate::random::RandomNumbers;
 
 /// Points of ChaCha8: coordinate `j` of point `k` is number `k d + j` of the stream.
 #[derive(Clone, Debug)]
@@ -14,15 +12,14 @@ pub(super) struct Random {
 }
 
 impl Random {
-    /// The generator at point `k`. A coordinate takes two words.
-    pub(super) fn at(&self, k: u64) -> ChaCha8Rng {
-        let mut random = generator(self.seed, self.stream);
-        random.set_word_pos(u128::from(k) * 2 * self.dimensions as u128);
-        random
+    /// The numbers from those of point `k` on.
+    pub(super) fn at(&self, k: u64) -> RandomNumbers {
+        let index = u128::from(k) * self.dimensions as u128;
+        RandomNumbers::starting_at(self.seed, self.stream, index)
     }
 }
 
-/// Writes the point the generator stands at, and goes on to the next.
-pub(super) fn draw(random: &mut ChaCha8Rng, into: &mut [f64]) {
-    into.fill_with(|| open_unit(random.next_u64()));
+/// Writes the next point.
+pub(super) fn draw(random: &mut RandomNumbers, into: &mut [f64]) {
+    into.fill_with(|| open_unit(random.bits()));
 }

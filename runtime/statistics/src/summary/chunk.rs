@@ -135,18 +135,49 @@ impl Chunk {
         Ok(())
     }
 
-    /// Counts an outcome of one sample.
+    /// Sets a quantity of some neighbouring samples, `first` and those after it, at most 64: of those that have it, by the bits of
+    /// `having` from the lowest on.
+    ///
+    /// # Errors
+    ///
+    /// There is no such quantity, or not all of these are samples of this chunk.
+    #[inline]
+    pub fn set_some(
+        &mut self,
+        first: u64,
+        quantity: usize,
+        values: &[f64],
+        having: u64,
+    ) -> Result<(), Error> {
+        check_below("quantity", quantity, self.present.len())?;
+        let (start, count) = ((first % CHUNK as u64) as usize, values.len());
+        if first / CHUNK as u64 != self.index || !self.covered.has_all(start, count) {
+            let reason =
+                format!("{first} and the next, {count} in all, are not among those of this chunk");
+            return Err(Error::Setting {
+                setting: "samples",
+                reason,
+            });
+        }
+        let place = quantity * CHUNK + start;
+        self.values[place..place + count].copy_from_slice(values);
+        self.present[quantity].put(start, count, having);
+        Ok(())
+    }
+
+    /// Counts an outcome of so many samples.
     ///
     /// # Errors
     ///
     /// There is no such outcome.
-    pub fn count(&mut self, outcome: usize) -> Result<(), Error> {
+    pub fn count(&mut self, outcome: usize, samples: u64) -> Result<(), Error> {
         check_below("outcome", outcome, self.outcomes.len())?;
-        self.outcomes[outcome] += 1;
+        self.outcomes[outcome] += samples;
         Ok(())
     }
 
     /// The values of a quantity at all places of the chunk, and which are there.
+    #[inline(always)]
     pub(super) fn column(&self, quantity: usize) -> Option<(&[f64; CHUNK], Mask)> {
         let (columns, _) = self.values.as_chunks::<CHUNK>();
         Some((columns.get(quantity)?, *self.present.get(quantity)?))

@@ -5,12 +5,14 @@ const LANES: usize = 8;
 /// Eight accumulators, each of every eighth value.
 type Lanes = [f64; LANES];
 
+#[inline(always)]
 fn total(lanes: &Lanes) -> f64 {
     let [a, b, c, d, e, f, g, h] = lanes;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 /// The sum of the deviations from `pivot`, the least and the greatest value. The last two of no values are infinite.
+#[inline(always)]
 pub(super) fn sum_and_range(values: &[f64], pivot: f64) -> (f64, f64, f64) {
     let (mut sums, mut least, mut greatest) = (
         [0.0; LANES],
@@ -61,6 +63,7 @@ pub(super) fn sum_from(values: &[f64], pivot: f64) -> f64 {
 }
 
 /// The sums of the first four powers of the deviations from `centre`.
+#[inline(always)]
 pub(super) fn powers(values: &[f64], centre: f64) -> [f64; 4] {
     let mut sums = [[0.0; LANES]; 4];
     let (blocks, rest) = values.as_chunks::<LANES>();

@@ -48,6 +48,44 @@ impl Mask {
         Self(std::array::from_fn(|k| self.0[k] | other.0[k]))
     }
 
+    /// The bits of places from `start` on in the word of that place and in the next one.
+    #[inline]
+    fn words(start: usize, bits: u64) -> [(usize, u64); 2] {
+        let (word, shift) = (start / 64, start % 64);
+        [
+            (word, bits << shift),
+            (word + 1, (bits >> 1) >> (63 - shift)),
+        ]
+    }
+
+    /// So many bits from the lowest on.
+    #[inline]
+    fn first(count: usize) -> u64 {
+        u64::MAX.checked_shr(64 - count.min(64) as u32).unwrap_or(0)
+    }
+
+    /// Whether all of some places from `start` on are there, at most 64.
+    #[inline]
+    pub(super) fn has_all(&self, start: usize, count: usize) -> bool {
+        let has = |(word, among): (usize, u64)| {
+            let own = self.0.get(word).copied().unwrap_or(0);
+            own & among == among
+        };
+        let words = Self::words(start, Self::first(count));
+        count <= 64 && words.into_iter().all(has)
+    }
+
+    /// Sets some places from `start` on, at most 64, to bits from the lowest on.
+    #[inline]
+    pub(super) fn put(&mut self, start: usize, count: usize, bits: u64) {
+        let among = Self::words(start, Self::first(count));
+        for ((word, among), (_, bits)) in among.into_iter().zip(Self::words(start, bits)) {
+            if let Some(word) = self.0.get_mut(word) {
+                *word = *word & !among | bits & among;
+            }
+        }
+    }
+
     pub(super) fn is_full(self) -> bool {
         self.0 == [u64::MAX; WORDS]
     }
@@ -66,6 +104,7 @@ impl Mask {
     }
 
     /// The values at these places, side by side: `values` themselves or a part of `room`.
+    #[inline(always)]
     pub(super) fn select<'a>(
         self,
         values: &'a [f64; CHUNK],
@@ -99,6 +138,25 @@ mod tests {
             );
             assert!((0..300).all(|place| mask.has(place) == range.contains(&place)));
         }
+    }
+
+    #[test]
+    fn bits_from_any_place() {
+        for start in [0, 5, 57, 60, 64, 100, 248] {
+            for count in [0, 1, 8, 64] {
+                let mut mask = Mask::of(3..250);
+                let mut expected = mask;
+                let bits = 0x9bd1_33a7_0f55_1293;
+                mask.put(start, count, bits);
+                for k in 0..count {
+                    expected.set(start + k, bits >> k & 1 == 1);
+                }
+                assert_eq!(mask, expected, "{start} {count}");
+                let whole = (start..start + count).all(|place| expected.has(place));
+                assert_eq!(mask.has_all(start, count), whole, "{start} {count}");
+            }
+        }
+        assert!(!Mask::of(0..256).has_all(250, 8) && !Mask::of(0..256).has_all(0, 65));
     }
 
     #[test]

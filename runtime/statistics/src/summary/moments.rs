@@ -40,6 +40,7 @@ impl Moments {
     /// Of these values, in two passes: their mean, then their deviations from it. They should be numbers of at most
     /// [`LARGEST`] in magnitude; others leave statistics that are not there.
     #[must_use]
+    #[inline(always)]
     pub fn of(values: &[f64]) -> Self {
         let Some(&pivot) = values.first() else {
             return Self::default();
@@ -59,6 +60,16 @@ impl Moments {
             min,
             max,
         }
+    }
+
+    /// Of so many values that are all the same.
+    #[must_use]
+    pub fn of_equal(value: f64, count: u64) -> Self {
+        let one = Self::of(&[value]);
+        if count == 0 {
+            return Self::default();
+        }
+        Self { count, ..one }
     }
 
     /// Adds the values of another.

@@ -35,12 +35,20 @@ impl Partial {
         }
     }
 
+    /// What is learnt from the samples.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
     /// Adds the samples of a chunk.
     ///
     /// # Errors
     ///
     /// Some of them have been added, the chunk is of another plan, or a value is no number of at most [`LARGEST`] in magnitude.
     /// Nothing has been added then.
+    // Inlined, so that it takes the vector instructions of its caller.
+    #[inline(always)]
     pub fn add(&mut self, chunk: &Chunk) -> Result<(), Error> {
         if chunk.present.len() != self.plan.quantities()
             || chunk.outcomes.len() != self.plan.outcomes
@@ -140,6 +148,21 @@ impl Partial {
     pub fn statistics(&self, quantity: usize) -> Result<Option<Statistics>, Error> {
         let moments = self.moments(quantity)?;
         Ok(Statistics::of(&moments, self.sketches[quantity].clone()))
+    }
+
+    /// Statistics of all quantities; `None` of those that no sample has.
+    #[must_use]
+    pub fn into_statistics(mut self) -> Vec<Option<Statistics>> {
+        let mut all = vec![Moments::default(); self.plan.quantities()];
+        self.fold(|node| {
+            for (all, own) in all.iter_mut().zip(&node.moments) {
+                all.merge(own);
+            }
+        });
+        let sketches = self.sketches.drain(..);
+        (all.iter().zip(sketches))
+            .map(|(moments, sketch)| Statistics::of(moments, sketch))
+            .collect()
     }
 
     /// Covariance of two quantities; `None` if no sample has both.

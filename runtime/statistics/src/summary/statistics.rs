@@ -5,6 +5,7 @@ use crate::Error;
 
 /// Statistics of one quantity over the samples that have it.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
@@ -85,6 +86,15 @@ impl Statistics {
             max: moments.max,
             sketch,
         })
+    }
+
+    /// Of a value that all of so many samples have; `None` without samples.
+    #[must_use]
+    pub fn of_equal(value: f64, count: u64) -> Option<Self> {
+        let mut sketch = Sketch::new(value, 1.0).ok()?;
+        let moments = Moments::of_equal(value, count);
+        sketch.add_equal(&moments);
+        Self::of(&moments, Some(sketch))
     }
 
     /// The distribution, if the plan asked for it.

@@ -20,16 +20,16 @@ pub(super) struct Node {
 
 impl Node {
     /// Of what there is of a chunk.
+    #[inline(always)]
     pub(super) fn of(chunk: &Chunk, plan: &Plan) -> Self {
         let (mut room, mut second_room) = ([0.0; CHUNK], [0.0; CHUNK]);
-        let quantities = 0..plan.quantities();
-        let moments = quantities.map(|k| {
-            let column = chunk.column(k);
-            column.map_or_else(Moments::default, |(values, mask)| {
-                Moments::of(mask.select(values, &mut room))
-            })
-        });
-        let moments = moments.collect();
+        let mut moments = Vec::with_capacity(plan.quantities());
+        for k in 0..plan.quantities() {
+            moments.push(match chunk.column(k) {
+                Some((values, mask)) => Moments::of(mask.select(values, &mut room)),
+                None => Moments::default(),
+            });
+        }
         let pairs = plan.pairs.iter().map(|&(first, second)| {
             let (Some((x, in_x)), Some((y, in_y))) = (chunk.column(first), chunk.column(second))
             else {

@@ -51,7 +51,7 @@ pub(crate) fn add(partial: &mut Partial, samples: Range<u64>) -> Result<(), Erro
             for (k, value) in quantities(sample).into_iter().enumerate() {
                 chunk.set(sample, k, value)?;
             }
-            chunk.count((sample % 5 == 3).into())?;
+            chunk.count((sample % 5 == 3).into(), 1)?;
         }
         partial.add(&chunk)?;
     }

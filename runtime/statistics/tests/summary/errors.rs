@@ -115,7 +115,7 @@ fn arguments_out_of_range() -> Result<(), Error> {
     }
     let mut chunk = Chunk::new(&plan, 10..20)?;
     assert!(chunk.set(20, 0, None).is_err() && chunk.set(10 + 256, 0, None).is_err());
-    assert!(chunk.set(10, 1, None).is_err() && chunk.count(1).is_err());
+    assert!(chunk.set(10, 1, None).is_err() && chunk.count(1, 1).is_err());
     let wrong = Error::WrongLength {
         kind: "values of samples",
         found: 3,

@@ -46,7 +46,10 @@ fn states_that_cannot_be_are_refused() -> Result<(), Error> {
     refused("/sketches/0", serde_json::Value::Null);
     refused("/sketches/0/count", 7.into());
     refused("/sketches/0/scale", 0.into());
-    refused("/sketches/0/buckets/first", 1.into());
+    refused("/sketches/0/buckets/0/0", 1.into());
+    refused("/sketches/0/buckets/0/0", i32::MIN.into());
+    refused("/sketches/0/buckets/0/1", 0.into());
+    refused("/sketches/0/buckets", serde_json::json!([]));
     refused("/plan/pairs/0", serde_json::json!([1, 9]));
     refused("/outcomes", serde_json::json!([]));
     Ok(())

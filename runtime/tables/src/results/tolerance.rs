@@ -117,7 +117,9 @@ pub(super) fn statistics<'a>(
     unit: &str,
     all: impl Iterator<Item = Option<&'a Statistics>> + Clone,
 ) {
-    let count = all.clone().map(|own| own.map_or(0, |own| own.count));
+    let count = all
+        .clone()
+        .map(|own| own.map_or(0, |own| own.count as usize));
     table.whole(format!("samples of {name}"), count);
     for (what, pick) in [
         (
@@ -126,6 +128,7 @@ pub(super) fn statistics<'a>(
         ),
         ("standard error", |own| own.standard_error),
         ("sigma", |own| own.sigma),
+        ("skewness", |own| own.skewness),
         ("least", |own| Some(own.min)),
         ("greatest", |own| Some(own.max)),
     ] {

@@ -39,7 +39,10 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
     };
     if design.tolerance.is_some() {
         let mut mistakes = Diagnostics::new();
-        mistakes.error(&design.name, "a value is expected here, without a tolerance");
+        mistakes.error(
+            &design.name,
+            "a value is expected here, without a tolerance",
+        );
         return Err(mistakes);
     }
     resolved(&ast, |resolver| {
@@ -67,10 +70,12 @@ pub fn tolerance(text: TokenStream, unit: TokenStream) -> Result<Tolerance, Diag
     let half_width = !text.to_string().starts_with(['+', '-']);
     let sign = half_width.then(|| quote!(+/-));
     let ast = parse(quote!(mechanism Given { input given: #unit #sign #text; }))?;
-    let [Item {
-        kind: ItemKind::Input(input),
-        ..
-    }] = &ast.items[..]
+    let [
+        Item {
+            kind: ItemKind::Input(input),
+            ..
+        },
+    ] = &ast.items[..]
     else {
         return not_one(&ast);
     };
@@ -169,9 +174,15 @@ mod tests {
         use crate::model::mechanism::Law;
 
         let found = tolerance(tokens("0.1mm"), tokens("m")).unwrap();
-        assert_eq!((found.lower, found.upper, found.relative), (-1e-4, 1e-4, false));
+        assert_eq!(
+            (found.lower, found.upper, found.relative),
+            (-1e-4, 1e-4, false)
+        );
         let found = tolerance(tokens("+2% -1% uniform"), tokens("m")).unwrap();
-        assert_eq!((found.lower, found.upper, found.relative), (-0.01, 0.02, true));
+        assert_eq!(
+            (found.lower, found.upper, found.relative),
+            (-0.01, 0.02, true)
+        );
         assert_eq!(found.law, Law::Uniform);
         let found = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"));
         assert!(matches!(found.unwrap().law, Law::Beta { .. }));

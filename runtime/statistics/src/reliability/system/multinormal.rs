@@ -1,11 +1,9 @@
 //! The multinormal probability of a box.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
 use super::factor::{Factor, factorise};
 use crate::Error;
 use crate::normal::{cdf, quantile};
+use crate::random::RandomNumbers;
 use crate::reliability::sampling::{Estimate, Interval};
 
 /// How finely to integrate.
@@ -75,12 +73,11 @@ pub fn box_probability(
     let factor = factorise(bounds, correlation)?;
     let dimension = factor.rows.len();
     let generators: Vec<f64> = primes().take(dimension).map(f64::sqrt).collect();
-    let mut random = ChaCha8Rng::seed_from_u64(settings.seed);
-    let mut uniform = || (random.next_u64() >> 11) as f64 * 2.0_f64.powi(-53);
+    let mut random = RandomNumbers::new(settings.seed, 0);
     let mut means = Vec::with_capacity(settings.shifts);
     let mut point = vec![0.0; dimension];
     for _ in 0..settings.shifts {
-        let shift: Vec<f64> = (0..dimension).map(|_| uniform()).collect();
+        let shift: Vec<f64> = (0..dimension).map(|_| random.fraction()).collect();
         let mut sum = 0.0;
         for k in 1..=settings.points {
             for ((x, generator), shift) in point.iter_mut().zip(&generators).zip(&shift) {

@@ -11,6 +11,7 @@ const OCTAVE: i32 = 1 << FRACTION;
 const SMALLEST_SHARE: i32 = 24;
 
 /// Exponent and leading digits of a magnitude, which count up with it.
+#[inline(always)]
 fn key(deviation: f64) -> i32 {
     (deviation.abs().to_bits() >> SHIFT) as i32
 }
@@ -30,7 +31,7 @@ impl Places {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn of_deviation(self, deviation: f64) -> i32 {
         let place = (key(deviation) - self.smallest + 1).max(0);
         if deviation < 0.0 { -place } else { place }
@@ -52,6 +53,10 @@ impl Places {
 /// Counts of whole octaves of places, from the first to the last that has any.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(into = "Vec<(i32, u64)>", try_from = "Vec<(i32, u64)>")
+)]
 pub(super) struct Buckets {
     /// Place of the first count, a multiple of [`OCTAVE`].
     first: i32,
@@ -78,13 +83,21 @@ impl Buckets {
     }
 
     /// Counts deviations at these places, for which there is room.
-    #[inline]
+    #[inline(always)]
     pub(super) fn count(&mut self, places: &[i32]) {
         let (first, counts) = (self.first, self.counts.as_mut_slice());
         for place in places {
             if let Some(count) = counts.get_mut((place - first) as usize) {
                 *count += 1;
             }
+        }
+    }
+
+    /// Counts so many deviations at one place, for which there is room.
+    pub(super) fn count_equal(&mut self, place: i32, number: u64) {
+        let place = (place - self.first) as usize;
+        if let Some(count) = self.counts.get_mut(place) {
+            *count += number;
         }
     }
 
@@ -124,6 +137,43 @@ impl Buckets {
             .iter()
             .try_fold(0_u64, |sum, count| sum.checked_add(*count))?;
         fits.then_some(sum)
+    }
+}
+
+/// Most are empty: those that have values are written.
+#[cfg(feature = "serde")]
+impl From<Buckets> for Vec<(i32, u64)> {
+    fn from(buckets: Buckets) -> Self {
+        buckets.counted().collect()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Vec<(i32, u64)>> for Buckets {
+    type Error = &'static str;
+
+    fn try_from(counted: Vec<(i32, u64)>) -> Result<Self, &'static str> {
+        // Of any two numbers.
+        let greatest = key(f64::MAX);
+        let known = |place: i32| (-greatest..=greatest).contains(&place);
+        if !counted
+            .iter()
+            .all(|(place, count)| known(*place) && *count > 0)
+            || !counted.is_sorted_by_key(|(place, _)| *place)
+        {
+            return Err("these are not the buckets of a sketch");
+        }
+        let mut buckets = Self::default();
+        if let (Some(first), Some(last)) = (counted.first(), counted.last()) {
+            buckets.reach(first.0, last.0);
+        }
+        for (place, count) in counted {
+            let at = (place - buckets.first) as usize;
+            if let Some(own) = buckets.counts.get_mut(at) {
+                *own = own.saturating_add(count);
+            }
+        }
+        Ok(buckets)
     }
 }
 

@@ -113,9 +113,17 @@ impl Sketch {
     }
 
     /// Values of at most [`LARGEST`](super::LARGEST), and their moments.
+    #[inline(always)]
     pub(in crate::summary) fn add_checked(&mut self, values: &[f64], moments: &Moments) {
         self.include(moments.count, moments.min, moments.max);
         self.count_all(values);
+    }
+
+    /// Values that are all the same, by their moments.
+    pub(in crate::summary) fn add_equal(&mut self, moments: &Moments) {
+        self.include(moments.count, moments.min, moments.max);
+        let place = self.place(moments.min);
+        self.buckets.count_equal(place, moments.count);
     }
 
     /// Another about the same reference.
@@ -146,6 +154,7 @@ impl Sketch {
     }
 
     /// At most [`CHUNK`] values, which `min` and `max` include.
+    #[inline(always)]
     fn count_all(&mut self, values: &[f64]) {
         let all = self.places();
         // Apart from counting, so that it can be vectorised.

@@ -1,0 +1,94 @@
+//! An answer: results as what people read, as tables, or as documents.
+
+use std::fmt::Display;
+
+use eigentol_compiler::base::nearest::nearest;
+use eigentol_tables::{Table, csv, json};
+
+use crate::failure::Failure;
+
+/// The results of a question; that which answers it comes first.
+pub(crate) struct Answer {
+    form: Form,
+    results: Vec<Written>,
+}
+
+/// In which form results are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    Text,
+    Csv,
+    Json,
+}
+
+/// A result in its form.
+struct Written {
+    kind: &'static str,
+    /// As text or as a document.
+    text: String,
+    tables: Vec<Table>,
+}
+
+impl Answer {
+    pub(crate) fn new(form: Form) -> Self {
+        Self {
+            form,
+            results: Vec::new(),
+        }
+    }
+
+    /// Adds a result.
+    pub(crate) fn add<R: Display + eigentol_tables::Answer>(
+        &mut self,
+        result: &R,
+    ) -> Result<(), Failure> {
+        let kind = R::KIND;
+        let (text, tables) = match self.form {
+            Form::Text => (result.to_string(), Vec::new()),
+            Form::Csv => (String::new(), result.tables()),
+            Form::Json => (json::to_string(result)?, Vec::new()),
+        };
+        self.results.push(Written { kind, text, tables });
+        Ok(())
+    }
+
+    /// The answer in its form: as text all results or the one of this kind, otherwise that one or the first.
+    pub(crate) fn written(
+        &self,
+        kind: Option<&str>,
+        table: Option<&str>,
+    ) -> Result<String, Failure> {
+        if self.form == Form::Text && kind.is_none() {
+            let all: Vec<&str> = self.results.iter().map(|own| own.text.as_str()).collect();
+            return Ok(all.join("\n"));
+        }
+        let result = named("result", &self.results, kind, |own| own.kind)?;
+        if self.form != Form::Csv {
+            return Ok(result.text.clone());
+        }
+        let table = named("table", &result.tables, table, |own| &own.name)?;
+        Ok(csv::to_string(table)?)
+    }
+}
+
+/// The one of this name, or the first where none is named.
+fn named<'a, T>(
+    what: &str,
+    all: &'a [T],
+    name: Option<&str>,
+    name_of: impl Fn(&'a T) -> &'a str,
+) -> Result<&'a T, Failure> {
+    let found = match name {
+        Some(name) => all.iter().find(|own| name_of(own) == name),
+        None => all.first(),
+    };
+    found.ok_or_else(|| {
+        let name = name.unwrap_or_default();
+        let names: Vec<&str> = all.iter().map(name_of).collect();
+        let help = match nearest(name, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are `{}`", names.join("`, `")),
+        };
+        Failure::usage(format!("the answer has no {what} `{name}`"), help)
+    })
+}

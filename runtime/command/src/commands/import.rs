@@ -1,0 +1,153 @@
+//! Robots of URDF files as declarations.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use eigentol::Unit;
+use eigentol_interpreter::value;
+use eigentol_urdf::{Options, Resistance};
+
+use crate::declaration::Declaration;
+use crate::diagnostics;
+use crate::failure::Failure;
+use crate::mistake::Mistake;
+use crate::place::Place;
+use crate::verdict::Verdict;
+
+/// Translate a robot in a URDF file to a declaration; what has no meaning in a mechanism is told as a note
+#[derive(Args, Debug)]
+pub(crate) struct Import {
+    /// URDF file, `-` for standard input
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// How the root of the robot is held
+    #[arg(long, value_enum, default_value = "fixed")]
+    base: Base,
+    /// What resists the joints, so that the robot has an equilibrium
+    #[arg(long, value_enum, default_value = "springs")]
+    joints: Joints,
+    /// Stiffness of the springs of turning joints [default: 50 N*m/rad]
+    #[arg(long, value_name = "VALUE")]
+    stiffness: Option<String>,
+    /// Damping of turning joints [default: 0.5 N*m*s/rad]
+    #[arg(long, value_name = "VALUE")]
+    damping: Option<String>,
+    /// Stiffness of the springs of sliding joints [default: 50 N/m]
+    #[arg(long, value_name = "VALUE")]
+    linear_stiffness: Option<String>,
+    /// Damping of sliding joints [default: 0.5 N*s/m]
+    #[arg(long, value_name = "VALUE")]
+    linear_damping: Option<String>,
+    /// Leave out the damping of joints in the file
+    #[arg(long)]
+    no_damping: bool,
+    /// Replace an inertia that no body can have by the nearest possible one
+    #[arg(long)]
+    nearest_inertias: bool,
+    /// Name of the mechanism [default: that of the robot]
+    #[arg(long)]
+    name: Option<String>,
+    /// Do not print notes
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    place: Place,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Base {
+    /// Welded to the ground
+    Fixed,
+    /// Free in space
+    Floating,
+    /// Free in the horizontal plane
+    Planar,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Joints {
+    /// A spring and a damper on every joint
+    Springs,
+    /// Joints that nothing resists are driven at 0
+    Driven,
+    /// Nothing: the declaration is for its kernels alone
+    Free,
+}
+
+impl Import {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.place.check()?;
+        let file = Declaration::read(&self.file)?;
+        let robot = eigentol_urdf::import(&file.text, &self.options()?);
+        let robot = robot
+            .map_err(|error| file.refused(error.mistakes.iter().map(Mistake::from).collect()))?;
+        self.place.write(&robot.declaration)?;
+        if !self.quiet {
+            robot.notes.iter().for_each(|note| diagnostics::note(note));
+        }
+        Ok(Verdict::Yes)
+    }
+
+    fn options(&self) -> Result<Options, Failure> {
+        let resistance = match self.joints {
+            Joints::Springs => self.springs()?,
+            Joints::Driven => Resistance::Drives,
+            Joints::Free => Resistance::KernelsOnly,
+        };
+        let options = Options::default()
+            .base(match self.base {
+                Base::Fixed => eigentol_urdf::Base::Fixed,
+                Base::Floating => eigentol_urdf::Base::Floating,
+                Base::Planar => eigentol_urdf::Base::Planar,
+            })
+            .resistance(resistance)
+            .damping(!self.no_damping)
+            .nearest_inertias(self.nearest_inertias);
+        Ok(match &self.name {
+            Some(name) => options.name(name),
+            None => options,
+        })
+    }
+
+    fn springs(&self) -> Result<Resistance, Failure> {
+        let mut springs = Resistance::default();
+        if let Resistance::Springs {
+            stiffness,
+            damping,
+            linear_stiffness,
+            linear_damping,
+        } = &mut springs
+        {
+            for (place, option, text, unit) in [
+                (stiffness, "stiffness", &self.stiffness, "N*m/rad"),
+                (damping, "damping", &self.damping, "N*m*s/rad"),
+                (
+                    linear_stiffness,
+                    "linear-stiffness",
+                    &self.linear_stiffness,
+                    "N/m",
+                ),
+                (
+                    linear_damping,
+                    "linear-damping",
+                    &self.linear_damping,
+                    "N*s/m",
+                ),
+            ] {
+                if let Some(text) = text {
+                    *place = si(option, text, unit)?;
+                }
+            }
+        }
+        Ok(springs)
+    }
+}
+
+fn si(option: &str, text: &str, symbol: &str) -> Result<f64, Failure> {
+    let unit = Unit {
+        symbol: symbol.to_owned().into(),
+        scale: 1.0,
+    };
+    let found = value(text, &unit, &format!("`{option}`"));
+    found.map_err(|mistakes| Failure::value(format!("--{option} {text}"), &mistakes))
+}

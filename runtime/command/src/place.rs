@@ -1,0 +1,105 @@
+//! Where text goes: standard output, or a file that is replaced when all of it is written.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::process;
+
+use clap::Args;
+
+use crate::failure::Failure;
+
+/// Where an answer goes.
+#[derive(Args, Debug)]
+pub(crate) struct Place {
+    /// Write to a file instead of standard output; a file that exists is replaced when the answer is complete
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Place {
+    /// Refuses, before long work, a file that cannot be written.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        match &self.output {
+            Some(path) => (Target::of(path).check()).map_err(|source| Failure::write(path, source)),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a text.
+    pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
+        match &self.output {
+            Some(path) => {
+                let written = Target::of(path).write(text.as_bytes());
+                written.map_err(|source| Failure::write(path, source))
+            }
+            None => print(text),
+        }
+    }
+}
+
+/// Writes to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => Failure::NobodyReads,
+        _ => Failure::Print(error),
+    })
+}
+
+/// A file to write.
+enum Target<'a> {
+    /// Written beside and moved into place, so that a failure leaves what was there.
+    File { path: &'a Path, beside: PathBuf },
+    /// A device or a pipe.
+    Device(&'a Path),
+}
+
+impl<'a> Target<'a> {
+    fn of(path: &'a Path) -> Self {
+        let device = fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
+        if device {
+            return Self::Device(path);
+        }
+        let mut name = path.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".{}.part", process::id()));
+        let beside = path.with_file_name(name);
+        Self::File { path, beside }
+    }
+
+    fn check(&self) -> io::Result<()> {
+        match self {
+            Self::Device(path) => OpenOptions::new().write(true).open(path).map(|_| ()),
+            Self::File { path, beside } => {
+                if path.is_dir() {
+                    return Err(io::ErrorKind::IsADirectory.into());
+                }
+                File::create(beside)?;
+                fs::remove_file(beside)
+            }
+        }
+    }
+
+    fn write(&self, content: &[u8]) -> io::Result<()> {
+        self.check()?;
+        match self {
+            Self::Device(path) => OpenOptions::new()
+                .write(true)
+                .open(path)?
+                .write_all(content),
+            Self::File { path, beside } => {
+                let written = File::create(beside).and_then(|mut file| {
+                    file.write_all(content)?;
+                    file.sync_all()
+                });
+                let moved = written.and_then(|()| fs::rename(beside, path));
+                if moved.is_err() {
+                    // What is left of it is of no use; that it stays is no other failure.
+                    let _ = fs::remove_file(beside);
+                }
+                moved
+            }
+        }
+    }
+}

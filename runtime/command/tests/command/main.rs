@@ -1,0 +1,15 @@
+//! The command as a user runs it.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod declarations;
+mod import;
+#[cfg(target_os = "linux")]
+mod interrupt;
+mod mistakes;
+mod outputs;
+mod parts;
+mod program;
+mod readme;
+mod rust_examples;
+mod starter;
+mod subcommands;

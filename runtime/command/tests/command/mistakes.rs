@@ -1,0 +1,242 @@
+//! Every mistake gets a message that says what to do, and its exit code.
+
+use std::fs;
+
+use crate::program::{PENDULUM, Run, examples, file, folder, pendulum, run, run_with_input};
+
+/// A run that fails with this code and this message and answers nothing.
+#[track_caller]
+fn refused(arguments: &[&str], expected: i32, parts: &[&str]) {
+    let Run { code, out, err } = run(arguments);
+    assert_eq!((code, out.as_str()), (expected, ""), "{arguments:?}: {err}");
+    for part in parts {
+        assert!(
+            err.contains(part),
+            "{arguments:?}: `{part}` is not in\n{err}"
+        );
+    }
+    assert!(!err.contains("panicked"), "{err}");
+}
+
+#[test]
+fn a_declaration_with_mistakes_is_drawn() {
+    let text = "mechanism A {\n    gravity 9.81 m/s^2 along -z;\n    body µbar: rod(mass: 3 kgg, length: 1 m, along: -z);\n    \
+                joint t: revolut(y) from ground to µbar;\n}\n";
+    let Run { code, out, err } = run_with_input(&["check", "-"], text);
+    assert_eq!((code, out.as_str()), (3, ""));
+    let expected = "\
+error: unknown unit `kgg`
+ --> standard input:3:28
+  |
+3 |     body µbar: rod(mass: 3 kgg, length: 1 m, along: -z);
+  |                            ^^^
+  |
+  = help: did you mean `kg`?
+
+error: unknown joint `revolut`
+ --> standard input:4:14
+  |
+4 |     joint t: revolut(y) from ground to µbar;
+  |              ^^^^^^^
+  |
+  = help: did you mean `revolute`?
+
+error: `standard input` has 2 mistakes
+";
+    assert_eq!(err, expected);
+}
+
+/// Wherever a file is cut off, there is a message and no panic.
+#[test]
+fn a_truncated_declaration_is_refused_wherever_it_ends() {
+    let text = fs::read_to_string(examples().join(PENDULUM)).unwrap();
+    let body = text.trim_end();
+    for end in (0..body.len()).step_by(23) {
+        let run = run_with_input(&["check", "-"], &body[..end]);
+        assert_eq!((run.code, run.out.as_str()), (3, ""), "{end}");
+        assert!(run.err.starts_with("error: "), "{end}: {}", run.err);
+        assert!(!run.err.contains("panicked"), "{end}: {}", run.err);
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let missing = ["cannot read `missing.mechanism`: No such file"];
+    refused(&["modes", "missing.mechanism"], 3, &missing);
+    refused(
+        &["check", PENDULUM.trim_end_matches("pendulum.mechanism")],
+        3,
+        &["cannot read"],
+    );
+    refused(&["check", "."], 3, &["cannot read `.`"]);
+    refused(
+        &["modes", "--study", "missing.toml"],
+        3,
+        &["cannot read `missing.toml`"],
+    );
+    let folder = folder("unreadable");
+    fs::write(folder.join("binary.mechanism"), [0xff, 0xfe, 0]).unwrap();
+    let binary = folder.join("binary.mechanism").display().to_string();
+    refused(&["check", &binary], 3, &["cannot read", "UTF-8"]);
+}
+
+#[test]
+fn names_that_do_not_exist_offer_the_nearest() {
+    let unknown = [
+        "has no input or design variable `omeag`",
+        "did you mean `omega`?",
+    ];
+    refused(&["modes", PENDULUM, "--set", "omeag=5rad/s"], 2, &unknown);
+    let start = ["has no coordinate `thta`", "did you mean `theta`?"];
+    refused(&["modes", PENDULUM, "--start", "thta=1rad"], 2, &start);
+    let sweep = ["has no input `l`", "it has `omega`"];
+    refused(&["branches", PENDULUM, "--sweep", "l=0..1m"], 2, &sweep);
+    let table = ["the answer has no table `mods`", "did you mean `modes`?"];
+    refused(&pendulum("modes", &["--csv", "--table", "mods"]), 2, &table);
+    let result = [
+        "the answer has no result `shapes`",
+        "there are `modes`, `equilibrium`",
+    ];
+    refused(
+        &pendulum("modes", &["--json", "--result", "shapes"]),
+        2,
+        &result,
+    );
+    refused(&["mods"], 2, &["unrecognized subcommand", "'modes'"]);
+}
+
+#[test]
+fn values_with_wrong_units() {
+    for (value, parts) in [
+        ("omega=5", &["set omega=5: `5` has no unit"][..]),
+        (
+            "omega=5 m",
+            &["`omega` must be an angular speed", "this is a length"],
+        ),
+        (
+            "omega=5 rmp",
+            &["unknown unit `rmp`", "did you mean `rpm`?"],
+        ),
+        ("omega=fast", &["unknown name `fast`"]),
+        ("omega=(5 rpm", &["brackets and quotes come in pairs"]),
+        ("omega", &["write a name, `=` and a value"]),
+        ("=5 rpm", &["write a name, `=` and a value"]),
+        ("l=1e999 m", &["outside the range"]),
+        ("l=1 m +/- 3%", &["without a tolerance"]),
+        ("m=-1 kg", &["mass of bar", "positive"]),
+    ] {
+        let code = if value.starts_with("m=") { 1 } else { 2 };
+        refused(&["modes", PENDULUM, "--set", value], code, parts);
+    }
+    for (tolerance, part) in [
+        ("l=3 kg", "this tolerance must be a length"),
+        ("l=3% unifrom", "did you mean `uniform`?"),
+        ("l=-1% +1%", "the upper limit stands first"),
+        ("l=3", "`3` has no unit"),
+    ] {
+        refused(&pendulum("tolerance", &["--tol", tolerance]), 2, &[part]);
+    }
+}
+
+#[test]
+fn sweeps_that_make_no_sense() {
+    for (sweep, part) in [
+        ("omega", "`omega` is no range"),
+        ("omega=0-8rad/s", "is no range"),
+        ("omega=0..8", "has no unit"),
+        ("omega=0..8m", "this is a length"),
+        ("omega=1rad/s..1rad/s", "ends must differ"),
+    ] {
+        refused(&["branches", PENDULUM, "--sweep", sweep], 2, &[part]);
+    }
+    refused(
+        &["branches", PENDULUM],
+        2,
+        &["no input to sweep", "--sweep speed=0..6000rpm"],
+    );
+    let sweep = ["--sweep", "omega=0..8rad/s", "--points"];
+    for points in ["0", "1"] {
+        refused(
+            &[&["campbell", PENDULUM], &sweep[..], &[points]].concat(),
+            2,
+            &["no sweep"],
+        );
+    }
+}
+
+#[test]
+fn study_files_with_mistakes() {
+    let folder = folder("wrong_studies");
+    for (name, text, code, parts) in [
+        (
+            "key",
+            "mechanisn = \"a\"",
+            3,
+            &["no study file", "unknown field `mechanisn`", "expected"][..],
+        ),
+        ("toml", "[set\nomega = 1", 3, &["no study file", "line 1"]),
+        (
+            "type",
+            "samples = \"many\"",
+            3,
+            &["no study file", "expected usize"],
+        ),
+        ("none", "", 2, &["no mechanism is given"]),
+        (
+            "file",
+            "mechanism = \"missing.mechanism\"",
+            3,
+            &["cannot read", "missing.mechanism"],
+        ),
+    ] {
+        let path = file(&folder, name, text);
+        refused(&["modes", "--study", &path], code, parts);
+    }
+    let allocate = |text: &str, parts: &[&str]| {
+        let path = file(&folder, "allocation", text);
+        refused(&["allocate", PENDULUM, "--study", &path], 2, parts);
+    };
+    allocate("", &["nothing is required"]);
+    let choose = "[[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"9 mm\"\ncost = { factor = 1.0 }\n";
+    let with = |require: &str| format!("[[require]]\nfailure = 0.1\n{require}\n{choose}");
+    allocate(&with("mode = 1"), &["a requirement has limits"]);
+    allocate(
+        &with("at_least = \"1 Hz\""),
+        &["a requirement is about one thing"],
+    );
+    allocate(&with("mode = 0\nat_least = \"1 Hz\""), &["counted from 1"]);
+    allocate(
+        &with("mode = 1\nat_least = \"1 m\""),
+        &["at_least = \"1 m\"", "this is a length"],
+    );
+    allocate(
+        &with("output = \"angel\"\nat_most = 1.0"),
+        &["did you mean `angle`?"],
+    );
+}
+
+#[test]
+fn no_equilibrium_is_an_answer() {
+    // The push upwards is never more than 9 N, the weight 9.81 N.
+    let heavy = "mechanism Heavy { gravity 9.81 m/s^2 along -z; body block: point(mass: 1 kg);
+        joint x: prismatic(z) from ground to block;
+        force push: generalized(on: x, value: 9 N - (1 N/m^2) * x^2); }";
+    let run = run_with_input(&["modes", "-"], heavy);
+    assert_eq!((run.code, run.out.as_str()), (1, ""));
+    assert!(
+        run.err.starts_with("error: no equilibrium found"),
+        "{}",
+        run.err
+    );
+}
+
+#[test]
+fn colours_only_where_they_are_wanted() {
+    let bad = ["modes", "missing.mechanism", "--color"];
+    let with = |when: &str| run(&[&bad[..], &[when]].concat()).err;
+    assert!(with("always").contains("\u{1b}["));
+    assert!(!with("never").contains('\u{1b}') && !with("auto").contains('\u{1b}'));
+    let usage = |when: &str| run(&["mods", when]).err;
+    assert!(usage("--color=always").contains("\u{1b}["));
+    assert!(!usage("--color=never").contains('\u{1b}'));
+}

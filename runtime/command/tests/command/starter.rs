@@ -1,0 +1,76 @@
+//! The starter project builds and runs.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::program::{folder, run};
+
+#[test]
+fn the_starter_project_builds() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folder = folder("starter");
+    let project = folder.join("first-project");
+    let library = root.join("runtime").display().to_string();
+    let created = run(&["new", &project.display().to_string(), "--path", &library]);
+    assert_eq!(created.code, 0, "{}", created.err);
+
+    // The folder may lie in that of this workspace, to which the project does not belong.
+    let manifest = project.join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(&manifest, format!("{text}\n[workspace]\n")).unwrap();
+    // The versions that this workspace was built with are here; no others need to be.
+    fs::copy(root.join("Cargo.lock"), project.join("Cargo.lock")).unwrap();
+    let output = Command::new(env!("CARGO"))
+        .args(["run", "--offline", "--quiet"])
+        .current_dir(&project)
+        .env(
+            "CARGO_TARGET_DIR",
+            Path::new(env!("CARGO_TARGET_TMPDIR")).join("starter"),
+        )
+        .output()
+        .unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{err}");
+    let out = String::from_utf8_lossy(&output.stdout);
+    assert!(out.contains("4.04212"), "{out}");
+    let checked = run(&[
+        "check",
+        &project.join("pendulum.mechanism").display().to_string(),
+    ]);
+    assert_eq!(checked.code, 0, "{}", checked.err);
+
+    let again = run(&["new", &project.display().to_string()]);
+    assert_eq!(again.code, 3);
+    assert!(again.err.contains("exists already"), "{}", again.err);
+}
+
+#[test]
+fn the_published_version_is_the_default() {
+    let project = folder("published").join("rotor_2");
+    let created = run(&["new", &project.display().to_string()]);
+    assert_eq!(created.code, 0, "{}", created.err);
+    let manifest = fs::read_to_string(project.join("Cargo.toml")).unwrap();
+    let version = env!("CARGO_PKG_VERSION");
+    assert!(manifest.contains("name = \"rotor_2\"\n"), "{manifest}");
+    assert!(
+        manifest.contains(&format!("eigentol = \"{version}\"\n")),
+        "{manifest}"
+    );
+}
+
+#[test]
+fn names_that_no_package_can_have() {
+    for name in ["1st", "a b", "..", "-x/..", "é"] {
+        let run = run(&["new", "--", name]);
+        assert_eq!(run.code, 2, "{name}");
+        assert!(run.err.contains("is no name of a package"), "{}", run.err);
+    }
+    let run = run(&["new", "fine", "--path", "/missing/folder"]);
+    assert_eq!(run.code, 3);
+    assert!(
+        run.err.contains("cannot read `/missing/folder`"),
+        "{}",
+        run.err
+    );
+}

@@ -1,0 +1,328 @@
+//! What each subcommand answers.
+
+use crate::program::{PENDULUM, answer, file, folder, pendulum, run, run_with_input};
+
+#[test]
+fn check_says_what_is_declared() {
+    assert_eq!(
+        answer(&["check", PENDULUM, "whipple_bicycle.mechanism"]),
+        "rotating_pendulum.mechanism: mechanism `RotatingPendulum`, 1 coordinate, 1 input, 2 design variables, 1 output\n\
+         whipple_bicycle.mechanism: mechanism `WhippleBicycle`, 8 coordinates, 1 input, 26 design variables, 2 outputs\n"
+    );
+}
+
+#[test]
+fn a_declaration_may_come_from_standard_input() {
+    let text = "mechanism A { body bar: rod(mass: 1 kg, length: 1 m, along: -z);
+        gravity 9.81 m/s^2 along -z; joint t: revolute(y) from ground to bar; }";
+    let run = run_with_input(&["check", "-"], text);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(
+        run.out
+            .starts_with("standard input: mechanism `A`, 1 coordinate")
+    );
+}
+
+#[test]
+fn modes() {
+    let text = answer(&pendulum("modes", &[]));
+    // sqrt(25 - (14.715 / 5)^2)
+    assert!(
+        text.contains("4.04212") && text.contains("equilibrium, stable"),
+        "{text}"
+    );
+}
+
+/// Both signs of the angle are equilibria: the start value chooses.
+#[test]
+fn a_start_value_chooses_the_equilibrium() {
+    let angle = |start: &str| {
+        let start = format!("theta={start}");
+        let point = [
+            "modes",
+            PENDULUM,
+            "--set",
+            "omega=5rad/s",
+            "--start",
+            &start,
+        ];
+        answer(&point).contains("theta [rad]  -0.941470")
+    };
+    assert!(angle("-1rad") && angle("-pi / 3") && angle("-60 deg") && !angle("1 rad"));
+}
+
+#[test]
+fn an_unstable_answer_is_no() {
+    let file = file(
+        &folder("unstable"),
+        "upside_down.mechanism",
+        "mechanism UpsideDown { design m = 1 kg; gravity 9.81 m/s^2 along -z;
+         body bar: rod(mass: m, length: 1 m, along: z); input push: N;
+         joint t: prismatic(x) from ground to bar;
+         force tip: spring(on: t, stiffness: -100 N/m); }",
+    );
+    let run = run(&["modes", &file, "--set", "push=0"]);
+    assert_eq!(run.code, 1, "{}{}", run.out, run.err);
+}
+
+#[test]
+fn sensitivities_of_equilibrium_modes_and_outputs() {
+    let text = answer(&pendulum("sensitivities", &[]));
+    for part in [
+        "shift of the equilibrium",
+        "sensitivities of the frequencies",
+        "outputs",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn tolerances_are_given_as_declarations_give_them() {
+    let sigma = |tolerance: &str| {
+        let text = answer(&pendulum("tolerance", &["--tol", tolerance, "--csv"]));
+        let mut lines = text.lines();
+        let place = lines
+            .next()
+            .unwrap()
+            .split(',')
+            .position(|name| name == "sigma of frequency [rad/s]");
+        let cell = lines
+            .next()
+            .unwrap()
+            .split(',')
+            .nth(place.unwrap())
+            .unwrap();
+        cell.parse::<f64>().unwrap()
+    };
+    let of_declaration = sigma("l=3%");
+    assert!((sigma("l=30mm") / of_declaration - 1.0).abs() < 1e-12);
+    assert!((sigma("l=+/- 1.5%") / of_declaration - 0.5).abs() < 1e-12);
+    assert!((sigma("l=3% uniform") / of_declaration - 3.0_f64.sqrt()).abs() < 1e-12);
+    let wandering = sigma("omega=1%");
+    assert!(wandering > of_declaration);
+}
+
+#[test]
+fn campbell() {
+    let sweep = [
+        "--sweep",
+        "speed=0..6000rpm",
+        "--points",
+        "5",
+        "--order",
+        "1",
+    ];
+    let text = answer(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat());
+    for part in [
+        "4500.00",
+        "frequency 1 is 1 times speed",
+        "onset of flutter",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn branches() {
+    let text = answer(&["branches", PENDULUM, "--sweep", "omega=0..8 rad/s"]);
+    assert!(
+        text.contains("supercritical pitchfork        3.83601"),
+        "{text}"
+    );
+}
+
+#[test]
+fn samples_are_a_function_of_seed_and_stream() {
+    let sample =
+        |more: &[&str]| answer(&pendulum("sample", &[&["--samples", "200"], more].concat()));
+    let first = sample(&["--seed", "7"]);
+    assert!(first.contains("200 samples: 200 stable"), "{first}");
+    assert_eq!(first, sample(&["--seed", "7", "--threads", "1"]));
+    assert_ne!(first, sample(&["--seed", "8"]));
+    assert_ne!(first, sample(&["--seed", "7", "--stream", "1"]));
+}
+
+const STUDY: &str = "
+mechanism = \"pendulum.mechanism\"
+seed = 7
+samples = 2000
+
+[set]
+omega = \"5 rad/s\"
+
+[start]
+theta = \"60 deg\"
+
+[[require]]
+mode = 1
+at_least = \"4 rad/s\"
+failure = 0.001
+
+[[choose]]
+tolerance = \"l\"
+least = \"1 mm\"
+most = \"300 mm\"
+cost = { factor = 1.0 }
+";
+
+fn study() -> (String, String) {
+    let folder = folder("study");
+    let declaration = std::fs::read_to_string(crate::program::examples().join(PENDULUM)).unwrap();
+    file(&folder, "pendulum.mechanism", &declaration);
+    (
+        file(&folder, "study.toml", STUDY),
+        folder.display().to_string(),
+    )
+}
+
+#[test]
+fn a_study_file_says_what_is_asked_again() {
+    let (study, _) = study();
+    assert_eq!(
+        answer(&["modes", "--study", &study]),
+        answer(&pendulum("modes", &[]))
+    );
+    let faster = ["modes", "--study", &study, "--set", "omega=6rad/s"];
+    let direct = [
+        "modes",
+        PENDULUM,
+        "--set",
+        "omega=6rad/s",
+        "--start",
+        "theta=60deg",
+    ];
+    assert_eq!(answer(&faster), answer(&direct));
+    let direct = ["--samples", "2000", "--seed", "7"];
+    assert_eq!(
+        answer(&["sample", "--study", &study]),
+        answer(&pendulum("sample", &direct))
+    );
+}
+
+/// Bars whose lengths are the same in every sample are the double pendulum with one length.
+#[test]
+fn correlations_of_a_study_file() {
+    let folder = folder("correlated");
+    let declaration = crate::program::examples().join("independent_bars.mechanism");
+    let study = format!(
+        "mechanism = {:?}\nset = {{ omega = \"5 rad/s\" }}\nstart = {{ theta1 = \"60 deg\" }}\n\
+         tolerance = {{ m1 = \"0%\", m2 = \"0%\" }}\ncorrelation = [[\"l1\", \"l2\", 1.0]]\n",
+        declaration.display().to_string()
+    );
+    let study = file(&folder, "study.toml", &study);
+    let spreads = |question: &[&str]| -> Vec<f64> {
+        let csv = ["--csv"];
+        let text = answer(&[&["tolerance"], question, &csv].concat());
+        let mut lines = text.lines().map(|line| line.split(','));
+        let mut heading = lines.next().unwrap();
+        let place = heading
+            .position(|name| name == "sigma of frequency [rad/s]")
+            .unwrap();
+        lines
+            .map(|mut line| line.nth(place).unwrap().parse().unwrap())
+            .collect()
+    };
+    let one_length = [
+        "rotating_double_pendulum.mechanism",
+        "--set",
+        "omega=5rad/s",
+        "--start",
+        "theta1=60deg",
+    ];
+    let (found, expected) = (spreads(&["--study", &study]), spreads(&one_length));
+    assert_eq!(expected.len(), 2);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+    let apart = std::fs::read_to_string(&study)
+        .unwrap()
+        .replace("1.0]]", "0.0]]");
+    let apart = spreads(&["--study", &file(&folder, "apart.toml", &apart)]);
+    assert!(apart[0] < expected[0]);
+}
+
+#[test]
+fn samples_can_be_kept() {
+    let keep = ["--samples", "20", "--keep", "--csv", "--table", "samples"];
+    let text = answer(&pendulum("sample", &keep));
+    assert!(text.starts_with("sample,outcome,"), "{text}");
+    assert_eq!(text.lines().count(), 21);
+}
+
+/// The frequency depends on the length alone and nearly linearly: the cheapest half-width is the widest that keeps the
+/// frequency above the limit with a probability of 0.999, so that its distance from the mean is 3.09 of its sigmas.
+#[test]
+fn allocation_finds_the_widest_tolerance() {
+    let (study, _) = study();
+    let text = answer(&["allocate", "--study", &study, "--csv"]);
+    let mut lines = text.lines();
+    let heading = lines.next().unwrap().to_owned();
+    let place = heading
+        .split(',')
+        .position(|name| name.starts_with("half-width"))
+        .unwrap();
+    let row = lines.find(|line| line.starts_with("l,")).unwrap();
+    let found: f64 = row.split(',').nth(place).unwrap().parse().unwrap();
+    // omega^2 = 25 - (14.715 / (5 l))^2 = 16 at l = 0.981.
+    let expected = 3.0 * (1.0 - 0.981) / 3.090_232_306_167_813;
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+}
+
+#[test]
+fn expansions_at_every_stage() {
+    for (stage, part) in [
+        ("ast", "mechanism RotatingPendulum"),
+        ("mechanism", "theta"),
+        ("topology", "shaft"),
+        ("functions", "residual"),
+        ("program", "residual"),
+        ("rust", "impl ::eigentol::Mechanism for RotatingPendulum"),
+        ("operations", "mode_gradient"),
+    ] {
+        let text = answer(&["expand", PENDULUM, "--stage", stage]);
+        assert!(text.contains(part), "{stage}: {text}");
+    }
+    assert_eq!(
+        answer(&["expand", PENDULUM]),
+        answer(&["expand", PENDULUM, "--stage", "rust"])
+    );
+}
+
+#[test]
+fn completions_of_three_shells() {
+    for (shell, part) in [
+        ("bash", "complete -F _eigentol"),
+        ("zsh", "#compdef eigentol"),
+        ("fish", "complete -c eigentol"),
+    ] {
+        assert!(answer(&["completions", shell]).contains(part), "{shell}");
+    }
+}
+
+#[test]
+fn every_subcommand_has_help_with_its_values() {
+    let help = answer(&["--help"]);
+    for command in [
+        "check",
+        "modes",
+        "sensitivities",
+        "tolerance",
+        "campbell",
+        "branches",
+        "sample",
+        "merge",
+        "allocate",
+        "expand",
+        "new",
+        "import",
+        "completions",
+    ] {
+        assert!(help.contains(command), "{command}: {help}");
+        assert!(
+            answer(&[command, "--help"]).contains("Usage: eigentol"),
+            "{command}"
+        );
+    }
+    assert_eq!(run(&[]).code, 2);
+}

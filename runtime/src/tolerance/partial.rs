@@ -1,0 +1,170 @@
+//! Some samples of a run, to be put together with others.
+
+use core::ops::Range;
+
+use eigentol_statistics::summary::Partial;
+
+use super::result::MonteCarlo;
+use super::run::{Format, Run};
+use super::solver::{LEFT_NOMINAL_BRANCH, Numbered};
+use super::{Counts, Fingerprint, Statistics};
+use crate::algebra::Vector;
+use crate::modes::Family;
+use crate::{Description, Error, Shared};
+
+/// Some samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
+///
+/// With the feature `serde` it can be written and read, by the same version of the format only. In JSON, numbers keep their last
+/// digit if the reader cares for it, as `serde_json` does with its feature `float_roundtrip`.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Unchecked")
+)]
+#[non_exhaustive]
+pub struct PartialMonteCarlo {
+    pub(super) format: Format,
+    pub(super) run: Run,
+    pub(super) part: Partial,
+    pub(super) kept: Option<Vec<Numbered>>,
+    pub(super) side_by_side: bool,
+    pub(super) clustered: bool,
+    pub(super) family: Family,
+    pub(super) inputs: Vector,
+    pub(super) description: Shared<Description>,
+}
+
+impl PartialMonteCarlo {
+    /// Adds other samples of the same run.
+    ///
+    /// # Errors
+    /// [`Error::OtherRun`] for samples of another run, [`Error::SamplesOverlap`] for those that have been added already; nothing has
+    /// been added then.
+    pub fn merge(&mut self, other: Self) -> Result<(), Error> {
+        let own = core::slice::from_mut(&mut self.part);
+        self.run.merge(own, (&other.run, vec![other.part]))?;
+        self.kept = match (self.kept.take(), other.kept) {
+            (Some(mut kept), Some(other)) => {
+                kept.extend(other);
+                kept.sort_by_key(|(number, _)| *number);
+                Some(kept)
+            }
+            _ => None,
+        };
+        Ok(())
+    }
+
+    /// The ranges of samples that are done, in order and apart.
+    #[must_use]
+    pub fn ranges(&self) -> Vec<Range<u64>> {
+        self.run.ranges(self.parts())
+    }
+
+    /// The ranges of samples that are not done, in order and apart.
+    #[must_use]
+    pub fn missing(&self) -> Vec<Range<u64>> {
+        self.run.missing(self.parts())
+    }
+
+    /// Refuses a run that is not complete.
+    ///
+    /// # Errors
+    /// [`Error::SamplesMissing`], which names the gaps.
+    pub fn check_complete(&self) -> Result<(), Error> {
+        self.run.check_complete(self.parts())
+    }
+
+    /// What the run was asked for: equal for parts that can be merged.
+    #[must_use]
+    pub fn fingerprint(&self) -> &Fingerprint {
+        &self.run.fingerprint
+    }
+
+    /// Statistics of the samples that are done.
+    #[must_use]
+    pub fn result(&self) -> MonteCarlo {
+        self.clone().into_result()
+    }
+
+    fn parts(&self) -> &[Partial] {
+        core::slice::from_ref(&self.part)
+    }
+
+    pub(super) fn into_result(self) -> MonteCarlo {
+        let outcomes = self.part.outcomes();
+        let counts = Counts::of_all(outcomes);
+        let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();
+        let mut modes = self.part.into_statistics();
+        let damping_ratios = match self.family {
+            Family::General => modes.split_off(modes.len() / 2),
+            Family::Undamped => (modes.iter().flatten())
+                .map(|mode| Statistics::of_equal(0.0, mode.count))
+                .collect(),
+        };
+        MonteCarlo {
+            samples: counts.total(),
+            planned: self.run.total() as usize,
+            counts,
+            left_nominal_branch: left_nominal_branch.unwrap_or(0) as usize,
+            modes,
+            damping_ratios,
+            side_by_side: self.side_by_side,
+            clustered: self.clustered,
+            all: (self.kept).map(|kept| kept.into_iter().map(|(_, sample)| sample).collect()),
+            family: self.family,
+            inputs: self.inputs,
+            description: self.description,
+        }
+    }
+}
+
+/// A [`PartialMonteCarlo`] as it was read.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    format: Format,
+    run: Run,
+    part: Partial,
+    kept: Option<Vec<Numbered>>,
+    side_by_side: bool,
+    clustered: bool,
+    family: Family,
+    inputs: Vector,
+    description: Shared<Description>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for PartialMonteCarlo {
+    type Error = &'static str;
+
+    fn try_from(read: Unchecked) -> Result<Self, &'static str> {
+        let all = Self {
+            format: read.format,
+            run: read.run,
+            part: read.part,
+            kept: read.kept,
+            side_by_side: read.side_by_side,
+            clustered: read.clustered,
+            family: read.family,
+            inputs: read.inputs,
+            description: read.description,
+        };
+        let quantities = all.part.plan().quantities();
+        all.run
+            .check_parts(all.parts(), quantities, LEFT_NOMINAL_BRANCH)?;
+        let of_each_mode = match all.family {
+            Family::Undamped => 1,
+            Family::General => 2,
+        };
+        let numbers = all.kept.iter().flatten().map(|(number, _)| *number);
+        let covered = all.ranges().into_iter().flatten();
+        let kept = all.kept.is_none() || numbers.eq(covered);
+        let inputs = all.inputs.len() == all.description.inputs.len();
+        if quantities % of_each_mode == 0 && kept && inputs {
+            Ok(all)
+        } else {
+            Err("the parts of these samples do not fit together")
+        }
+    }
+}

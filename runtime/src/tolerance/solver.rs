@@ -1,0 +1,225 @@
+//! What becomes of samples, one by one or side by side.
+
+use eigentol_statistics::summary::{LARGEST, Plan};
+
+use super::batched::{Memory, Solved, TOGETHER, TaylorModel};
+use super::gather::Part;
+use super::sample::Solution;
+use super::sampling::{Batches, Draw};
+use super::{Outcome, Sample, Tolerances};
+use crate::algebra::Vector;
+use crate::kernels::BatchKernels;
+use crate::modes::Family;
+use crate::scalar::{Batch, Instructions, WIDTH};
+use crate::sensitivity::{Quantity, sensitivities};
+use crate::{Complex, Equilibrium, Error, Modes};
+
+/// Beside the outcomes of samples, how many stable ones have left the nominal branch.
+pub(super) const LEFT_NOMINAL_BRANCH: usize = Outcome::ALL.len();
+
+/// A sample with its number.
+pub(super) type Numbered = (u64, Sample);
+
+/// What one thread solves samples in.
+pub(super) struct Room {
+    /// For those solved together; none where samples are solved one by one.
+    together: Memory,
+    alone: Solution,
+}
+
+/// Everything that samples need.
+pub(super) struct Solver<'a> {
+    pub(super) mechanism: &'a dyn BatchKernels,
+    pub(super) nominal: &'a Equilibrium,
+    pub(super) modes: &'a Modes,
+    pub(super) tolerances: &'a Tolerances,
+    /// Seed and stream.
+    pub(super) sequence: (u64, u64),
+    pub(super) keep_samples: bool,
+    prepared: Option<TaylorModel<'a>>,
+}
+
+impl<'a> Solver<'a> {
+    pub(super) fn new(
+        mechanism: &'a dyn BatchKernels,
+        (nominal, modes): (&'a Equilibrium, &'a Modes),
+        tolerances: &'a Tolerances,
+        vectors: Option<Instructions>,
+        sequence: (u64, u64),
+        keep_samples: bool,
+    ) -> Self {
+        let prepared = vectors
+            .and_then(|vectors| TaylorModel::new(mechanism, nominal, modes, tolerances, vectors));
+        Self {
+            mechanism,
+            nominal,
+            modes,
+            tolerances,
+            sequence,
+            keep_samples,
+            prepared,
+        }
+    }
+
+    pub(super) fn side_by_side(&self) -> bool {
+        self.prepared.is_some()
+    }
+
+    /// What is gathered: the frequency of each nominal mode, and the damping ratio of each where modes can be damped; outcomes, and
+    /// [`LEFT_NOMINAL_BRANCH`] behind them.
+    pub(super) fn plan(&self) -> Result<Plan, Error> {
+        let slopes = sensitivities(self.mechanism, self.nominal, self.modes).ok();
+        let quantities = match self.modes.family {
+            Family::Undamped => &[Quantity::Frequency][..],
+            Family::General => &[Quantity::Frequency, Quantity::DampingRatio],
+        };
+        let count = self.modes.modes.len();
+        let mut plan = Plan::new(quantities.len() * count).outcomes(LEFT_NOMINAL_BRANCH + 1);
+        for (k, quantity) in quantities.iter().enumerate() {
+            for (r, mode) in self.modes.modes.iter().enumerate() {
+                let own = slopes.as_ref().and_then(|all| all.modes.get(r));
+                let own = own.and_then(|own| own.of(*quantity));
+                let by_design = own.as_ref().map(|own| &own.by_design[..]);
+                let (reference, scale) = self.tolerances.scale(quantity.of(mode), by_design);
+                plan = plan.sketch(k * count + r, reference, scale)?;
+            }
+        }
+        Ok(plan)
+    }
+
+    pub(super) fn room(&self) -> Room {
+        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
+        let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
+        Room {
+            together: Memory::new(count, n, p),
+            alone: Solution::about(self.nominal, self.modes),
+        }
+    }
+
+    /// Solves samples of one chunk.
+    pub(super) fn solve(
+        &self,
+        room: &mut Room,
+        part: &mut Part<'_, Numbered>,
+    ) -> Result<(), Error> {
+        if let Some(prepared) = &self.prepared {
+            return self.together(prepared, room, part);
+        }
+        let (nominal, samples) = (&self.nominal.design, part.samples.clone());
+        let mut draw = Draw::from(self.sequence, samples.start, nominal, self.tolerances);
+        for sample in samples {
+            self.alone(&mut room.alone, (sample, draw.next()), part)?;
+        }
+        Ok(())
+    }
+
+    /// Solves samples in batches, and alone those that no batch can vouch for.
+    fn together(
+        &self,
+        prepared: &TaylorModel<'_>,
+        room: &mut Room,
+        part: &mut Part<'_, Numbered>,
+    ) -> Result<(), Error> {
+        let samples = part.samples.clone();
+        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
+        let mut draw = Batches::from(self.sequence, samples.start, p);
+        let mut together = room.together.batches::<TOGETHER>(n, p);
+        let mut next = samples.start;
+        while next < samples.end {
+            let left = (samples.end - next) as usize;
+            let batches = &mut together[..TOGETHER.min(left.div_ceil(WIDTH))];
+            let mut left = left;
+            for batch in &mut *batches {
+                batch.members = WIDTH.min(left);
+                left -= batch.members;
+                draw.next(batch.bits);
+            }
+            prepared.solve(batches);
+            for batch in &*batches {
+                self.decided((next, batch), &mut room.alone, part)?;
+                next += batch.members as u64;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes what a batch accepted, and solves the others alone.
+    fn decided(
+        &self,
+        (first, batch): (u64, &Solved<'_>),
+        alone: &mut Solution,
+        part: &mut Part<'_, Numbered>,
+    ) -> Result<(), Error> {
+        let accepted = batch.accepted.count_ones() as usize;
+        part.chunk
+            .count(Outcome::Stable as usize, accepted as u64)?;
+        for (r, frequencies) in batch.frequencies.iter().enumerate() {
+            let having = u64::from(batch.accepted);
+            part.chunk
+                .set_some(first, r, &frequencies.0[..batch.members], having)?;
+        }
+        if accepted == batch.members && !self.keep_samples {
+            return Ok(());
+        }
+        for member in 0..batch.members {
+            let sample = first + member as u64;
+            if batch.accepted >> member & 1 == 0 {
+                let design = member_of(batch.design, member);
+                self.alone(alone, (sample, &design), part)?;
+            } else if self.keep_samples {
+                part.kept.push((sample, accepted_member(batch, member)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves a sample by itself.
+    fn alone(
+        &self,
+        solved: &mut Solution,
+        (sample, design): (u64, &[f64]),
+        Part { chunk, kept, .. }: &mut Part<'_, Numbered>,
+    ) -> Result<(), Error> {
+        solved.solve(self.mechanism, self.nominal, self.modes, design);
+        chunk.count(solved.outcome as usize, 1)?;
+        let count = self.modes.modes.len();
+        if solved.outcome == Outcome::Stable {
+            let left = u64::from(solved.state.left_unstable_region);
+            chunk.count(LEFT_NOMINAL_BRANCH, left)?;
+            for r in 0..count {
+                let Some(mode) = solved.mode(r) else { continue };
+                let Some(omega) = mode.frequency().filter(|omega| *omega <= LARGEST) else {
+                    continue;
+                };
+                chunk.set(sample, r, Some(omega))?;
+                if self.modes.family == Family::General {
+                    let ratio = mode.damping_ratio().unwrap_or(0.0);
+                    chunk.set(sample, count + r, Some(ratio))?;
+                }
+            }
+        }
+        if self.keep_samples {
+            kept.push((sample, solved.sample(design, count)));
+        }
+        Ok(())
+    }
+}
+
+/// A sample that passed the checks of its batch.
+fn accepted_member(solved: &Solved<'_>, member: usize) -> Sample {
+    let frequencies = member_of(solved.frequencies, member);
+    let eigenvalue = |omega: &f64| Some(Complex::new(0.0, *omega));
+    Sample {
+        design: member_of(solved.design, member),
+        outcome: Outcome::Stable,
+        coordinates: Some(member_of(solved.coordinates, member)),
+        eigenvalues: frequencies.iter().map(eigenvalue).collect(),
+        damping_ratios: vec![Some(0.0); frequencies.len()],
+        frequencies: frequencies.into_iter().map(Some).collect(),
+    }
+}
+
+/// What belongs to one member of a batch.
+fn member_of(batches: &[Batch], member: usize) -> Vector {
+    batches.iter().map(|batch| batch.0[member]).collect()
+}

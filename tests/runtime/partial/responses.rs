@@ -1,0 +1,119 @@
+//! Frequencies of undamped modes as responses: sampled side by side where Monte Carlo does so.
+
+use eigentol::kernels::SummaryKernels;
+use eigentol::propagation::{Points, Sampler, Samples, sampled};
+use eigentol::response::{Response, Responses};
+use eigentol::tolerance::Distribution;
+use eigentol::{Quantity, Study};
+use proptest::prelude::*;
+
+use super::{Bar, bar, plate, ranges};
+
+const FREQUENCY: Response = Response::Mode {
+    mode: 0,
+    quantity: Quantity::Frequency,
+};
+
+fn how(samples: &Samples) -> &str {
+    let mut facts = samples.fingerprint().facts();
+    facts.find(|fact| fact.0 == "solved").expect("a fact").1
+}
+
+/// The same samples one by one.
+fn alone<M: SummaryKernels>(study: &Study<M>, sampler: &Sampler<'_>) -> Samples {
+    let solved = study.solve().unwrap();
+    let (at, modes) = (&solved.equilibrium, &solved.modes);
+    let responses = Responses::new(study.mechanism(), at, modes, vec![FREQUENCY]).unwrap();
+    sampled(&responses, &study.tolerances().unwrap(), sampler).unwrap()
+}
+
+fn close(a: Option<f64>, b: Option<f64>, scale: f64) {
+    let (a, b) = (a.expect("a number"), b.expect("a number"));
+    assert!((a - b).abs() <= 1e-10 * scale, "{a} {b}");
+}
+
+#[test]
+fn side_by_side_as_one_by_one() {
+    let uniform = Distribution::uniform(0.9, 1.2).unwrap();
+    for (study, side_by_side) in [
+        (bar(), true),
+        // Some bars are so long or short that no batch vouches for them.
+        (bar().tolerance(Bar::l, 0.7), true),
+        (
+            bar().distribution(Bar::l, uniform).tolerance(Bar::m, 0.2),
+            true,
+        ),
+        // Hanging down just below the critical speed: not a clear minimum.
+        (bar().input(Bar::omega, 3.83), false),
+    ] {
+        for points in [Points::Random, Points::LatinHypercube, Points::Sobol] {
+            let sampler = Sampler::new(points).samples(2048).threads(2);
+            let own = study.sample_responses(&[FREQUENCY], &sampler).unwrap();
+            let other = alone(&study, &sampler);
+            assert_eq!(how(&other), "one by one");
+            if side_by_side {
+                assert_eq!(how(&own), "side by side");
+                assert!(
+                    own.clone()
+                        .merge(alone(&study, &sampler.clone().range(Some(0..0))))
+                        .is_err()
+                );
+            }
+            assert_eq!(own.counts(), other.counts());
+            let (own, other) = (own.propagation().unwrap(), other.propagation().unwrap());
+            let [a, b] = [&own, &other].map(|all| all.spreads[0].clone().expect("it swings"));
+            close(Some(a.mean.value), Some(b.mean.value), 1.0);
+            close(
+                a.sigma.map(|own| own.value),
+                b.sigma.map(|own| own.value),
+                1.0,
+            );
+            close(
+                a.skewness.map(|own| own.value),
+                b.skewness.map(|own| own.value),
+                100.0,
+            );
+            close(own.covariance[0][0], other.covariance[0][0], 1.0);
+            close(own.with_design[0][1], other.with_design[0][1], 1.0);
+            assert_eq!(a.share, b.share);
+        }
+    }
+    // Responses that are no frequencies, and mechanisms that are not solved side by side.
+    let growth = Response::Mode {
+        mode: 0,
+        quantity: Quantity::Growth,
+    };
+    let sampler = Sampler::new(Points::Random).samples(64);
+    let study = bar();
+    let both = study.sample_responses(&[FREQUENCY, growth], &sampler);
+    assert_eq!(how(&both.unwrap()), "one by one");
+    let plate = plate().sample_responses(&[FREQUENCY], &sampler);
+    assert_eq!(how(&plate.unwrap()), "one by one");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    #[test]
+    fn any_split_and_order_gives_the_same_bits(
+        cuts in prop::collection::vec(0..=3000_u64, 0..8),
+        order in prop::collection::vec(any::<u64>(), 1..8),
+        points in prop::sample::select(vec![Points::Random, Points::LatinHypercube, Points::Sobol]),
+    ) {
+        let study = bar();
+        let solved = study.solve().unwrap();
+        let sampler = Sampler::new(points).samples(3000);
+        let total = sampler.total().unwrap();
+        let run = |range, threads| {
+            let own = sampler.clone().range(range).threads(threads);
+            solved.sample_responses(&[FREQUENCY], &own).unwrap()
+        };
+        let mut all = run(Some(0..0), 1);
+        for (k, range) in ranges(cuts, &order).into_iter().enumerate() {
+            let range = range.start.min(total)..range.end.min(total);
+            all.merge(run(Some(range), 1 + k % 3)).unwrap();
+        }
+        prop_assert!(all.check_complete().is_ok());
+        prop_assert!(all == run(None, 0));
+    }
+}
