@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use eigentol_build::try_compile_for_c;
 use eigentol_compiler::compile;
 use eigentol_compiler::mechanics::Limits;
 use proc_macro2::{TokenStream, TokenTree};
@@ -35,6 +36,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let out = PathBuf::from(env::var("OUT_DIR")?);
     fs::write(out.join("mechanisms.rs"), text)?;
+    for name in ["ball", "swing"] {
+        let header = out.join(name).with_extension("h");
+        try_compile_for_c(format!("mechanisms/{name}.mechanism"), header)?;
+    }
     Ok(())
 }
 

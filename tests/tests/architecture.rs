@@ -105,7 +105,10 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     for entry in entries {
         let path = entry.expect("a folder entry").path();
         if path.is_dir() {
-            files.extend(sources(&path));
+            // what `cargo build` leaves in a workspace of its own is not ours
+            if !path.ends_with("target") {
+                files.extend(sources(&path));
+            }
         } else if path.extension().is_some_and(|extension| extension == "rs") {
             files.push(path);
         }
@@ -429,6 +432,10 @@ fn compiler_runtime_and_oracle_never_import_each_other() {
         BTreeSet::from(["eigentol-compiler".to_owned()])
     );
     assert_eq!(
+        dependencies("macros/build/Cargo.toml"),
+        BTreeSet::from(["eigentol-compiler".to_owned()])
+    );
+    assert_eq!(
         dependencies("runtime/Cargo.toml"),
         BTreeSet::from(["eigentol-macros", "eigentol-statistics"].map(str::to_owned))
     );
@@ -467,10 +474,15 @@ fn unsafe_code_stays_in_one_place() {
     let files = crates
         .iter()
         .flat_map(|folder| sources(&root().join(folder)));
-    let allowed: Vec<PathBuf> = files
-        .filter(|file| read(file).contains("allow(unsafe_code)"))
+    let allowed: BTreeSet<PathBuf> = files
+        .filter(|file| read(file).contains("allow(unsafe_code"))
         .collect();
-    assert_eq!(allowed, [runtime.join("scalar/x86/mod.rs")]);
+    // The second writes it into the text of functions for C.
+    let generator = root().join("macros/build/src/c/mod.rs");
+    assert_eq!(
+        allowed,
+        [runtime.join("scalar/x86/mod.rs"), generator].into()
+    );
 }
 
 #[test]

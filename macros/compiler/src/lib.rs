@@ -16,6 +16,8 @@ pub mod algebra;
 pub mod base;
 pub mod emit;
 pub mod mechanics;
+#[cfg(feature = "locations")]
+mod mistakes;
 pub mod model;
 mod pipeline;
 pub mod program;
@@ -24,6 +26,8 @@ pub mod syntax;
 mod tests;
 pub mod topology;
 
+#[cfg(feature = "locations")]
+pub use mistakes::{Mistake, Mistakes};
 pub use pipeline::{Compilation, compile};
 
 use std::fmt::Debug;
@@ -52,6 +56,15 @@ pub fn expand_with<E: Debug>(
 /// The kernels of a declaration, ready to be evaluated without a Rust compiler.
 pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics> {
     compile(declaration, Limits::default()).map(|compilation| compilation.program)
+}
+
+/// The declaration of a text, at every stage; what is wrong comes with line and column.
+///
+/// # Errors
+/// Every mistake that could be found.
+#[cfg(feature = "locations")]
+pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
+    Ok(compile(text.parse()?, limits)?)
 }
 
 /// The generated items, formatted for reading.

@@ -8,8 +8,7 @@ use std::sync::Arc;
 use eigentol::{Description, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
-use eigentol_compiler::{Compilation, compile};
-use proc_macro2::TokenStream;
+use eigentol_compiler::{Compilation, compile_text};
 
 use crate::description::description;
 use crate::mistakes::{Mistakes, ReadError};
@@ -86,8 +85,7 @@ impl Interpreted {
     /// # Errors
     /// Everything that is wrong with the declaration, with line and column.
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
-        let tokens: TokenStream = text.parse()?;
-        Ok(Self::new(&compile(tokens, Limits::default())?))
+        Ok(Self::new(&compile_text(text, Limits::default())?))
     }
 
     /// The mechanism that a file declares.

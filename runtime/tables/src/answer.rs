@@ -7,8 +7,9 @@ use eigentol::clusters::ClusterTolerance;
 use eigentol::equilibrium::Assembly;
 use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
 use eigentol::requirement::{Chances, RareFailure, Reliability};
-use eigentol::second_order::{ModeMargin, SecondOrder};
+use eigentol::second_order::{ModeCurvature, ModeMargin, SecondOrder};
 use eigentol::sensitivity::{EquilibriumShift, OutputSensitivities};
+use eigentol::shapes::ShapeSensitivity;
 use eigentol::summary::Summary;
 use eigentol::sweep::{CriticalState, Crossing, EventTolerance, Sweep};
 use eigentol::tolerance::OutputTolerances;
@@ -34,7 +35,7 @@ pub trait Answer: Tables + Serialize + DeserializeOwned {
 pub struct Subject<'a> {
     /// The mechanism.
     pub description: &'a Shared<Description>,
-    /// Its inputs, SI.
+    /// Its inputs, SI; empty where the result does not know them.
     pub inputs: &'a [f64],
     /// The one that varies.
     pub varied: Option<Input>,
@@ -85,6 +86,25 @@ at_one_point! {
     "spreads": Propagation;
     "summary": Summary;
     "worst case": WorstCase;
+}
+
+macro_rules! at_no_point {
+    ($($kind:literal: $result:ty;)+) => {
+        $(
+            impl Answer for $result {
+                const KIND: &'static str = $kind;
+
+                fn subject(&self) -> Option<Subject<'_>> {
+                    Some(Subject::new(&self.description, &[], None))
+                }
+            }
+        )+
+    };
+}
+
+at_no_point! {
+    "second derivatives": ModeCurvature;
+    "shape sensitivities": ShapeSensitivity;
 }
 
 macro_rules! along_an_input {

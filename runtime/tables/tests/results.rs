@@ -126,3 +126,26 @@ fn parts_of_a_sweep_are_the_sweep() {
     let parts = String::from_utf8(writer.finish().expect("finished")).expect("text");
     assert_eq!(parts, csv::to_string(whole).expect("text"));
 }
+
+/// Against differences of first derivatives, which are held against a closed form above.
+#[test]
+fn second_derivatives_are_per_declared_units() {
+    let frequency_slope = |length: f64| {
+        let study = study().design(RotatingBar::l, InDeclaredUnit(length));
+        let table = &tables(&study.sensitivities().expect("derivatives"))[0];
+        number(table, "frequency", 1)
+    };
+    let step = 1e-2;
+    let difference =
+        (frequency_slope(1000.0 + step) - frequency_slope(1000.0 - step)) / (2.0 * step);
+    let curvature = study().mode_curvature(0).expect("derivatives");
+    let table = &tables(&curvature)[0];
+    assert_eq!(table.rows(), 4);
+    let found = number(table, "Im s", 3);
+    assert!(
+        (found - difference).abs() < 1e-6 * found.abs(),
+        "{found} {difference}"
+    );
+    let mixed = [number(table, "lambda", 1), number(table, "lambda", 2)];
+    assert!(mixed[0] == mixed[1] && mixed[0] != 0.0, "{mixed:?}");
+}

@@ -13,6 +13,13 @@ pub mod generated {
     include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
 }
 
+/// Mechanisms in files of their own, with functions for C, as `eigentol-build` generates them.
+#[deny(warnings, unused, clippy::all, clippy::pedantic)]
+pub mod for_c {
+    include!(concat!(env!("OUT_DIR"), "/ball.rs"));
+    include!(concat!(env!("OUT_DIR"), "/swing.rs"));
+}
+
 use eigentol::{Mechanism, mechanism};
 
 mechanism! {

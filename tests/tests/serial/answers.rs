@@ -26,18 +26,24 @@ struct Answers {
 }
 
 impl Answers {
-    /// Comes back in the format of serde alone.
+    /// Comes back in a format for people and in one for machines.
     fn plain<T: Serialize + DeserializeOwned + PartialEq + Debug>(
         &mut self,
         name: &str,
         answer: &T,
     ) {
         let text = serde_json::to_string(answer).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let back: T =
+        let from_text: T =
             serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
-        // Debug tells infinite numbers, and zeros by their sign.
-        assert_eq!(format!("{back:?}"), format!("{answer:?}"), "{name}");
-        assert_eq!(back, *answer, "{name}");
+        let bytes =
+            postcard::to_stdvec(answer).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        let from_bytes: T =
+            postcard::from_bytes(&bytes).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+        for back in [from_text, from_bytes] {
+            // Debug tells infinite numbers, and zeros by their sign.
+            assert_eq!(format!("{back:?}"), format!("{answer:?}"), "{name}");
+            assert_eq!(back, *answer, "{name}");
+        }
         self.answered += 1;
     }
 
@@ -92,8 +98,8 @@ impl Answers {
         );
         self.both(name, study.monte_carlo());
         self.plain(name, &solved.whirls());
-        self.plain(name, &solved.shape_sensitivity(0));
-        self.plain(name, &solved.mode_curvature(0));
+        self.both(name, solved.shape_sensitivity(0));
+        self.both(name, solved.mode_curvature(0));
         let (u, b) = (
             vec![1.0; operation.inputs.len()],
             vec![1.0; study.design_values().len()],

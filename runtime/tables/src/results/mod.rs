@@ -4,6 +4,7 @@ mod allocation;
 mod branches;
 mod campbell;
 mod clusters;
+mod curvature;
 mod equilibrium;
 mod events;
 mod modes;

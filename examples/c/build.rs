@@ -1,0 +1,5 @@
+//! Compiles the declaration; writes the header.
+
+fn main() {
+    eigentol_build::compile_for_c("double_pendulum.mechanism", "include/double_pendulum.h");
+}

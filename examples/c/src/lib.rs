@@ -1,0 +1,12 @@
+//! The rotating double pendulum for C: `include/double_pendulum.h` declares its functions, `main.c` calls them.
+#![no_std]
+
+use core::panic::PanicInfo;
+
+include!(concat!(env!("OUT_DIR"), "/double_pendulum.rs"));
+
+/// Kernels do not panic; the language asks for this.
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {}
+}

@@ -1,0 +1,86 @@
+//! Sizes of arrays, and places in them by name.
+
+use std::fmt::Write;
+
+use eigentol_compiler::Compilation;
+use eigentol_compiler::mechanics::Role;
+use eigentol_compiler::model::mechanism::Unit;
+use proc_macro2::Ident;
+
+use super::Names;
+
+/// Constants: how long each array is, and where a quantity stands in it.
+pub(super) fn constants(compilation: &Compilation, names: &Names) -> String {
+    let (mechanism, unknowns) = (&compilation.mechanism, &compilation.functions.unknowns);
+    let mut list = Constants {
+        text: String::new(),
+        prefix: &names.shouted,
+    };
+    list.size("COORDINATES", "unknowns `q`", unknowns.len());
+    list.size("INPUTS", "inputs `u`", mechanism.inputs.len());
+    list.size("DESIGN", "design variables `b`", mechanism.design.len());
+    list.size("OUTPUTS", "outputs", mechanism.outputs.len());
+    for (k, unknown) in unknowns.iter().enumerate() {
+        // Reactions have labels, not names.
+        if let Role::Position(id) | Role::Speed(id) = unknown.role {
+            let name = &mechanism.coordinates[id.index()].name;
+            list.place("COORDINATE", name, &[], &one(&unknown.unit), k);
+        }
+    }
+    for (k, input) in mechanism.inputs.iter().enumerate() {
+        list.place("INPUT", &input.name, &input.docs, &si(&input.unit), k);
+    }
+    for (k, design) in mechanism.design.iter().enumerate() {
+        list.place("DESIGN", &design.name, &design.docs, &si(&design.unit), k);
+    }
+    for (k, output) in mechanism.outputs.iter().enumerate() {
+        list.place("OUTPUT", &output.name, &output.docs, &si(&output.unit), k);
+    }
+    list.text + "\n"
+}
+
+/// The symbol of an SI unit.
+fn one(symbol: &str) -> String {
+    match symbol {
+        "" => "1".to_owned(),
+        symbol => symbol.to_owned(),
+    }
+}
+
+/// What to multiply a value in the declared unit by.
+fn si(unit: &Unit) -> String {
+    let symbol = one(&unit.symbol);
+    match unit.scale == 1.0 {
+        true => symbol,
+        false => format!("SI; one {symbol} is {:?}", unit.scale),
+    }
+}
+
+struct Constants<'a> {
+    text: String,
+    prefix: &'a str,
+}
+
+impl Constants<'_> {
+    fn size(&mut self, name: &str, what: &str, count: usize) {
+        let Self { text, prefix } = self;
+        let _ = writeln!(
+            text,
+            "/// Number of {what}.\npub const {prefix}_{name}: usize = {count};"
+        );
+    }
+
+    /// Names are spelled as declared: `m` and `M` may both exist.
+    fn place(&mut self, list: &str, name: &Ident, docs: &[String], unit: &str, k: usize) {
+        let Self { text, prefix } = self;
+        for line in docs.iter().flat_map(|docs| docs.lines()) {
+            // It would end the comment of C.
+            let line = line.trim().replace("*/", "* /");
+            let _ = writeln!(text, "/// {line}");
+        }
+        let _ = writeln!(
+            text,
+            "/// `{name}`, {unit}.\npub const {prefix}_{list}_{name}: usize = {k};"
+        );
+    }
+}

@@ -1,0 +1,61 @@
+//! A declaration in a file.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::{Compilation, compile_text};
+
+use crate::error::Error;
+
+/// A declaration and where its code goes.
+pub(crate) struct Source {
+    /// The file as the user named it.
+    pub(crate) path: PathBuf,
+    /// The declaration at every stage.
+    pub(crate) compilation: Compilation,
+    /// The folder that cargo gives a build script.
+    directory: PathBuf,
+}
+
+impl Source {
+    pub(crate) fn read(path: &Path) -> Result<Self, Error> {
+        let path = path.to_owned();
+        let directory = env::var_os("OUT_DIR").ok_or(Error::NoDirectory)?.into();
+        if path.file_stem().is_none() {
+            return Err(Error::NoFile(path));
+        }
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(source) => return Err(Error::Read { path, source }),
+        };
+        match compile_text(&text, Limits::default()) {
+            Ok(compilation) => Ok(Self {
+                path,
+                compilation,
+                directory,
+            }),
+            Err(mistakes) => Err(Error::Mistakes { path, mistakes }),
+        }
+    }
+
+    /// Where a file of this declaration goes.
+    pub(crate) fn output(&self, extension: &str) -> PathBuf {
+        let name = self.path.file_stem().unwrap_or_default();
+        self.directory.join(name).with_extension(extension)
+    }
+}
+
+/// Writes a file that is not there yet or says something else, and the folders around it: what has not changed need not be built again.
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
+    if fs::read_to_string(path).is_ok_and(|there| there == text) {
+        return Ok(());
+    }
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, text));
+    written.map_err(|source| Error::Write {
+        path: path.to_owned(),
+        source,
+    })
+}
