@@ -6,6 +6,7 @@ use crate::Error;
 /// Statistics of one quantity over the samples that have it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Statistics {
     /// Number of values.
     pub count: u64,
