@@ -267,7 +267,7 @@ fn small_machines_need_no_heap() {
     check(Hoist, &[0.1, 0.5], &[0.1, 0.05, 0.02]);
 }
 
-/// Side by side, 256 samples at a time need three lists.
+/// Side by side, 256 samples at a time need a list, and what they gave another now and then.
 #[test]
 fn samples_need_no_heap() {
     let run = |samples: usize| {
@@ -280,5 +280,5 @@ fn samples_need_no_heap() {
         let solved = study.solve().expect("modes");
         allocations(|| solved.monte_carlo().expect("samples"))
     };
-    assert_eq!(run(4096) - run(2048), 3 * 2048 / 256);
+    assert!(run(4096) - run(2048) <= 2048 / 256 + 1);
 }

@@ -39,7 +39,7 @@ mod module {
     #[pymodule_export]
     use crate::parts::Part;
     #[pymodule_export]
-    use crate::requirements::{Chances, Reliability};
+    use crate::requirements::{Chances, RareFailure, Reliability};
     #[pymodule_export]
     use crate::response::Response;
     #[pymodule_export]

@@ -1,6 +1,6 @@
 //! How probable it is that requirements are met.
 
-use eigentol::requirement::{self, Requirement};
+use eigentol::requirement::{self, Requirement, SamplingSettings};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
@@ -60,6 +60,19 @@ impl Study {
         self.ask(py, |study| study.reliability(&wanted))
             .map(Reliability)
     }
+
+    /// A small probability of failing any requirement, by importance sampling about the design points; requirements as `chances`
+    /// takes them.
+    fn rare_failure(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Bound<'_, PyAny>>,
+    ) -> PyResult<RareFailure> {
+        let wanted = self.requirements(&requirements)?;
+        let settings = SamplingSettings::default();
+        self.ask(py, |study| study.rare_failure(&wanted, &settings))
+            .map(RareFailure)
+    }
 }
 
 impl Study {
@@ -114,5 +127,25 @@ impl Reliability {
     #[getter]
     fn any_failure(&self) -> Option<f64> {
         self.0.system.as_ref().map(|own| own.probability.value)
+    }
+}
+
+result! {
+    /// A small probability of failure.
+    RareFailure(requirement::RareFailure)
+}
+
+#[pymethods]
+impl RareFailure {
+    /// Probability that any requirement is failed.
+    #[getter]
+    fn failure(&self) -> f64 {
+        self.0.failure.probability.value
+    }
+
+    /// Its standard error.
+    #[getter]
+    fn standard_error(&self) -> f64 {
+        self.0.failure.probability.standard_error
     }
 }

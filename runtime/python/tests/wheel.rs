@@ -176,6 +176,11 @@ fn the_module_agrees_with_its_peers() {
     run(
         "python-peers",
         &packages,
-        &["test_peers.py", "test_parts.py", "test_robots.py"],
+        &[
+            "test_openturns.py",
+            "test_peers.py",
+            "test_parts.py",
+            "test_robots.py",
+        ],
     );
 }
