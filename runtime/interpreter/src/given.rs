@@ -17,7 +17,7 @@ use crate::mistakes::Mistakes;
 /// assert!((value("50 Hz", &rpm, "`speed`")? - 314.159_265_358_979_3).abs() < 1e-12);
 ///
 /// let error = value("3000", &rpm, "`speed`").unwrap_err().to_string();
-/// assert_eq!(error, "1:1: `3000` has no unit; an angular rate is expected, for example `3000 rad/s`");
+/// assert_eq!(error, "1:1: `3000` has no unit; an angular speed is expected, for example `3000 rad/s`");
 /// # Ok::<(), eigentol_interpreter::Mistakes>(())
 /// ```
 ///

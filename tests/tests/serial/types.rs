@@ -29,7 +29,6 @@ const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),
     ("Sampler", "holds a function"),
-    ("Samples", "a partial result"),
     ("Sampling", "that of Monte Carlo holds a function"),
     ("Shared", "written by hand"),
     ("Sizes", "an intermediate result of kernels"),

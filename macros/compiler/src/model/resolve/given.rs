@@ -24,7 +24,7 @@ use crate::syntax::parse::parse;
 /// assert!((speed - 2.0 * std::f64::consts::PI).abs() < 1e-12);
 ///
 /// let error = given::value(tokens("3 m"), tokens("rpm"), "`speed`").unwrap_err();
-/// assert!(error.to_string().contains("`speed` must be an angular rate (rad/s), this is a length (m)"), "{error}");
+/// assert!(error.to_string().contains("`speed` must be an angular speed (rad/s), this is a length (m)"), "{error}");
 /// ```
 ///
 /// # Errors
@@ -61,7 +61,8 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 /// let tolerance = given::tolerance(tokens("3% uniform"), tokens("mm")).unwrap();
 /// assert_eq!((tolerance.lower, tolerance.upper, tolerance.relative), (-0.03, 0.03, true));
 /// assert_eq!(given::tolerance(tokens("+0.2 0 mm"), tokens("m")).unwrap().upper, 2e-4);
-/// assert!(given::tolerance(tokens("3 kg"), tokens("mm")).is_err());
+/// let error = given::tolerance(tokens("3 kg"), tokens("mm")).unwrap_err();
+/// assert!(error.to_string().contains("must be a length (m), this is a mass (kg)"), "{error}");
 /// ```
 ///
 /// # Errors
