@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 31] = [
+const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -26,6 +26,7 @@ const NOT_WRITTEN: [(&str, &str); 31] = [
     ("Matrix", "written by hand"),
     ("Output", "written by hand"),
     ("PartialMatrices", "an intermediate result of kernels"),
+    ("RandomNumbers", "a generator; its place is its seed and a number"),
     ("Requirements", "borrows a mechanism"),
     ("Responses", "borrows a mechanism"),
     ("Sampler", "holds a function"),
