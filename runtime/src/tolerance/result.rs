@@ -23,7 +23,7 @@ pub struct MonteCarlo {
     pub modes: Vec<Option<Statistics>>,
     /// Statistics of the damping ratio over the same samples.
     pub damping_ratios: Vec<Option<Statistics>>,
-    /// Samples were solved side by side in vectors ([`Sampling::vectors`]), except those that had to be solved alone. Solved one by
+    /// Samples were solved side by side in vectors ([`Sampling::vectors`](super::Sampling::vectors)), except those that had to be solved alone. Solved one by
     /// one, the statistics differ in the last bits.
     pub side_by_side: bool,
     /// Some nominal modes have equal eigenvalues. Which of them a sample's mode is matched to is arbitrary, and only
