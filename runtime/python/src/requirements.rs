@@ -109,7 +109,8 @@ result! {
 
 #[pymethods]
 impl Reliability {
-    /// Probability that each limit is passed, of second order where there is one, shape (l,); NaN without a design point.
+    /// Probability to first order that each limit is passed, shape (l,); NaN without a design point. Those to second order stand in the
+    /// table "design points".
     #[getter]
     fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
         let all = self.0.limits.iter();

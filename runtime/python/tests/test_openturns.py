@@ -106,6 +106,10 @@ def design_point(ot, own):
     return form.getResult(), sorm.getResult()
 
 
+def second_order(ours):
+    return ours.table("design points")["probability of failure, second order"][0]
+
+
 def importance(ot, own, point, size):
     """Importance sampling of OpenTURNS about its design point, in the standard space."""
     event = ot.StandardEvent(own.event)
@@ -151,8 +155,9 @@ def test_design_points_and_a_rare_event(compared):
     ours = own.study.reliability(own.requirement())
     form, sorm = design_point(ot, own)
     assert ours.beta[0] == pytest.approx(form.getHasoferReliabilityIndex(), rel=1e-6)
+    assert ours.failure[0] == pytest.approx(form.getEventProbability(), rel=1e-5)
     # Their second derivatives are differences.
-    assert ours.failure[0] == pytest.approx(sorm.getEventProbabilityBreitung(), rel=2e-2)
+    assert second_order(ours) == pytest.approx(sorm.getEventProbabilityBreitung(), rel=2e-3)
     rare = own.study.rare_failure(own.requirement())
     point = form.getStandardSpaceDesignPoint()
     theirs = importance(ot, own, point, 4000)
@@ -199,7 +204,7 @@ def main():
             "beta; probability by SORM",
             lambda: own.study.reliability(own.requirement()),
             lambda: design_point(ot, own),
-            lambda value, mine: f"{value.beta[0]:.6f}; {value.failure[0]:.4e}"
+            lambda value, mine: f"{value.beta[0]:.6f}; {second_order(value):.4e}"
             if mine
             else f"{value[0].getHasoferReliabilityIndex():.6f}; {value[1].getEventProbabilityBreitung():.4e}",
         )
