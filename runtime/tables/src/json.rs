@@ -34,6 +34,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::answer::Answer;
+use crate::results::as_written;
 use crate::{Error, Table};
 
 /// The word that says what a file is.
@@ -84,7 +85,7 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
         each.filter(move |(k, _)| Some(*k) != varied)
     });
     let inputs = each.map(|(_, (info, &value))| {
-        let value = info.unit.from_si(value);
+        let value = as_written(value, &info.unit);
         let unit = &*info.unit.symbol;
         (&*info.name, Quantity { value, unit })
     });

@@ -18,6 +18,7 @@ mod summary;
 mod sweep;
 mod tolerance;
 
+pub(crate) use names::as_written;
 pub use samples::samples_table;
 pub use sweep::sweep_table;
 

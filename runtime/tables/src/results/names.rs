@@ -14,6 +14,18 @@ pub(super) fn in_unit(value: f64, unit: &Unit) -> f64 {
     }
 }
 
+/// A value that a person chose, as it was written: 3000 rpm are not 3000.0000000000005. Of 15 digits where these give the same
+/// SI value.
+pub(crate) fn as_written(value: f64, unit: &Unit) -> f64 {
+    let own = in_unit(value, unit);
+    let short = format!("{own:.14e}").parse().unwrap_or(own);
+    if unit.to_si(short) == value {
+        short
+    } else {
+        own
+    }
+}
+
 /// A derivative by an SI value as one by a value in the declared unit.
 pub(super) fn per_unit(slope: f64, unit: &Unit) -> f64 {
     slope * unit.scale
@@ -30,7 +42,7 @@ pub(super) fn operating_point(
     let varied = varied.map(Input::index);
     for (k, (info, &value)) in d.inputs.iter().zip(inputs).enumerate() {
         if Some(k) != varied {
-            let value = in_unit(value, &info.unit);
+            let value = as_written(value, &info.unit);
             table.numbers(&*info.name, &info.unit.symbol, vec![value; rows]);
         }
     }
@@ -44,7 +56,7 @@ pub(super) fn varied(
     values: impl Iterator<Item = f64>,
 ) {
     if let Some(info) = d.inputs.get(input.index()) {
-        let values = values.map(|value| in_unit(value, &info.unit));
+        let values = values.map(|value| as_written(value, &info.unit));
         table.numbers(&*info.name, &info.unit.symbol, values);
     }
 }
@@ -143,5 +155,43 @@ pub(super) fn response(response: &Response, d: &Description) -> (String, Unit) {
             declared(info.map(|info| (&info.name, &info.unit)), "critical ")
         }
         other => (format!("{other:?}"), unit_of(Quantity::DampingRatio)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use eigentol::{Text, Unit};
+
+    use super::as_written;
+
+    #[test]
+    fn chosen_values_come_back_as_they_were_written() {
+        let unit = |scale: f64| Unit {
+            symbol: Text::Static("a unit"),
+            scale,
+        };
+        let rpm = unit(core::f64::consts::PI / 30.0);
+        let mut rough = 0;
+        for speed in 0..=20_000 {
+            let speed = 0.5 * f64::from(speed);
+            rough += usize::from(rpm.from_si(rpm.to_si(speed)) != speed);
+            assert_eq!(as_written(rpm.to_si(speed), &rpm), speed);
+        }
+        assert!(rough > 0);
+        for length in [0.1, 0.3, -2.7, 1e-3, 12.345] {
+            let mm = unit(1e-3);
+            assert_eq!(as_written(mm.to_si(length), &mm), length);
+        }
+    }
+
+    #[test]
+    fn what_nobody_wrote_keeps_its_digits() {
+        let one = Unit {
+            symbol: Text::Static("m"),
+            scale: 1.0,
+        };
+        for value in [core::f64::consts::PI, 1.0 / 3.0, -0.1 - 0.2, 0.0] {
+            assert_eq!(as_written(value, &one), value);
+        }
     }
 }
