@@ -100,17 +100,15 @@ fn museum() -> (Interpreted, Scene) {
             design r = 0.3 m;
             design l = 2 m;
             gravity 9.81 m/s^2 along -z;
-            body all: [
-                point(mass: 3 kg, at: [1, 2, 3] m),
-                rod(mass: 1 kg, length: l, along: y),
-                disk(mass: 1 kg, radius: r, axis: z, center: [0, 0, l]) at [1, 0, 0] m rotated(x, 90 deg),
-                cylinder(mass: 1 kg, radius: r, length: l, axis: x),
-                tube(mass: 1 kg, inner: 0.1 m, outer: r, length: l, axis: x),
-                box(mass: 1 kg, size: [1, 2, 3] m) rotated(z, 45 deg),
-                sphere(mass: 1 kg, radius: r),
-                rigid(mass: 12 kg, inertia: [13, 10, 5, 0, 0, 0] kg*m^2),
-                - sphere(mass: 0.1 kg, radius: 0.1 m),
-            ];
+            body all: point(mass: 3 kg, center: [1, 2, 3] m)
+                + rod(mass: 1 kg, length: l, along: y)
+                + disk(mass: 1 kg, radius: r, axis: z, center: [0, 0, l]) at [1 m, 0, 0] rotated(x, 90 deg)
+                + cylinder(mass: 1 kg, radius: r, length: l, axis: x)
+                + tube(mass: 1 kg, inner: 0.1 m, outer: r, length: l, axis: x)
+                + box(mass: 1 kg, size: [1, 2, 3] m) rotated(z, 45 deg)
+                + sphere(mass: 1 kg, radius: r)
+                + rigid(mass: 12 kg, inertia: [13, 10, 5, 0, 0, 0] kg*m^2)
+                - sphere(mass: 0.1 kg, radius: 0.1 m);
             joint slide: prismatic(x) from ground to all;
             point near: all at [r, 0, 0];
             point far: ground at [-1, 0, 0] m;

@@ -115,7 +115,7 @@ fn with(scene: &Scene, frame: &[Pose]) -> Scene {
 /// its place, and a quarter of a period turns it by a right angle.
 #[test]
 fn whirling_shapes_circle() {
-    let study = Study::new(JeffcottRotor).input(JeffcottRotor::omega, 50.0);
+    let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, 50.0);
     let solved = study.solve().expect("modes");
     let rest = solved.picture().expect("a picture");
     for mode in 0..solved.modes.modes.len() {
@@ -175,7 +175,7 @@ fn modes_of_speeds_alone_stand_still() {
         else {
             continue;
         };
-        let modes = eigentol::modes::modes(kernels, &at, eigentol::Family::General).expect("modes");
+        let modes = eigentol::modes::modes(&at).expect("modes");
         let rest = scene(&*machine.picture, &at.coordinates, &u, &b).expect("a picture");
         for mode in 0..modes.modes.len() {
             let swing =
