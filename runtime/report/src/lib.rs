@@ -1,0 +1,13 @@
+#![doc = include_str!("../README.md")]
+
+mod content;
+mod error;
+mod html;
+mod page;
+mod report;
+mod sections;
+mod tables;
+mod words;
+
+pub use error::Error;
+pub use report::Report;

@@ -1,0 +1,33 @@
+//! How the mechanism vibrates.
+
+use eigentol_tables::tables;
+
+use super::refused;
+use crate::Error;
+use crate::content::Content;
+use crate::html::Html;
+use crate::tables::table;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let modes = match &content.modes {
+        Ok(modes) => modes,
+        Err(error) => {
+            refused(html, "there are no modes", error);
+            return Ok(());
+        }
+    };
+    if modes.damping_ignored {
+        html.paragraph("Damping and gyroscopic forces are not zero here and are ignored: undamped modes.");
+    }
+    let columns = [
+        "mode",
+        "frequency",
+        "damping ratio",
+        "Re s",
+        "motion",
+    ];
+    for own in tables(modes) {
+        table(html, "Natural modes", &own, &columns)?;
+    }
+    Ok(())
+}
