@@ -105,6 +105,8 @@ pub mod modes;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
+pub mod picture;
+#[cfg(feature = "std")]
 pub mod propagation;
 #[cfg(feature = "std")]
 pub mod report;
@@ -139,6 +141,9 @@ pub use mechanism::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
     Law, Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared,
     Text, ToleranceInfo, Unit, Violation,
+};
+pub use mechanism::{
+    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
 };
 pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
 pub use scalar::{Dual, Real};

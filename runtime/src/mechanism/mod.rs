@@ -3,6 +3,7 @@
 mod array;
 mod description;
 mod handles;
+mod picture;
 mod results;
 #[cfg(feature = "serde")]
 mod serial;
@@ -15,6 +16,9 @@ pub use description::{
     Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
+pub use picture::{
+    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
+};
 pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Violation};
 pub use shared::{List, Shared, Text};
 pub use tolerance::{Law, ToleranceInfo};

@@ -1,0 +1,6 @@
+//! What a mechanism looks like, at rest and in its modes: where bodies are, what they are made of, where joints, points and forces
+//! are.
+
+mod scene;
+
+pub use scene::{Body, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Shape, Solid, Wheel};
