@@ -5,6 +5,7 @@ mod error;
 mod html;
 mod page;
 mod report;
+mod scene;
 mod sections;
 mod tables;
 mod words;

@@ -6,7 +6,7 @@ use crate::words::operating_point;
 use crate::{Error, sections};
 
 /// Scripts, each after those it builds on. In one module, so that none of their names is global.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 9] = [
     include_str!("../assets/svg.js"),
     include_str!("../assets/axes.js"),
     include_str!("../assets/chart.js"),
@@ -14,6 +14,7 @@ const SCRIPTS: [&str; 8] = [
     include_str!("../assets/vectors.js"),
     include_str!("../assets/solids.js"),
     include_str!("../assets/view3d.js"),
+    include_str!("../assets/player.js"),
     include_str!("../assets/page.js"),
 ];
 

@@ -48,11 +48,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         table(html, &caption, own, &columns)?;
     }
     html.paragraph(&about_samples(&summary.sampling));
-    for cluster in &summary.clusters {
-        if cluster.modes.iter().any(|mode| summary.cluster_of(*mode).is_some()) {
-            for own in tables(cluster) {
-                table(html, "Modes that tolerances mix", &own, &[])?;
-            }
+    let mixed = summary.trust.iter().any(|own| summary.cluster_of(own.mode).is_some());
+    if mixed {
+        for own in tables(&summary.clusters[..]) {
+            table(html, "Modes that tolerances mix", &own, &[])?;
         }
     }
     Ok(())
