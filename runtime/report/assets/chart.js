@@ -1,8 +1,7 @@
 // Draws a figure of the crate eigentol-figures: panels with a legend whose entries hide what they name, values under the pointer or
 // the arrow keys, and a rectangle to zoom into.
 
-const WIDTH = 720;
-const HEIGHT = 340;
+const WIDEST = 760;
 const DASHES = { solid: "", dashed: "8 5", dotted: "2 4", dash_dotted: "9 4 2 4" };
 
 function drawFigure(figure, parent) {
@@ -73,14 +72,16 @@ class Chart {
     for (const one of this.series) one.points = pointsOf(one, panel);
     this.whole = [proper(panel.x.range), proper(panel.y.range)];
     this.view = this.whole;
+    const wide = Math.max(340, Math.min(WIDEST, parent.clientWidth || WIDEST));
+    this.size = [wide, Math.round(Math.max(250, 0.46 * wide))];
     this.id = `clip${(Chart.count += 1)}`;
     const longest = Math.max(0, ...panel.y.categories.map((name) => name.length));
-    this.inner = { left: longest ? Math.min(210, 34 + 7.2 * longest) : 78, right: WIDTH - 18, top: 12, bottom: HEIGHT - 48 };
+    this.inner = { left: longest ? Math.min(210, 34 + 7.2 * longest) : 78, right: wide - 18, top: 12, bottom: this.size[1] - 48 };
     this.box = htmlElement("div", { class: "panel" }, parent);
     this.legend();
     this.plot = htmlElement("div", { class: "plot" }, this.box);
     this.svg = svgElement("svg", {
-      viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+      viewBox: `0 0 ${this.size.join(" ")}`,
       role: "group",
       tabindex: "0",
       "aria-label": `${title}: ${heading(panel.y)} over ${heading(panel.x)}. Arrow keys move through the values, plus and minus zoom.`,
@@ -151,7 +152,7 @@ class Chart {
     for (const [low, high] of [[[left, bottom], [right, bottom]], [[left, top], [left, bottom]]]) {
       svgElement("line", { x1: low[0], y1: low[1], x2: high[0], y2: high[1], class: "axis" }, axes);
     }
-    svgText(heading(x), { x: (left + right) / 2, y: HEIGHT - 9, "text-anchor": "middle", class: "name" }, axes);
+    svgText(heading(x), { x: (left + right) / 2, y: this.size[1] - 9, "text-anchor": "middle", class: "name" }, axes);
     const middle = (top + bottom) / 2;
     svgText(heading(y), { x: 16, y: middle, "text-anchor": "middle", class: "name", transform: `rotate(-90 16 ${middle})` }, axes);
   }
@@ -226,15 +227,15 @@ class Chart {
     this.tip.replaceChildren();
     if (found.one.label) htmlElement("strong", {}, this.tip, found.one.label);
     for (const line of found.point.lines) htmlElement("div", {}, this.tip, line);
-    this.tip.classList.toggle("leftwards", x > WIDTH * 0.6);
-    this.tip.style.left = `${(100 * x) / WIDTH}%`;
-    this.tip.style.top = `${(100 * y) / HEIGHT}%`;
+    this.tip.classList.toggle("leftwards", x > this.size[0] * 0.6);
+    this.tip.style.left = `${(100 * x) / this.size[0]}%`;
+    this.tip.style.top = `${(100 * y) / this.size[1]}%`;
   }
 
   // The place of an event in the coordinates of the drawing.
   place(event) {
     const box = this.svg.getBoundingClientRect();
-    return [((event.clientX - box.left) * WIDTH) / box.width, ((event.clientY - box.top) * HEIGHT) / box.height];
+    return [((event.clientX - box.left) * this.size[0]) / box.width, ((event.clientY - box.top) * this.size[1]) / box.height];
   }
 
   zoom(view) {

@@ -8,6 +8,8 @@ use eigentol::{
     Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Study, Tolerances, Value,
 };
 
+use eigentol_figures::Style;
+
 use crate::Report;
 
 /// Everything that a page is made of.
@@ -16,6 +18,10 @@ pub(crate) struct Content {
     pub(crate) declaration: Option<String>,
     pub(crate) description: Description,
     pub(crate) setup: Setup,
+    /// Of figures that say all of what they rest on.
+    pub(crate) style: Style,
+    /// Of figures that stand below a sentence that says it.
+    pub(crate) brief_style: Style,
     pub(crate) equilibrium: Result<Equilibrium, Error>,
     pub(crate) modes: Result<Modes, Error>,
     pub(crate) outputs: Result<OutputTolerances, Error>,
@@ -32,7 +38,6 @@ pub(crate) struct Setup {
     pub(crate) tolerances: Tolerances,
     /// Positions of the inputs whose tolerances follow those of the design variables.
     pub(crate) deviating: Vec<usize>,
-    pub(crate) samples: usize,
     pub(crate) seed: u64,
     pub(crate) stream: u64,
 }
@@ -45,7 +50,6 @@ pub(crate) struct Spreads {
 
 /// What happens along an input.
 pub(crate) struct Along {
-    pub(crate) input: Input,
     pub(crate) campbell: Result<Campbell, Error>,
     pub(crate) branches: Result<Branches, Error>,
 }
@@ -84,6 +88,8 @@ impl Content {
             declaration: report.declaration.clone(),
             description,
             setup,
+            style: Style::of(study),
+            brief_style: Style::default(),
             equilibrium,
             modes: solved.map(|solved| solved.modes),
             outputs,
@@ -103,7 +109,6 @@ impl Setup {
             deviating: (study.deviating_inputs().iter())
                 .map(|input| input.index())
                 .collect(),
-            samples: sampling.samples,
             seed: sampling.seed,
             stream: sampling.stream,
         })
@@ -123,7 +128,6 @@ impl Along {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Ok(Self {
-            input: input.any(),
             campbell,
             // No range, no branches: a sweep of one value, or of none, is no mistake.
             branches: study.branches(input, low, high),

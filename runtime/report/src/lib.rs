@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod charts;
 mod content;
 mod error;
 mod html;

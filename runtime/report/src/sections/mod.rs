@@ -57,6 +57,17 @@ pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
     Ok(())
 }
 
+/// Modes that have figures of their own.
+const MODES: usize = 6;
+
+/// Says of how many modes there are no figures.
+fn beyond(html: &mut Html, modes: usize, what: &str) {
+    if modes > MODES {
+        let more = modes - MODES;
+        html.paragraph(&format!("The {what} {more} more modes are in the table."));
+    }
+}
+
 /// Says why something is not there.
 fn refused(html: &mut Html, what: &str, why: &eigentol::Error) {
     let text = sentence(&format!("{what}: {why}"));

@@ -1,8 +1,10 @@
 //! How the mechanism vibrates.
 
+use eigentol_figures::{mode_shapes, participation};
 use eigentol_tables::tables;
 
 use super::refused;
+use crate::charts::chart;
 use crate::Error;
 use crate::content::Content;
 use crate::html::Html;
@@ -28,6 +30,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     ];
     for own in tables(modes) {
         table(html, "Natural modes", &own, &columns)?;
+    }
+    chart(html, &mode_shapes(modes, &content.brief_style))?;
+    if let Ok(state) = &content.equilibrium {
+        chart(html, &participation(modes, state, &content.brief_style))?;
     }
     Ok(())
 }

@@ -136,6 +136,18 @@ impl Chrome {
         answer["result"]["value"].clone()
     }
 
+    /// All of the page, as PNG.
+    pub(crate) fn screenshot(&mut self) -> Vec<u8> {
+        let asked = json!({ "format": "png", "captureBeyondViewport": true });
+        bytes(&self.ask("Page.captureScreenshot", asked)["data"])
+    }
+
+    /// The page as it is printed.
+    pub(crate) fn pdf(&mut self) -> Vec<u8> {
+        let asked = json!({ "printBackground": true, "preferCSSPageSize": true });
+        bytes(&self.ask("Page.printToPDF", asked)["data"])
+    }
+
     pub(crate) fn number(&mut self, expression: &str) -> f64 {
         let value = self.evaluate(expression);
         value.as_f64().unwrap_or_else(|| panic!("{expression} is {value}"))
@@ -173,6 +185,11 @@ impl Chrome {
             self.ask("Input.dispatchKeyEvent", event);
         }
     }
+}
+
+fn bytes(data: &Value) -> Vec<u8> {
+    let text = data.as_str().expect("data");
+    data_encoding::BASE64.decode(text.as_bytes()).expect("base 64")
 }
 
 impl Drop for Chrome {
