@@ -1,16 +1,18 @@
 //! What a report says: every result of a study, or why there is none. From here on nothing depends on the type of the mechanism.
 
 use eigentol::branches::Branches;
-use eigentol::kernels::SummaryKernels;
+use eigentol::kernels::{PictureKernels, SummaryKernels};
+use eigentol::picture::{ModePictures, Scene};
 use eigentol::summary::Summary;
 use eigentol::tolerance::OutputTolerances;
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Study, Tolerances, Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Tolerances, Value,
 };
 
 use eigentol_figures::Style;
 
 use crate::Report;
+use crate::scene::{AMPLITUDE, frames};
 
 /// Everything that a page is made of.
 pub(crate) struct Content {
@@ -24,6 +26,7 @@ pub(crate) struct Content {
     pub(crate) brief_style: Style,
     pub(crate) equilibrium: Result<Equilibrium, Error>,
     pub(crate) modes: Result<Modes, Error>,
+    pub(crate) pictures: Result<Pictures, Error>,
     pub(crate) outputs: Result<OutputTolerances, Error>,
     /// `None` where nothing has a tolerance.
     pub(crate) spread: Option<Spreads>,
@@ -40,6 +43,13 @@ pub(crate) struct Setup {
     pub(crate) deviating: Vec<usize>,
     pub(crate) seed: u64,
     pub(crate) stream: u64,
+}
+
+/// What there is to see.
+pub(crate) struct Pictures {
+    pub(crate) scene: Scene,
+    /// Of the modes from the first on; large mechanisms have more of them.
+    pub(crate) modes: Vec<Result<ModePictures, Error>>,
 }
 
 /// What tolerances do.
@@ -59,7 +69,7 @@ impl Content {
     ///
     /// # Errors
     /// A mistake of the caller: everything else is kept, to be said in its place.
-    pub(crate) fn of<M: SummaryKernels + Clone>(report: &Report<M>) -> Result<Self, Error> {
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>) -> Result<Self, Error> {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;
@@ -67,6 +77,11 @@ impl Content {
         let outputs = match &solved {
             Ok(solved) => answer(solved.output_tolerances())?,
             Err(error) => Err(error.clone()),
+        };
+        let pictures = match (&solved, &equilibrium) {
+            (Ok(solved), _) => answer(Pictures::of(solved))?,
+            (Err(_), Ok(_)) => answer(study.picture())?.map(Pictures::at_rest),
+            (Err(error), Err(_)) => Err(error.clone()),
         };
         let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
         let spread = match &solved {
@@ -91,11 +106,31 @@ impl Content {
             style: Style::of(study),
             brief_style: Style::default(),
             equilibrium,
+            pictures,
             modes: solved.map(|solved| solved.modes),
             outputs,
             spread,
             along: along.transpose()?,
         })
+    }
+}
+
+impl Pictures {
+    fn of<M: PictureKernels>(solved: &Solved<'_, M>) -> Result<Self, Error> {
+        let scene = solved.picture()?;
+        let (modes, phases) = frames(scene.bodies.len(), solved.modes.modes.len());
+        let modes = (0..modes).map(|mode| solved.mode_pictures(mode, phases, AMPLITUDE));
+        Ok(Self {
+            modes: modes.collect(),
+            scene,
+        })
+    }
+
+    fn at_rest(scene: Scene) -> Self {
+        Self {
+            scene,
+            modes: Vec::new(),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use eigentol::kernels::SummaryKernels;
+use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::{Input, Study, Value};
 
 use crate::content::Content;
@@ -44,7 +44,7 @@ pub struct Report<M> {
     pub(crate) orders: Vec<f64>,
 }
 
-impl<M: SummaryKernels + Clone> Report<M> {
+impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     /// A report of a study as it is set up: its operating point, tolerances, samples and seed.
     #[must_use]
     pub fn new(study: &Study<M>) -> Self {

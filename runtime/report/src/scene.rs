@@ -6,6 +6,7 @@ use eigentol::picture::{ModePictures, Pose, Scene};
 use eigentol::{Mode, Modes};
 use serde::Serialize;
 
+use crate::content::Pictures;
 use crate::words::number;
 
 /// Most poses of all modes together: they are the bulk of the file.
@@ -40,10 +41,11 @@ struct Motion {
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(scene: &'a Scene, pictures: &[ModePictures], modes: &Modes) -> Self {
+    pub(crate) fn new(pictures: &'a Pictures, modes: Option<&Modes>) -> Self {
+        let scene = &pictures.scene;
         let size = scene.size();
         let motion = |own: &ModePictures| {
-            let mode = modes.modes.get(own.mode)?;
+            let mode = modes?.modes.get(own.mode)?;
             let frames = own.frames.iter().map(|poses| flat(poses, size));
             Some(Motion {
                 title: title(mode),
@@ -53,7 +55,7 @@ impl<'a> View<'a> {
         };
         Self {
             scene,
-            modes: pictures.iter().filter_map(motion).collect(),
+            modes: pictures.modes.iter().flatten().filter_map(motion).collect(),
         }
     }
 }

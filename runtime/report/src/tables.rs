@@ -7,7 +7,7 @@ use crate::html::Html;
 use crate::words::number;
 
 /// Rows that are shown; the others are only copied.
-const ROWS: usize = 40;
+const ROWS: usize = 24;
 
 /// A table with the columns of these names, or with all that are not empty where none are named. What is not shown is said, and
 /// copied.
@@ -79,24 +79,29 @@ fn head(html: &mut Html, columns: &[&Column]) {
     html.element("thead", &[], |html| {
         html.element("tr", &[], |html| {
             for column in columns {
-                html.leaf("th", &[("scope", "col")], &column.heading());
+                let class = class_of(&column.values);
+                html.leaf("th", &[("scope", "col"), ("class", class)], &column.heading());
             }
         });
     });
 }
 
 fn cell(html: &mut Html, values: &Values, row: usize) {
-    let (class, text) = match values {
-        Values::Numbers(all) => ("number", all[row].map(number)),
-        Values::Whole(all) => ("number", all[row].map(|own| own.to_string())),
-        Values::Texts(all) => ("words", all[row].clone()),
-        Values::Flags(all) => (
-            "words",
-            all[row].map(|own| if own { "yes" } else { "no" }.to_owned()),
-        ),
+    let text = match values {
+        Values::Numbers(all) => all[row].map(number),
+        Values::Whole(all) => all[row].map(|own| own.to_string()),
+        Values::Texts(all) => all[row].clone(),
+        Values::Flags(all) => all[row].map(|own| if own { "yes" } else { "no" }.to_owned()),
     };
     let text = text.unwrap_or_else(|| "\u{2013}".to_owned());
-    html.leaf("td", &[("class", class)], &text);
+    html.leaf("td", &[("class", class_of(values))], &text);
+}
+
+fn class_of(values: &Values) -> &'static str {
+    match values {
+        Values::Numbers(_) | Values::Whole(_) => "number",
+        Values::Texts(_) | Values::Flags(_) => "words",
+    }
 }
 
 fn is_empty(values: &Values) -> bool {

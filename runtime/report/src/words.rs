@@ -4,15 +4,20 @@ use eigentol::{Description, Unit};
 
 /// A number with six significant digits, in scientific form where that is shorter to read.
 pub(crate) fn number(value: f64) -> String {
+    digits(value, 6)
+}
+
+/// A number with so many significant digits.
+pub(crate) fn digits(value: f64, count: usize) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e6).contains(&size) {
-        return trimmed(&format!("{value:.5e}"));
+        return trimmed(&format!("{value:.*e}", count.saturating_sub(1)));
     }
     let before = size.log10().floor() as i32 + 1;
-    let decimals = (6 - before).clamp(0, 8) as usize;
+    let decimals = (count as i32 - before).clamp(0, 9) as usize;
     trimmed(&format!("{value:.decimals$}"))
 }
 

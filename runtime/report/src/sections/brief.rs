@@ -8,7 +8,7 @@ use super::verdicts::{NOTHING_VARIES, named};
 use crate::Error;
 use crate::content::{Along, Content, Spreads};
 use crate::html::Html;
-use crate::words::{number, sentence, with_unit};
+use crate::words::{digits, number, sentence, with_unit};
 
 /// Modes that are described one by one.
 const MODES: usize = 6;
@@ -21,7 +21,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             let class = match good {
                 Some(true) => "good",
                 Some(false) => "bad",
-                None => "refused",
+                None => "fact",
             };
             html.leaf("li", &[("class", class)], &text);
         }
@@ -95,9 +95,9 @@ fn spread_of(first: &FirstOrder, mode: usize) -> String {
     let shares = spread.variance_shares.iter().zip(first.description.design.iter());
     let greatest = shares.max_by(|a, b| a.0.total_cmp(b.0));
     let cause = greatest.map_or_else(String::new, |(share, info)| {
-        format!(", most of it by {} ({:.0} %)", info.name, 100.0 * share)
+        format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share)
     });
-    format!(" \u{b1} {} ({} sigma){cause}", number(spread.band), first.sigma_level)
+    format!(" \u{b1} {} ({} sigma){cause}", digits(spread.band, 3), first.sigma_level)
 }
 
 fn tolerances(spread: &Spreads) -> Vec<Line> {
@@ -179,7 +179,7 @@ fn happening(campbell: &Campbell, event: &EventTolerance) -> String {
     let spread = match &event.spread {
         Ok(spread) if spread.sigma > 0.0 => format!(
             " \u{b1} {} ({} sigma)",
-            number(info.unit.from_si(spread.band)),
+            digits(info.unit.from_si(spread.band), 3),
             event.sigma_level
         ),
         _ => String::new(),
