@@ -128,7 +128,7 @@ class Chart {
       if (!this.inView(at)) continue;
       const [x, y] = this.pixel(at);
       const end = x > right - 7 * text.length;
-      svgText(text, { x: end ? x - 6 : x + 6, y: Math.max(top + 12, y - 6), class: "label", "text-anchor": end ? "end" : "start" }, this.svg);
+      svgText(text, { x: end ? x - 6 : x + 6, y: this.panel.y.categories.length > 0 ? y + 4 : Math.max(top + 12, y - 6), class: "label", "text-anchor": end ? "end" : "start" }, this.svg);
     }
     this.frame = svgElement("rect", { class: "drag", width: 0, height: 0 }, this.svg);
     this.cursor = svgElement("circle", { class: "cursor", r: 5, visibility: "hidden" }, this.svg);

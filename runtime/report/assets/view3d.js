@@ -220,7 +220,8 @@ function turns(points) {
 function zigzag([x, y], [p, q]) {
   const long = Math.hypot(p - x, q - y);
   if (long < 12) return [[x, y], [p, q]];
-  const across = [(-5 * (q - y)) / long, (5 * (p - x)) / long];
+  const wide = Math.min(5, 0.12 * long);
+  const across = [(-wide * (q - y)) / long, (wide * (p - x)) / long];
   const inner = [0.2, 0.26, 0.38, 0.5, 0.62, 0.74, 0.8].map((share, k, all) => {
     const side = k === 0 || k === all.length - 1 ? 0 : k % 2 ? 1 : -1;
     return [x + share * (p - x) + side * across[0], y + share * (q - y) + side * across[1]];

@@ -37,17 +37,19 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     ));
     let count = found.modes.len();
     let figures = (0..count.min(MODES)).map(|mode| {
-        let histogram = Histogram::new(found, mode);
-        match &spread.summary {
-            Ok(summary) => histogram
-                .first_order(&summary.first)
-                .figure(&content.brief_style),
-            Err(_) => histogram.figure(&content.brief_style),
+        let style = content.brief_style.clone().title(format!("Mode {}", mode + 1));
+        let mut histogram = Histogram::new(found, mode);
+        if let Ok(summary) = &spread.summary {
+            histogram = histogram.first_order(&summary.first);
         }
+        histogram.figure(&style)
     });
     charts(html, figures)?;
     beyond(html, count, "distributions of");
     for own in tables(found) {
+        if own.name == "outcomes" && found.counts.stable == found.samples {
+            continue;
+        }
         let caption = match &*own.name {
             "outcomes" => "What became of the samples",
             _ => "Statistics of the samples",

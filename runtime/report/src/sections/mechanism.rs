@@ -3,6 +3,7 @@
 use eigentol::{DampingKind, Role, Unit};
 use eigentol_tables::Table;
 
+use super::parts;
 use crate::Error;
 use crate::content::{Content, Setup};
 use crate::html::Html;
@@ -37,6 +38,11 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     }
     if content.setup.tolerances.correlation().is_some() {
         html.paragraph("Some of the variables are correlated.");
+    }
+    if let Ok(pictures) = &content.pictures {
+        for (caption, own) in parts::tables(&pictures.scene) {
+            table(html, caption, &own, &[])?;
+        }
     }
     if let Some(text) = &content.declaration {
         html.element("details", &[], |html| {

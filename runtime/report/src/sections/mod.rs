@@ -6,6 +6,7 @@ mod distributions;
 mod equilibrium;
 mod mechanism;
 mod modes;
+mod parts;
 mod shares;
 mod verdicts;
 

@@ -1,5 +1,6 @@
 //! Which variables the spread of each mode comes from.
 
+use eigentol::FirstOrder;
 use eigentol_figures::shares;
 use eigentol_tables::{Table, tables};
 
@@ -27,22 +28,30 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     };
     html.paragraph("Shares of the variables in the variance of each frequency, at first order.");
     let count = first.modes.len();
-    charts(html, (0..count.min(MODES)).map(|mode| shares(first, mode, &content.brief_style)))?;
+    let of = |mode: usize| {
+        let style = content.brief_style.clone();
+        shares(first, mode, &style.title(format!("Mode {}", mode + 1)))
+    };
+    charts(html, (0..count.min(MODES)).map(of))?;
     beyond(html, count, "contributions of");
+    table(html, "Shares in the variance of each frequency", &by_variable(first), &[])?;
     for own in tables(first) {
-        let names = shown(&own);
-        let names: Vec<&str> = names.iter().map(|own| &**own).collect();
-        table(html, "First order, mode by mode", &own, &names)?;
+        let columns = ["mode", "frequency", "sigma of frequency", "band of frequency", "cluster"];
+        table(html, "First order, mode by mode", &own, &columns)?;
     }
     Ok(())
 }
 
-/// Shares of variables, and what they are shares of.
-fn shown(table: &Table) -> Vec<String> {
-    let names = table.columns.iter().map(|own| own.name.clone());
-    let wanted = |name: &String| {
-        matches!(&**name, "mode" | "frequency" | "sigma of frequency" | "cluster")
-            || name.starts_with("variance share of ")
-    };
-    names.filter(wanted).collect()
+/// A row for each variable, a column for each mode; nothing of the members of a cluster, which have no spread of their own.
+fn by_variable(first: &FirstOrder) -> Table {
+    let design = first.description.design.iter();
+    let mut table = Table::new("shares");
+    table.texts("variable", design.clone().map(|info| Some(info.name.to_string())));
+    for (r, mode) in first.modes.iter().enumerate() {
+        let shares = mode.variance_shares();
+        let share = |k: usize| shares.get(k).filter(|_| !mode.clustered).map(|share| 100.0 * share);
+        let name = format!("mode {}", r + 1);
+        table.numbers(name, "%", (0..design.len()).map(share));
+    }
+    table
 }
