@@ -4,6 +4,7 @@
 //! `[x, y]`, colours `"#0072b2"`, everything else has the names of the fields here.
 
 mod axis;
+mod build;
 mod look;
 mod parts;
 
