@@ -15,3 +15,4 @@ mod readme;
 mod rust_examples;
 mod starter;
 mod subcommands;
+mod walkthrough;
