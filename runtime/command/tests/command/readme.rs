@@ -1,4 +1,4 @@
-//! The commands of the README and of the guide print what stands there.
+//! The commands of both READMEs and of the guide print what stands there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,6 +42,11 @@ fn the_readme_shows_what_commands_print() {
     let (commands, changed) = check(&readme, &examples(), &folder("readme"));
     unchanged(&changed.into_iter().collect::<Vec<_>>());
     assert!(commands >= 10, "{commands}");
+
+    let root = crate_folder().join("../..");
+    let (commands, changed) = check(&root.join("README.md"), &root, &folder("front"));
+    unchanged(&changed.into_iter().collect::<Vec<_>>());
+    assert!(commands >= 1);
 }
 
 #[test]

@@ -5,6 +5,8 @@
 //! | `console` | lines after `$` are commands, the others what they print |
 //! | `text FILE` | the content of a file |
 //! | `diff FILE` | lines of a file after `-`, and what takes their place after `+` |
+//! | `sh` | commands without what they print |
+//! | `rust FILE` | a program |
 
 use std::fs;
 use std::path::Path;
@@ -25,6 +27,10 @@ pub(crate) enum Part<'a> {
     File(&'a str, &'a str),
     /// A file and how it changes.
     Change(&'a str, &'a str),
+    /// Commands alone.
+    Shell(&'a str),
+    /// A file and the program in it.
+    Program(&'a str, &'a str),
 }
 
 /// The parts of a text, in order; fences belong to the prose.
@@ -37,6 +43,8 @@ pub(crate) fn parts(text: &str) -> Vec<Part<'_>> {
         let block = &rest[after..end];
         let part = match line.split_once(' ') {
             None if line == "console" => Part::Console(block),
+            None if line == "sh" => Part::Shell(block),
+            Some(("rust", file)) => Part::Program(file, block),
             Some(("text", file)) => Part::File(file, block),
             Some(("diff", file)) => Part::Change(file, block),
             _ => {
@@ -65,7 +73,7 @@ pub(crate) fn walked(text: &str, folder: &Path) -> String {
     let mut new = String::new();
     for part in parts(text) {
         match part {
-            Part::Prose(text) => new += text,
+            Part::Prose(text) | Part::Shell(text) | Part::Program(_, text) => new += text,
             Part::Console(shown) => {
                 for line in shown.lines().filter(|line| line.starts_with("$ ")) {
                     new += line;
