@@ -21,7 +21,9 @@ pub struct Style {
     title: Option<String>,
     names: BTreeMap<usize, String>,
     frequency: Option<Frequency>,
+    lowest: Option<f64>,
     highest: Option<f64>,
+    true_width: bool,
     marks: Vec<(f64, String)>,
     notes: Vec<String>,
     seed: Option<u64>,
@@ -92,6 +94,20 @@ impl Style {
         self
     }
 
+    /// The lower end of the first vertical axis of a Campbell diagram, in its unit: for a part of it.
+    #[must_use]
+    pub fn lowest(mut self, value: f64) -> Self {
+        self.lowest = Some(value).filter(|own| own.is_finite());
+        self
+    }
+
+    /// Bands as wide as they are, even where they cannot be seen.
+    #[must_use]
+    pub fn true_width(mut self) -> Self {
+        self.true_width = true;
+        self
+    }
+
     /// A vertical line at a value of the horizontal axis, in its unit: the speed at which a machine runs.
     #[must_use]
     pub fn mark(mut self, at: f64, label: impl Into<String>) -> Self {
@@ -147,6 +163,14 @@ impl Style {
             true => (1.0 / TAU, "Hz"),
             false => (1.0, "rad/s"),
         }
+    }
+
+    pub(crate) fn bottom(&self) -> f64 {
+        self.lowest.unwrap_or(0.0)
+    }
+
+    pub(crate) fn has_true_width(&self) -> bool {
+        self.true_width
     }
 
     pub(crate) fn top(&self) -> Option<f64> {

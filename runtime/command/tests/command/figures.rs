@@ -7,16 +7,9 @@ use crate::program::{answer, folder, pendulum, run};
 #[test]
 fn every_command_draws_its_figure_beside_the_same_answer() {
     let folder = folder("figures");
-    let sweep = ["--sweep", "omega=4..8rad/s"];
+    let sweep = ["--sweep", "omega=4..8rad/s", "--start", "theta=60deg"];
     let rotating = "rotating_pendulum.mechanism";
-    let campbell = [
-        "campbell",
-        rotating,
-        "--start",
-        "theta=60deg",
-        "--points",
-        "5",
-    ];
+    let campbell = ["campbell", rotating, "--points", "5"];
     let branches = ["branches", rotating];
     for (name, arguments, words) in [
         ("modes", pendulum("modes", &[]), "mode shapes"),
