@@ -28,7 +28,7 @@ impl Tolerance {
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
         let first = solved.first_order()?;
-        answer.add(&first)?;
+        answer.add_aside(&first)?;
         answer.add(&solved.summary()?)?;
         if !question.study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
