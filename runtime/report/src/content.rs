@@ -6,7 +6,8 @@ use eigentol::picture::{ModePictures, Scene};
 use eigentol::summary::Summary;
 use eigentol::tolerance::OutputTolerances;
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Tolerances, Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Tolerances,
+    Value,
 };
 
 use eigentol_figures::Style;
@@ -69,7 +70,9 @@ impl Content {
     ///
     /// # Errors
     /// A mistake of the caller: everything else is kept, to be said in its place.
-    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(report: &Report<M>) -> Result<Self, Error> {
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(
+        report: &Report<M>,
+    ) -> Result<Self, Error> {
         let study = &report.study;
         let setup = Setup::of(study)?;
         let equilibrium = answer(study.equilibrium())?;

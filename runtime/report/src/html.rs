@@ -69,7 +69,10 @@ impl Html {
     /// Data for the scripts of the page. Inside of a script element no character is escaped and `<` may end it: JSON writes that
     /// as an escape of its own.
     pub(crate) fn data(&mut self, kind: &str, json: &str) {
-        self.open("script", &[("type", "application/json"), ("data-kind", kind)]);
+        self.open(
+            "script",
+            &[("type", "application/json"), ("data-kind", kind)],
+        );
         self.out.push_str(&json.replace('<', "\\u003c"));
         self.constant("</script>\n");
     }

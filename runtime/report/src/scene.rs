@@ -62,7 +62,11 @@ impl<'a> View<'a> {
 
 /// Four decimals of the size are more than a screen shows.
 fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
-    let step = if size > 0.0 { 10_f64.powf(size.log10().floor() - 4.0) } else { 1e-4 };
+    let step = if size > 0.0 {
+        10_f64.powf(size.log10().floor() - 4.0)
+    } else {
+        1e-4
+    };
     let round = |value: f64, step: f64| {
         let digits = (value / step).round() * step;
         // What is not a multiple in decimals is the nearest number that is short.
@@ -71,7 +75,9 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     let all = poses.iter().flat_map(|pose| {
         let position = pose.position.map(|value| round(value, step));
         let rotation = pose.rotation.as_flattened().to_vec();
-        position.into_iter().chain(rotation.into_iter().map(|value| round(value, 1e-4)))
+        position
+            .into_iter()
+            .chain(rotation.into_iter().map(|value| round(value, 1e-4)))
     });
     all.collect()
 }
@@ -88,8 +94,12 @@ fn about(mode: &Mode, amplitude: f64) -> String {
     if amplitude == 0.0 {
         return format!("{}; it moves no body", mode.behaviour);
     }
-    let damping = mode.damping_ratio().filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
-    let damping = damping.map_or_else(String::new, |ratio| format!(", damping ratio {}", number(ratio)));
+    let damping = mode
+        .damping_ratio()
+        .filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
+    let damping = damping.map_or_else(String::new, |ratio| {
+        format!(", damping ratio {}", number(ratio))
+    });
     let pace = match mode.frequency() {
         Some(omega) => format!("{} Hz, ", number(omega / TAU)),
         None => String::new(),

@@ -80,7 +80,11 @@ fn head(html: &mut Html, columns: &[&Column]) {
         html.element("tr", &[], |html| {
             for column in columns {
                 let class = class_of(&column.values);
-                html.leaf("th", &[("scope", "col"), ("class", class)], &column.heading());
+                html.leaf(
+                    "th",
+                    &[("scope", "col"), ("class", class)],
+                    &column.heading(),
+                );
             }
         });
     });

@@ -46,7 +46,8 @@ pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
 /// `speed = 3000 rpm, load = 2 N`; empty without inputs.
 pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
     let each = d.inputs.iter().zip(inputs);
-    let each = each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
+    let each =
+        each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
     each.collect::<Vec<_>>().join(", ")
 }
 
@@ -54,8 +55,16 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
 pub(crate) fn sentence(text: &str) -> String {
     let text = text.trim();
     let mut letters = text.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    let stop = if text.ends_with(['.', '?', '!']) { "" } else { "." };
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    let stop = if text.ends_with(['.', '?', '!']) {
+        ""
+    } else {
+        "."
+    };
     format!("{first}{}{stop}", letters.as_str())
 }
 
@@ -81,7 +90,10 @@ mod tests {
 
     #[test]
     fn a_sentence_begins_and_ends() {
-        assert_eq!(sentence("no oscillation, so no frequency."), "No oscillation, so no frequency.");
+        assert_eq!(
+            sentence("no oscillation, so no frequency."),
+            "No oscillation, so no frequency."
+        );
         assert_eq!(sentence("\u{3c9} diverges"), "\u{3a9} diverges.");
         assert_eq!(sentence(""), ".");
     }

@@ -8,6 +8,7 @@ mod interrupt;
 #[cfg(unix)]
 mod many_machines;
 mod mistakes;
+mod newcomer;
 mod outputs;
 mod parts;
 mod program;
@@ -15,3 +16,4 @@ mod readme;
 mod rust_examples;
 mod starter;
 mod subcommands;
+mod walkthrough;

@@ -19,8 +19,13 @@ pub(crate) fn examples() -> PathBuf {
 
 /// The command, run beside the example declarations.
 pub(crate) fn command(arguments: &[&str]) -> Command {
+    command_in(&examples(), arguments)
+}
+
+/// The command, run in a folder.
+pub(crate) fn command_in(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_eigentol"));
-    command.args(arguments).current_dir(examples());
+    command.args(arguments).current_dir(folder);
     command.env_remove("NO_COLOR").stdin(Stdio::null());
     command
 }

@@ -1,72 +1,71 @@
-//! The commands of the README print what stands there.
+//! The commands of both READMEs and of the guide print what stands there.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::program::{folder, run};
+use crate::program::{examples, folder};
+use crate::walkthrough::{Part, UPDATE, parts, walked};
 
-/// Set to write what the commands print into the README.
-const UPDATE: &str = "UPDATE_README";
+fn crate_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+}
+
+/// Compares a text with what its commands print: the number of commands, and the first line that they change.
+fn check(path: &Path, beside: &Path, at: &Path) -> (usize, Option<String>) {
+    let text = fs::read_to_string(path).unwrap();
+    let place = format!("{}/", at.display());
+    let new = walked(&text.replace("/tmp/", &place), beside).replace(&place, "/tmp/");
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(path, &new).unwrap();
+    }
+    let commands = |part: Part<'_>| match part {
+        Part::Console(text) => text.lines().filter(|line| line.starts_with("$ ")).count(),
+        _ => 0,
+    };
+    let commands = parts(&text).into_iter().map(commands).sum();
+    let changed = (text != new).then(|| {
+        let mut lines = text.lines().zip(new.lines());
+        let first = lines.position(|(old, new)| old != new);
+        format!("{}, line {:?}", path.display(), first.map(|line| line + 1))
+    });
+    (commands, changed)
+}
+
+fn unchanged(changed: &[String]) {
+    let help = "write what the commands print into";
+    assert!(changed.is_empty(), "set {UPDATE}=1 to {help} {changed:#?}");
+}
 
 #[test]
 fn the_readme_shows_what_commands_print() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let text = fs::read_to_string(&path).unwrap();
-    let folder = folder("readme");
-    let mut new = String::new();
-    let mut commands = 0;
-    let mut rest = text.as_str();
-    while let Some((before, block)) = rest.split_once("```console\n") {
-        let (shown, after) = block.split_once("```\n").unwrap();
-        new += before;
-        new += "```console\n";
-        for line in shown.lines().filter(|line| line.starts_with("$ ")) {
-            commands += 1;
-            new += line;
-            new.push('\n');
-            new += &printed(line, &folder);
-        }
-        new += "```\n";
-        rest = after;
-    }
-    new += rest;
-    if std::env::var_os(UPDATE).is_some() {
-        fs::write(&path, &new).unwrap();
-    }
+    let readme = crate_folder().join("README.md");
+    let (commands, changed) = check(&readme, &examples(), &folder("readme"));
+    unchanged(&changed.into_iter().collect::<Vec<_>>());
     assert!(commands >= 10, "{commands}");
-    assert_eq!(text, new, "set {UPDATE}=1 to write this into the README");
+
+    let root = crate_folder().join("../..");
+    let (commands, changed) = check(&root.join("README.md"), &root, &folder("front"));
+    unchanged(&changed.into_iter().collect::<Vec<_>>());
+    assert!(commands >= 1);
 }
 
-/// What a line of a shell prints, with `| head -N` as the only tool beside the command.
-fn printed(line: &str, folder: &Path) -> String {
-    let line = line.trim_start_matches("$ eigentol ");
-    let (line, lines) = match line.split_once(" | head -") {
-        Some((line, lines)) => (line, lines.parse().unwrap()),
-        None => (line, usize::MAX),
-    };
-    let arguments: Vec<String> = words(line);
-    let place = |word: String| match word.strip_prefix("/tmp/") {
-        Some(name) => folder.join(name).display().to_string(),
-        None => word,
-    };
-    let arguments: Vec<String> = arguments.into_iter().map(place).collect();
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let run = run(&arguments);
-    let mut text: String = (run.out.split_inclusive('\n')).take(lines).collect();
-    text += &run.err;
-    text.replace(&format!("{}/", folder.display()), "/tmp/")
-}
-
-/// The words of a line, quotes taken away.
-fn words(line: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let mut quoted = false;
-    for c in line.chars() {
-        match c {
-            '"' | '\'' => quoted = !quoted,
-            ' ' if !quoted => words.push(String::new()),
-            _ => words.last_mut().unwrap().push(c),
+#[test]
+fn the_guide_shows_what_commands_print() {
+    let chapters = crate_folder().join("../guide/src");
+    let (mut commands, mut all) = (0, Vec::new());
+    for entry in fs::read_dir(&chapters).unwrap() {
+        let chapter = entry.unwrap().path();
+        if chapter
+            .extension()
+            .is_some_and(|extension| extension == "md")
+        {
+            let name = chapter.file_stem().unwrap().to_string_lossy().into_owned();
+            let own = folder(&format!("guide_{name}"));
+            let (count, changed) = check(&chapter, &own, &own);
+            commands += count;
+            all.extend(changed);
         }
     }
-    words
+    unchanged(&all);
+    assert!(commands >= 10, "{commands}");
 }

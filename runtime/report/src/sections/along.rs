@@ -31,7 +31,13 @@ fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error
             return Ok(());
         }
     };
-    chart(html, &branches(found, &content.style.clone().title("Branches of equilibria")))?;
+    chart(
+        html,
+        &branches(
+            found,
+            &content.style.clone().title("Branches of equilibria"),
+        ),
+    )?;
     if found.truncated {
         html.paragraph("There are more branches than were followed.");
     }
@@ -51,7 +57,11 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
             return Ok(());
         }
     };
-    let failed = found.points.iter().filter(|point| point.modes.is_err()).count();
+    let failed = found
+        .points
+        .iter()
+        .filter(|point| point.modes.is_err())
+        .count();
     if failed > 0 {
         let text = format!(
             "At {failed} of {} values there are no modes: the table says why.",
@@ -59,11 +69,23 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
         );
         html.leaf("p", &[("class", "refused")], &text);
     }
-    chart(html, &campbell(found, &content.style.clone().title("Campbell diagram")))?;
-    let damped = found.points.iter().flat_map(|point| point.modes.iter().flatten());
+    chart(
+        html,
+        &campbell(found, &content.style.clone().title("Campbell diagram")),
+    )?;
+    let damped = found
+        .points
+        .iter()
+        .flat_map(|point| point.modes.iter().flatten());
     if damped.into_iter().any(|mode| mode.damping_ratio.is_some()) {
-        chart(html, &damping_ratios(found, &content.style.clone().title("Damping ratios")))?;
-        chart(html, &root_locus(found, &content.style.clone().title("Root locus")))?;
+        chart(
+            html,
+            &damping_ratios(found, &content.style.clone().title("Damping ratios")),
+        )?;
+        chart(
+            html,
+            &root_locus(found, &content.style.clone().title("Root locus")),
+        )?;
     }
     for own in tables(found) {
         let (caption, columns): (&str, &[&str]) = match &*own.name {

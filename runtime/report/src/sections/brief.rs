@@ -61,7 +61,9 @@ fn equilibrium(content: &Content) -> Line {
 
 /// Each mode with its spread and what most of it comes from.
 fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
-    let first = spread.and_then(|own| own.summary.as_ref().ok()).map(|own| &own.first);
+    let first = spread
+        .and_then(|own| own.summary.as_ref().ok())
+        .map(|own| &own.first);
     let each = modes.modes.iter().enumerate().take(MODES);
     let mut lines: Vec<Line> = each
         .map(|(r, mode)| {
@@ -69,9 +71,16 @@ fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
             let text = match mode.frequency() {
                 Some(omega) => {
                     let spread = first.map_or_else(String::new, |first| spread_of(first, r));
-                    format!("Mode {number_of_mode} at {} rad/s{spread}: it {}.", number(omega), mode.behaviour)
+                    format!(
+                        "Mode {number_of_mode} at {} rad/s{spread}: it {}.",
+                        number(omega),
+                        mode.behaviour
+                    )
                 }
-                None => format!("Mode {number_of_mode} does not oscillate: it {}.", mode.behaviour),
+                None => format!(
+                    "Mode {number_of_mode} does not oscillate: it {}.",
+                    mode.behaviour
+                ),
             };
             let news = mode.behaviour.grows().then_some(false);
             (news, text)
@@ -79,7 +88,10 @@ fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
         .collect();
     if modes.modes.len() > MODES {
         let more = modes.modes.len() - MODES;
-        lines.push((None, format!("{more} more modes are in the table of modes.")));
+        lines.push((
+            None,
+            format!("{more} more modes are in the table of modes."),
+        ));
     }
     lines
 }
@@ -92,24 +104,37 @@ fn spread_of(first: &FirstOrder, mode: usize) -> String {
     let Some(spread) = own.frequency.as_ref().filter(|own| own.sigma > 0.0) else {
         return String::new();
     };
-    let shares = spread.variance_shares.iter().zip(first.description.design.iter());
+    let shares = spread
+        .variance_shares
+        .iter()
+        .zip(first.description.design.iter());
     let greatest = shares.max_by(|a, b| a.0.total_cmp(b.0));
     let cause = greatest.map_or_else(String::new, |(share, info)| {
         format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share)
     });
-    format!(" \u{b1} {} ({} sigma){cause}", digits(spread.band, 3), first.sigma_level)
+    format!(
+        " \u{b1} {} ({} sigma){cause}",
+        digits(spread.band, 3),
+        first.sigma_level
+    )
 }
 
 fn tolerances(spread: &Spreads) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
         Ok(summary) if summary.trusted() => {
-            lines.push((Some(true), "The first-order spread of every mode can be trusted.".to_owned()));
+            lines.push((
+                Some(true),
+                "The first-order spread of every mode can be trusted.".to_owned(),
+            ));
         }
         Ok(summary) => {
             let doubted = summary.trust.iter().filter(|own| !own.trusted());
             let doubted: Vec<usize> = doubted.map(|own| own.mode).collect();
-            let text = format!("{}: the first-order spread is not to be trusted. See Tolerances.", named(&doubted));
+            let text = format!(
+                "{}: the first-order spread is not to be trusted. See Tolerances.",
+                named(&doubted)
+            );
             lines.push((Some(false), text));
         }
         Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
@@ -125,13 +150,21 @@ pub(super) fn stable_samples(found: &MonteCarlo) -> Line {
     if stable == all {
         return (Some(true), format!("All of {all} samples are stable."));
     }
-    let others = Outcome::ALL.into_iter().filter(|own| *own != Outcome::Stable);
+    let others = Outcome::ALL
+        .into_iter()
+        .filter(|own| *own != Outcome::Stable);
     let others = others.filter_map(|outcome| match found.counts.of(outcome) {
         0 => None,
         count => Some(format!("{count} {}", word(outcome))),
     });
     let others: Vec<String> = others.collect();
-    (Some(false), format!("{stable} of {all} samples are stable; {}.", others.join(", ")))
+    (
+        Some(false),
+        format!(
+            "{stable} of {all} samples are stable; {}.",
+            others.join(", ")
+        ),
+    )
 }
 
 fn word(outcome: Outcome) -> &'static str {
@@ -152,13 +185,21 @@ fn along(along: &Along) -> Vec<Line> {
         return Vec::new();
     };
     let bad = campbell.critical.iter().chain(&campbell.flutter_onsets);
-    let bad: Vec<Line> = bad.map(|event| (Some(false), happening(campbell, event))).collect();
-    let met = campbell.crossings.iter().map(|event| (None, happening(campbell, event)));
+    let bad: Vec<Line> = bad
+        .map(|event| (Some(false), happening(campbell, event)))
+        .collect();
+    let met = campbell
+        .crossings
+        .iter()
+        .map(|event| (None, happening(campbell, event)));
     let mut lines: Vec<Line> = bad.into_iter().chain(met).collect();
     let more = lines.len().saturating_sub(EVENTS);
     lines.truncate(EVENTS);
     if more > 0 {
-        lines.push((None, format!("{more} more events are in the tables along the input.")));
+        lines.push((
+            None,
+            format!("{more} more events are in the tables along the input."),
+        ));
     }
     lines
 }
@@ -170,8 +211,17 @@ fn happening(campbell: &Campbell, event: &EventTolerance) -> String {
         return String::new();
     };
     let what = match event.event {
-        Event::Crossing { mode, condition: Condition::Line(line), .. } => {
-            format!("frequency {} is {} times {}", mode + 1, line.ratio, info.name)
+        Event::Crossing {
+            mode,
+            condition: Condition::Line(line),
+            ..
+        } => {
+            format!(
+                "frequency {} is {} times {}",
+                mode + 1,
+                line.ratio,
+                info.name
+            )
         }
         Event::Crossing { mode, .. } => format!("mode {} begins or ceases to grow", mode + 1),
         _ => "the equilibrium loses its stiffness".to_owned(),

@@ -37,7 +37,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     ));
     let count = found.modes.len();
     let figures = (0..count.min(MODES)).map(|mode| {
-        let style = content.brief_style.clone().title(format!("Mode {}", mode + 1));
+        let style = content
+            .brief_style
+            .clone()
+            .title(format!("Mode {}", mode + 1));
         let mut histogram = Histogram::new(found, mode);
         if let Ok(summary) = &spread.summary {
             histogram = histogram.first_order(&summary.first);

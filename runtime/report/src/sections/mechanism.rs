@@ -83,16 +83,25 @@ fn variables(content: &Content) -> Table {
     let all: Vec<Variable<'_>> = inputs.chain(design).collect();
     let of = |values: &[f64]| -> Vec<Option<f64>> {
         let one = |own: &Variable<'_>| Some(own.unit.from_si(*values.get(own.place?)?));
-        all.iter().map(|own| one(own).filter(|value| *value != 0.0)).collect()
+        all.iter()
+            .map(|own| one(own).filter(|value| *value != 0.0))
+            .collect()
     };
     let mut table = Table::new("variables");
     table.texts("name", all.iter().map(|own| Some(own.name.to_owned())));
     table.texts("kind", all.iter().map(|own| Some(own.kind.to_owned())));
-    table.numbers("value", "", all.iter().map(|own| own.unit.from_si(own.value)));
+    table.numbers(
+        "value",
+        "",
+        all.iter().map(|own| own.unit.from_si(own.value)),
+    );
     table.numbers("half-width", "", of(setup.tolerances.half_widths()));
     table.numbers("sigma", "", of(setup.tolerances.sigmas()));
     table.numbers("mean less value", "", of(setup.tolerances.shifts()));
-    table.texts("unit", all.iter().map(|own| Some(own.unit.symbol.to_string())));
+    table.texts(
+        "unit",
+        all.iter().map(|own| Some(own.unit.symbol.to_string())),
+    );
     table
 }
 

@@ -4,8 +4,8 @@ use eigentol_figures::{mode_shapes, participation};
 use eigentol_tables::tables;
 
 use super::refused;
-use crate::charts::chart;
 use crate::Error;
+use crate::charts::chart;
 use crate::content::{Content, Pictures};
 use crate::html::Html;
 use crate::scene::{AMPLITUDE, View};
@@ -33,9 +33,15 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         table(html, "Natural modes", &own, &columns)?;
     }
     let style = content.brief_style.clone();
-    chart(html, &mode_shapes(modes, &style.clone().title("Mode shapes")))?;
+    chart(
+        html,
+        &mode_shapes(modes, &style.clone().title("Mode shapes")),
+    )?;
     if let Ok(state) = &content.equilibrium {
-        chart(html, &participation(modes, state, &style.title("What moves in each mode")))?;
+        chart(
+            html,
+            &participation(modes, state, &style.title("What moves in each mode")),
+        )?;
     }
     Ok(())
 }
@@ -54,13 +60,19 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
     ));
     for (mode, picture) in pictures.modes.iter().enumerate() {
         if let Err(error) = picture {
-            refused(html, &format!("mode {} is not shown in motion", mode + 1), error);
+            refused(
+                html,
+                &format!("mode {} is not shown in motion", mode + 1),
+                error,
+            );
         }
     }
     let count = modes.map_or(0, |modes| modes.modes.len());
     if count > pictures.modes.len() {
         let shown = pictures.modes.len();
-        html.paragraph(&format!("The first {shown} of {count} modes are shown in motion."));
+        html.paragraph(&format!(
+            "The first {shown} of {count} modes are shown in motion."
+        ));
     }
     Ok(())
 }

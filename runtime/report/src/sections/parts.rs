@@ -30,7 +30,11 @@ fn bodies(scene: &Scene) -> Table {
 
 fn solid(own: &Solid) -> String {
     let text = shape(&own.shape);
-    if own.hole { format!("less a {text}") } else { text }
+    if own.hole {
+        format!("less a {text}")
+    } else {
+        text
+    }
 }
 
 fn shape(shape: &Shape) -> String {
@@ -39,9 +43,18 @@ fn shape(shape: &Shape) -> String {
         Shape::Rod { length, .. } => format!("rod, length {}", number(*length)),
         Shape::Disk { radius, .. } => format!("disk, radius {}", number(*radius)),
         Shape::Cylinder { radius, length, .. } => {
-            format!("cylinder, radius {}, length {}", number(*radius), number(*length))
+            format!(
+                "cylinder, radius {}, length {}",
+                number(*radius),
+                number(*length)
+            )
         }
-        Shape::Tube { inner, outer, length, .. } => format!(
+        Shape::Tube {
+            inner,
+            outer,
+            length,
+            ..
+        } => format!(
             "tube, radii {} and {}, length {}",
             number(*inner),
             number(*outer),
@@ -69,7 +82,8 @@ fn joints(scene: &Scene) -> Table {
     table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
     table.texts("from", all.clone().map(|own| body(scene, own.from.body)));
     table.texts("to", all.clone().map(|own| body(scene, own.to.body)));
-    let closes = |own: &eigentol::picture::Joint| own.closes_loop.then(|| "closes a loop".to_owned());
+    let closes =
+        |own: &eigentol::picture::Joint| own.closes_loop.then(|| "closes a loop".to_owned());
     table.texts("role", all.map(closes));
     table
 }

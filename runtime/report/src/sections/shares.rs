@@ -34,9 +34,20 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     };
     charts(html, (0..count.min(MODES)).map(of))?;
     beyond(html, count, "contributions of");
-    table(html, "Shares in the variance of each frequency", &by_variable(first), &[])?;
+    table(
+        html,
+        "Shares in the variance of each frequency",
+        &by_variable(first),
+        &[],
+    )?;
     for own in tables(first) {
-        let columns = ["mode", "frequency", "sigma of frequency", "band of frequency", "cluster"];
+        let columns = [
+            "mode",
+            "frequency",
+            "sigma of frequency",
+            "band of frequency",
+            "cluster",
+        ];
         table(html, "First order, mode by mode", &own, &columns)?;
     }
     Ok(())
@@ -46,10 +57,18 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 fn by_variable(first: &FirstOrder) -> Table {
     let design = first.description.design.iter();
     let mut table = Table::new("shares");
-    table.texts("variable", design.clone().map(|info| Some(info.name.to_string())));
+    table.texts(
+        "variable",
+        design.clone().map(|info| Some(info.name.to_string())),
+    );
     for (r, mode) in first.modes.iter().enumerate() {
         let shares = mode.variance_shares();
-        let share = |k: usize| shares.get(k).filter(|_| !mode.clustered).map(|share| 100.0 * share);
+        let share = |k: usize| {
+            shares
+                .get(k)
+                .filter(|_| !mode.clustered)
+                .map(|share| 100.0 * share)
+        };
         let name = format!("mode {}", r + 1);
         table.numbers(name, "%", (0..design.len()).map(share));
     }

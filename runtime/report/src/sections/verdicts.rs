@@ -48,7 +48,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         table(html, &caption, own, &columns)?;
     }
     html.paragraph(&about_samples(&summary.sampling));
-    let mixed = summary.trust.iter().any(|own| summary.cluster_of(own.mode).is_some());
+    let mixed = summary
+        .trust
+        .iter()
+        .any(|own| summary.cluster_of(own.mode).is_some());
     if mixed {
         for own in tables(&summary.clusters[..]) {
             table(html, "Modes that tolerances mix", &own, &[])?;
@@ -81,19 +84,31 @@ pub(super) fn sentences(summary: &Summary) -> Vec<(bool, String)> {
             continue;
         }
         said.push(doubt);
-        let shares = summary.trust.iter().filter(|own| own.doubts.contains(doubt));
+        let shares = summary
+            .trust
+            .iter()
+            .filter(|own| own.doubts.contains(doubt));
         let modes: Vec<usize> = shares.map(|own| own.mode).collect();
         all.push((false, sentence(&format!("{}: {doubt}", named(&modes)))));
     }
     for (advice, text) in [
-        (Advice::FirstOrder, "nothing speaks against the first-order sigma."),
-        (Advice::SecondOrder, "use second order, which agrees with the samples."),
+        (
+            Advice::FirstOrder,
+            "nothing speaks against the first-order sigma.",
+        ),
+        (
+            Advice::SecondOrder,
+            "use second order, which agrees with the samples.",
+        ),
         (Advice::Sampling, "use Monte Carlo."),
     ] {
         let own = summary.trust.iter().filter(|own| own.advice == advice);
         let modes: Vec<usize> = own.map(|own| own.mode).collect();
         if !modes.is_empty() {
-            all.push((advice == Advice::FirstOrder, format!("{}: {text}", named(&modes))));
+            all.push((
+                advice == Advice::FirstOrder,
+                format!("{}: {text}", named(&modes)),
+            ));
         }
     }
     all

@@ -25,7 +25,9 @@ fn rotor() -> Report<Interpreted> {
     let study = Study::new(mechanism);
     let speed = study.find_input("speed").expect("it has a speed");
     let study = study.input(speed, InDeclaredUnit(3000.0));
-    let values: Vec<_> = (0..=40).map(|k| InDeclaredUnit(100.0 * f64::from(k))).collect();
+    let values: Vec<_> = (0..=40)
+        .map(|k| InDeclaredUnit(100.0 * f64::from(k)))
+        .collect();
     Report::new(&study)
         .title("A rotor that leans to one side")
         .declaration(text)
@@ -45,7 +47,9 @@ fn save(report: &Report<Interpreted>, name: &str) -> PathBuf {
 #[test]
 fn look() {
     let file = save(&rotor(), "rotor");
-    let Some(mut chrome) = Chrome::start("look") else { return };
+    let Some(mut chrome) = Chrome::start("look") else {
+        return;
+    };
     chrome.open(&file);
     println!("{:?}", chrome.complaints);
     fs::write(file.with_extension("png"), chrome.screenshot()).expect("a screenshot is written");

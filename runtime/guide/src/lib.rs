@@ -1,0 +1,50 @@
+//! Chapters on [`eigentol`]: from a pendulum to your own rotor.
+//!
+//! | chapter | what is in it |
+//! | --- | --- |
+//! | [From the pendulum to your own rotor](first_steps) | ten minutes with the command, then the same in Rust |
+//! | [How to declare what](declare) | a table from the words of other tools and of drawings to ours |
+//! | [Reading a tolerance result](tolerances) | every column, and when not to trust first order |
+//! | [Distributions and requirements](requirements) | how parts scatter, how probable a good product is, the cheapest tolerances |
+//! | [Closed loops](loops) | linkages, and which assembly is found |
+//! | [Rotors](rotors) | whirl, Campbell diagrams, critical speeds, instability |
+//! | [Theory](theory) | the equations, with the numbers of the paper |
+//! | [Embedding](embedding) | Python, C, build scripts, no standard library |
+//! | [Performance](performance) | measured, and where the numbers come from |
+//! | [Limits](limits) | what it does not do |
+//! | [한국어 요약](korean) | a summary of the paper's part in Korean |
+//!
+//! Every block of Rust is compiled and run. Every command of a shell is run, and what it prints is compared.
+
+#[doc = include_str!("first_steps.md")]
+pub mod first_steps {}
+
+#[doc = include_str!("declare.md")]
+pub mod declare {}
+
+#[doc = include_str!("tolerances.md")]
+pub mod tolerances {}
+
+#[doc = include_str!("requirements.md")]
+pub mod requirements {}
+
+#[doc = include_str!("loops.md")]
+pub mod loops {}
+
+#[doc = include_str!("rotors.md")]
+pub mod rotors {}
+
+#[doc = include_str!("theory.md")]
+pub mod theory {}
+
+#[doc = include_str!("embedding.md")]
+pub mod embedding {}
+
+#[doc = include_str!("performance.md")]
+pub mod performance {}
+
+#[doc = include_str!("limits.md")]
+pub mod limits {}
+
+#[doc = include_str!("korean.md")]
+pub mod korean {}
