@@ -47,6 +47,7 @@
 //! | Where does it stay, and what moves that? | [`equilibrium`](Study::equilibrium), [`equilibria`](Study::equilibria), [`equilibrium_shift`](Study::equilibrium_shift) | [`equilibrium::equilibrium`], [`equilibrium::find_equilibria`], [`sensitivity::equilibrium_shift`] |
 //! | Which branches of equilibria are there, where do they fold and fork? | [`branches`](Study::branches), [`branches_with`](Study::branches_with) | [`branches::branches`] |
 //! | How does it vibrate, is it stable, which way does it whirl? | [`modes`](Study::modes), [`whirls`](Study::whirls) | [`modes::modes`], [`modes::whirls`] |
+//! | What does it look like, at rest and in its modes? | [`picture`](Study::picture), [`mode_pictures`](Study::mode_pictures) | [`picture::scene`], [`picture::mode_pictures`] |
 //! | What moves frequencies, damping, outputs, shapes? | [`sensitivities`](Study::sensitivities), [`outputs`](Study::outputs), [`shape_sensitivity`](Study::shape_sensitivity) | [`sensitivity::sensitivities`], [`sensitivity::output_sensitivities`], [`shapes::shape_sensitivity`] |
 //! | ... to second order? | [`mode_curvature`](Study::mode_curvature) | [`second_order::mode_curvature`] |
 //! | How do equal frequencies split? | [`directional_derivatives`](Study::directional_derivatives) | [`clusters::directional_derivatives`] |
@@ -105,6 +106,8 @@ pub mod modes;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
+pub mod picture;
+#[cfg(feature = "std")]
 pub mod propagation;
 #[cfg(feature = "std")]
 pub mod report;
@@ -139,6 +142,9 @@ pub use mechanism::{
     Array, CoordinateInfo, DampingKind, Description, DesignInfo, Gradient, InputInfo, KernelInfo,
     Law, Linear, LinearPartials, List, Mechanism, OutputInfo, PoseMargin, RestParts, Role, Shared,
     Text, ToleranceInfo, Unit, Violation,
+};
+pub use mechanism::{
+    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
 };
 pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
 pub use scalar::{Dual, Real};

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use eigentol_compiler::base::ids::{CoordinateId, PointId};
 use eigentol_compiler::model::evaluate::Values as Evaluation;
-use eigentol_compiler::model::expression::{Expr as Written, Function, Vector};
+use eigentol_compiler::model::expression::{Expr as Written, Function, Matrix, Vector};
 use eigentol_compiler::model::mechanism as declared;
 
 use eigentol_oracle::model::{
@@ -254,6 +254,7 @@ impl Fixing<'_> {
         let point = |id: &PointId| id.index();
         let v = |value: &Written| self.value(value);
         let w = |vector: &Vector| self.vector(vector);
+        let rows = |matrix: &Matrix| matrix.each_ref().map(|row| self.vector(row));
         match law {
             declared::ForceLaw::CoordinateSpring {
                 coordinate,
@@ -306,10 +307,10 @@ impl Fixing<'_> {
             } => ForceLaw::Bushing {
                 from: point(from),
                 to: point(to),
-                stiffness: w(stiffness),
-                damping: w(damping),
-                turning_stiffness: w(turning_stiffness),
-                turning_damping: w(turning_damping),
+                stiffness: rows(stiffness),
+                damping: rows(damping),
+                turning_stiffness: rows(turning_stiffness),
+                turning_damping: rows(turning_damping),
             },
             declared::ForceLaw::Load {
                 point: at,

@@ -117,6 +117,7 @@ pub fn evaluate_at<T: Real, M: Mechanism>(
             let (by_input, by_design) = machine.residual_partials(q(0), u(1), b(2));
             vec![flat(by_input.as_ref()), flat(by_design.as_ref())]
         }
+        "picture" => vec![machine.picture(q(0), u(1), b(2)).as_ref().to_vec()],
         "outputs" => vec![machine.outputs(q(0), u(1), b(2)).as_ref().to_vec()],
         "output_partials" => {
             let (by_coordinate, by_input, by_design) = machine.output_partials(q(0), u(1), b(2));

@@ -4,7 +4,7 @@
 //! calls it through these tables or by the machine's type.
 
 use eigentol::Mechanism;
-use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels};
+use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
 
 use crate::corpus::{self, Visitor};
 use crate::{loops, machines, wheels};
@@ -21,6 +21,8 @@ pub struct Machine {
     pub curvature: Box<dyn CurvatureKernels>,
     /// The kernels of the motion.
     pub motion: Box<dyn MotionKernels>,
+    /// The kernel of pictures.
+    pub picture: Box<dyn PictureKernels>,
 }
 
 struct Machines(Vec<Machine>);
@@ -38,6 +40,7 @@ impl Visitor for Machines {
             kernels: Box::new(machine),
             curvature: Box::new(machine),
             motion: Box::new(machine),
+            picture: Box::new(machine),
         });
     }
 }

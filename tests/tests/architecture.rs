@@ -39,11 +39,11 @@ const MECHANICS: [&str; 8] = [
 ];
 
 /// The types that the subfolders of `mechanics` share with other rooms.
-const TYPES: [&str; 2] = ["functions", "kernel_name"];
+const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
 /// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 30] = [
+const RUNTIME: [&str; 31] = [
     "setters",
     "algebra",
     "scalar",
@@ -72,13 +72,14 @@ const RUNTIME: [&str; 30] = [
     "allocation",
     "summary",
     "campbell",
+    "picture",
     "motion",
     "report",
     "study",
 ];
 
 /// Files that define the types between the stages, and the modules of their own room that they may name.
-const TYPE_FILES: [(&str, &[&str]); 11] = [
+const TYPE_FILES: [(&str, &[&str]); 12] = [
     ("syntax/ast.rs", &[]),
     (
         "model/mechanism.rs",
@@ -91,8 +92,9 @@ const TYPE_FILES: [(&str, &[&str]); 11] = [
     ("model/expression.rs", &[]),
     ("topology/mod.rs", &[]),
     ("algebra/function.rs", &["count", "graph"]),
-    ("mechanics/functions.rs", &[]),
+    ("mechanics/functions.rs", &["picture"]),
     ("mechanics/kernel_name.rs", &[]),
+    ("mechanics/picture.rs", &[]),
 ];
 
 fn root() -> PathBuf {

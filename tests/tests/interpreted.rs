@@ -1,7 +1,7 @@
 //! Every machine of the corpus, read from text at run time, gives every answer of its compiled twin, bit for bit: the same
 //! operations in another order, each on the same numbers.
 
-use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels};
+use eigentol::kernels::{BatchKernels, CurvatureKernels, MotionKernels, PictureKernels};
 use eigentol::{Coordinate, Description, Input, Law, Mechanism, Policy, Study, ToleranceInfo};
 use eigentol_interpreter::{Interpreted, ReadError};
 use eigentol_tests::corpus::{self, Visitor};
@@ -9,7 +9,7 @@ use eigentol_tests::fits::{self, Fits};
 use eigentol_tests::resolved::{Operation, operating_points};
 
 /// What a study answers, in words that tell every bit.
-fn answers<M: BatchKernels + CurvatureKernels + Clone>(
+fn answers<M: BatchKernels + CurvatureKernels + PictureKernels + Clone>(
     machine: M,
     operation: &Operation,
 ) -> Vec<(&'static str, String)> {
@@ -40,6 +40,8 @@ fn answers<M: BatchKernels + CurvatureKernels + Clone>(
         ("curvature", format!("{:?}", solved.mode_curvature(0))),
         ("shape", format!("{:?}", solved.shape_sensitivity(0))),
         ("samples", format!("{:?}", study.monte_carlo())),
+        ("picture", format!("{:?}", solved.picture())),
+        ("swing", format!("{:?}", solved.mode_pictures(0, 4, 0.1))),
     ];
     if let Some(&value) = operation.inputs.first() {
         let values: Vec<f64> = (0..20)
@@ -78,6 +80,7 @@ impl Visitor for Twins {
         machine: M,
     ) {
         let twin = Interpreted::from_text(declaration).expect("a declaration");
+        assert_eq!(twin.picture_info(), machine.picture_info(), "{name}");
         for operation in operating_points(name) {
             let found = answers(twin.clone(), &operation);
             for ((what, expected), (_, found)) in answers(machine, &operation).iter().zip(&found) {

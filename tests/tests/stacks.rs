@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 
 use eigentol::Study;
-use eigentol::kernels::{BatchKernels, CurvatureKernels};
+use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::wheels::{WhippleBicycle, whipple};
 
@@ -41,7 +41,7 @@ const BICYCLE: Range = Range {
 /// Asks each question in a thread of its own.
 fn ask<M>(study: &Study<M>, range: &Range, stack: usize, questions: &[Question<M>])
 where
-    M: BatchKernels + CurvatureKernels + Clone + Send + 'static,
+    M: BatchKernels + CurvatureKernels + PictureKernels + Clone + Send + 'static,
 {
     for &(name, question) in questions {
         let (study, range) = (study.clone(), *range);
@@ -52,11 +52,11 @@ where
     }
 }
 
-fn few<M: BatchKernels + CurvatureKernels>(machine: M) -> Study<M> {
+fn few<M: BatchKernels + CurvatureKernels + PictureKernels>(machine: M) -> Study<M> {
     Study::new(machine).threads(2).samples(2).steps(2)
 }
 
-fn everything<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+fn everything<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     let mut questions = at_one_state();
     questions.extend(of_what_is_solved());
     questions.extend(of_chance());
@@ -65,7 +65,7 @@ fn everything<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
 }
 
 /// Questions that take seconds of 64 unknowns with 64 variables, or do not.
-fn slow<M: BatchKernels + CurvatureKernels>(slow: bool) -> Vec<Question<M>> {
+fn slow<M: BatchKernels + CurvatureKernels + PictureKernels>(slow: bool) -> Vec<Question<M>> {
     const SLOW: [&str; 5] = [
         "second_order",
         "summary",

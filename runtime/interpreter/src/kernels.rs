@@ -3,10 +3,10 @@
 use eigentol::kernels::{
     BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint,
     CurvatureKernels, DirectionalKernels, Gradient, Interval, Kernels, Linear, MotionKernels,
-    PartialMatrices, ResidualPartials, RestParts, Sizes,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes,
 };
 use eigentol::scalar::{Batch, Instructions};
-use eigentol::{Description, Dual, Matrix, PoseMargin, Shared, Violation};
+use eigentol::{Description, Dual, Matrix, PictureInfo, PoseMargin, Shared, Violation};
 
 use crate::mechanism::Interpreted;
 use crate::registers::{batch, once, scalar};
@@ -467,6 +467,16 @@ impl MotionKernels for Interpreted {
                 direction[list][k] = 0.0;
             }
         }
+    }
+}
+
+impl PictureKernels for Interpreted {
+    fn picture_info(&self) -> Shared<PictureInfo> {
+        self.shared.picture.clone()
+    }
+
+    fn picture_into(&self, q: &[f64], u: &[f64], b: &[f64], computed: &mut [f64]) {
+        run(&self.shared.tapes.picture, &[q, u, b], &mut [computed]);
     }
 }
 

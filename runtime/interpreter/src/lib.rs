@@ -5,6 +5,7 @@ mod given;
 mod kernels;
 mod mechanism;
 mod mistakes;
+mod picture;
 mod registers;
 mod schedule;
 mod tape;

@@ -5,13 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use eigentol::{Description, Shared, Text};
+use eigentol::{Description, PictureInfo, Shared, Text};
 use eigentol_compiler::mechanics::Limits;
 use eigentol_compiler::program::Program;
 use eigentol_compiler::{Compilation, compile_text};
 
 use crate::description::description;
 use crate::mistakes::{Mistakes, ReadError};
+use crate::picture::picture;
 use crate::tape::Tape;
 
 /// A mechanism whose kernels are interpreted. A copy shares everything with the original.
@@ -26,6 +27,7 @@ pub struct Interpreted {
 
 pub(crate) struct Tables {
     pub(crate) description: Shared<Description>,
+    pub(crate) picture: Shared<PictureInfo>,
     pub(crate) tapes: Tapes,
     /// Quantity and requirement of each value of the kernel of violations.
     pub(crate) requirements: Vec<(Text, Text)>,
@@ -48,6 +50,7 @@ pub(crate) struct Tapes {
     pub(crate) pencil_gradient: Option<Tape>,
     pub(crate) residual_gradient: Option<Tape>,
     pub(crate) whirl: Option<Tape>,
+    pub(crate) picture: Option<Tape>,
     pub(crate) violation: Option<Tape>,
     pub(crate) pose_margin: Option<Tape>,
     pub(crate) outputs: Option<Tape>,
@@ -71,6 +74,7 @@ impl Tapes {
             pencil_gradient: tape("pencil_gradient"),
             residual_gradient: tape("residual_gradient"),
             whirl: tape("whirl"),
+            picture: tape("picture"),
             violation: tape("violation"),
             pose_margin: tape("pose_margin"),
             outputs: tape("outputs"),
@@ -114,6 +118,7 @@ impl Interpreted {
         let poses = functions.poses.iter();
         let tables = Tables {
             description: Shared::Counted(Arc::new(description(compilation))),
+            picture: Shared::Counted(Arc::new(picture(&functions.picture))),
             tapes: Tapes::new(&compilation.program),
             requirements: requirements.collect(),
             poses: poses.map(|pose| Text::from(pose.joint.clone())).collect(),

@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
+mod allocation;
 mod arrays;
+mod clusters;
 mod errors;
 mod events;
 mod kernels;
@@ -28,6 +30,10 @@ use pyo3::prelude::*;
 mod module {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::allocation::Allocation;
+    #[pymodule_export]
+    use crate::clusters::{Clusters, DirectionalDerivatives};
     #[pymodule_export]
     use crate::errors::Mistake;
     #[pymodule_export]

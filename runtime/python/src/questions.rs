@@ -56,8 +56,6 @@ questions! {
     second_order -> SecondOrder;
     /// First order, second order, and for each mode whether its standard deviation can be trusted.
     summary -> Summary;
-    /// Samples of the design, each with its own equilibrium and modes, on all processors.
-    monte_carlo -> MonteCarlo;
 }
 
 impl Study {
@@ -125,6 +123,15 @@ impl Study {
 
 #[pymethods]
 impl Study {
+    /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what is done, take
+    /// the samples in parts (`samples_between`).
+    fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {
+        let found = self.ask_stoppably(py, |study, stop| {
+            study.sample_modes(&study.sampling().stop(Some(stop)))
+        });
+        found.map(|samples| MonteCarlo(samples.result()))
+    }
+
     /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or dictionaries.
     #[pyo3(signature = (lower, upper, starts=None, seed=None))]
     fn equilibria(

@@ -11,7 +11,7 @@ use crate::results::result;
 use crate::study::Study;
 use crate::values::not_finite;
 
-/// One requirement: "stable", or a response, a low and a high end, None for no end.
+/// One requirement: "stable", or a response, a low and a high end, None for no end; "outside" before them for a forbidden band.
 fn requirement(
     study: &eigentol::Study<eigentol_interpreter::Interpreted>,
     given: &Bound<'_, PyAny>,
@@ -22,11 +22,7 @@ fn requirement(
     {
         return Ok(Requirement::Stable);
     }
-    let read = given.extract::<(Bound<'_, PyTuple>, Option<f64>, Option<f64>)>();
-    let (response, low, high) = read.map_err(|_| {
-        let message = "a requirement is \"stable\", or a response, a low and a high end: ((\"frequency\", 0), 3.0, None)";
-        PyTypeError::new_err(message)
-    })?;
+    let (response, low, high, outside) = ends(given)?;
     for end in [low, high].into_iter().flatten() {
         if end.is_nan() {
             return Err(not_finite(given.py(), "end of a requirement", end));
@@ -34,17 +30,49 @@ fn requirement(
     }
     let what = response.get_item(0)?.extract::<String>()?;
     let of = response.get_slice(1, response.len());
-    Ok(Requirement::Within {
-        response: wanted(study, &what, &of)?,
-        low: low.unwrap_or(f64::NEG_INFINITY),
-        high: high.unwrap_or(f64::INFINITY),
+    let response = wanted(study, &what, &of)?;
+    let (low, high) = (
+        low.unwrap_or(f64::NEG_INFINITY),
+        high.unwrap_or(f64::INFINITY),
+    );
+    Ok(match outside {
+        true => Requirement::Outside {
+            response,
+            low,
+            high,
+        },
+        false => Requirement::Within {
+            response,
+            low,
+            high,
+        },
     })
+}
+
+type Ends<'py> = (Bound<'py, PyTuple>, Option<f64>, Option<f64>, bool);
+
+/// Response, low and high end, and whether it has to stay outside.
+fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
+    if let Ok((response, low, high)) = given.extract() {
+        return Ok((response, low, high, false));
+    }
+    let read = given.extract::<(String, Bound<'py, PyTuple>, f64, f64)>();
+    match read {
+        Ok((word, response, low, high)) if word == "outside" => {
+            Ok((response, Some(low), Some(high), true))
+        }
+        _ => Err(PyTypeError::new_err(
+            "a requirement is \"stable\", or a response, a low and a high end: ((\"frequency\", 0), 3.0, None), or a \
+             forbidden band: (\"outside\", (\"frequency\", 0), 3.0, 4.0)",
+        )),
+    }
 }
 
 #[pymethods]
 impl Study {
     /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low and a high
-    /// end, None for no end: `(("frequency", 0), 3.9, None)`; frequencies are in rad/s.
+    /// end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band: `("outside", ("frequency", 0), 3.0, 4.0)`;
+    /// frequencies are in rad/s.
     fn chances(&self, py: Python<'_>, requirements: Vec<Bound<'_, PyAny>>) -> PyResult<Chances> {
         let wanted = self.requirements(&requirements)?;
         self.ask(py, |study| study.chances(&wanted)).map(Chances)
@@ -76,7 +104,7 @@ impl Study {
 }
 
 impl Study {
-    fn requirements(&self, given: &[Bound<'_, PyAny>]) -> PyResult<Vec<Requirement>> {
+    pub(crate) fn requirements(&self, given: &[Bound<'_, PyAny>]) -> PyResult<Vec<Requirement>> {
         let one = |given| requirement(&self.inner, given);
         given.iter().map(one).collect()
     }

@@ -1,5 +1,9 @@
 //! A mechanism at one operating point.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
 use eigentol::Error;
 use eigentol_interpreter::Interpreted;
 use pyo3::prelude::*;
@@ -10,6 +14,9 @@ use crate::errors::raise;
 use crate::mechanism::Mechanism;
 use crate::motion::Motion;
 use crate::settings;
+
+/// How often somebody who waits for an answer looks for Ctrl-C.
+const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 
 /// A mechanism at one operating point, with tolerances and settings.
 ///
@@ -49,6 +56,39 @@ impl Study {
     ) -> PyResult<R> {
         let found = py.detach(|| question(&self.inner));
         found.map_err(|error| raise(py, error))
+    }
+
+    /// As [`Self::ask`]; Ctrl-C ends the work by setting the flag, and is raised.
+    pub(crate) fn ask_stoppably<R: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(&eigentol::Study<Interpreted>, &AtomicBool) -> Result<R, Error> + Send,
+    ) -> PyResult<R> {
+        let stop = AtomicBool::new(false);
+        let here = thread::current();
+        thread::scope(|scope| {
+            let work = scope.spawn(|| {
+                let found = question(&self.inner, &stop);
+                here.unpark();
+                found
+            });
+            let interrupted = loop {
+                py.detach(|| thread::park_timeout(BETWEEN_SIGNALS));
+                if work.is_finished() {
+                    break None;
+                }
+                if let Err(interrupt) = py.check_signals() {
+                    stop.store(true, Ordering::Relaxed);
+                    break Some(interrupt);
+                }
+            };
+            let found = py.detach(|| work.join());
+            match (interrupted, found) {
+                (Some(interrupt), _) => Err(interrupt),
+                (None, Ok(found)) => found.map_err(|error| raise(py, error)),
+                (None, Err(panic)) => std::panic::resume_unwind(panic),
+            }
+        })
     }
 
     fn with(mechanism: &Bound<'_, Mechanism>, settings: Bound<'_, PyDict>) -> PyResult<Self> {

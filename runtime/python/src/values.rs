@@ -120,7 +120,17 @@ impl List {
         of: &Description,
         given: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<f64>> {
-        let mut values = self.usual(of);
+        self.over(self.usual(of), py, of, given)
+    }
+
+    /// The values given by name over these, or a list in their place.
+    fn over(
+        self,
+        mut values: Vec<f64>,
+        py: Python<'_>,
+        of: &Description,
+        given: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<f64>> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
             return Ok(values);
         };
@@ -144,6 +154,16 @@ impl List {
             };
             Err(raise(py, error))
         }
+    }
+
+    /// A change of each, SI: zero for what is not named.
+    pub(crate) fn changes(
+        self,
+        py: Python<'_>,
+        of: &Description,
+        given: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Vec<f64>> {
+        self.over(vec![0.0; self.usual(of).len()], py, of, given)
     }
 
     fn plural(self) -> &'static str {

@@ -5,6 +5,10 @@ cos theta* = 3 g / (2 l omega^2), and the natural frequency is omega sin theta*.
 """
 
 import math
+import os
+import signal
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -185,6 +189,67 @@ def test_requirements(study):
     error = math.sqrt(expected * (1 - expected) / 20_000)
     assert abs(chances.failure[0] - expected) < 4 * error
     assert chances.failure[1] == 0.0 and chances.all_met == 1 - chances.failure[0]
+
+
+def test_a_forbidden_band_is_the_rest_of_a_wanted_one(study):
+    low, high = frequency(0.99), frequency(1.01)
+    study = study.replace(samples=20_000)
+    inside = study.chances([(("frequency", 0), low, high)])
+    outside = study.chances([("outside", ("frequency", 0), low, high)])
+    assert 0 < inside.failure[0] < 1
+    assert inside.failure[0] + outside.failure[0] == pytest.approx(1, abs=1e-12)
+
+
+def test_cheapest_tolerance(study):
+    # One in a thousand falls below the frequency of 0.99 m, so that 1 cm is 3.0902 standard deviations; three make a half-width.
+    wanted = [(("frequency", 0), frequency(0.99), None)]
+    found = study.replace(samples=20_000).allocate(
+        wanted, failure=[1e-3], tolerances={"l": ("1 mm", "10 cm", (1.0, 0.5, 2.0))}
+    )
+    expected = 3 * 0.01 / 3.090232306167813
+    np.testing.assert_allclose(found.half_widths[found.names.index("l")], expected, rtol=1e-6)
+    assert found.cost == pytest.approx(1 + 0.5 / expected**2, rel=1e-6)
+    assert found.refuted == [] and found.sampled_failure[0] < 3e-3
+    with pytest.raises(eigentol.UnknownName, match="did you mean"):
+        study.allocate(wanted, failure=[1e-3], tolerances={"ll": (1e-3, 1e-1, (0, 1, 1))})
+
+
+TWO_BARS = """
+mechanism TwoBars {
+    design l1 = 1 m +/- 1%;
+    design l2 = 1 m +/- 1%;
+    gravity 9.81 m/s^2 along -z;
+    body one: rod(mass: 1 kg, length: l1, along: -z);
+    body two: rod(mass: 1 kg, length: l2, along: -z);
+    joint a: revolute(y) from ground to one;
+    joint b: revolute(y) from ground to two;
+}
+"""
+
+
+def test_equal_modes_split_along_a_direction():
+    study = eigentol.Study(eigentol.Mechanism.from_text(TWO_BARS))
+    own = math.sqrt(1.5 * G)
+    found = study.clusters()
+    assert len(found) == 1 and found.modes == [[0, 1]] and found.defective == [False]
+    assert found.distances[0] == 0 and "cluster" in repr(found)
+    slopes = study.directional_derivatives(0, design={"l1": 1.0})
+    assert slopes.modes == [0, 1]
+    np.testing.assert_allclose(slopes.frequencies, [-own / 2, 0], atol=1e-12)
+    both = study.directional_derivatives(1, design=[1.0, -2.0])
+    np.testing.assert_allclose(both.eigenvalues.real, [-(own**2), 2 * own**2], atol=1e-11)
+    alone = study.replace(design={"l1": 2.0})
+    assert len(alone.clusters()) == 0 and alone.clusters().tables == []
+
+
+def test_ctrl_c_ends_a_run_of_samples(study):
+    study = study.replace(samples=2_000_000_000)
+    for question in [study.monte_carlo, lambda: study.samples_between(0, 1_000_000_000)]:
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        before = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            question()
+        assert time.monotonic() - before < 20
 
 
 def test_kernels(pendulum):

@@ -6,7 +6,7 @@ use super::settings::Continuation;
 use crate::algebra::{Vector, all_finite};
 use crate::constraints::{Structure, redundant_rows};
 use crate::equilibrium::{
-    ACCEPTED, Failure, OperatingPoint, Stability, constraint_state, judge, relative_residual,
+    ACCEPTED, Failure, OperatingPoint, Verdict, constraint_state, judge, relative_residual,
 };
 use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
@@ -220,8 +220,8 @@ impl<'a> Curve<'a> {
         }
         let constraints =
             constraint_state(&point, &at.q, &residual, &linear).map_err(Trouble::Refused)?;
-        let (stability, rounding) = if constraints.singular {
-            (Stability::Undecided, 0.0)
+        let verdict = if constraints.singular {
+            Verdict::undecided()
         } else {
             let place = rounding::CheckedState {
                 coordinates: &at.q,
@@ -229,15 +229,15 @@ impl<'a> Curve<'a> {
                 design: self.design,
                 residual: &residual,
             };
-            judge(self.mechanism, &place, &linear).map_err(Trouble::Refused)?
+            judge(self.mechanism, &place, &linear, &[]).map_err(Trouble::Refused)?
         };
         Ok(Equilibrium {
             pose: self.mechanism.pose_margin(&at.q, &inputs, self.design),
             coordinates: at.q.clone(),
             inputs,
             design: self.design.into(),
-            stability,
-            rounding,
+            stability: verdict.stability,
+            rounding: verdict.rounding,
             constraints,
             linear,
             residual,

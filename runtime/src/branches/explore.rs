@@ -119,7 +119,7 @@ impl Curve<'_> {
                 &state.coordinates,
                 Policy::Nearest,
             ) {
-                Ok(beside) => self.first_station(beside),
+                Ok(beside) => self.first_station(beside.state),
                 Err(_) => Err(trouble),
             }
         })

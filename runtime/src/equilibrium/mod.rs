@@ -28,15 +28,15 @@ pub(crate) use operating_point::{Failure, OperatingPoint};
 pub(crate) use prediction::{MISSED, Path, STILL};
 pub(crate) use regularity::constraint_state;
 pub(crate) use root::{Bracket, refine};
-pub(crate) use solve::{solve, solve_from_prediction, solve_into};
-pub(crate) use stability::judge;
+pub(crate) use solve::{Judged, solve, solve_from_prediction, solve_into};
+pub(crate) use stability::{Verdict, judge};
 pub(crate) use turns::{coincide, turned_towards, turns_do_not_count};
 
 pub use crate::constraints::ConstraintState;
 pub use crate::state::{Equilibrium, Stability};
 
-use crate::Error;
 use crate::kernels::Kernels;
+use crate::{Error, Mode};
 
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub fn equilibrium(
     Ok(state)
 }
 
-/// As [`equilibrium`]: writes over a blank state at these inputs and design variables.
+/// As [`equilibrium`]: writes over a blank state at these inputs and design variables, and returns [`Judged::modes`].
 pub(crate) fn equilibrium_into(
     mechanism: &dyn Kernels,
     u: &[f64],
@@ -83,7 +83,7 @@ pub(crate) fn equilibrium_into(
     start: &[f64],
     policy: Policy,
     state: &mut Equilibrium,
-) -> Result<(), Error> {
+) -> Result<Vec<Mode>, Error> {
     let point = OperatingPoint::unchecked(mechanism, u, b);
     point.check_values()?;
     point.check_start(start)?;

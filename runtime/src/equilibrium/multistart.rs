@@ -3,7 +3,7 @@
 use eigentol_statistics::random::RandomNumbers;
 
 use super::turns::{coincide, turned_towards, turns_do_not_count};
-use super::{OperatingPoint, Policy, solve};
+use super::{Judged, OperatingPoint, Policy, solve};
 use crate::algebra::Vector;
 use crate::kernels::Kernels;
 use crate::setters::setters;
@@ -75,7 +75,7 @@ pub fn find_equilibria(
             break;
         }
         for policy in [Policy::Stable, Policy::Nearest] {
-            let Ok(state) = solve(&point, &from, policy) else {
+            let Ok(Judged { state, .. }) = solve(&point, &from, policy) else {
                 continue;
             };
             met += 1;

@@ -7,7 +7,7 @@ use crate::eigenproblem::Trouble;
 use crate::error::{NotClosed, NotFound};
 use crate::kernels::{Kernels, Linear, RestParts};
 use crate::state::dependent_names;
-use crate::{DampingKind, Description, Equilibrium, Error, Role, Shared};
+use crate::{DampingKind, Description, Equilibrium, Error, Mode, Modes, Role, Shared};
 
 /// A mechanism at given inputs and design variables.
 #[derive(Clone)]
@@ -21,6 +21,8 @@ pub(crate) struct OperatingPoint<'a> {
     /// one on the diagonal (each constraint gives `Khat` a negative eigenvalue). Away from there dependent rows do not look
     /// dependent, and only hinder each other. Empty where none is left out.
     dropped: Vec<bool>,
+    /// The modes of a state near by, from which those of this one are found in less time; may be empty.
+    pub(super) nearby: &'a [Mode],
 }
 
 impl<'a> OperatingPoint<'a> {
@@ -66,6 +68,15 @@ impl<'a> OperatingPoint<'a> {
             inputs,
             design,
             dropped: Vec::new(),
+            nearby: &[],
+        }
+    }
+
+    /// The same, not far from a state with these modes.
+    pub(crate) fn near(self, modes: &'a Modes) -> Self {
+        Self {
+            nearby: modes.general(),
+            ..self
         }
     }
 

@@ -6,41 +6,51 @@ use super::descent;
 use super::operating_point::{Failure, OperatingPoint};
 use super::prediction::confirmed;
 use super::regularity::{constraint_state, unbalanced};
+use super::stability::Verdict;
 use super::{Equilibrium, Policy, assembly, newton, newton_fast_path, search_space, stability};
 use crate::algebra::{Cholesky, Vector, add_scaled, add_to, dot};
 use crate::constraints::{Structure, Tangent, all_rows, placed};
 use crate::error::NotFound;
 use crate::kernels::Linear;
 use crate::rounding::CheckedState;
-use crate::{DampingKind, Stability};
+use crate::{DampingKind, Mode, Stability};
+
+/// A finished state.
+pub(crate) struct Judged {
+    pub(crate) state: Equilibrium,
+    /// Its general modes, where its stability was judged by them; empty otherwise.
+    pub(crate) modes: Vec<Mode>,
+}
 
 /// As [`equilibrium`](super::equilibrium), for values already checked.
 pub(crate) fn solve(
     point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
-) -> Result<Equilibrium, Failure> {
+) -> Result<Judged, Failure> {
     let mut state = point.blank_state();
-    solve_into(point, start, policy, &mut state)?;
-    Ok(state)
+    let modes = solve_into(point, start, policy, &mut state)?;
+    Ok(Judged { state, modes })
 }
 
-/// As [`solve`]: writes over a state of the same mechanism at these inputs and design variables.
+/// As [`solve`]: writes over a state of the same mechanism at these inputs and design variables, and returns
+/// [`Judged::modes`].
 pub(crate) fn solve_into(
     point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
     state: &mut Equilibrium,
-) -> Result<(), Failure> {
-    if policy == Policy::Stable && has_open_potential(point) {
+) -> Result<Vec<Mode>, Failure> {
+    let found = if policy == Policy::Stable && has_open_potential(point) {
         match newton_fast_path::newton_fast_path(point, start, state) {
             Ok(()) => return judge(point, state),
-            Err(place) => *state = from_afar(point, start, &place)?,
+            Err(place) => from_afar(point, start, &place)?,
         }
     } else {
-        *state = solve_slowly(point, start, policy)?;
-    }
-    Ok(())
+        solve_slowly(point, start, policy)?
+    };
+    *state = found.state;
+    Ok(found.modes)
 }
 
 /// Whether stable states are minima of a potential of coordinates that no constraint holds.
@@ -53,7 +63,7 @@ fn solve_slowly(
     point: &OperatingPoint<'_>,
     start: &[f64],
     policy: Policy,
-) -> Result<Equilibrium, Failure> {
+) -> Result<Judged, Failure> {
     let structure = point.structure;
     let closed;
     let start = if structure.open() {
@@ -77,12 +87,10 @@ fn solve_slowly(
             return found;
         };
         let start = departed(point, &coordinates, &downhill)?;
-        found = from_afar(point, &start, &descent::SearchState::first(&start)).map(|state| {
-            Equilibrium {
-                left_unstable_region: true,
-                ..state
-            }
-        });
+        found = from_afar(point, &start, &descent::SearchState::first(&start));
+        if let Ok(found) = &mut found {
+            found.state.left_unstable_region = true;
+        }
     }
     found
 }
@@ -100,7 +108,7 @@ pub(crate) fn solve_from_prediction(
     point: &OperatingPoint<'_>,
     last: &[f64],
     predicted: &[f64],
-) -> Option<Equilibrium> {
+) -> Option<Judged> {
     if !has_open_potential(point) {
         return None;
     }
@@ -109,8 +117,8 @@ pub(crate) fn solve_from_prediction(
     if !confirmed(&state.coordinates, predicted, last) {
         return None;
     }
-    judge(point, &mut state).ok()?;
-    Some(state)
+    let modes = judge(point, &mut state).ok()?;
+    Some(Judged { state, modes })
 }
 
 /// As [`solve`], for a stable equilibrium to which no straight way leads; the search goes on at `place`.
@@ -119,10 +127,10 @@ fn from_afar(
     point: &OperatingPoint<'_>,
     start: &[f64],
     place: &descent::SearchState,
-) -> Result<Equilibrium, Failure> {
+) -> Result<Judged, Failure> {
     let structure = point.structure;
-    if let Some(state) = gyroscopically_stabilised(point, start) {
-        return Ok(state);
+    if let Some(held) = gyroscopically_stabilised(point, start) {
+        return Ok(held);
     }
     let found = if structure.open() {
         descent::stable::<search_space::Unconstrained>(point, start, place)
@@ -172,7 +180,7 @@ fn polished(point: &OperatingPoint<'_>, found: Found) -> Result<Found, Failure> 
 }
 
 /// The equilibrium nearest to `start` if that is a saddle which gyroscopic forces hold; descent would leave it.
-fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Equilibrium> {
+fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Option<Judged> {
     if point.description.damping == DampingKind::Zero {
         return None;
     }
@@ -187,11 +195,12 @@ fn gyroscopically_stabilised(point: &OperatingPoint<'_>, start: &[f64]) -> Optio
         return None;
     }
     let found = nearest(point, start).ok()?;
-    let state = finish(point, found).ok()?;
-    matches!(state.stability, Stability::GyroscopicallyStabilised { .. }).then_some(state)
+    let judged = finish(point, found).ok()?;
+    let stability = judged.state.stability;
+    matches!(stability, Stability::GyroscopicallyStabilised { .. }).then_some(judged)
 }
 
-fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Equilibrium, Failure> {
+fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Judged, Failure> {
     let Measured {
         linear,
         relative_residual: relative,
@@ -218,16 +227,16 @@ fn finish(point: &OperatingPoint<'_>, mut found: Found) -> Result<Equilibrium, F
         left_unstable_region: found.left_unstable_region,
         ..point.blank_state()
     };
-    judge(point, &mut state)?;
-    Ok(state)
+    let modes = judge(point, &mut state)?;
+    Ok(Judged { state, modes })
 }
 
-/// What a solved state is: its stability, and how far joints are from singular poses.
-fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<(), Failure> {
-    (state.stability, state.rounding) = if state.constraints.singular {
-        (Stability::Undecided, 0.0)
+/// What a solved state is: its stability, and how far joints are from singular poses. Returns [`Judged::modes`].
+fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<Vec<Mode>, Failure> {
+    let verdict = if state.constraints.singular {
+        Verdict::undecided()
     } else if at_rest_by_stiffness(point) && stability::clearly_stable(&state.linear) {
-        (Stability::Stable, 0.0)
+        Verdict::without_modes(Stability::Stable, 0.0)
     } else {
         let place = CheckedState {
             coordinates: &state.coordinates,
@@ -235,12 +244,13 @@ fn judge(point: &OperatingPoint<'_>, state: &mut Equilibrium) -> Result<(), Fail
             design: point.design,
             residual: &state.residual,
         };
-        stability::judge(point.mechanism, &place, &state.linear)?
+        stability::judge(point.mechanism, &place, &state.linear, point.nearby)?
     };
     state.pose = point
         .mechanism
         .pose_margin(&state.coordinates, point.inputs, point.design);
-    Ok(())
+    (state.stability, state.rounding) = (verdict.stability, verdict.rounding);
+    Ok(verdict.modes)
 }
 
 /// Determines the reactions of a state and measures it.

@@ -5,12 +5,33 @@ use crate::algebra::{Cholesky, Lu, Matrix, asymmetry, for_size, largest_element}
 use crate::constraints::{Structure, Tangent};
 use crate::eigenproblem::symmetric;
 use crate::kernels::{Kernels, Linear};
-use crate::modes::{Family, SYMMETRIC, free_pairs, solve_modes};
+use crate::modes::{Family, Modes, SYMMETRIC, free_pairs};
 use crate::rounding::{self, CheckedState, Sign, of_form, sign};
-use crate::{Behaviour, DampingKind, Description, Shared, Stability};
+use crate::{Behaviour, DampingKind, Description, Mode, Shared, Stability};
 
-/// What a state is, and which eigenvalues `lambda` cannot be told from zero.
-pub(crate) type Verdict = (Stability, f64);
+/// What a state is.
+pub(crate) struct Verdict {
+    pub(crate) stability: Stability,
+    /// Eigenvalues `lambda` up to this size cannot be told from zero.
+    pub(crate) rounding: f64,
+    /// The general modes, where these were asked; empty where theorems decided.
+    pub(crate) modes: Vec<Mode>,
+}
+
+impl Verdict {
+    /// Of a state that nobody can judge.
+    pub(crate) fn undecided() -> Self {
+        Self::without_modes(Stability::Undecided, 0.0)
+    }
+
+    pub(super) fn without_modes(stability: Stability, rounding: f64) -> Self {
+        Self {
+            stability,
+            rounding,
+            modes: Vec::new(),
+        }
+    }
+}
 
 /// Whether `Khat` is positive definite beyond any doubt.
 #[inline]
@@ -36,39 +57,43 @@ pub(super) fn clearly_stable(linear: &Linear) -> bool {
 /// Judges by theorems where they decide: a positive definite symmetric `Khat` with dissipative or gyroscopic `Chat` is
 /// stable (Kelvin, Tait, Chetaev), `det Khat < 0` has a growing real solution whatever `Chat` is. Otherwise, also with an odd
 /// number of negative directions beside free ones, by the general eigenvalues. With constraints on positions the theorems
-/// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide.
+/// hold for the directions they leave free; with speeds or constraints on velocities the general eigenvalues decide, found
+/// from the modes of a state `nearby` where there are any.
 pub(crate) fn judge(
     mechanism: &dyn Kernels,
     at: &CheckedState<'_>,
     linear: &Linear,
+    nearby: &[Mode],
 ) -> Result<Verdict, Failure> {
     let description = &mechanism.description();
     let structure = Structure::of(description);
     let doubt = |lambda, phi: &[f64]| rounding::of_data(mechanism, at, linear, (lambda, phi));
+    let general = |unstable, floor| by_eigenvalues((linear, nearby), description, unstable, floor);
     if structure.open() {
-        return judge_free(description, linear, linear, &doubt);
+        return judge_free(description, linear, linear, &doubt, &general);
     }
     let tangent = Tangent::new(linear, structure);
     if structure.holonomic() && tangent.freedom == 0 {
-        return Ok((Stability::Stable, 0.0));
+        return Ok(Verdict::without_modes(Stability::Stable, 0.0));
     }
     if !structure.holonomic() {
-        return Ok((by_eigenvalues(description, linear, (0, 0), 0.0), 0.0));
+        return Ok(general((0, 0), 0.0));
     }
     let reduced = tangent.reduce_linear(linear);
-    judge_free(description, linear, &reduced, &doubt).map_err(|failure| match failure {
+    judge_free(description, linear, &reduced, &doubt, &general).map_err(|failure| match failure {
         Failure::SingularMass(direction) => Failure::SingularMass(tangent.foremost(direction)),
         other => other,
     })
 }
 
 /// As [`judge`], by the matrices over free directions; `whole` are those of all unknowns, `doubt` tells how far rounding of the
-/// data moves an eigenvalue.
+/// data moves an eigenvalue, `general` what the general eigenvalues say ([`by_eigenvalues`]).
 fn judge_free(
     description: &Shared<Description>,
     whole: &Linear,
     linear: &Linear,
     doubt: &dyn Fn(f64, &[f64]) -> f64,
+    general: &dyn Fn((usize, usize), f64) -> Verdict,
 ) -> Result<Verdict, Failure> {
     if let Err(row) = Cholesky::new(&linear.mass) {
         return Err(Failure::SingularMass(row));
@@ -76,12 +101,11 @@ fn judge_free(
     if !description.symmetric_stiffness && asymmetry(&linear.stiffness) > SYMMETRIC {
         let negative =
             Lu::new(&linear.stiffness).is_some_and(|factors| factors.negative_determinant());
-        let stability = if negative {
-            Stability::Divergent { negative: 1 }
+        return Ok(if negative {
+            Verdict::without_modes(Stability::Divergent { negative: 1 }, 0.0)
         } else {
-            by_eigenvalues(description, whole, (0, 0), 0.0)
-        };
-        return Ok((stability, 0.0));
+            general((0, 0), 0.0)
+        });
     }
     let (mut negative, mut zero, mut floor) = (0, 0, 0.0_f64);
     if !clearly_definite(linear) {
@@ -109,26 +133,27 @@ fn judge_free(
     let stability = if negative > 0 && (!damped || (zero == 0 && negative % 2 == 1)) {
         Stability::Divergent { negative }
     } else if negative > 0 || (damped && feeds_energy(linear)?) {
-        by_eigenvalues(description, whole, (negative, zero), floor)
+        return Ok(general((negative, zero), floor));
     } else if zero > 0 {
         Stability::Neutral { zero }
     } else {
         Stability::Stable
     };
-    Ok((stability, floor))
+    Ok(Verdict::without_modes(stability, floor))
 }
 
 /// What the general eigenvalues say, where `negative` directions have negative stiffness and `free` ones none; a `lambda` not
 /// beyond `floor` is zero.
 fn by_eigenvalues(
+    (linear, nearby): (&Linear, &[Mode]),
     description: &Shared<Description>,
-    linear: &Linear,
     (negative, free): (usize, usize),
     floor: f64,
-) -> Stability {
-    let Ok(found) = solve_modes(linear, Family::General, description, floor) else {
-        return Stability::Undecided;
-    };
+) -> Verdict {
+    let mut found = Modes::empty(Family::General, description);
+    if found.solve_near(linear, floor, nearby).is_err() {
+        return Verdict::without_modes(Stability::Undecided, floor);
+    }
     let count = |wanted: fn(Behaviour) -> bool| {
         let behaviours = found.modes.iter().map(|mode| mode.behaviour);
         behaviours.filter(|&behaviour| wanted(behaviour)).count()
@@ -137,7 +162,7 @@ fn by_eigenvalues(
     let growing = count(|behaviour| matches!(behaviour, Behaviour::Flutter(_)));
     let zero = count(|behaviour| matches!(behaviour, Behaviour::Neutral));
     let constant = count(|behaviour| matches!(behaviour, Behaviour::Oscillating(_)));
-    if divergent > 0 {
+    let stability = if divergent > 0 {
         Stability::Divergent {
             negative: divergent,
         }
@@ -154,6 +179,11 @@ fn by_eigenvalues(
         Stability::GyroscopicallyStabilised { negative }
     } else {
         Stability::Marginal
+    };
+    Verdict {
+        stability,
+        rounding: floor,
+        modes: found.modes,
     }
 }
 

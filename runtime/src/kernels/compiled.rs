@@ -3,12 +3,12 @@
 use super::interval::Interval;
 use super::{
     Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, ResidualPartials, RestParts, Sizes, entries_of,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes, entries_of,
 };
 use crate::algebra::{Matrix, Vector};
 use crate::mechanism::{
-    Array, Description, GradientOf, Mechanism, PartialsOf, PoseMargin, Shared, Square, Violation,
-    few_partials,
+    Array, Description, GradientOf, Mechanism, PartialsOf, PictureInfo, PoseMargin, Shared, Square,
+    Violation, few_partials,
 };
 use crate::{Real, mechanism};
 
@@ -471,5 +471,16 @@ impl<M: Mechanism> MotionKernels for M {
         let (acceleration, velocity) = (Array::view(acceleration), Array::view(velocity));
         let found = Mechanism::motion_linear(self, acceleration, velocity, q, u, b);
         copy_linear::<M>(&found, linear);
+    }
+}
+
+impl<M: Mechanism> PictureKernels for M {
+    fn picture_info(&self) -> Shared<PictureInfo> {
+        Shared::Static(const { &M::PICTURE })
+    }
+
+    fn picture_into(&self, q: &[f64], u: &[f64], b: &[f64], computed: &mut [f64]) {
+        let (q, u, b) = point::<M>(q, u, b);
+        computed.copy_from_slice(Mechanism::picture(self, q, u, b).as_ref());
     }
 }

@@ -17,6 +17,7 @@ mod directional;
 mod interval;
 mod motion;
 mod partial_matrices;
+mod picture;
 mod summary;
 
 pub use batch::{BatchGradient, BatchKernels, BatchLinear, BatchPartials, BatchParts, BatchPoint};
@@ -28,6 +29,7 @@ pub use interval::Interval;
 pub use motion::MotionKernels;
 pub use partial_matrices::PartialMatrices;
 pub(crate) use partial_matrices::{entries_of, parts};
+pub use picture::PictureKernels;
 pub use summary::SummaryKernels;
 
 use crate::algebra::{Matrix, Vector};

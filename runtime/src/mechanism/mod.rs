@@ -3,6 +3,7 @@
 mod array;
 mod description;
 mod handles;
+mod picture;
 mod results;
 #[cfg(feature = "serde")]
 mod serial;
@@ -15,6 +16,9 @@ pub use description::{
     Unit,
 };
 pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
+pub use picture::{
+    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
+};
 pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Violation};
 pub use shared::{List, Shared, Text};
 pub use tolerance::{Law, ToleranceInfo};
@@ -63,9 +67,14 @@ pub trait Mechanism: Clone + Sync + Sized {
     type Design<T: Copy>: Array<T>;
     /// A number for each of the `O` outputs.
     type Outputs<T: Copy>: Array<T>;
+    /// What [`Mechanism::picture`] computes.
+    type Picture<T: Copy>: Array<T>;
 
     /// Names, units, nominal values and what the compiler proved.
     const DESCRIPTION: Description;
+
+    /// How the numbers of [`Mechanism::picture`] are read.
+    const PICTURE: PictureInfo = PictureInfo::EMPTY;
 
     /// Residual at rest, `g(0, 0, q; u, b)` (eq. 10): zero at a dynamic equilibrium.
     fn residual<T: Real>(
@@ -371,6 +380,17 @@ pub trait Mechanism: Clone + Sync + Sized {
         _real: &Self::Coordinates<T>,
         _imaginary: &Self::Coordinates<T>,
     ) -> [T; 2] {
+        zeros()
+    }
+
+    /// Where bodies are, and what they, joints and points look like: the numbers in the places [`PictureInfo::computed`] of
+    /// [`Mechanism::PICTURE`], SI.
+    fn picture<T: Real>(
+        &self,
+        _q: &Self::Coordinates<T>,
+        _u: &Self::Inputs<T>,
+        _b: &Self::Design<T>,
+    ) -> Self::Picture<T> {
         zeros()
     }
 

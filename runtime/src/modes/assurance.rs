@@ -27,13 +27,13 @@ pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let mass = own.as_ref().unwrap_or(&linear.mass);
     let general = from.family == Family::General || to.family == Family::General;
     let weighted = |mode: &Mode| times_complex(mass, &mode.shape);
-    let size = |mode: &Mode| product(&mode.shape, &weighted(mode)).norm();
-    let own_sizes: Vec<_> = from.modes.iter().map(size).collect();
-    let others: Vec<_> = to
-        .modes
-        .iter()
-        .map(|mode| (weighted(mode), size(mode)))
-        .collect();
+    let measured = |mode: &Mode| {
+        let weighted = weighted(mode);
+        let size = product(&mode.shape, &weighted).norm();
+        (weighted, size)
+    };
+    let own_sizes: Vec<_> = from.modes.iter().map(|mode| measured(mode).1).collect();
+    let others: Vec<_> = to.modes.iter().map(measured).collect();
     Matrix::from_fn(from.modes.len(), to.modes.len(), |i, j| {
         let (own, (weighted, size)) = (&from.modes[i], &others[j]);
         let scale = own_sizes[i] * size;

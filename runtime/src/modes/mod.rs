@@ -125,6 +125,14 @@ impl Modes {
         }
     }
 
+    /// The modes, if they are general ones.
+    pub(crate) fn general(&self) -> &[Mode] {
+        match self.family {
+            Family::General => &self.modes,
+            Family::Undamped => &[],
+        }
+    }
+
     /// The least `lambda`; infinite without modes.
     pub(crate) fn least_lambda(&self) -> f64 {
         let lambda = self.modes.iter().map(|mode| mode.lambda);
@@ -171,7 +179,8 @@ impl Modes {
 /// check, [`Error::SingularConfiguration`] where constraints become dependent.
 pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
-    modes_at(equilibrium, Family::of(&equilibrium.description))
+    let family = Family::of(&equilibrium.description);
+    modes_at(equilibrium, family, Vec::new())
 }
 
 /// Undamped modes about an equilibrium: `Chat` is neglected, and the result says so where it is not zero.
@@ -181,13 +190,17 @@ pub fn modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
 /// or constraints on velocities.
 pub fn undamped_modes(equilibrium: &Equilibrium) -> Result<Modes, Error> {
     equilibrium.regular()?;
-    modes_at(equilibrium, Family::Undamped)
+    modes_at(equilibrium, Family::Undamped, Vec::new())
 }
 
-/// The modes of a family about an equilibrium.
-pub(crate) fn modes_at(at: &Equilibrium, family: Family) -> Result<Modes, Error> {
+/// The modes of a family about an equilibrium; `judged` as in [`Modes::solve_at`].
+pub(crate) fn modes_at(
+    at: &Equilibrium,
+    family: Family,
+    judged: Vec<Mode>,
+) -> Result<Modes, Error> {
     let mut found = Modes::empty(family, &at.description);
-    found.solve_at(at)?;
+    found.solve_at(at, judged)?;
     Ok(found)
 }
 
@@ -269,7 +282,7 @@ pub(crate) fn solve_modes(
     floor: f64,
 ) -> Result<Modes, ModesFailure> {
     let mut modes = Modes::empty(family, description);
-    modes.solve(linear, floor)?;
+    modes.solve_near(linear, floor, &[])?;
     Ok(modes)
 }
 
@@ -286,21 +299,31 @@ impl Modes {
         }
     }
 
-    /// Writes the modes about an equilibrium over those there are.
-    pub(crate) fn solve_at(&mut self, at: &Equilibrium) -> Result<(), Error> {
-        self.solve(&at.linear, at.rounding)
+    /// Writes the modes about an equilibrium over those there are. `judged` are its general modes if its stability was judged by
+    /// them, empty otherwise.
+    pub(crate) fn solve_at(&mut self, at: &Equilibrium, judged: Vec<Mode>) -> Result<(), Error> {
+        self.solve_judged(at, judged, &[])
             .map_err(|failure| failure.explain(&at.description))?;
         self.inputs.set(&at.inputs, |value| *value);
         Ok(())
     }
 
-    /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
-    /// `floor` is zero.
-    pub(crate) fn solve(&mut self, linear: &Linear, floor: f64) -> Result<(), ModesFailure> {
-        self.solve_near(linear, floor, &[])
+    /// The same near an equilibrium of which all modes are known, without its inputs.
+    pub(crate) fn solve_judged(
+        &mut self,
+        at: &Equilibrium,
+        judged: Vec<Mode>,
+        nearby: &[Mode],
+    ) -> Result<(), ModesFailure> {
+        if self.family == Family::General && !judged.is_empty() {
+            self.modes = judged;
+            return Ok(());
+        }
+        self.solve_near(&at.linear, at.rounding, nearby)
     }
 
-    /// The same; damped modes of an open mechanism in less time from all modes of one near by.
+    /// Writes the modes of these matrices over those there are, whose vectors are used again. A `lambda` that is not beyond
+    /// `floor` is zero. Damped modes of an open mechanism take less time from all modes of one near by.
     pub(crate) fn solve_near(
         &mut self,
         linear: &Linear,

@@ -6,8 +6,9 @@ use super::deviating::deviating;
 use super::{Solved, Study};
 use crate::clusters::{ClusterTolerance, DirectionalDerivatives};
 use crate::equilibrium::{self, Assembly, Search};
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::Whirl;
+use crate::picture::{self, ModePictures, Scene};
 use crate::second_order::{Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity;
 use crate::sensitivity::{EquilibriumShift, OutputSensitivities, Quantity};
@@ -212,6 +213,50 @@ impl<M: Kernels> Study<M> {
     /// As [`Study::modes`].
     pub fn whirls(&self) -> Result<Vec<Option<Whirl>>, Error> {
         Ok(self.solve()?.whirls())
+    }
+}
+
+impl<M: PictureKernels> Study<M> {
+    /// What there is to see at the equilibrium ([`picture::scene`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let scene = study.picture()?;
+    /// println!("{}: {:?}", scene.bodies[1].name, scene.bodies[1].pose);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::equilibrium`].
+    pub fn picture(&self) -> Result<Scene, Error> {
+        let Equilibrium {
+            coordinates,
+            inputs,
+            design,
+            ..
+        } = self.equilibrium()?;
+        picture::scene(&self.mechanism, &coordinates, &inputs, &design)
+    }
+
+    /// The poses of all bodies along one period of a mode, counted from 0, at so many evenly spaced phases; what moves most goes to
+    /// either side by the share `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let swing = study.mode_pictures(0, 24, 0.1)?;
+    /// println!("{:?}", swing.frames[6][1].position);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::modes`]; [`Error::NoSuchMode`], [`Error::Setting`].
+    pub fn mode_pictures(
+        &self,
+        mode: usize,
+        phases: usize,
+        amplitude: f64,
+    ) -> Result<ModePictures, Error> {
+        self.solve()?.mode_pictures(mode, phases, amplitude)
     }
 }
 

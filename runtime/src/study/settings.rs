@@ -16,7 +16,7 @@ use crate::scalar::Instructions;
 use crate::sweep::{Following, Range};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{
-    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Modes, Shared, Unit,
+    Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Mode, Modes, Shared, Unit,
 };
 
 /// The operating point, the tolerances and how to solve.
@@ -313,12 +313,12 @@ impl Settings {
         Equilibrium::blank(&self.description, &self.inputs, &self.design)
     }
 
-    /// Writes the equilibrium over a blank state.
+    /// Writes the equilibrium over a blank state; returns its general modes where its stability was judged by them.
     pub(super) fn equilibrium_into(
         &self,
         mechanism: &dyn Kernels,
         state: &mut Equilibrium,
-    ) -> Result<(), Error> {
+    ) -> Result<Vec<Mode>, Error> {
         let start = self.assembled_start(mechanism)?;
         let (u, b) = (&self.inputs, &self.design);
         equilibrium::equilibrium_into(mechanism, u, b, &start, self.policy, state)
@@ -344,9 +344,9 @@ impl Settings {
         state: &mut Equilibrium,
         modes: &mut Modes,
     ) -> Result<(), Error> {
-        self.equilibrium_into(mechanism, state)?;
+        let judged = self.equilibrium_into(mechanism, state)?;
         state.regular()?;
-        modes.solve_at(state)
+        modes.solve_at(state, judged)
     }
 }
 

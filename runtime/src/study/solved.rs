@@ -5,8 +5,9 @@ use core::ops::Range;
 use super::Study;
 use super::deviating::deviating;
 use crate::clusters::{self, ClusterTolerance, DirectionalDerivatives};
-use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels};
+use crate::kernels::{BatchKernels, CurvatureKernels, DirectionalKernels, Kernels, PictureKernels};
 use crate::modes::{self, Whirl};
+use crate::picture::{self, ModePictures, Scene};
 use crate::second_order::{self, Band, ModeCurvature, ModeMargin, SecondOrder};
 use crate::sensitivity::{self, EquilibriumShift, OutputSensitivities, Quantity};
 use crate::shapes::{self, ShapeSensitivity};
@@ -140,6 +141,56 @@ impl<'a, M: Kernels> Solved<'a, M> {
     #[must_use]
     pub fn whirls(&self) -> Vec<Option<Whirl>> {
         modes::whirls(&self.study.mechanism, &self.equilibrium, &self.modes)
+    }
+}
+
+impl<M: PictureKernels> Solved<'_, M> {
+    /// What there is to see at the equilibrium ([`picture::scene`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let scene = study.solve()?.picture()?;
+    /// println!("{}: {:?}", scene.bodies[1].name, scene.bodies[1].pose);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutsideDomain`].
+    pub fn picture(&self) -> Result<Scene, Error> {
+        let Equilibrium {
+            coordinates,
+            inputs,
+            design,
+            ..
+        } = &self.equilibrium;
+        picture::scene(&self.study.mechanism, coordinates, inputs, design)
+    }
+
+    /// The poses of all bodies along one period of a mode, counted from 0, at so many evenly spaced phases; what moves most goes to
+    /// either side by the share `amplitude` of the size of the mechanism ([`picture::mode_pictures`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let swing = study.solve()?.mode_pictures(0, 24, 0.1)?;
+    /// println!("{:?}", swing.frames[6][1].position);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoSuchMode`], [`Error::OutsideDomain`], [`Error::Setting`].
+    pub fn mode_pictures(
+        &self,
+        mode: usize,
+        phases: usize,
+        amplitude: f64,
+    ) -> Result<ModePictures, Error> {
+        let Self {
+            study,
+            equilibrium,
+            modes,
+        } = self;
+        let mechanism = &study.mechanism;
+        picture::mode_pictures(mechanism, equilibrium, modes, mode, phases, amplitude)
     }
 }
 

@@ -5,7 +5,7 @@ use super::points::SweepPoint;
 use crate::algebra::Vector;
 use crate::batched::algebra::{Square, small};
 use crate::batched::{Block, KERNELS, Workspace, possible};
-use crate::equilibrium::{OperatingPoint, Path, Policy, solve, solve_from_prediction};
+use crate::equilibrium::{Judged, OperatingPoint, Path, Policy, solve, solve_from_prediction};
 use crate::kernels::{BatchKernels, Kernels};
 use crate::modes::{
     CLUSTER_GAP, Family, match_with_assurance, merged, modes_at, near_another, position,
@@ -126,7 +126,7 @@ impl<'a> Tracker<'a> {
         value: f64,
         from: &[f64],
         predicted: Option<&[f64]>,
-    ) -> Result<(Equilibrium, bool), Error> {
+    ) -> Result<(Judged, bool), Error> {
         let inputs = self.inputs_at(value);
         let operating_point = OperatingPoint::new(self.mechanism, &inputs, &self.design)?;
         operating_point.check_start(from)?;
@@ -147,8 +147,9 @@ impl<'a> Tracker<'a> {
         value: f64,
         (state, modes): (&Equilibrium, &Modes),
     ) -> Result<(Equilibrium, Modes), Error> {
-        let (equilibrium, _) = self.equilibrium(value, &state.coordinates, None)?;
-        let found = modes_at(&equilibrium, self.family)?;
+        let (judged, _) = self.equilibrium(value, &state.coordinates, None)?;
+        let (equilibrium, found) = (judged.state, judged.modes);
+        let found = modes_at(&equilibrium, self.family, found)?;
         let modes = found.continuing(modes, &equilibrium.linear, self.unused);
         Ok((equilibrium, modes))
     }
@@ -261,8 +262,9 @@ impl<'a> Tracker<'a> {
 
     fn step(&mut self, value: f64, halvings: usize) -> Result<Step, Error> {
         let predicted = self.path.at(value);
-        let (state, confirmed) = self.equilibrium(value, &self.from, predicted.as_deref())?;
-        let mut found = match modes_at(&state, self.family) {
+        let (Judged { state, modes }, confirmed) =
+            self.equilibrium(value, &self.from, predicted.as_deref())?;
+        let mut found = match modes_at(&state, self.family, modes) {
             Ok(found) => found,
             Err(error) => {
                 self.from.clone_from(&state.coordinates);

@@ -59,17 +59,21 @@ impl Solution {
         design: &[f64],
     ) {
         self.places = Vector::default();
-        let found_state = self.solve_state(mechanism, nominal, design);
-        self.solved = found_state.is_ok();
-        self.outcome = match found_state {
-            Err(outcome) => outcome,
-            Ok(()) => Outcome::from(self.state.stability),
+        let judged = self.solve_state(mechanism, nominal, modes, design);
+        self.solved = judged.is_ok();
+        let judged = match judged {
+            Err(outcome) => {
+                self.outcome = outcome;
+                return;
+            }
+            Ok(judged) => judged,
         };
-        if !self.solved || self.state.regular().is_err() {
+        self.outcome = Outcome::from(self.state.stability);
+        if self.state.regular().is_err() {
             return;
         }
         let (found, state) = (&mut self.modes, &self.state);
-        match found.solve_near(&state.linear, state.rounding, &modes.modes) {
+        match found.solve_judged(state, judged, &modes.modes) {
             Ok(()) => {
                 self.places = match_with_assurance(modes, found, &state.linear).map(position);
             }
@@ -81,13 +85,14 @@ impl Solution {
         &mut self,
         mechanism: &dyn Kernels,
         nominal: &Equilibrium,
+        modes: &Modes,
         design: &[f64],
-    ) -> Result<(), Outcome> {
+    ) -> Result<Vec<Mode>, Outcome> {
         let inputs = &nominal.inputs;
         if mechanism.violation(inputs, design).is_some() {
             return Err(Outcome::Unphysical);
         }
-        let point = OperatingPoint::unchecked(mechanism, inputs, design);
+        let point = OperatingPoint::unchecked(mechanism, inputs, design).near(modes);
         self.state.design.copy_from_slice(design);
         let start = &nominal.coordinates;
         solve_into(&point, start, Policy::Stable, &mut self.state)

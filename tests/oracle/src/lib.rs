@@ -19,5 +19,5 @@ pub mod truth;
 
 pub use matrices::{
     Along, Functional, Linear, LinearPartials, ModeFunctional, Motion, Oracle, PencilFunctional,
-    ResidualFunctional, Scalar, State,
+    Place, ResidualFunctional, Scalar, State,
 };

@@ -46,6 +46,7 @@ fn slopes<T: Real>(x: GradientOf<Pendulum, Dual<T>>) -> GradientOf<Pendulum, T> 
 
 impl Mechanism for Pendulum {
     sizes!(1, 1, 2, 1);
+    type Picture<T: Copy> = [T; 0];
 
     const DESCRIPTION: Description = Description {
         name: Shared::Static("Pendulum"),

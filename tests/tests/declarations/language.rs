@@ -209,11 +209,14 @@ fn forces_keep_what_was_given_and_are_zero_otherwise() {
         panic!("a bushing");
     };
     assert_eq!(
-        stiffness.each_ref().map(|k| value(&mechanism, k)),
-        [1e3, 2e3, 3e3]
+        stiffness
+            .each_ref()
+            .map(|row| row.each_ref().map(|k| value(&mechanism, k))),
+        [[1e3, 0.0, 0.0], [0.0, 2e3, 0.0], [0.0, 0.0, 3e3]]
     );
-    assert_eq!((damping, turning_stiffness), (&zero, &zero));
-    assert_eq!(turning_damping[2], Expr::Number(0.1));
+    let none = [(); 3].map(|()| zero.clone());
+    assert_eq!((damping, turning_stiffness), (&none, &none));
+    assert_eq!(turning_damping[2][2], Expr::Number(0.1));
     let ForceLaw::Load {
         force: load,
         moment,

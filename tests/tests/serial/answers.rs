@@ -98,6 +98,9 @@ impl Answers {
         );
         self.both(name, study.monte_carlo());
         self.plain(name, &solved.whirls());
+        self.plain(name, &solved.picture().expect("a picture"));
+        let swing = solved.mode_pictures(0, 4, 0.1);
+        self.plain(name, &swing.expect("a mode"));
         self.both(name, solved.shape_sensitivity(0));
         self.both(name, solved.mode_curvature(0));
         let (u, b) = (

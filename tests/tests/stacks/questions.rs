@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
-use eigentol::kernels::{BatchKernels, CurvatureKernels};
+use eigentol::kernels::{BatchKernels, CurvatureKernels, PictureKernels};
 use eigentol::propagation::{Points, Sampler};
 use eigentol::requirement::{Requirement, SamplingSettings};
 use eigentol::response::Response;
@@ -44,26 +44,29 @@ fn input<M>() -> Input<M> {
 }
 
 /// The first mode that oscillates.
-fn mode<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> usize {
+fn mode<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> usize {
     let frequencies = study.modes().expect("modes").frequencies();
     let oscillates = frequencies.iter().position(Option::is_some);
     oscillates.expect("one that oscillates")
 }
 
 /// Unit steps of everything.
-fn direction<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> (Vec<f64>, Vec<f64>) {
+fn direction<M: BatchKernels + CurvatureKernels + PictureKernels>(
+    study: &Study<M>,
+) -> (Vec<f64>, Vec<f64>) {
     let (u, b) = (study.input_values(), study.design_values());
     (vec![1.0; u.len()], vec![1.0; b.len()])
 }
 
-fn search<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> Search {
+fn search<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Search {
     let start = study.start_values();
     let shifted = |by: f64| start.iter().map(|value| value + by).collect::<Vec<f64>>();
     Search::new(shifted(-0.01), shifted(0.01)).starts(1)
 }
 
 /// About one state.
-pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>>
+{
     vec![
         ("equilibrium", |s, _| answered(s.equilibrium())),
         ("assembly", |s, _| answered(s.assembly())),
@@ -76,6 +79,10 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question
         ("sensitivities", |s, _| answered(s.sensitivities())),
         ("first_order", |s, _| answered(s.first_order())),
         ("whirls", |s, _| answered(s.whirls())),
+        ("picture", |s, _| answered(s.picture())),
+        ("mode_pictures", |s, _| {
+            answered(s.mode_pictures(mode(s), 2, 0.1))
+        }),
         ("directional_derivatives", |s, _| {
             let (u, b) = direction(s);
             answered(s.directional_derivatives(mode(s), (&u, &b)));
@@ -108,7 +115,8 @@ pub(crate) fn at_one_state<M: BatchKernels + CurvatureKernels>() -> Vec<Question
 }
 
 /// The same of what is solved.
-pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels + PictureKernels>()
+-> Vec<Question<M>> {
     macro_rules! solved {
         ($study:ident: $($name:ident($($argument:expr),*);)*) => {
             vec![$((stringify!($name), |$study, _| {
@@ -122,6 +130,8 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Que
         output_tolerances();
         sensitivities();
         first_order();
+        picture();
+        mode_pictures(mode(study), 2, 0.1);
         shape_sensitivity(mode(study));
         mode_curvature(mode(study));
         second_order();
@@ -152,15 +162,17 @@ pub(crate) fn of_what_is_solved<M: BatchKernels + CurvatureKernels>() -> Vec<Que
 }
 
 /// What is asked of chance: each solves the study, and asks what is solved.
-pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -> Vec<Question<M>> {
     const SAMPLES: u64 = 8;
-    fn response<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> Response {
+    fn response<M: BatchKernels + CurvatureKernels + PictureKernels>(study: &Study<M>) -> Response {
         Response::Mode {
             mode: mode(study),
             quantity: Quantity::Growth,
         }
     }
-    fn wanted<M: BatchKernels + CurvatureKernels>(study: &Study<M>) -> [Requirement; 2] {
+    fn wanted<M: BatchKernels + CurvatureKernels + PictureKernels>(
+        study: &Study<M>,
+    ) -> [Requirement; 2] {
         [
             Requirement::at_most(response(study), 1e3),
             Requirement::Stable,
@@ -209,7 +221,8 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>
 }
 
 /// Along the first input.
-pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels>() -> Vec<Question<M>> {
+pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels>()
+-> Vec<Question<M>> {
     macro_rules! between {
         ($name:ident, $range:ident) => {
             (stringify!($name), |s, range| {

@@ -21,7 +21,8 @@ pub(super) fn form(kernel: KernelName) -> Option<Form> {
         KernelName::Residual
         | KernelName::MotionResidual
         | KernelName::Outputs
-        | KernelName::Whirl => Form::Single,
+        | KernelName::Whirl
+        | KernelName::Picture => Form::Single,
         KernelName::Motion
         | KernelName::ResidualAndStiffness
         | KernelName::ResidualPartials

@@ -26,6 +26,7 @@ mod description;
 mod expression;
 mod form;
 mod names;
+mod picture;
 mod pose_margin;
 mod results;
 mod signature;
@@ -72,6 +73,8 @@ pub fn emit<E: Debug>(
     let handles = description::handles(mechanism, functions);
     let description = description::description(mechanism, functions, program);
     let unused = description::unused(mechanism);
+    let picture = picture::info(&functions.picture);
+    let pictured = functions.picture.computed.len();
     let (coordinates, inputs) = (functions.unknowns.len(), mechanism.inputs.len());
     let (design, outputs) = (mechanism.design.len(), mechanism.outputs.len());
     let conditions: Vec<_> = attributes
@@ -102,7 +105,9 @@ pub fn emit<E: Debug>(
                 type Inputs<T: ::core::marker::Copy> = [T; #inputs];
                 type Design<T: ::core::marker::Copy> = [T; #design];
                 type Outputs<T: ::core::marker::Copy> = [T; #outputs];
+                type Picture<T: ::core::marker::Copy> = [T; #pictured];
                 #description
+                #picture
                 #methods
             }
         };

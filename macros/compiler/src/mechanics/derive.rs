@@ -11,7 +11,7 @@ use super::checks::{
 };
 use super::equations::Equations;
 use super::functions::{Functions, Limits, Role, Unknown};
-use super::kernels::{kernels, pose_margin, violation, whirl};
+use super::kernels::{kernels, picture, pose_margin, violation, whirl};
 use super::linear::{Jacobians, Linear};
 use super::loads::constraint_rows;
 use super::setup::{Context, Runs, Symbols, Values};
@@ -58,6 +58,8 @@ pub fn derive(
     let linear = Linear::new(g, &jacobians, properties, &context);
     let mut functions = kernels(g, &symbols, &equations, &linear, limits);
     functions.extend(whirl(g, &context));
+    let (function, picture) = picture(g, &context);
+    functions.push(function);
     let requirements = requirements(g, mechanism, &values);
     functions.push(violation(&requirements, &symbols));
     let poses = poses(g, &context);
@@ -69,6 +71,7 @@ pub fn derive(
         functions,
         requirements,
         poses,
+        picture,
         properties,
         undetermined,
     })

@@ -3,6 +3,8 @@
 use crate::algebra::{Function, Graph};
 use crate::base::ids::{CoordinateId, ExprId};
 
+use super::picture::Picture;
+
 /// The equations of a mechanism and everything derived from them, on one graph.
 #[derive(Clone, Debug)]
 pub struct Functions {
@@ -16,6 +18,8 @@ pub struct Functions {
     pub requirements: Vec<Requirement>,
     /// Joints whose coordinates fail in some pose.
     pub poses: Vec<Pose>,
+    /// What there is to see.
+    pub picture: Picture,
     /// What holds for every design, input and position.
     pub properties: Properties,
     /// Coordinates that nothing resists, and the last of those that together move no mass: only where `kernels only` allows it.

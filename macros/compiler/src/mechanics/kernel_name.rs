@@ -58,6 +58,8 @@ kernel_names! {
     LinearPartials "linear_partials",
     /// The direction in which a vibration whirls.
     Whirl "whirl",
+    /// Where bodies are and what they look like.
+    Picture "picture",
     /// The first physical requirement that is violated.
     Violation "violation",
     /// How far joints are from their singular poses.

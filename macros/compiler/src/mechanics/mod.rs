@@ -13,6 +13,7 @@ mod kernels;
 mod linear;
 mod loads;
 mod motion;
+mod picture;
 mod print;
 mod setup;
 
@@ -21,3 +22,4 @@ pub use functions::{Damping, Functions, Limits, Pose, Properties, Requirement, R
 #[cfg(test)]
 pub(crate) use inertia::compared;
 pub use kernel_name::KernelName;
+pub use picture::{Picture, PictureBody, PictureJoint, PictureLink, SolidKind};

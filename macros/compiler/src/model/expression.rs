@@ -90,3 +90,6 @@ impl Expr {
 
 /// Three components.
 pub type Vector = [Expr; 3];
+
+/// Three rows.
+pub type Matrix = [Vector; 3];

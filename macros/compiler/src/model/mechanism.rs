@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 pub use super::constraint::{Constraint, ConstraintLaw};
-use super::expression::{Expr, Vector};
+use super::expression::{Expr, Matrix, Vector};
 pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
@@ -348,14 +348,14 @@ pub enum ForceLaw {
         from: PointId,
         /// The other.
         to: PointId,
-        /// N/m along x, y, z.
-        stiffness: Vector,
-        /// N s/m along x, y, z.
-        damping: Vector,
-        /// N m/rad about x, y, z.
-        turning_stiffness: Vector,
-        /// N m s/rad about x, y, z.
-        turning_damping: Vector,
+        /// N/m, rows and columns along x, y, z.
+        stiffness: Matrix,
+        /// N s/m, rows and columns along x, y, z.
+        damping: Matrix,
+        /// N m/rad, rows and columns about x, y, z.
+        turning_stiffness: Matrix,
+        /// N m s/rad, rows and columns about x, y, z.
+        turning_damping: Matrix,
     },
     /// A force and a moment on a body at a point.
     Load {

@@ -6,10 +6,11 @@ mod shape;
 
 use std::fmt::{self, Display, Formatter};
 
-use super::expression::{Expr, Vector};
+use super::expression::{Expr, Matrix, Vector};
 use super::mechanism::{
     Frame, Joint, Law, Mechanism, Motion, Placement, StepMotion, Tolerance, Unit,
 };
+use super::simplify::diagonal_of;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -148,6 +149,15 @@ impl Names<'_> {
     fn vector(&self, vector: &Vector) -> String {
         let components: Vec<String> = vector.iter().map(|value| self.scalar(value)).collect();
         format!("[{}]", components.join(", "))
+    }
+
+    /// The rows; of a diagonal matrix its diagonal.
+    fn matrix(&self, matrix: &Matrix) -> String {
+        if let Some(diagonal) = diagonal_of(matrix) {
+            return self.vector(&diagonal);
+        }
+        let rows: Vec<String> = matrix.iter().map(|row| self.vector(row)).collect();
+        format!("[{}]", rows.join(", "))
     }
 
     fn frame(&self, frame: Frame) -> String {

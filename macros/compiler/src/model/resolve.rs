@@ -16,6 +16,7 @@ pub mod given;
 mod gravity;
 mod joints;
 mod kernels_only;
+mod matrices;
 mod nominal;
 mod operators;
 mod outputs;

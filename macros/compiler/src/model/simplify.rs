@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::expression::{Expr, Function, Vector};
+use super::expression::{Expr, Function, Matrix, Vector};
 
 use Expr::Number;
 
@@ -98,6 +98,13 @@ pub(super) fn componentwise(a: Vector, b: Vector, f: impl Fn(Expr, Expr) -> Expr
     [f(ax, bx), f(ay, by), f(az, bz)]
 }
 
+/// Applies `f` to the entries of two matrices.
+pub(super) fn entrywise(a: Matrix, b: Matrix, f: impl Fn(Expr, Expr) -> Expr) -> Matrix {
+    let [ax, ay, az] = a;
+    let [bx, by, bz] = b;
+    [(ax, bx), (ay, by), (az, bz)].map(|(a, b)| componentwise(a, b, &f))
+}
+
 /// Scalar product.
 pub(super) fn dot(a: &Vector, b: &Vector) -> Expr {
     let [x, y, z] = componentwise(a.clone(), b.clone(), multiply);
@@ -124,4 +131,19 @@ pub(super) fn cross(a: &Vector, b: &Vector) -> Vector {
 /// The angle between two vectors, from 0 to pi: `atan2(|a x b|, a . b)`, exact near 0 and pi where an arc cosine is not.
 pub(super) fn angle(a: &Vector, b: &Vector) -> Expr {
     atan2(norm(&cross(a, b)), dot(a, b))
+}
+
+/// The matrix with this diagonal and zeros beside it.
+pub(super) fn diagonal(entries: Vector) -> Matrix {
+    let mut matrix = [(); 3].map(|()| [0.0; 3].map(Number));
+    for (i, entry) in entries.into_iter().enumerate() {
+        matrix[i][i] = entry;
+    }
+    matrix
+}
+
+/// The diagonal of a matrix that has zeros beside it.
+pub(super) fn diagonal_of(matrix: &Matrix) -> Option<Vector> {
+    let entries = std::array::from_fn(|i| matrix[i][i].clone());
+    (diagonal(entries) == *matrix).then(|| std::array::from_fn(|i| matrix[i][i].clone()))
 }

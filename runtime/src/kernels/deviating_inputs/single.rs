@@ -6,9 +6,9 @@ use super::DeviatingInputs;
 use crate::algebra::{Matrix, Vector};
 use crate::kernels::{
     Costs, CurvatureKernels, DirectionalKernels, Gradient, Kernels, Linear, MotionKernels,
-    PartialMatrices, ResidualPartials, RestParts, Sizes,
+    PartialMatrices, PictureKernels, ResidualPartials, RestParts, Sizes,
 };
-use crate::mechanism::{Description, PoseMargin, Shared, Violation};
+use crate::mechanism::{Description, PictureInfo, PoseMargin, Shared, Violation};
 
 impl<K: ?Sized> DeviatingInputs<'_, K> {
     fn applied<'b>(&self, u: &[f64], b: &'b [f64]) -> (Vector, &'b [f64]) {
@@ -320,5 +320,16 @@ impl<K: MotionKernels + ?Sized> MotionKernels for DeviatingInputs<'_, K> {
         let (u, b) = self.applied(u, b);
         self.kernels
             .motion_linear_into(acceleration, velocity, q, &u, b, linear);
+    }
+}
+
+impl<K: PictureKernels + ?Sized> PictureKernels for DeviatingInputs<'_, K> {
+    fn picture_info(&self) -> Shared<PictureInfo> {
+        self.kernels.picture_info()
+    }
+
+    fn picture_into(&self, q: &[f64], u: &[f64], b: &[f64], computed: &mut [f64]) {
+        let (u, b) = self.applied(u, b);
+        self.kernels.picture_into(q, &u, b, computed);
     }
 }

@@ -82,10 +82,10 @@ impl Printer<'_> {
                 "bushing(from: {}, to: {}, stiffness: {}, damping: {}, turning_stiffness: {}, turning_damping: {})",
                 self.end(*from),
                 self.end(*to),
-                self.vector(stiffness, Unit::NewtonPerMetre),
-                self.vector(damping, Unit::NewtonSecondPerMetre),
-                self.vector(turning_stiffness, Unit::NewtonMetrePerRadian),
-                self.vector(turning_damping, Unit::NewtonMetreSecondPerRadian)
+                self.matrix(stiffness, Unit::NewtonPerMetre),
+                self.matrix(damping, Unit::NewtonSecondPerMetre),
+                self.matrix(turning_stiffness, Unit::NewtonMetrePerRadian),
+                self.matrix(turning_damping, Unit::NewtonMetreSecondPerRadian)
             ),
             ForceLaw::Load {
                 point,

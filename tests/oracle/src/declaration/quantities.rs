@@ -1,6 +1,6 @@
 //! Values with units, directions, placements.
 
-use crate::model::{Frame, Model, Placement, Unit, Value, Values};
+use crate::model::{Frame, Matrix, Model, Placement, Unit, Value, Values, diagonal};
 
 pub(super) struct Printer<'a> {
     pub(super) model: &'a Model,
@@ -107,6 +107,16 @@ impl Printer<'_> {
 
     pub(super) fn vector(&self, values: &Values, unit: Unit) -> String {
         self.list(values, unit)
+    }
+
+    /// A matrix by rows; one that is diagonal by its diagonal.
+    pub(super) fn matrix(&self, matrix: &Matrix, unit: Unit) -> String {
+        let entries = [matrix[0][0], matrix[1][1], matrix[2][2]];
+        if diagonal(entries) == *matrix {
+            return self.vector(&entries, unit);
+        }
+        let rows = matrix.each_ref().map(|row| self.vector(row, unit));
+        format!("[{}]", rows.join(", "))
     }
 
     pub(super) fn metres(&self, values: &Values) -> String {

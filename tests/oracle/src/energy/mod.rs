@@ -141,7 +141,7 @@ fn energy<D: Scalar>(flow: &Flow<D>, poses: &Poses<D>, law: &ForceLaw) -> D {
             get(stiffness) * stretch * stretch * 0.5
         }
         ForceLaw::Potential { energy } => evaluate(energy, flow.inputs, poses),
-        // 1/2 sum k_i d_i^2
+        // 1/2 d . K d; only the symmetric part of K counts
         ForceLaw::Bushing {
             from,
             to,
@@ -149,8 +149,8 @@ fn energy<D: Scalar>(flow: &Flow<D>, poses: &Poses<D>, law: &ForceLaw) -> D {
             ..
         } => {
             let relative = poses.relative(*from, *to);
-            let one = |i: usize| get(stiffness[i]) * relative[i][3] * relative[i][3] * 0.5;
-            (0..3).map(one).sum()
+            let d = [relative[0][3], relative[1][3], relative[2][3]];
+            half_form(stiffness.map(|row| row.map(get)), d)
         }
         // -F . p
         ForceLaw::Load {
@@ -184,13 +184,13 @@ fn dissipation<D: Scalar>(flow: &Flow<D>) -> D {
             let rate = poses.distance(from, to).eps;
             get(damping) * rate * rate * 0.5
         }
-        // 1/2 sum c_i d'_i^2
+        // 1/2 d' . C d'; only the symmetric part of C counts
         ForceLaw::Bushing {
             from, to, damping, ..
         } => {
             let relative = poses.relative(*from, *to);
-            let one = |i: usize| get(damping[i]) * relative[i][3].eps * relative[i][3].eps * 0.5;
-            (0..3).map(one).sum()
+            let rate = [relative[0][3].eps, relative[1][3].eps, relative[2][3].eps];
+            half_form(damping.map(|row| row.map(get)), rate)
         }
         // 1/2 c v^2 + 1/2 ct omega^2, and the squares of the entries of Rdot add up to 2 omega^2
         &ForceLaw::Drag {
@@ -217,4 +217,12 @@ fn dissipation<D: Scalar>(flow: &Flow<D>) -> D {
 
 fn model_forces<'a, D>(flow: &Flow<'a, D>) -> impl Iterator<Item = &'a ForceLaw> {
     flow.model.forces.iter().map(|force| &force.law)
+}
+
+/// `1/2 x . A x`.
+fn half_form<D: Scalar>(a: [[D; 3]; 3], x: [D; 3]) -> D {
+    let rows = a.iter().zip(x);
+    let products =
+        rows.flat_map(|(row, xi)| row.iter().zip(x).map(move |(&aij, xj)| xi * aij * xj));
+    products.sum::<D>() * 0.5
 }

@@ -5,7 +5,7 @@ use num_dual::Dual64;
 use super::Flow;
 use super::expressions::{Rates, evaluate_with};
 use super::poses::{Four, Poses, get, index, lift};
-use crate::model::{Expr, ForceLaw, Values};
+use crate::model::{Expr, ForceLaw, Matrix, Values};
 
 /// `Q_i` of one coordinate: the work along its virtual displacement.
 pub(super) fn along(flow: &Flow<f64>, coordinate: usize) -> f64 {
@@ -47,20 +47,30 @@ impl Work<'_> {
                     0.0
                 }
             }
-            // M . dphi with M = -kr r - cr r', everything as seen in `from`
+            // M . dphi with M = -kr r - cr r', and F . dd with the antisymmetric parts of k and c, which have neither energy nor
+            // dissipation; everything as seen in `from`
             ForceLaw::Bushing {
                 from,
                 to,
+                stiffness,
+                damping,
                 turning_stiffness,
                 turning_damping,
-                ..
             } => {
                 let relative = self.moving.relative(*from, *to);
                 let half = |i: usize, j: usize| (relative[i][j] - relative[j][i]) * 0.5;
                 let r = [half(2, 1), half(0, 2), half(1, 0)];
-                let (k, c) = (self.all(turning_stiffness), self.all(turning_damping));
-                let moment: [f64; 3] = std::array::from_fn(|i| -k[i] * r[i].re - c[i] * r[i].eps);
-                dot(moment, rotation(&self.displaced.relative(*from, *to)))
+                let (k, c) = (self.rows(turning_stiffness), self.rows(turning_damping));
+                let moment = resistance([k, c], r);
+                let displaced = self.displaced.relative(*from, *to);
+                let [k, c] = [stiffness, damping].map(|matrix| antisymmetric(self.rows(matrix)));
+                let force = resistance([k, c], [relative[0][3], relative[1][3], relative[2][3]]);
+                let displacement = [
+                    displaced[0][3].eps,
+                    displaced[1][3].eps,
+                    displaced[2][3].eps,
+                ];
+                dot(moment, rotation(&displaced)) + dot(force, displacement)
             }
             ForceLaw::Load {
                 point,
@@ -99,6 +109,21 @@ impl Work<'_> {
     fn all(&self, values: &Values) -> [f64; 3] {
         values.map(|value| get(value, &self.flow.design))
     }
+
+    fn rows(&self, matrix: &Matrix) -> [[f64; 3]; 3] {
+        matrix.map(|row| self.all(&row))
+    }
+}
+
+/// `-k x - c x'`.
+fn resistance([k, c]: [[[f64; 3]; 3]; 2], x: [Dual64; 3]) -> [f64; 3] {
+    let (values, rates) = (x.map(|x| x.re), x.map(|x| x.eps));
+    std::array::from_fn(|i| -dot(k[i], values) - dot(c[i], rates))
+}
+
+/// `(A - A^T) / 2`.
+fn antisymmetric(a: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| (a[i][j] - a[j][i]) / 2.0))
 }
 
 /// The virtual rotation of a frame: `[dphi]x = dR R^T`.

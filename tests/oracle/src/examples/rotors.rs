@@ -2,8 +2,8 @@
 
 use super::{body, prismatic, spinning};
 use crate::model::{
-    Amount, Coordinate, Expr, Force, ForceLaw, Frame, Joint, Model, Motion, ORIGIN, Part,
-    Placement, Point, Shape, Step, Unit, Value, Values, Word,
+    Amount, Coordinate, Expr, Force, ForceLaw, Frame, Joint, Matrix, Model, Motion, ORIGIN, Part,
+    Placement, Point, Shape, Step, Unit, Value, Word, diagonal,
 };
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -123,7 +123,7 @@ pub fn steadied_by_the_shaft(mass: f64, stiffness: f64, internal: f64, damping: 
         shaft,
     ));
     let (from, to) = (point(&mut model, shaft), point(&mut model, Frame::Body(0)));
-    let all = |value: f64| -> Values { [number(value); 3] };
+    let all = |value: f64| -> Matrix { diagonal([number(value); 3]) };
     let law = ForceLaw::Bushing {
         from,
         to,

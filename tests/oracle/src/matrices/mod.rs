@@ -10,6 +10,7 @@ mod gradient;
 mod kinematics;
 mod linear;
 mod motion;
+mod picture;
 mod scalar;
 mod space;
 mod whirl;
@@ -17,6 +18,7 @@ mod whirl;
 pub use gradient::{Along, Functional, ModeFunctional, PencilFunctional, ResidualFunctional};
 pub use linear::{Linear, LinearPartials};
 pub use motion::{Motion, State};
+pub use picture::Place;
 pub use scalar::Scalar;
 
 use crate::model::{Branch, Coordinate, Model};

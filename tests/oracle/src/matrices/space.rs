@@ -34,11 +34,6 @@ impl<D: Scalar> Vector<D> {
         Self(self.0.map(|component| component * factor))
     }
 
-    /// Component by component.
-    pub(crate) fn times(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] * other.0[i]))
-    }
-
     pub(crate) fn dot(self, other: Self) -> D {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         a * x + b * y + c * z

@@ -1,7 +1,7 @@
 //! Force elements and the expressions in them.
 
 use super::joints::Coordinate;
-use super::values::{Unit, Value, Values};
+use super::values::{Matrix, Unit, Value, Values};
 
 /// A named force element.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,13 +134,13 @@ pub enum ForceLaw {
         /// Index of the other point.
         to: usize,
         /// Of displacements along x, y, z.
-        stiffness: Values,
+        stiffness: Matrix,
         /// Of their rates.
-        damping: Values,
+        damping: Matrix,
         /// Of rotations about x, y, z.
-        turning_stiffness: Values,
+        turning_stiffness: Matrix,
         /// Of their rates.
-        turning_damping: Values,
+        turning_damping: Matrix,
     },
     /// A force and a moment at a point.
     Load {

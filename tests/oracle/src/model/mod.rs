@@ -10,7 +10,7 @@ mod values;
 pub use bodies::{Amount, Body, Part, Shape};
 pub use forces::{Expr, Force, ForceLaw};
 pub use joints::{Coordinate, Drive, Joint, Motion, Step, Word};
-pub use values::{DesignVariable, Input, ORIGIN, Unit, Value, Values, ZERO};
+pub use values::{DesignVariable, Input, Matrix, ORIGIN, Unit, Value, Values, ZERO, diagonal};
 
 /// What a frame can be fixed in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,14 +14,39 @@ pub enum Value {
     },
 }
 
+impl Value {
+    /// `-self`.
+    pub fn negated(self) -> Self {
+        match self {
+            Self::Number(number) => Self::Number(-number),
+            Self::Design { variable, factor } => Self::Design {
+                variable,
+                factor: -factor,
+            },
+        }
+    }
+}
+
 /// Three values.
 pub type Values = [Value; 3];
+
+/// Three rows.
+pub type Matrix = [Values; 3];
 
 /// The value 0.
 pub const ZERO: Value = Value::Number(0.0);
 
 /// The vector 0.
 pub const ORIGIN: Values = [ZERO; 3];
+
+/// The matrix with this diagonal and zeros beside it.
+pub fn diagonal(values: Values) -> Matrix {
+    let mut matrix = [ORIGIN; 3];
+    for (i, value) in values.into_iter().enumerate() {
+        matrix[i][i] = value;
+    }
+    matrix
+}
 
 /// The unit of a declared value. A value in SI needs no scale, an angle is a plain number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use super::Setting;
 use super::tree::Builder;
 use crate::model::{
-    Coordinate, Force, ForceLaw, Frame, Motion, ORIGIN, Placement, Point, Unit, Values,
+    Coordinate, Force, ForceLaw, Frame, Matrix, Motion, ORIGIN, Placement, Point, Unit, Values,
+    ZERO, diagonal,
 };
 
 /// Points and force laws as they come.
@@ -148,11 +149,49 @@ impl Builder {
         ForceLaw::Bushing {
             from,
             to,
-            stiffness: self.three(5.0, 100.0, Unit::NewtonPerMetre),
-            damping: self.three(0.1, 3.0, Unit::NewtonSecondPerMetre),
-            turning_stiffness: self.three(2.0, 30.0, Unit::NewtonMetrePerRadian),
-            turning_damping: self.three(0.1, 1.0, Unit::NewtonMetreSecondPerRadian),
+            stiffness: self.coefficients(5.0, 100.0, Unit::NewtonPerMetre),
+            damping: self.coefficients(0.1, 3.0, Unit::NewtonSecondPerMetre),
+            turning_stiffness: self.coefficients(2.0, 30.0, Unit::NewtonMetrePerRadian),
+            turning_damping: self.coefficients(0.1, 1.0, Unit::NewtonMetreSecondPerRadian),
         }
+    }
+
+    /// A diagonal with, now and then, something beside it: a symmetric or an antisymmetric pair, anything, nothing on the
+    /// diagonal, or a row of zeros.
+    fn coefficients(&mut self, low: f64, high: f64, unit: Unit) -> Matrix {
+        let mut matrix = diagonal(self.three(low, high, unit));
+        if self.source.random.chance(0.5) {
+            return matrix;
+        }
+        let beside = 0.3 * low;
+        match self.source.random.below(5) {
+            kind @ (0 | 1) => {
+                let [i, j] = self.source.random.of(&[[0, 1], [1, 2], [0, 2]]);
+                let value = self.source.random.between(-beside, beside);
+                let value = self.source.value(value, unit);
+                (matrix[i][j], matrix[j][i]) = match kind {
+                    0 => (value, value),
+                    _ => (value, value.negated()),
+                };
+            }
+            2 => {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        if i != j {
+                            let value = self.source.random.between(-beside, beside);
+                            matrix[i][j] = self.source.value(value, unit);
+                        }
+                    }
+                }
+            }
+            3 => {
+                let i = self.source.random.below(3);
+                matrix[i][i] = ZERO;
+                matrix[i][(i + 1) % 3] = self.source.value(-beside, unit);
+            }
+            _ => matrix[self.source.random.below(3)] = ORIGIN,
+        }
+        matrix
     }
 
     /// Forces at a point of a body other than the rotor. What is fixed in the ground is parallel to the vertical where a

@@ -4,8 +4,10 @@ mod adjoint;
 mod conditions;
 mod contract;
 mod parameters;
+mod picture;
 mod whirl;
 
 pub(super) use conditions::{pose_margin, violation};
 pub(super) use contract::kernels;
+pub(super) use picture::picture;
 pub(super) use whirl::whirl;

@@ -109,7 +109,7 @@ impl AppliedForces {
             } => {
                 let [stiffness, damping, turning_stiffness, turning_damping] =
                     [stiffness, damping, turning_stiffness, turning_damping]
-                        .map(|value| values.vector(g, value));
+                        .map(|value| values.matrix(g, value));
                 let laws = [(stiffness, damping), (turning_stiffness, turning_damping)];
                 self.bushing(g, force_context, (*from, *to), laws, &name);
             }
@@ -182,7 +182,7 @@ impl AppliedForces {
         g: &mut Graph,
         force_context: &ForceContext,
         (from, to): (PointId, PointId),
-        [(stiffness, damping), (turning_stiffness, turning_damping)]: [(Vector3, Vector3); 2],
+        [(stiffness, damping), (turning_stiffness, turning_damping)]: [(Rows, Rows); 2],
         name: &str,
     ) {
         let [start, end] = [from, to].map(|id| force_context.point(id));
@@ -202,10 +202,10 @@ impl AppliedForces {
         let rotation = half_antisymmetric(g, relative);
         let rotation_rate = half_antisymmetric_rate(g, relative, turning);
 
-        let mut law = |stiffness: Vector3, x: Vector3, damping: Vector3, rate: Vector3| {
+        let mut law = |stiffness: Rows, x: Vector3, damping: Rows, rate: Vector3| {
             Vector3(std::array::from_fn(|i| {
-                let elastic = g.mul(stiffness.0[i], x.0[i]);
-                let viscous = g.mul(damping.0[i], rate.0[i]);
+                let elastic = stiffness[i].dot(g, x);
+                let viscous = damping[i].dot(g, rate);
                 g.add(elastic, viscous)
             }))
         };
@@ -230,6 +230,9 @@ impl AppliedForces {
         self.apply(g, force_context, to, on_to, closing);
     }
 }
+
+/// A matrix by rows.
+type Rows = [Vector3; 3];
 
 /// The line between two points, and how fast it grows.
 struct Line {

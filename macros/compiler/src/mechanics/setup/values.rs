@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::{Graph, Matrix3, Operator, Unary, Vector3};
 use crate::base::ids::{ConstantId, ExprId};
-use crate::model::expression::{Expr, Vector};
+use crate::model::expression::{Expr, Matrix, Vector};
 use crate::model::mechanism::{Mechanism, Placement};
 
 use super::symbols::Symbols;
@@ -52,6 +52,11 @@ impl<'a> Values<'a> {
     /// A vector that depends on inputs and design only.
     pub(crate) fn vector(&self, g: &mut Graph, value: &Vector) -> Vector3 {
         Vector3(std::array::from_fn(|i| self.scalar(g, &value[i])))
+    }
+
+    /// The rows of a matrix that depends on inputs and design only.
+    pub(crate) fn matrix(&self, g: &mut Graph, value: &Matrix) -> [Vector3; 3] {
+        std::array::from_fn(|i| self.vector(g, &value[i]))
     }
 
     /// A placement as offset and rotation; `None` for no rotation.

@@ -7,6 +7,7 @@ use crate::base::ids::{CoordinateId, PointId};
 impl Names<'_> {
     pub(super) fn law(&self, law: &ForceLaw) -> String {
         let (s, v) = (|value| self.scalar(value), |vector| self.vector(vector));
+        let m = |matrix| self.matrix(matrix);
         let coordinate = |id: &CoordinateId| &self.0.coordinates[id.index()].name;
         let point = |id: &PointId| &self.0.points[id.index()].name;
         match law {
@@ -60,10 +61,10 @@ impl Names<'_> {
                 "bushing from {} to {} stiffness {} damping {} turning_stiffness {} turning_damping {}",
                 point(from),
                 point(to),
-                v(stiffness),
-                v(damping),
-                v(turning_stiffness),
-                v(turning_damping)
+                m(stiffness),
+                m(damping),
+                m(turning_stiffness),
+                m(turning_damping)
             ),
             ForceLaw::Load {
                 point: at,

@@ -125,6 +125,17 @@ impl Resolver<'_> {
                 });
                 Some(Typed::Vector(vector, promoted(quantity)))
             }
+            Typed::Matrix(matrix, quantity) => {
+                let mut axes = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"].into_iter();
+                self.require_finite(matrix.as_flattened(), &what, value.extent);
+                let matrix = matrix.map(|row| {
+                    row.map(|expr| {
+                        let axes = axes.next().unwrap_or_default();
+                        self.shared(self.component_name(name, axes), expr)
+                    })
+                });
+                Some(Typed::Matrix(matrix, promoted(quantity)))
+            }
         }
     }
 

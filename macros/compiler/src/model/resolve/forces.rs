@@ -10,10 +10,9 @@ use super::expected::Expected;
 use super::placements::zero;
 use super::resolver::Resolver;
 use super::typed::Place;
-use super::values::is_matrix;
-use crate::model::expression::{Expr, Vector};
+use crate::model::expression::{Expr, Matrix, Vector};
 use crate::model::mechanism::{Force, ForceLaw};
-use crate::syntax::ast::{self, ItemKind, ValueKind};
+use crate::syntax::ast::{self, ItemKind};
 
 const BETWEEN_POINTS: &str = "between two points it is `spring_damper`";
 const ON_A_COORDINATE: [(&str, &str); 1] = [("on", "along a coordinate it is `generalized`")];
@@ -195,18 +194,21 @@ impl Resolver<'_> {
         expected: impl Into<Expected>,
     ) -> Option<Vector> {
         match arguments.get(name) {
-            Some(value) => match &value.bare().kind {
-                ValueKind::Vector(rows, _) if is_matrix(rows) => {
-                    self.diagnostics.error_with_help(
-                        value.extent,
-                        format!("`{name}` is a vector of three values along the axes of a point, not a matrix"),
-                        "turn the axes of the point with `rotated`, or write what couples them as a `potential`",
-                    );
-                    None
-                }
-                _ => self.vector_of(value, expected, &format!("`{name}`")),
-            },
+            Some(value) => self.vector_of(value, expected, &format!("`{name}`")),
             None => Some(zero()),
+        }
+    }
+
+    /// A matrix, or a vector for its diagonal; zero when not given.
+    fn matrix_or_zero(
+        &mut self,
+        arguments: &Arguments,
+        name: &str,
+        expected: impl Into<Expected>,
+    ) -> Option<Matrix> {
+        match arguments.get(name) {
+            Some(value) => self.matrix_of(value, expected, &format!("`{name}`")),
+            None => Some([zero(), zero(), zero()]),
         }
     }
 }

@@ -51,6 +51,11 @@ impl Resolver<'_> {
                 );
                 return None;
             }
+            (Typed::Matrix(..), _) => {
+                let message = "a vector is expected here, this is a matrix";
+                self.diagnostics.error(value.extent, message);
+                return None;
+            }
             (Typed::Vector(..), Some(_)) => {
                 self.diagnostics.error_with_help(
                     value.extent,

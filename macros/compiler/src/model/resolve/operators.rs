@@ -28,24 +28,28 @@ impl Resolver<'_> {
             Operator::Add => simplify::add,
             _ => simplify::subtract,
         };
-        match (left, right) {
-            (Typed::Scalar(a, of_a), Typed::Scalar(b, of_b)) => {
-                let quantity = self.same_dimension(binary, of_a, of_b)?;
-                Some(Typed::Scalar(combine(a, b), quantity))
+        let quantities = (left.quantity(), right.quantity());
+        let sum = match (left, right) {
+            (Typed::Scalar(a, of_a), Typed::Scalar(b, _)) => Typed::Scalar(combine(a, b), of_a),
+            (Typed::Vector(a, of_a), Typed::Vector(b, _)) => {
+                Typed::Vector(simplify::componentwise(a, b, combine), of_a)
             }
-            (Typed::Vector(a, of_a), Typed::Vector(b, of_b)) => {
-                let quantity = self.same_dimension(binary, of_a, of_b)?;
-                Some(Typed::Vector(
-                    simplify::componentwise(a, b, combine),
-                    quantity,
-                ))
+            (Typed::Matrix(a, of_a), Typed::Matrix(b, _)) => {
+                Typed::Matrix(simplify::entrywise(a, b, combine), of_a)
             }
-            _ => {
-                let message = "cannot add or subtract a vector and a number";
+            (left, right) => {
+                let kinds = match (&left, &right) {
+                    (Typed::Matrix(..), _) => [left.describe(), right.describe()],
+                    (_, Typed::Matrix(..)) => [right.describe(), left.describe()],
+                    _ => ["a vector", "a number"],
+                };
+                let message = format!("cannot add or subtract {}", kinds.join(" and "));
                 self.diagnostics.error(binary.sign, message);
-                None
+                return None;
             }
-        }
+        };
+        let quantity = self.same_dimension(binary, quantities.0, quantities.1)?;
+        Some(sum.map(|part| part, quantity))
     }
 
     /// Terms of a sum have one dimension.
@@ -81,15 +85,9 @@ impl Resolver<'_> {
 
     fn product(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
         match (left, right) {
-            (Typed::Scalar(a, of_a), Typed::Scalar(b, of_b)) => {
-                let quantity = self.combined(binary, of_a, of_b)?;
-                Some(Typed::Scalar(simplify::multiply(a, b), quantity))
-            }
-            (Typed::Scalar(a, of_a), Typed::Vector(b, of_b))
-            | (Typed::Vector(b, of_b), Typed::Scalar(a, of_a)) => {
-                let quantity = self.combined(binary, of_a, of_b)?;
-                let scaled = b.map(|component| simplify::multiply(a.clone(), component));
-                Some(Typed::Vector(scaled, quantity))
+            (Typed::Scalar(a, of_a), other) | (other, Typed::Scalar(a, of_a)) => {
+                let quantity = self.combined(binary, of_a, other.quantity())?;
+                Some(other.map(|part| simplify::multiply(a.clone(), part), quantity))
             }
             (Typed::Vector(..), Typed::Vector(..)) => {
                 self.diagnostics.error_with_help(
@@ -99,31 +97,30 @@ impl Resolver<'_> {
                 );
                 None
             }
+            _ => {
+                let message = "a matrix can only be multiplied by a number";
+                self.diagnostics.error(binary.sign, message);
+                None
+            }
         }
     }
 
     fn quotient(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
-        let Typed::Scalar(divisor, of_divisor) = right else {
-            let message = "cannot divide by a vector";
-            self.diagnostics.error(binary.sign, message);
-            return None;
+        let (divisor, of_divisor) = match right {
+            Typed::Scalar(divisor, of_divisor) => (divisor, of_divisor),
+            other => {
+                let message = format!("cannot divide by {}", other.describe());
+                self.diagnostics.error(binary.sign, message);
+                return None;
+            }
         };
         if divisor == Expr::Number(0.0) {
             self.diagnostics
                 .error(binary.right.extent, "division by zero");
             return None;
         }
-        match left {
-            Typed::Scalar(a, of_a) => {
-                let quantity = self.combined(binary, of_a, of_divisor)?;
-                Some(Typed::Scalar(simplify::divide(a, divisor), quantity))
-            }
-            Typed::Vector(a, of_a) => {
-                let quantity = self.combined(binary, of_a, of_divisor)?;
-                let scaled = a.map(|component| simplify::divide(component, divisor.clone()));
-                Some(Typed::Vector(scaled, quantity))
-            }
-        }
+        let quantity = self.combined(binary, left.quantity(), of_divisor)?;
+        Some(left.map(|part| simplify::divide(part, divisor.clone()), quantity))
     }
 
     /// Dimension of a product or quotient.
@@ -150,11 +147,15 @@ impl Resolver<'_> {
     }
 
     fn power(&mut self, binary: &Binary, left: Typed, right: Typed) -> Option<Typed> {
-        let (Typed::Scalar(base, of_base), Typed::Scalar(exponent, of_exponent)) = (left, right)
-        else {
-            let message = "a vector cannot stand in a power";
-            self.diagnostics.error(binary.sign, message);
-            return None;
+        let (base, of_base, exponent, of_exponent) = match (left, right) {
+            (Typed::Scalar(base, of_base), Typed::Scalar(exponent, of_exponent)) => {
+                (base, of_base, exponent, of_exponent)
+            }
+            (Typed::Scalar(..), other) | (other, _) => {
+                let message = format!("{} cannot stand in a power", other.describe());
+                self.diagnostics.error(binary.sign, message);
+                return None;
+            }
         };
         let what = "an exponent";
         self.expect(of_exponent, Dimension::NONE, what, &binary.right)?;
@@ -202,11 +203,7 @@ impl Resolver<'_> {
     /// A constant that is no finite number, such as `sqrt(-1)`, can only be a mistake.
     pub(super) fn finite(&mut self, typed: Typed, at: Extent) -> Option<Typed> {
         let wrong = |expr: &Expr| matches!(expr, Expr::Number(value) if !value.is_finite());
-        let is_wrong = match &typed {
-            Typed::Scalar(expr, _) => wrong(expr),
-            Typed::Vector(vector, _) => vector.iter().any(wrong),
-        };
-        if is_wrong {
+        if typed.numbers().iter().any(wrong) {
             self.diagnostics
                 .error(at, "the result of this is not a finite real number");
             return None;

@@ -1,7 +1,7 @@
 //! A resolved value together with what the checks need to know about it.
 
 use crate::base::dimension::Dimension;
-use crate::model::expression::{Expr, Vector};
+use crate::model::expression::{Expr, Matrix, Vector};
 
 /// The dimension of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,11 +46,48 @@ pub(super) enum Typed {
     Scalar(Expr, Quantity),
     /// Three components of one dimension.
     Vector(Vector, Quantity),
+    /// Three rows of one dimension.
+    Matrix(Matrix, Quantity),
 }
 
 impl Typed {
     pub(super) fn number(value: f64, dimension: Dimension) -> Self {
         Typed::Scalar(Expr::Number(value), Quantity::Of(dimension))
+    }
+
+    /// What it is, with an article.
+    pub(super) fn describe(&self) -> &'static str {
+        match self {
+            Typed::Scalar(..) => "a number",
+            Typed::Vector(..) => "a vector",
+            Typed::Matrix(..) => "a matrix",
+        }
+    }
+
+    /// The same of each number in it.
+    pub(super) fn map(self, mut change: impl FnMut(Expr) -> Expr, quantity: Quantity) -> Self {
+        match self {
+            Typed::Scalar(a, _) => Typed::Scalar(change(a), quantity),
+            Typed::Vector(a, _) => Typed::Vector(a.map(change), quantity),
+            Typed::Matrix(a, _) => Typed::Matrix(a.map(|row| row.map(&mut change)), quantity),
+        }
+    }
+
+    pub(super) fn quantity(&self) -> Quantity {
+        match *self {
+            Typed::Scalar(_, quantity)
+            | Typed::Vector(_, quantity)
+            | Typed::Matrix(_, quantity) => quantity,
+        }
+    }
+
+    /// Every number in it, row by row.
+    pub(super) fn numbers(&self) -> &[Expr] {
+        match self {
+            Typed::Scalar(a, _) => std::slice::from_ref(a),
+            Typed::Vector(a, _) => a,
+            Typed::Matrix(a, _) => a.as_flattened(),
+        }
     }
 }
 

@@ -90,7 +90,7 @@ impl Resolver<'_> {
             Meaning::Design(id) => Some(self.design.get(id.index())?.as_ref()?.dimension),
             Meaning::Let(index) => match self.lets.get(index)?.as_ref()? {
                 Typed::Scalar(_, quantity) => Some(quantity.dimension()),
-                Typed::Vector(..) => None,
+                Typed::Vector(..) | Typed::Matrix(..) => None,
             },
             _ => None,
         }

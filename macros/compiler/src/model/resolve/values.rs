@@ -4,6 +4,7 @@ use proc_macro2::Ident;
 
 use super::coordinates::{self, DeclaredMotion};
 use super::expected::Expected;
+use super::matrices::is_matrix;
 use super::resolver::Resolver;
 use super::scope::Meaning;
 use super::tension;
@@ -26,10 +27,11 @@ impl Resolver<'_> {
             ValueKind::Vector(components, unit) => {
                 self.vector_literal(components, unit.as_ref(), value.extent, place)
             }
-            ValueKind::Negate(operand) => Some(match self.value(operand, place)? {
-                Typed::Scalar(a, quantity) => Typed::Scalar(simplify::negate(a), quantity),
-                Typed::Vector(a, quantity) => Typed::Vector(a.map(simplify::negate), quantity),
-            }),
+            ValueKind::Negate(operand) => {
+                let operand = self.value(operand, place)?;
+                let quantity = operand.quantity();
+                Some(operand.map(simplify::negate, quantity))
+            }
             ValueKind::Binary(binary) => self.binary(binary, place),
             ValueKind::Call(function, arguments) => self.call(function, arguments, place),
             ValueKind::Component(of, axis) => self.component(of, axis, place),
@@ -215,18 +217,9 @@ impl Resolver<'_> {
         place: Place,
     ) -> Option<Typed> {
         if is_matrix(components) {
-            self.diagnostics.error_with_help(
-                extent,
-                "this is a matrix; a vector of three numbers is expected here",
-                "give the three values along the axes, `[a, b, c]`",
-            );
-            return None;
+            return self.matrix_literal(components, unit, extent, place);
         }
-        let (unit_dimension, scale) = match unit {
-            Some(unit) => self.unit(unit).map(|(d, scale)| (Some(d), scale)),
-            None => Some((None, 1.0)),
-        }
-        .unzip();
+        let unit = self.optional_unit(unit);
         let resolved: Vec<_> = components
             .iter()
             .map(|component| self.scalar(component, place))
@@ -239,36 +232,67 @@ impl Resolver<'_> {
             return None;
         }
         let resolved: Vec<(Expr, Quantity)> = resolved.into_iter().collect::<Option<_>>()?;
-        let (unit_dimension, scale) = (unit_dimension?, scale?);
+        let (exprs, quantities): (Vec<Expr>, Vec<Quantity>) = resolved.into_iter().unzip();
+        let common = self.common_quantity(&quantities, components, "components of a vector")?;
+        let mut exprs = exprs.into_iter();
+        let vector: Vector = [exprs.next()?, exprs.next()?, exprs.next()?];
+        self.in_unit(Typed::Vector(vector, common), unit?, extent)
+    }
+
+    /// The dimension and scale of the unit behind a vector or a matrix, where there is one.
+    pub(super) fn optional_unit(
+        &mut self,
+        unit: Option<&Unit>,
+    ) -> Option<Option<(Dimension, f64)>> {
+        match unit {
+            Some(unit) => self.unit(unit).map(Some),
+            None => Some(None),
+        }
+    }
+
+    /// The quantity that all parts of a vector or a matrix have; `what` they are, for messages.
+    pub(super) fn common_quantity(
+        &mut self,
+        quantities: &[Quantity],
+        parts: &[Value],
+        what: &str,
+    ) -> Option<Quantity> {
         let mut common = Quantity::Zero;
-        for ((_, quantity), component) in resolved.iter().zip(components) {
+        for (quantity, part) in quantities.iter().zip(parts) {
             match common.unify(*quantity) {
                 Some(unified) => common = unified,
                 None => {
                     let message = format!(
-                        "the components of a vector have one dimension: this is {}, the one before is {}",
+                        "the {what} have one dimension: this is {}, the one before is {}",
                         quantity.dimension().describe(),
                         common.dimension().describe()
                     );
-                    let help = self.swallowed(component, quantity.dimension(), common.dimension());
-                    self.report(component.extent, message, help);
+                    let help = self.swallowed(part, quantity.dimension(), common.dimension());
+                    self.report(part.extent, message, help);
                     return None;
                 }
             }
         }
-        let quantity = match unit_dimension {
-            None => common,
-            Some(dimension) => self.in_range(common.dimension().times(dimension), extent)?,
+        Some(common)
+    }
+
+    /// What stands in brackets times the unit behind them.
+    pub(super) fn in_unit(
+        &mut self,
+        typed: Typed,
+        unit: Option<(Dimension, f64)>,
+        extent: Extent,
+    ) -> Option<Typed> {
+        let Some((dimension, scale)) = unit else {
+            return Some(typed);
         };
-        let mut exprs = resolved.into_iter().map(|(expr, _)| {
-            if scale == 1.0 {
-                expr
-            } else {
-                simplify::multiply(Expr::Number(scale), expr)
-            }
-        });
-        let vector: Vector = [exprs.next()?, exprs.next()?, exprs.next()?];
-        Some(Typed::Vector(vector, quantity))
+        let product = typed.quantity().dimension().times(dimension);
+        let quantity = self.in_range(product, extent)?;
+        let scaled = |expr| match scale == 1.0 {
+            true => expr,
+            false => simplify::multiply(Expr::Number(scale), expr),
+        };
+        Some(typed.map(scaled, quantity))
     }
 
     fn component(&mut self, of: &Value, axis: &Ident, place: Place) -> Option<Typed> {
@@ -299,6 +323,11 @@ impl Resolver<'_> {
                 );
                 None
             }
+            Typed::Matrix(..) => {
+                let message = "a number is expected here, this is a matrix";
+                self.diagnostics.error(value.extent, message);
+                None
+            }
         }
     }
 
@@ -311,6 +340,14 @@ impl Resolver<'_> {
                     value.extent,
                     "a vector is expected here, this is a number",
                     "a vector is written `[1 m, 0, 0]`",
+                );
+                None
+            }
+            Typed::Matrix(..) => {
+                self.diagnostics.error_with_help(
+                    value.extent,
+                    "this is a matrix; a vector of three numbers is expected here",
+                    "give the three values along the axes, `[a, b, c]`",
                 );
                 None
             }
@@ -417,12 +454,6 @@ pub(super) fn decimal_commas(values: &[Value]) -> bool {
     values
         .windows(2)
         .any(|pair| is_whole(&pair[0]) && is_number(&pair[1]))
-}
-
-/// Rows in brackets.
-pub(super) fn is_matrix(components: &[Value]) -> bool {
-    let is_row = |row: &Value| matches!(row.bare().kind, ValueKind::Vector(..));
-    components.len() > 1 && components.iter().all(is_row)
 }
 
 /// The text of a number without a unit, or of a vector of such.

@@ -3,7 +3,7 @@
 use num_dual::DualNum;
 
 use super::{Efforts, Moving};
-use crate::matrices::space::Vector;
+use crate::matrices::space::{Matrix, Vector};
 use crate::matrices::{Oracle, Scalar};
 
 impl Oracle<'_> {
@@ -31,17 +31,16 @@ impl Oracle<'_> {
         efforts: &mut Efforts<D>,
         moving: &Moving<D>,
         [from, to]: [usize; 2],
-        [stiffness, damping]: [Vector<D>; 2],
-        [turning_stiffness, turning_damping]: [Vector<D>; 2],
+        [stiffness, damping]: [Matrix<D>; 2],
+        [turning_stiffness, turning_damping]: [Matrix<D>; 2],
     ) {
         let (start, end) = (self.point(moving, from), self.point(moving, to));
         let relative = start.inverse() * end;
         let (d, r) = (relative.origin, relative.rotation.vee());
         let along_from = |vector| start.rotation.now() * vector;
-        let force = along_from(Vector::zero() - stiffness.times(d.now()) - damping.times(d.rate()));
-        let moment = along_from(
-            Vector::zero() - turning_stiffness.times(r.now()) - turning_damping.times(r.rate()),
-        );
+        let force = along_from(Vector::zero() - stiffness * d.now() - damping * d.rate());
+        let moment =
+            along_from(Vector::zero() - turning_stiffness * r.now() - turning_damping * r.rate());
         let (here, there) = (self.frame_of(to), self.frame_of(from));
         let place = end.origin.now();
         efforts.push(here, force, place);

@@ -84,6 +84,7 @@ impl Oracle<'_> {
     fn element<D: Scalar>(&self, efforts: &mut Efforts<D>, moving: &Moving<D>, force: &Force) {
         let get = |v: Value| value(v, &moving.state.design);
         let all = |v: &Values| vector(v, &moving.state.design);
+        let rows = |m: &[Values; 3]| Matrix(m.each_ref().map(|row| all(row).0));
         match &force.law {
             // Q = -k (q - q0)
             &ForceLaw::Spring {
@@ -131,8 +132,8 @@ impl Oracle<'_> {
                 turning_stiffness,
                 turning_damping,
             } => {
-                let linear = [all(stiffness), all(damping)];
-                let turning = [all(turning_stiffness), all(turning_damping)];
+                let linear = [rows(stiffness), rows(damping)];
+                let turning = [rows(turning_stiffness), rows(turning_damping)];
                 self.bushing(efforts, moving, [*from, *to], linear, turning);
             }
             ForceLaw::Load {

@@ -1,7 +1,7 @@
 //! The inertia of a rigid body of any shape.
 
+use super::super::matrices::is_matrix;
 use super::super::typed::Place;
-use super::super::values::is_matrix;
 use super::quantities::Quantities;
 use crate::base::dimension::Dimension;
 use crate::model::expression::{Expr, Vector};

@@ -39,12 +39,12 @@ impl Resolver<'_> {
 
     pub(super) fn bushing(&mut self, arguments: &Arguments) -> Option<ForceLaw> {
         let ends = self.ends(arguments, "nothing moves between them");
-        let stiffness = self.vector_or_zero(arguments, "stiffness", Dimension::STIFFNESS);
-        let damping = self.vector_or_zero(arguments, "damping", Dimension::DAMPING);
+        let stiffness = self.matrix_or_zero(arguments, "stiffness", Dimension::STIFFNESS);
+        let damping = self.matrix_or_zero(arguments, "damping", Dimension::DAMPING);
         let turning_stiffness =
-            self.vector_or_zero(arguments, "turning_stiffness", Expected::rotary_stiffness());
+            self.matrix_or_zero(arguments, "turning_stiffness", Expected::rotary_stiffness());
         let turning_damping =
-            self.vector_or_zero(arguments, "turning_damping", Expected::rotary_damping());
+            self.matrix_or_zero(arguments, "turning_damping", Expected::rotary_damping());
         let (from, to) = ends?;
         Some(ForceLaw::Bushing {
             from,

@@ -1,0 +1,78 @@
+//! How the numbers of a picture are read, for the runtime.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use crate::mechanics::Picture;
+use crate::model::mechanism::Frame;
+
+/// `const PICTURE`.
+pub(super) fn info(picture: &Picture) -> TokenStream {
+    let bodies = picture.bodies.iter().map(|body| {
+        let name = text(&body.name);
+        let solids = body.solids.iter().map(|(kind, hole)| {
+            let kind = Ident::new(&format!("{kind:?}"), Span::call_site());
+            quote! { ::eigentol::SolidInfo { kind: ::eigentol::SolidKind::#kind, hole: #hole } }
+        });
+        let solids = list(solids);
+        quote! { ::eigentol::BodyInfo { name: #name, solids: #solids } }
+    });
+    let joints = picture.joints.iter().map(|joint| {
+        let (name, kind, cut) = (text(&joint.name), text(joint.kind), joint.cut);
+        let [from, to] = joint.sides.map(body);
+        quote! {
+            ::eigentol::JointInfo { name: #name, kind: #kind, from: #from, to: #to, cut: #cut }
+        }
+    });
+    let points = picture.points.iter().map(|(name, frame)| {
+        let (name, body) = (text(name), body(*frame));
+        quote! { ::eigentol::PointInfo { name: #name, body: #body } }
+    });
+    let links = picture.links.iter().map(|link| {
+        let (name, kind) = (text(&link.name), text(link.kind));
+        let [from, to] = link.ends.map(|point| Literal::u32_unsuffixed(point.0));
+        quote! { ::eigentol::LinkInfo { name: #name, kind: #kind, ends: [#from, #to] } }
+    });
+    let wheels = picture.wheels.iter().map(|(name, points)| {
+        let name = text(name);
+        let [center, on] = points.map(|point| Literal::u32_unsuffixed(point.0));
+        quote! { ::eigentol::WheelInfo { name: #name, center: #center, on: #on } }
+    });
+    let numbers = picture.numbers.iter().map(|value| quote!(#value));
+    let computed = picture.computed.iter().map(|&place| {
+        let place = Literal::u32_unsuffixed(place);
+        quote!(#place)
+    });
+    let (bodies, joints, points) = (list(bodies), list(joints), list(points));
+    let (links, wheels) = (list(links), list(wheels));
+    let (numbers, computed) = (list(numbers), list(computed));
+    quote! {
+        const PICTURE: ::eigentol::PictureInfo = ::eigentol::PictureInfo {
+            bodies: #bodies,
+            joints: #joints,
+            points: #points,
+            links: #links,
+            wheels: #wheels,
+            numbers: #numbers,
+            computed: #computed,
+        };
+    }
+}
+
+fn list(entries: impl Iterator<Item = TokenStream>) -> TokenStream {
+    quote! { ::eigentol::Shared::Static(&[#(#entries),*]) }
+}
+
+fn text(text: &str) -> TokenStream {
+    quote! { ::eigentol::Shared::Static(#text) }
+}
+
+fn body(frame: Frame) -> TokenStream {
+    match frame {
+        Frame::Ground => quote!(::core::option::Option::None),
+        Frame::Body(id) => {
+            let body = Literal::u32_unsuffixed(id.0);
+            quote!(::core::option::Option::Some(#body))
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! Where bodies are, and what they, joints and points look like in the frames that carry them.
+//!
+//! Only the poses of bodies depend on the state. The rest is written in the frames of bodies, so that it depends on the design at
+//! most, and mostly on nothing: such numbers are no results of the kernel.
+
+use crate::algebra::{Array, Function, Graph, Matrix3, Vector3};
+use crate::base::ids::{ExprId, JointId, PointId};
+use crate::mechanics::kernel_name::KernelName;
+use crate::mechanics::motion::in_common_frame_at_zero;
+use crate::mechanics::picture::{Picture, PictureBody, PictureJoint, PictureLink, SolidKind};
+use crate::mechanics::setup::{Context, Values};
+use crate::model::expression::{Expr, Vector};
+use crate::model::mechanism::{
+    Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Part, Placement, Shape,
+};
+
+use super::parameters::parameter;
+
+/// The function that computes the numbers of a picture, and how these are read.
+pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
+    let (mechanism, symbols) = (context.mechanism, context.symbols);
+    let mut numbers = Numbers::new(context.values);
+    for body in &in_common_frame_at_zero(g, context).bodies {
+        numbers.vector(body.frame.position);
+        numbers.rows(body.frame.orientation.axes);
+    }
+    let bodies = mechanism.bodies.iter();
+    let bodies = bodies.map(|body| numbers.body(g, body)).collect();
+    let joints = mechanism.joints.iter().enumerate();
+    let joints = joints.map(|(index, joint)| {
+        let cut = context.topology.cut.contains(&JointId::new(index));
+        numbers.joint(g, joint, cut)
+    });
+    let joints = joints.collect();
+    for point in &mechanism.points {
+        numbers.declared(g, &point.placement.offset);
+    }
+    let axes = |g: &mut Graph, point: PointId| {
+        let placement = &mechanism.points[point.index()].placement;
+        context.values.placement(g, placement).1
+    };
+    let wheels = mechanism.constraints.iter();
+    let wheels = wheels.filter_map(|constraint| numbers.wheel(g, axes, constraint));
+    let wheels = wheels.collect();
+    let (numbers, computed, values) = numbers.split(g);
+    let function = Function {
+        name: KernelName::Picture.name(),
+        parameters: vec![
+            parameter("q", &symbols.q),
+            parameter("u", &symbols.u),
+            parameter("b", &symbols.b),
+        ],
+        results: vec![Array {
+            name: "picture",
+            shape: vec![values.len()],
+            values,
+        }],
+    };
+    let points = mechanism.points.iter();
+    let picture = Picture {
+        bodies,
+        joints,
+        points: points
+            .map(|point| (point.name.to_string(), point.frame))
+            .collect(),
+        links: forces(&mechanism.forces)
+            .chain(constraints(&mechanism.constraints))
+            .collect(),
+        wheels,
+        numbers,
+        computed,
+    };
+    (function, picture)
+}
+
+fn forces(forces: &[Force]) -> impl Iterator<Item = PictureLink> + '_ {
+    forces.iter().filter_map(|force| {
+        let (kind, from, to) = match &force.law {
+            ForceLaw::SpringDamper { from, to, .. } => ("spring_damper", from, to),
+            ForceLaw::Tension { from, to, .. } => ("tension", from, to),
+            ForceLaw::Bushing { from, to, .. } => ("bushing", from, to),
+            ForceLaw::CoordinateSpring { .. }
+            | ForceLaw::CoordinateDamper { .. }
+            | ForceLaw::Generalized { .. }
+            | ForceLaw::Potential { .. }
+            | ForceLaw::Load { .. }
+            | ForceLaw::Drag { .. } => return None,
+        };
+        Some(PictureLink {
+            name: force.name.to_string(),
+            kind,
+            ends: [*from, *to],
+        })
+    })
+}
+
+fn constraints(constraints: &[Constraint]) -> impl Iterator<Item = PictureLink> + '_ {
+    constraints.iter().filter_map(|constraint| {
+        let (kind, from, to) = match &constraint.law {
+            ConstraintLaw::Coincident { from, to, .. } => ("coincident", from, to),
+            ConstraintLaw::Aligned { from, to, .. } => ("aligned", from, to),
+            ConstraintLaw::Distance { from, to, .. } => ("distance", from, to),
+            ConstraintLaw::Equation { .. } | ConstraintLaw::Rolling { .. } => return None,
+        };
+        Some(PictureLink {
+            name: constraint.name.to_string(),
+            kind,
+            ends: [*from, *to],
+        })
+    })
+}
+
+/// The numbers of a picture, one after the other.
+struct Numbers<'a> {
+    values: &'a Values<'a>,
+    all: Vec<ExprId>,
+}
+
+impl<'a> Numbers<'a> {
+    fn new(values: &'a Values<'a>) -> Self {
+        let all = Vec::new();
+        Self { values, all }
+    }
+
+    fn vector(&mut self, vector: Vector3) {
+        self.all.extend(vector.0);
+    }
+
+    fn rows(&mut self, matrix: Matrix3) {
+        let rows = matrix.transpose();
+        rows.0.into_iter().for_each(|row| self.vector(row));
+    }
+
+    fn number(&mut self, g: &mut Graph, value: &Expr) {
+        let value = self.values.scalar(g, value);
+        self.all.push(value);
+    }
+
+    fn declared(&mut self, g: &mut Graph, vector: &Vector) {
+        let vector = self.values.vector(g, vector);
+        self.vector(vector);
+    }
+
+    fn body(&mut self, g: &mut Graph, body: &Body) -> PictureBody {
+        let solids = body.parts.iter();
+        PictureBody {
+            name: body.name.to_string(),
+            solids: solids
+                .map(|part| (self.solid(g, part), part.hole))
+                .collect(),
+        }
+    }
+
+    fn solid(&mut self, g: &mut Graph, part: &Part) -> SolidKind {
+        let Part {
+            shape, placement, ..
+        } = part;
+        let (offset, rotation) = self.values.placement(g, placement);
+        let center = self.values.vector(g, shape.reduced().center);
+        let place = turned(g, rotation, center).add(g, offset);
+        self.vector(place);
+        let direction = |numbers: &mut Self, g: &mut Graph, direction: &Vector| {
+            let direction = numbers.values.vector(g, direction);
+            let direction = turned(g, rotation, direction);
+            numbers.vector(direction);
+        };
+        match shape {
+            Shape::Point { mass, .. } => {
+                self.number(g, mass);
+                SolidKind::Point
+            }
+            Shape::Rod { length, along, .. } => {
+                direction(self, g, along);
+                self.number(g, length);
+                SolidKind::Rod
+            }
+            Shape::Disk { radius, axis, .. } => {
+                direction(self, g, axis);
+                self.number(g, radius);
+                SolidKind::Disk
+            }
+            Shape::Cylinder {
+                radius,
+                length,
+                axis,
+                ..
+            } => {
+                direction(self, g, axis);
+                self.number(g, radius);
+                self.number(g, length);
+                SolidKind::Cylinder
+            }
+            Shape::Tube {
+                inner,
+                outer,
+                length,
+                axis,
+                ..
+            } => {
+                direction(self, g, axis);
+                for value in [inner, outer, length] {
+                    self.number(g, value);
+                }
+                SolidKind::Tube
+            }
+            Shape::Cuboid { size, .. } => {
+                self.axes(g, rotation);
+                self.declared(g, size);
+                SolidKind::Box
+            }
+            Shape::Sphere { radius, .. } => {
+                self.number(g, radius);
+                SolidKind::Sphere
+            }
+            Shape::Rigid {
+                mass,
+                inertia,
+                about,
+                ..
+            } => {
+                self.axes(g, rotation);
+                self.number(g, mass);
+                for entry in inertia {
+                    self.number(g, entry);
+                }
+                let about = match about {
+                    Some(about) => self.values.vector(g, about).sub(g, center),
+                    None => Vector3::zero(g),
+                };
+                self.vector(about);
+                SolidKind::Rigid
+            }
+        }
+    }
+
+    /// The axes of a frame, one after the other.
+    fn axes(&mut self, g: &mut Graph, rotation: Option<Matrix3>) {
+        let axes = rotation.unwrap_or_else(|| Matrix3::identity(g));
+        axes.0.into_iter().for_each(|axis| self.vector(axis));
+    }
+
+    fn joint(&mut self, g: &mut Graph, joint: &Joint, cut: bool) -> PictureJoint {
+        let mut side = |placement: &Placement, axis: Option<&Vector>| {
+            let (offset, rotation) = self.values.placement(g, placement);
+            let axis = match axis {
+                Some(axis) => self.values.vector(g, axis),
+                None => Vector3::zero(g),
+            };
+            let axis = turned(g, rotation, axis);
+            self.vector(offset);
+            self.vector(axis);
+        };
+        let (first, last) = (joint.steps.first(), joint.steps.last());
+        side(&joint.from_placement, first.map(|step| &step.axis));
+        side(&joint.to_placement, last.map(|step| &step.axis));
+        PictureJoint {
+            name: joint.name.to_string(),
+            kind: joint.word,
+            sides: [joint.from, joint.to],
+            cut,
+        }
+    }
+
+    fn wheel(
+        &mut self,
+        g: &mut Graph,
+        axes: impl Fn(&mut Graph, PointId) -> Option<Matrix3>,
+        constraint: &Constraint,
+    ) -> Option<(String, [PointId; 2])> {
+        let ConstraintLaw::Rolling {
+            wheel,
+            axis,
+            radius,
+            on,
+            normal,
+        } = &constraint.law
+        else {
+            return None;
+        };
+        self.number(g, radius);
+        let axle = match axis {
+            Some(axis) => self.values.vector(g, axis),
+            None => Vector3::zero(g),
+        };
+        let normal = self.values.vector(g, normal);
+        for (point, direction) in [(*wheel, axle), (*on, normal)] {
+            let rotation = axes(g, point);
+            let direction = turned(g, rotation, direction);
+            self.vector(direction);
+        }
+        Some((constraint.name.to_string(), [*wheel, *on]))
+    }
+
+    /// Numbers that are known, places of the others, and the others.
+    fn split(self, g: &Graph) -> (Vec<f64>, Vec<u32>, Vec<ExprId>) {
+        let known = self.all.iter().map(|&value| g.constant_value(value));
+        let numbers = known.clone().map(Option::unwrap_or_default).collect();
+        let unknown = (0..).zip(self.all.iter().zip(known));
+        let (computed, values) = unknown
+            .filter(|(_, (_, known))| known.is_none())
+            .map(|(place, (value, _))| (place, value))
+            .unzip();
+        (numbers, computed, values)
+    }
+}
+
+/// A vector of a frame that is turned by a constant rotation.
+fn turned(g: &mut Graph, rotation: Option<Matrix3>, vector: Vector3) -> Vector3 {
+    match rotation {
+        Some(rotation) => rotation.apply(g, vector),
+        None => vector,
+    }
+}

@@ -1,0 +1,154 @@
+//! Axes: frame, ticks at round numbers, headings.
+
+use plotters::prelude::DrawingBackend;
+
+use super::Outcome;
+use super::layout::{Frame, px};
+use super::pen::{Anchor, Pen};
+use crate::figure::{Axis, Panel, Point};
+
+/// Positions of a panel as pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    x: [f64; 2],
+    y: [f64; 2],
+    frame: Frame,
+}
+
+impl Place {
+    pub(super) fn of(panel: &Panel, frame: &Frame) -> Self {
+        let (x, y) = (panel.x.range, panel.y.range);
+        Self {
+            x,
+            y,
+            frame: *frame,
+        }
+    }
+
+    pub(super) fn pixel(&self, point: Point) -> (i32, i32) {
+        let Frame {
+            left,
+            right,
+            top,
+            bottom,
+        } = self.frame;
+        let share =
+            |value: f64, [low, high]: [f64; 2]| ((value - low) / (high - low)).clamp(0.0, 1.0);
+        let x = f64::from(left) + share(point[0], self.x) * f64::from(right - left);
+        let y = f64::from(bottom) - share(point[1], self.y) * f64::from(bottom - top);
+        (x.round() as i32, y.round() as i32)
+    }
+
+    pub(super) fn holds(&self, point: Point) -> bool {
+        (self.x[0]..=self.x[1]).contains(&point[0]) && (self.y[0]..=self.y[1]).contains(&point[1])
+    }
+}
+
+/// Lines of the grid, ticks with their numbers, headings.
+pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
+    let place = Place::of(panel, frame);
+    let Frame {
+        left,
+        right,
+        top,
+        bottom,
+    } = *frame;
+    for (value, text) in ticks(&panel.x, 9.0) {
+        let (x, _) = place.pixel([value, panel.y.range[0]]);
+        if panel.x.categories.is_empty() {
+            pen.hair([(x, top), (x, bottom)], 0.12)?;
+            pen.hair([(x, bottom), (x, bottom + px(5))], 1.0)?;
+        }
+        pen.text(&text, (x, bottom + px(16)), 15, Anchor::Middle)?;
+    }
+    for (value, text) in ticks(&panel.y, f64::from(bottom - top) / f64::from(px(52))) {
+        let (_, y) = place.pixel([panel.x.range[0], value]);
+        if panel.y.categories.is_empty() {
+            pen.hair([(left, y), (right, y)], 0.12)?;
+            pen.hair([(left - px(5), y), (left, y)], 1.0)?;
+        }
+        pen.text(&text, (left - px(9), y), 15, Anchor::Right)?;
+    }
+    pen.hair([(left, bottom), (right, bottom)], 1.0)?;
+    pen.hair([(left, top), (left, bottom)], 1.0)?;
+    let middle = ((left + right) / 2, (top + bottom) / 2);
+    pen.text(
+        &panel.x.heading(),
+        (middle.0, bottom + px(41)),
+        17,
+        Anchor::Middle,
+    )?;
+    if panel.y.categories.is_empty() {
+        pen.text(&panel.y.heading(), (px(18), middle.1), 17, Anchor::Upwards)?;
+    }
+    Ok(())
+}
+
+/// Places and words of the ticks, about so many.
+fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
+    if !axis.categories.is_empty() {
+        let names = axis.categories.iter().enumerate();
+        return names.map(|(k, name)| (k as f64, name.clone())).collect();
+    }
+    let [low, high] = axis.range;
+    let rough = (high - low) / wanted.max(2.0);
+    if !rough.is_normal() || rough < 0.0 {
+        return Vec::new();
+    }
+    let power = 10f64.powf(rough.log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|own| own * power);
+    let step = steps
+        .into_iter()
+        .find(|own| *own >= 0.999 * rough)
+        .unwrap_or(10.0 * power);
+    let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+    let count = (last - first).clamp(0.0, 100.0) as usize;
+    let values = (0..=count).map(|k| first + k as f64).map(|own| own * step);
+    values.map(|value| (value, number(value, step))).collect()
+}
+
+/// A number with the decimals that its step asks for.
+fn number(value: f64, step: f64) -> String {
+    let size = value.abs().max(step);
+    if !(1e-4..1e7).contains(&size) || step < 1e-6 {
+        let digits = (size.log10().floor() - step.log10().floor()).clamp(0.0, 6.0) as usize + 1;
+        return if value.abs() < 0.5 * step {
+            "0".to_owned()
+        } else {
+            format!("{value:.digits$e}")
+        };
+    }
+    let decimals = (1.0 - step.log10().floor()).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(low: f64, high: f64) -> Vec<String> {
+        let mut axis = Axis::new("", "");
+        axis.range = [low, high];
+        ticks(&axis, 5.0).into_iter().map(|own| own.1).collect()
+    }
+
+    #[test]
+    fn ticks_stand_at_round_numbers() {
+        assert_eq!(words(0.0, 6000.0), ["0", "2000", "4000", "6000"]);
+        assert_eq!(words(-0.1, 0.11), ["-0.1", "-0.05", "0", "0.05", "0.1"]);
+        assert_eq!(words(0.0, 10.0), ["0", "2", "4", "6", "8", "10"]);
+        assert!(
+            words(0.0, 3e-7)
+                .iter()
+                .all(|own| own == "0" || own.contains("e-"))
+        );
+        assert!(words(1.0, 1.0).is_empty());
+    }
+}

@@ -1,0 +1,74 @@
+//! Words beside points, where they do not cover each other.
+
+use plotters::prelude::DrawingBackend;
+
+use super::Outcome;
+use super::layout::{Frame, px};
+use super::pen::{Anchor, Pen};
+
+/// Size of the letters, shown.
+const SIZE: i32 = 14;
+/// Width of a letter as a share of its size.
+const LETTER: f64 = 0.6;
+
+/// A box: left, right, top, bottom.
+type Box = [i32; 4];
+
+/// What is taken.
+pub(super) struct Labels {
+    frame: Frame,
+    taken: Vec<Box>,
+}
+
+impl Labels {
+    pub(super) fn within(frame: &Frame) -> Self {
+        Self {
+            frame: *frame,
+            taken: Vec::new(),
+        }
+    }
+
+    /// Nothing is written here.
+    pub(super) fn keep_free(&mut self, (x, y): (i32, i32), half: i32) {
+        self.taken.push([x - half, x + half, y - half, y + half]);
+    }
+
+    /// Writes words to the right of a point and above, or elsewhere near it where that is taken.
+    pub(super) fn write<B: DrawingBackend>(
+        &mut self,
+        pen: &Pen<'_, B>,
+        at: (i32, i32),
+        text: &str,
+    ) -> Outcome {
+        let width = (LETTER * f64::from(px(SIZE)) * text.chars().count() as f64) as i32;
+        let (side, half) = (px(7), px(SIZE) / 2);
+        let rises = [-px(10), px(10), 0, -px(22), px(22), -px(34), px(34)];
+        let places = rises.into_iter().flat_map(|rise| {
+            [at.0 + side, at.0 - side - width].map(|left| {
+                let y = at.1 + rise;
+                [left, left + width, y - half, y + half]
+            })
+        });
+        let places: Vec<Box> = places.collect();
+        let free =
+            |own: &&Box| self.inside(own) && !self.taken.iter().any(|other| meet(own, other));
+        let place = places.iter().find(free).or(places.first());
+        if let Some(&[left, right, top, bottom]) = place {
+            self.taken.push([left, right, top, bottom]);
+            pen.text(text, (left, (top + bottom) / 2), SIZE, Anchor::Left)?;
+        }
+        Ok(())
+    }
+
+    fn inside(&self, &[left, right, top, bottom]: &Box) -> bool {
+        let own = &self.frame;
+        left >= own.left
+            && right <= own.right + px(20)
+            && top >= own.top - px(8)
+            && bottom <= own.bottom
+    }
+}
+
+fn meet(a: &Box, b: &Box) -> bool {
+    a[0] < b[1] && b[0] < a[1] && a[2] < b[3] && b[2] < a[3]
+}

@@ -1,0 +1,51 @@
+//! How a figure looks: title, legend in rows of its own so that it hides no data, panels, caption.
+
+mod axes;
+mod clip;
+mod dash;
+mod labels;
+mod layout;
+mod legend;
+mod panel;
+mod pen;
+#[cfg(feature = "png")]
+mod png;
+mod save;
+mod svg;
+
+use plotters::coord::Shift;
+use plotters::prelude::{DrawingArea, DrawingBackend};
+
+use self::layout::{CAPTION_HEIGHT, Layout, TITLE_HEIGHT, WIDTH, px};
+use self::pen::{Anchor, Pen};
+use crate::Figure;
+use crate::figure::Colour;
+
+type Area<B> = DrawingArea<B, Shift>;
+type Outcome = Result<(), String>;
+
+/// Draws a figure onto an area of the size that its layout asks for.
+fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> Outcome {
+    area.fill(&plotters::style::WHITE).map_err(words)?;
+    let pen = Pen::new(area);
+    let middle = px(WIDTH) / 2;
+    pen.text(
+        &figure.title,
+        (middle, px(TITLE_HEIGHT) / 2),
+        22,
+        Anchor::Middle,
+    )?;
+    legend::draw(&pen, layout)?;
+    for (own, frame) in figure.panels.iter().zip(&layout.panels) {
+        panel::draw(&pen, own, frame)?;
+    }
+    for (k, line) in layout.caption.iter().enumerate() {
+        let y = layout.caption_top + px(CAPTION_HEIGHT) * k as i32 + px(CAPTION_HEIGHT) / 2;
+        pen.coloured(line, (px(24), y), 14, Anchor::Left, Colour::Grey)?;
+    }
+    area.present().map_err(words)
+}
+
+fn words(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}

@@ -1,0 +1,76 @@
+//! What stands between the axes.
+
+use plotters::prelude::DrawingBackend;
+
+use super::Outcome;
+use super::axes::{self, Place};
+use super::clip::{clip, clip_band};
+use super::labels::Labels;
+use super::layout::{Frame, px};
+use super::pen::Pen;
+use crate::figure::{Panel, Point};
+
+/// Draws a panel; what lies outside the ranges is cut off.
+pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &Frame) -> Outcome {
+    let place = Place::of(panel, frame);
+    axes::draw(pen, panel, frame)?;
+    let ([left, right], [low, high]) = (panel.x.range, panel.y.range);
+    for band in &panel.bands {
+        let edges = clip_band(&band.edges, panel.x.range);
+        let lower = edges.iter().map(|&[x, low, _]| place.pixel([x, low]));
+        let upper = edges
+            .iter()
+            .rev()
+            .map(|&[x, _, high]| place.pixel([x, high]));
+        let outline: Vec<_> = lower.chain(upper).collect();
+        if outline.len() > 3 {
+            pen.shade(outline, band.colour)?;
+        }
+    }
+    for bars in &panel.bars {
+        for &[from, to, bottom, top] in &bars.bars {
+            if to >= left && from <= right && top >= low && bottom <= high {
+                let corners = [place.pixel([from, top]), place.pixel([to, bottom])];
+                pen.bar(corners, bars.colour)?;
+            }
+        }
+    }
+    for mark in panel
+        .marks
+        .iter()
+        .filter(|own| (left..=right).contains(&own.at))
+    {
+        let ends = [low, high].map(|y| place.pixel([mark.at, y]));
+        pen.hair(ends, 0.6)?;
+    }
+    for curve in &panel.curves {
+        for piece in &curve.pieces {
+            for part in clip(piece, panel.x.range, panel.y.range) {
+                let line = part.into_iter().map(|own| place.pixel(own));
+                pen.curve(line.collect(), curve.colour, curve.stroke)?;
+            }
+        }
+    }
+    let mut labels = Labels::within(frame);
+    for errors in &panel.error_bars {
+        for bar in errors.bars.iter().filter(|bar| place.holds(bar.at)) {
+            let ends = [place.pixel(bar.low), place.pixel(bar.high)];
+            if bar.low != bar.high {
+                pen.interval(ends, errors.colour)?;
+            }
+            pen.marker(place.pixel(bar.at), errors.colour, errors.shape)?;
+            labels.keep_free(place.pixel(bar.at), px(5));
+        }
+    }
+    for markers in &panel.markers {
+        let shown = |own: &&Point| place.holds(**own);
+        for point in markers.points.iter().filter(shown) {
+            pen.marker(place.pixel(*point), markers.colour, markers.shape)?;
+            labels.keep_free(place.pixel(*point), px(5));
+        }
+    }
+    for label in panel.labels.iter().filter(|own| place.holds(own.at)) {
+        labels.write(pen, place.pixel(label.at), &label.text)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,160 @@
+//! Elements in the looks of the data model, on any backend of plotters.
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::dash::dashes;
+use super::layout::{SCALE, px};
+use super::{Area, Outcome, words};
+use crate::figure::{Colour, Shape, Stroke};
+
+pub(super) const FONT: &str = "sans-serif";
+/// Width of a curve, shown.
+const LINE: i32 = 2;
+
+/// Where a text has its anchor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Left,
+    Middle,
+    Right,
+    /// In the middle, reading upwards.
+    Upwards,
+}
+
+/// Draws onto an area.
+pub(super) struct Pen<'a, B: DrawingBackend> {
+    area: &'a Area<B>,
+}
+
+type Pixel = (i32, i32);
+
+fn colour(own: Colour) -> RGBColor {
+    let [red, green, blue] = own.rgb();
+    RGBColor(red, green, blue)
+}
+
+impl<'a, B: DrawingBackend> Pen<'a, B> {
+    pub(super) fn new(area: &'a Area<B>) -> Self {
+        Self { area }
+    }
+
+    /// A text with letters of this size, as shown.
+    pub(super) fn text(&self, text: &str, at: Pixel, size: i32, anchor: Anchor) -> Outcome {
+        self.coloured(text, at, size, anchor, Colour::Black)
+    }
+
+    pub(super) fn coloured(
+        &self,
+        text: &str,
+        at: Pixel,
+        size: i32,
+        anchor: Anchor,
+        own: Colour,
+    ) -> Outcome {
+        let (horizontal, turn) = match anchor {
+            Anchor::Left => (HPos::Left, FontTransform::None),
+            Anchor::Middle => (HPos::Center, FontTransform::None),
+            Anchor::Right => (HPos::Right, FontTransform::None),
+            Anchor::Upwards => (HPos::Center, FontTransform::Rotate270),
+        };
+        let style = (FONT, size * SCALE)
+            .into_font()
+            .transform(turn)
+            .color(&colour(own))
+            .pos(Pos::new(horizontal, VPos::Center));
+        self.area.draw(&Text::new(text, at, style)).map_err(words)
+    }
+
+    /// A curve.
+    pub(super) fn curve(&self, points: Vec<Pixel>, own: Colour, stroke: Stroke) -> Outcome {
+        let pattern: &[i32] = match stroke {
+            Stroke::Solid => return self.line(points, own, LINE),
+            Stroke::Dashed => &[8, 5],
+            Stroke::Dotted => &[2, 4],
+            Stroke::DashDotted => &[10, 4, 2, 4],
+        };
+        let pattern: Vec<f64> = pattern.iter().map(|own| f64::from(px(*own))).collect();
+        for dash in dashes(&points, &pattern) {
+            self.line(dash, own, LINE)?;
+        }
+        Ok(())
+    }
+
+    /// A solid line of this width, as shown.
+    pub(super) fn line(&self, points: Vec<Pixel>, own: Colour, width: i32) -> Outcome {
+        let style = colour(own).stroke_width(px(width) as u32);
+        self.area
+            .draw(&PathElement::new(points, style))
+            .map_err(words)
+    }
+
+    /// A thin faint line.
+    pub(super) fn hair(&self, ends: [Pixel; 2], strength: f64) -> Outcome {
+        let style = BLACK.mix(strength).stroke_width(SCALE as u32);
+        self.area
+            .draw(&PathElement::new(ends, style))
+            .map_err(words)
+    }
+
+    /// A faint area.
+    pub(super) fn shade(&self, outline: Vec<Pixel>, own: Colour) -> Outcome {
+        let style = colour(own).mix(0.22).filled();
+        self.area.draw(&Polygon::new(outline, style)).map_err(words)
+    }
+
+    /// A bar with an outline.
+    pub(super) fn bar(&self, corners: [Pixel; 2], own: Colour) -> Outcome {
+        let fill = Rectangle::new(corners, colour(own).mix(0.75).filled());
+        self.area.draw(&fill).map_err(words)?;
+        let outline = Rectangle::new(corners, BLACK.mix(0.7).stroke_width(SCALE as u32));
+        self.area.draw(&outline).map_err(words)
+    }
+
+    /// A marker.
+    pub(super) fn marker(&self, (x, y): Pixel, own: Colour, shape: Shape) -> Outcome {
+        let (thin, filled) = (
+            colour(own).stroke_width(px(4) as u32 / 3),
+            colour(own).filled(),
+        );
+        let size = px(4);
+        let drawn = match shape {
+            Shape::Ring => self.area.draw(&Circle::new((x, y), size, thin)),
+            Shape::Disc => self.area.draw(&Circle::new((x, y), size, filled)),
+            Shape::Triangle => self.area.draw(&TriangleMarker::new((x, y), px(5), filled)),
+            Shape::Cross => self.area.draw(&Cross::new((x, y), size, thin)),
+            Shape::Square => {
+                let corners = [
+                    (x - size, y - size),
+                    (x + size, y - size),
+                    (x + size, y + size),
+                    (x - size, y + size),
+                    (x - size, y - size),
+                    (x + size, y - size),
+                ];
+                self.area.draw(&PathElement::new(corners, thin))
+            }
+            Shape::Diamond => {
+                let size = px(5);
+                let corners = vec![(x, y - size), (x + size, y), (x, y + size), (x - size, y)];
+                self.area.draw(&Polygon::new(corners, filled))
+            }
+        };
+        drawn.map_err(words)
+    }
+
+    /// An interval about a point: a line with a stop at either end.
+    pub(super) fn interval(&self, [from, to]: [Pixel; 2], own: Colour) -> Outcome {
+        let level = from.1 == to.1;
+        self.line(vec![from, to], own, 1)?;
+        let stop = px(4);
+        for (x, y) in [from, to] {
+            let ends = match level {
+                true => vec![(x, y - stop), (x, y + stop)],
+                false => vec![(x - stop, y), (x + stop, y)],
+            };
+            self.line(ends, own, 1)?;
+        }
+        Ok(())
+    }
+}

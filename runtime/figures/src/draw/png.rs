@@ -1,0 +1,63 @@
+//! Figures as PNG files.
+
+use std::sync::OnceLock;
+
+use plotters::prelude::{BitMapBackend, IntoDrawingArea};
+use plotters::style::FontStyle;
+
+use super::draw;
+use super::layout::{Layout, WIDTH, px};
+use super::pen::FONT;
+use crate::{Error, Figure};
+
+/// Latin, Greek and Cyrillic letters and signs of mathematics of DejaVu Sans 2.37.
+static LETTERS: &[u8] = include_bytes!("../../fonts/DejaVuSans-subset.ttf");
+
+/// Pixels per metre of paper: 300 to the inch.
+const DENSITY: u32 = 11_811;
+
+/// plotters has no letters of its own.
+pub(super) fn register_font() -> Result<(), Error> {
+    static DONE: OnceLock<bool> = OnceLock::new();
+    let register = || plotters::style::register_font(FONT, FontStyle::Normal, LETTERS).is_ok();
+    match DONE.get_or_init(register) {
+        true => Ok(()),
+        false => Err(Error::Drawing("the letters cannot be read".to_owned())),
+    }
+}
+
+impl Figure {
+    /// The figure as a PNG file, 2880 pixels wide, for 300 pixels to the inch. Letters outside Latin, Greek and Cyrillic are boxes:
+    /// SVG has them.
+    ///
+    /// # Errors
+    /// [`Error::Drawing`].
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        register_font()?;
+        let layout = Layout::of(self);
+        let (width, height) = (px(WIDTH) as u32, layout.height as u32);
+        let mut pixels = vec![0; 3 * width as usize * height as usize];
+        let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
+        let area = backend.into_drawing_area();
+        let drawn = draw(self, &layout, &area);
+        drop(area);
+        drawn.map_err(Error::Drawing)?;
+        encode(&pixels, width, height).map_err(|error| Error::Drawing(error.to_string()))
+    }
+}
+
+fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: DENSITY,
+        yppu: DENSITY,
+        unit: png::Unit::Meter,
+    }));
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(file)
+}

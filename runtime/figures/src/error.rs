@@ -1,0 +1,49 @@
+//! What can go wrong with a figure.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Why there is no figure.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The result has nothing that the figure shows.
+    #[error("there is nothing to draw: {0}")]
+    Nothing(String),
+    /// The result has no such mode.
+    #[error("there is no mode {number}: the result has {modes}", number = mode + 1)]
+    UnknownMode {
+        /// Its position, from 0.
+        mode: usize,
+        /// How many there are.
+        modes: usize,
+    },
+    /// A probability of the second-order model cannot be found.
+    #[error(transparent)]
+    Solver(#[from] eigentol::Error),
+    /// The name of a file does not say in which form.
+    #[error("`{}`: a figure is saved as {known}", path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+        /// The endings that are known.
+        known: &'static str,
+    },
+    /// The file cannot be written.
+    #[error("cannot write `{}`: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The figure cannot be drawn.
+    #[error("cannot draw the figure: {0}")]
+    Drawing(String),
+}
+
+impl Error {
+    pub(crate) fn nothing(what: impl Into<String>) -> Self {
+        Self::Nothing(what.into())
+    }
+}

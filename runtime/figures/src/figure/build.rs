@@ -1,0 +1,299 @@
+//! Putting figures together: nothing that is not a number gets in, and the axes end up around what is there.
+
+use super::{
+    Axis, Band, Bars, Colour, Curve, ErrorBar, ErrorBars, Figure, Label, Markers, Panel, Point,
+    Shape, Stroke,
+};
+
+/// Room about what is drawn, as a share of it.
+const ROOM: f64 = 0.05;
+
+impl Curve {
+    /// A solid line through points, interrupted where there is none or where it is not finite.
+    #[must_use]
+    pub fn new(
+        label: impl Into<String>,
+        colour: Colour,
+        points: impl IntoIterator<Item = Option<Point>>,
+    ) -> Self {
+        let mut pieces = vec![Vec::new()];
+        for point in points {
+            match (point.filter(finite), pieces.last_mut()) {
+                (Some(point), Some(piece)) => piece.push(point),
+                _ => pieces.push(Vec::new()),
+            }
+        }
+        pieces.retain(|piece| !piece.is_empty());
+        Self {
+            label: label.into(),
+            colour,
+            stroke: Stroke::Solid,
+            pieces,
+        }
+    }
+
+    /// The same in another stroke.
+    #[must_use]
+    pub fn stroke(mut self, stroke: Stroke) -> Self {
+        self.stroke = stroke;
+        self
+    }
+}
+
+impl ErrorBar {
+    /// A point with an interval of this half-width above and below it.
+    #[must_use]
+    pub fn upright(at: Point, half: f64) -> Self {
+        Self {
+            at,
+            low: [at[0], at[1] - half],
+            high: [at[0], at[1] + half],
+        }
+    }
+
+    /// A point with an interval of this half-width to the left and to the right of it.
+    #[must_use]
+    pub fn level(at: Point, half: f64) -> Self {
+        Self {
+            at,
+            low: [at[0] - half, at[1]],
+            high: [at[0] + half, at[1]],
+        }
+    }
+}
+
+impl Panel {
+    /// A panel with nothing in it.
+    #[must_use]
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            x,
+            y,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a line; a piece of one point becomes a marker.
+    pub fn curve(&mut self, curve: Curve) {
+        let (lines, alone): (Vec<_>, Vec<_>) =
+            (curve.pieces.into_iter()).partition(|piece| piece.len() > 1);
+        let lines: Vec<Vec<Point>> = lines
+            .into_iter()
+            .filter(|piece| piece.iter().all(finite))
+            .collect();
+        if !alone.is_empty() {
+            let label = match lines.is_empty() {
+                true => curve.label.clone(),
+                false => String::new(),
+            };
+            let points = alone.into_iter().flatten();
+            self.markers(label, curve.colour, Shape::Disc, points);
+        }
+        if !lines.is_empty() {
+            self.curves.push(Curve {
+                pieces: lines,
+                ..curve
+            });
+        }
+    }
+
+    /// Adds markers, those that are finite.
+    pub fn markers(
+        &mut self,
+        label: impl Into<String>,
+        colour: Colour,
+        shape: Shape,
+        points: impl IntoIterator<Item = Point>,
+    ) {
+        let points: Vec<Point> = points.into_iter().filter(finite).collect();
+        if !points.is_empty() {
+            self.markers.push(Markers {
+                label: label.into(),
+                colour,
+                shape,
+                points,
+            });
+        }
+    }
+
+    /// Adds error bars, those that are finite.
+    pub fn error_bars(
+        &mut self,
+        label: impl Into<String>,
+        colour: Colour,
+        shape: Shape,
+        bars: impl IntoIterator<Item = ErrorBar>,
+    ) {
+        let whole = |bar: &ErrorBar| [bar.at, bar.low, bar.high].iter().all(finite);
+        let bars: Vec<ErrorBar> = bars.into_iter().filter(whole).collect();
+        if !bars.is_empty() {
+            self.error_bars.push(ErrorBars {
+                label: label.into(),
+                colour,
+                shape,
+                bars,
+            });
+        }
+    }
+
+    /// Adds a shaded area; what is not finite is left out.
+    pub fn band(
+        &mut self,
+        label: impl Into<String>,
+        colour: Colour,
+        edges: impl IntoIterator<Item = [f64; 3]>,
+    ) {
+        let whole = |edge: &[f64; 3]| edge.iter().all(|value| value.is_finite());
+        let edges: Vec<[f64; 3]> = edges.into_iter().filter(whole).collect();
+        if edges.len() > 1 {
+            self.bands.push(Band {
+                label: label.into(),
+                colour,
+                edges,
+            });
+        }
+    }
+
+    /// Adds bars, those that are finite.
+    pub fn bars(
+        &mut self,
+        label: impl Into<String>,
+        colour: Colour,
+        bars: impl IntoIterator<Item = [f64; 4]>,
+    ) {
+        let whole = |bar: &[f64; 4]| bar.iter().all(|value| value.is_finite());
+        let bars: Vec<[f64; 4]> = bars.into_iter().filter(whole).collect();
+        if !bars.is_empty() {
+            self.bars.push(Bars {
+                label: label.into(),
+                colour,
+                bars,
+            });
+        }
+    }
+
+    /// Adds words beside a point.
+    pub fn label(&mut self, at: Point, text: impl Into<String>) {
+        if finite(&at) {
+            let text = text.into();
+            self.labels.push(Label { at, text });
+        }
+    }
+
+    /// A thin level line across the panel, once the horizontal axis has its range.
+    pub fn level_line(&mut self, at: f64) {
+        let [low, high] = self.x.range;
+        let line = [Some([low, at]), Some([high, at])];
+        self.curves
+            .insert(0, Curve::new("", Colour::Grey, line).stroke(Stroke::Dotted));
+    }
+
+    /// Gives axes without a range one around what is drawn, bands and intervals included, with some room above and below.
+    pub fn fit(&mut self) {
+        let points = self.points();
+        if !self.x.has_range() {
+            self.x.range = range(points.iter().map(|point| point[0]), 0.0);
+        }
+        if !self.y.has_range() {
+            self.y.range = range(points.iter().map(|point| point[1]), ROOM);
+        }
+    }
+
+    /// Whether there is anything in it but axes and marks.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points().is_empty()
+    }
+
+    /// All points that the axes have to hold.
+    fn points(&self) -> Vec<Point> {
+        let curves = self.curves.iter().flat_map(|curve| &curve.pieces).flatten();
+        let markers = self.markers.iter().flat_map(|own| &own.points);
+        let errors = self.error_bars.iter().flat_map(|own| &own.bars);
+        let errors = errors.flat_map(|bar| [bar.at, bar.low, bar.high]);
+        let bands = self.bands.iter().flat_map(|own| &own.edges);
+        let bands = bands.flat_map(|&[x, low, high]| [[x, low], [x, high]]);
+        let bars = self.bars.iter().flat_map(|own| &own.bars);
+        let bars = bars.flat_map(|&[left, right, low, high]| [[left, low], [right, high]]);
+        (curves.chain(markers).copied())
+            .chain(errors)
+            .chain(bands)
+            .chain(bars)
+            .collect()
+    }
+}
+
+impl Figure {
+    /// A figure of these panels, each with a range about what it shows.
+    #[must_use]
+    pub fn new(title: impl Into<String>, caption: Vec<String>, mut panels: Vec<Panel>) -> Self {
+        for panel in &mut panels {
+            panel.fit();
+        }
+        Self {
+            title: title.into(),
+            caption: caption
+                .into_iter()
+                .filter(|line| !line.is_empty())
+                .collect(),
+            panels,
+        }
+    }
+}
+
+impl Axis {
+    fn has_range(&self) -> bool {
+        self.range[0] < self.range[1]
+    }
+}
+
+fn finite(point: &Point) -> bool {
+    point.iter().all(|value| value.is_finite())
+}
+
+/// Around these values, with room; about a single value half a unit, or half of it, to either side.
+fn range(values: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
+    let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
+        let [low, high] = ends.unwrap_or([value, value]);
+        Some([low.min(value), high.max(value)])
+    });
+    let [low, high] = ends.unwrap_or([0.0, 1.0]);
+    let width = high - low;
+    if width > 1e-9 * low.abs().max(high.abs()) {
+        [low - room * width, high + room * width]
+    } else {
+        let half = if low == 0.0 { 0.5 } else { 0.5 * low.abs() };
+        [low - half, high + half]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_cuts_a_curve_and_a_lone_point_is_a_marker() {
+        let points = [
+            Some([0.0, 1.0]),
+            Some([1.0, 2.0]),
+            None,
+            Some([3.0, f64::NAN]),
+            Some([4.0, 5.0]),
+        ];
+        let mut panel = Panel::new(Axis::new("x", "m"), Axis::new("y", ""));
+        panel.curve(Curve::new("a", Colour::Series(0), points));
+        assert_eq!(panel.curves[0].pieces, [[[0.0, 1.0], [1.0, 2.0]]]);
+        assert_eq!(panel.markers[0].points, [[4.0, 5.0]]);
+        panel.fit();
+        assert_eq!(panel.x.range, [0.0, 4.0]);
+        assert_eq!(panel.y.range, [0.8, 5.2]);
+    }
+
+    #[test]
+    fn one_point_has_a_range_about_it() {
+        let mut panel = Panel::default();
+        panel.markers("", Colour::Black, Shape::Ring, [[2.0, 0.0]]);
+        panel.fit();
+        assert_eq!((panel.x.range, panel.y.range), ([1.0, 3.0], [-0.5, 0.5]));
+    }
+}

@@ -1,0 +1,17 @@
+#![doc = include_str!("../README.md")]
+
+mod caption;
+#[cfg(feature = "draw")]
+mod draw;
+mod error;
+pub mod figure;
+mod results;
+mod style;
+
+pub use error::Error;
+pub use figure::Figure;
+pub use results::{
+    Along, Histogram, Spreads, branches, campbell, damping_ratios, eigenvalues, equilibria,
+    frequencies, margin, mode_shapes, participation, root_locus, shares,
+};
+pub use style::Style;

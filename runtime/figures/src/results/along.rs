@@ -1,0 +1,211 @@
+//! What is found along an input, whichever result it is.
+
+use eigentol::modes::{Sense, Whirl};
+use eigentol::sweep::Sweep;
+use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, InputInfo, Unit};
+
+use crate::caption::{design, in_unit, operating_point};
+use crate::figure::Axis;
+use crate::style::Style;
+
+/// A result along an input: [`Sweep`] or [`Campbell`].
+pub trait Along: sealed::Along {}
+
+impl Along for Sweep {}
+impl Along for Campbell {}
+
+/// A mode at one value of the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sample {
+    pub(crate) label: usize,
+    pub(crate) s: Complex,
+    pub(crate) oscillates: bool,
+    pub(crate) sense: Option<Sense>,
+}
+
+/// All modes at one value of the input, in its unit; none where the point failed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Station {
+    pub(crate) value: f64,
+    pub(crate) modes: Vec<Sample>,
+}
+
+pub(crate) mod sealed {
+    use super::{Campbell, Complex, Description, Equilibrium, Error, Input, Sense, Sweep, Whirl};
+
+    type Found = (usize, Complex, Option<f64>, Option<Sense>);
+
+    pub trait Along {
+        fn description(&self) -> &Description;
+        fn input(&self) -> Input;
+        fn inputs(&self) -> &[f64];
+        /// Values, SI, with their equilibria and with labels, eigenvalues, frequencies and senses of their modes.
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)>;
+        /// Values, SI, at which stiffness is lost.
+        fn critical(&self) -> Vec<f64>;
+    }
+
+    impl Along for Sweep {
+        fn description(&self) -> &Description {
+            &self.description
+        }
+
+        fn input(&self) -> Input {
+            self.input
+        }
+
+        fn inputs(&self) -> &[f64] {
+            &self.inputs
+        }
+
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)> {
+            let each = self.points.iter().map(|point| {
+                let modes = point.modes.iter().flat_map(|own| &own.modes);
+                let modes = modes.map(|mode| (mode.label, mode.s, mode.frequency(), None));
+                (point.value, point.equilibrium.as_ref(), modes.collect())
+            });
+            each.collect()
+        }
+
+        fn critical(&self) -> Vec<f64> {
+            self.critical.iter().map(|own| own.value).collect()
+        }
+    }
+
+    impl Along for Campbell {
+        fn description(&self) -> &Description {
+            &self.description
+        }
+
+        fn input(&self) -> Input {
+            self.input
+        }
+
+        fn inputs(&self) -> &[f64] {
+            &self.inputs
+        }
+
+        fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)> {
+            let each = self.points.iter().map(|point| {
+                let modes = point.modes.iter().flatten().map(|mode| {
+                    let sense = mode.whirl.map(Whirl::sense);
+                    (mode.label, mode.s, mode.behaviour.frequency(), sense)
+                });
+                (point.value, point.equilibrium.as_ref(), modes.collect())
+            });
+            each.collect()
+        }
+
+        fn critical(&self) -> Vec<f64> {
+            self.critical.iter().map(|own| own.value).collect()
+        }
+    }
+}
+
+/// A result as figures along an input need it.
+pub(crate) struct Course<'a> {
+    pub(crate) description: &'a Description,
+    pub(crate) input: Input,
+    pub(crate) inputs: &'a [f64],
+    pub(crate) stations: Vec<Station>,
+    pub(crate) equilibria: Vec<(f64, Option<&'a Equilibrium>)>,
+    /// Values at which stiffness is lost, in the unit of the input.
+    pub(crate) critical: Vec<f64>,
+}
+
+impl<'a> Course<'a> {
+    pub(crate) fn of<R: Along + ?Sized>(result: &'a R) -> Self {
+        let (description, input) = (result.description(), result.input());
+        let own = |value: f64| match description.inputs.get(input.index()) {
+            Some(info) => in_unit(value, &info.unit),
+            None => value,
+        };
+        let (mut stations, mut equilibria) = (Vec::new(), Vec::new());
+        for (value, equilibrium, modes) in result.points() {
+            let sample = |(label, s, frequency, sense): (usize, Complex, Option<f64>, _)| Sample {
+                label,
+                s,
+                oscillates: frequency.is_some(),
+                sense,
+            };
+            stations.push(Station {
+                value: own(value),
+                modes: modes.into_iter().map(sample).collect(),
+            });
+            equilibria.push((own(value), equilibrium.ok()));
+        }
+        Self {
+            description,
+            input,
+            inputs: result.inputs(),
+            stations,
+            equilibria,
+            critical: result.critical().into_iter().map(own).collect(),
+        }
+    }
+
+    pub(crate) fn info(&self) -> Option<&'a InputInfo> {
+        self.description.inputs.get(self.input.index())
+    }
+
+    /// The horizontal axis, from the first to the last value.
+    pub(crate) fn axis(&self) -> Axis {
+        let mut axis = input_axis(self.description, self.input);
+        let values = self.stations.iter().map(|own| own.value);
+        let values = values.filter(|value| value.is_finite());
+        axis.range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        });
+        axis
+    }
+
+    /// The first lines of the caption: operating point and design, then what the user notes.
+    pub(crate) fn caption(&self, style: &Style) -> Vec<String> {
+        let mut lines = vec![operating_point(
+            self.description,
+            self.inputs,
+            Some(self.input),
+        )];
+        let own = self.equilibria.iter().find_map(|(_, own)| *own);
+        if let Some(own) = own {
+            lines.push(design(self.description, &own.design, &[]));
+        }
+        with_notes(lines, style, self.description)
+    }
+}
+
+/// The notes of the user; a list of design variables with tolerances stands in place of one without.
+pub(crate) fn with_notes(mut lines: Vec<String>, style: &Style, d: &Description) -> Vec<String> {
+    let first = d
+        .design
+        .iter()
+        .next()
+        .map(|info| format!("{} = ", info.name));
+    let is_design = |line: &String| {
+        let first = first.as_deref();
+        first.is_some_and(|first| line.starts_with(first))
+    };
+    if style.notes().any(|line| is_design(&line)) {
+        lines.retain(|line| !is_design(line));
+    }
+    lines.extend(style.notes());
+    lines
+}
+
+/// An axis of an input, its range yet to be found.
+pub(crate) fn input_axis(d: &Description, input: Input) -> Axis {
+    match d.inputs.get(input.index()) {
+        Some(info) => Axis::new(&*info.name, &*info.unit.symbol),
+        None => Axis::default(),
+    }
+}
+
+/// The unit of an input; that of an unknown one is a pure number.
+pub(crate) fn input_unit(d: &Description, input: Input) -> Unit {
+    let pure = || Unit {
+        symbol: "".into(),
+        scale: 1.0,
+    };
+    let own = d.inputs.get(input.index());
+    own.map_or_else(pure, |info| info.unit.clone())
+}

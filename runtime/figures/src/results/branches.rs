@@ -1,0 +1,141 @@
+//! Branches of equilibria.
+
+use eigentol::branches::{Branches, SpecialKind, SpecialPoint};
+use eigentol::{Description, Equilibrium, Role};
+
+use super::along::{input_axis, input_unit, with_notes};
+use crate::Error;
+use crate::caption::{design, in_unit, operating_point, with_unit};
+use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Shape, Stroke};
+use crate::style::Style;
+
+/// More panels than these fit on no page.
+const MOST: usize = 4;
+
+/// Branches of equilibria along the input, a panel for each coordinate: stable stretches solid, unstable ones dotted; folds and
+/// branch points are numbered.
+///
+/// # Errors
+/// [`Error::Nothing`] without a branch, or of a mechanism without coordinates that rest.
+pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
+    let first = result.branches.iter().find(|own| !own.points.is_empty());
+    let Some(first) = first else {
+        return Err(Error::nothing("no branch was found"));
+    };
+    let d = &*first.description;
+    let special = result.special();
+    let mut panels: Vec<Panel> = Vec::new();
+    let resting = d.coordinates.iter().enumerate();
+    let resting = resting.filter(|(_, info)| info.role == Role::Position);
+    for (k, info) in resting.clone().take(MOST) {
+        let y = Axis::new(&*info.name, &*info.unit.symbol);
+        let mut panel = Panel::new(input_axis(d, first.input), y);
+        let unit = input_unit(d, first.input);
+        let place = |value: f64, state: &Equilibrium| -> Option<Point> {
+            let own = *state.coordinates.get(k)?;
+            Some([in_unit(value, &unit), in_unit(own, &info.unit)])
+        };
+        for (number, branch) in result.branches.iter().enumerate() {
+            for (stability, stretch) in branch.stretches() {
+                let (word, stroke) = match stability.holds() {
+                    true => ("stable", Stroke::Solid),
+                    false => ("unstable", Stroke::Dotted),
+                };
+                let label = match result.branches.len() {
+                    1 => word.to_owned(),
+                    _ => format!("branch {}, {word}", number + 1),
+                };
+                let points = stretch.iter().map(|own| place(own.value, &own.equilibrium));
+                add(
+                    &mut panel,
+                    label,
+                    Colour::Series(number),
+                    stroke,
+                    points.collect(),
+                );
+            }
+        }
+        for (word, shape) in [
+            ("fold", Shape::Triangle),
+            ("branch point", Shape::Square),
+            ("stiffness is lost", Shape::Cross),
+        ] {
+            let here = special.iter().filter(|own| kind(own).0 == word);
+            let points = here.filter_map(|own| place(own.value, &own.equilibrium));
+            panel.markers(word, Colour::Black, shape, points);
+        }
+        for (place_of, own) in special.iter().enumerate() {
+            if let Some(at) = place(own.value, &own.equilibrium) {
+                panel.label(at, (place_of + 1).to_string());
+            }
+        }
+        panel.marks.extend(style.marks());
+        panels.push(panel);
+    }
+    panels.retain(|panel| !panel.is_empty());
+    if panels.is_empty() {
+        return Err(Error::nothing("the mechanism has no coordinates that rest"));
+    }
+    let mut caption = about(d, result);
+    let all = resting.count();
+    if all > MOST {
+        caption.push(format!("The first {MOST} of {all} coordinates."));
+    }
+    caption = with_notes(caption, style, d);
+    let unit = input_unit(d, first.input);
+    caption.extend(special.iter().enumerate().map(|(k, own)| {
+        let at = with_unit(own.value, &unit);
+        format!("{}  {} at {at}", k + 1, kind(own).1)
+    }));
+    if result.truncated {
+        caption.push("There are more branches than were followed.".to_owned());
+    }
+    let title = style.titled(format!("{}: branches of equilibria", d.name));
+    Ok(Figure::new(title, caption, panels))
+}
+
+/// Adds a stretch to the curve of the same look, so that the legend has it once.
+fn add(
+    panel: &mut Panel,
+    label: String,
+    colour: Colour,
+    stroke: Stroke,
+    points: Vec<Option<Point>>,
+) {
+    let curve = Curve::new(label, colour, points).stroke(stroke);
+    let known = |own: &&mut Curve| own.label == curve.label && own.stroke == stroke;
+    match panel.curves.iter_mut().find(known) {
+        Some(own) if curve.pieces.iter().all(|piece| piece.len() > 1) => {
+            own.pieces.extend(curve.pieces);
+        }
+        _ => panel.curve(curve),
+    }
+}
+
+fn about(d: &Description, result: &Branches) -> Vec<String> {
+    let first = result.branches.iter().flat_map(|own| &own.points).next();
+    let input = result.branches.first().map(|own| own.input);
+    match first {
+        Some(point) => vec![
+            operating_point(d, &point.equilibrium.inputs, input),
+            design(d, &point.equilibrium.design, &[]),
+        ],
+        None => Vec::new(),
+    }
+}
+
+/// The word of the legend, and that of the caption.
+fn kind(point: &SpecialPoint) -> (&'static str, &'static str) {
+    match point.kind {
+        SpecialKind::Fold => ("fold", "fold"),
+        SpecialKind::Pitchfork {
+            supercritical: Some(true),
+        } => ("branch point", "pitchfork, supercritical"),
+        SpecialKind::Pitchfork {
+            supercritical: Some(false),
+        } => ("branch point", "pitchfork, subcritical"),
+        SpecialKind::Pitchfork { .. } => ("branch point", "pitchfork"),
+        SpecialKind::Transcritical => ("branch point", "transcritical"),
+        _ => ("stiffness is lost", "stiffness is lost"),
+    }
+}

@@ -1,0 +1,181 @@
+//! Campbell diagrams.
+
+use eigentol::Campbell;
+use eigentol::campbell::CampbellMode;
+use eigentol::modes::Sense;
+use eigentol::sweep::{Condition, Event};
+use eigentol::tolerance::Spread;
+
+use super::along::{Course, input_unit};
+use super::events;
+use super::scale::{factor, words};
+use super::tracks::{Motion, Track, tracks};
+use crate::Error;
+use crate::caption::{in_unit, number};
+use crate::figure::{Axis, Colour, Curve, Figure, Panel, Point, Stroke};
+use crate::style::Style;
+
+/// The Campbell diagram: frequencies with their bands, backward whirl dashed, the lines of excitation, and numbered where they meet
+/// and where stability changes, with bars of as many standard deviations as the tolerances hold.
+///
+/// ```
+/// use eigentol::{Study, mechanism};
+/// use eigentol_figures::{Style, campbell};
+///
+/// mechanism! {
+///     mechanism Pendulum {
+///         input omega: rad/s;
+///         design l = 1 m +/- 3%;
+///         gravity 9.81 m/s^2 along -z;
+///         body shaft: massless;
+///         body bar: rod(mass: 3 kg, length: l, along: -z);
+///         joint spin: revolute(z) from ground to shaft, driven at omega;
+///         joint theta: revolute(y) from shaft to bar;
+///     }
+/// }
+///
+/// let study = Study::new(Pendulum).start(Pendulum::theta, 1.0);
+/// let found = study.campbell(Pendulum::omega, &[4.0, 5.0, 6.0], &[1.0])?;
+/// let figure = campbell(&found, &Style::of(&study).name_mode(0, "swing"))?;
+/// assert_eq!(figure.panels[0].curves.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Nothing`] where no mode oscillates.
+pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
+    let course = Course::of(result);
+    let (scale, symbol) = style.frequency(course.info());
+    let mut panel = Panel::new(course.axis(), Axis::new("frequency", symbol));
+    for track in tracks(&course.stations, &course.critical) {
+        if track.oscillates() {
+            panel.curve(oscillation(&track, style, |own| scale * own.s.im));
+        }
+    }
+    let curves = panel
+        .curves
+        .iter()
+        .flat_map(|curve| &curve.pieces)
+        .flatten();
+    let markers = panel.markers.iter().flat_map(|own| &own.points);
+    let highest = curves
+        .chain(markers)
+        .fold(0.0, |most: f64, p| most.max(p[1]));
+    if panel.is_empty() {
+        return Err(Error::nothing("no mode oscillates at any of the values"));
+    }
+    let top = style
+        .top()
+        .unwrap_or(if highest > 0.0 { 1.05 * highest } else { 1.0 });
+    panel.y.range = [0.0, top];
+    let times = bands(&mut panel, result, top, scale, |own| own.frequency.as_ref());
+    orders(&mut panel, result, scale);
+    panel.marks.extend(style.marks());
+    let lines = events::draw(&mut panel, result, style, |event| {
+        let height = match event {
+            Event::Crossing { s, .. } => scale * s.im,
+            _ => 0.0,
+        };
+        (height <= top).then_some(height)
+    });
+    let mut caption = course.caption(style);
+    if !panel.bands.is_empty() {
+        caption.push(words(result.sigma_level, times));
+    }
+    caption.extend(lines);
+    let title = style.titled(format!("{}: Campbell diagram", result.description.name));
+    Ok(Figure::new(title, caption, vec![panel]))
+}
+
+/// A motion in the colour of its mode; backward whirl is dashed, and where nothing whirls every mode has a stroke of its own.
+pub(super) fn oscillation(
+    track: &Track,
+    style: &Style,
+    height: impl Fn(&super::tracks::State) -> f64,
+) -> Curve {
+    let sense = match track.motion {
+        Motion::Oscillation(sense) => sense,
+        Motion::Real => None,
+    };
+    Curve {
+        label: style.whirling(track.label, sense),
+        colour: Colour::Series(track.label),
+        stroke: match sense {
+            Some(Sense::Backward) => Stroke::Dashed,
+            Some(Sense::Planar) => Stroke::DashDotted,
+            Some(Sense::Forward) => Stroke::Solid,
+            None => Stroke::of(track.label),
+        },
+        pieces: track.points(|own| [own.value, height(own)]),
+    }
+}
+
+/// Shades as many standard deviations as the tolerances hold about each mode, and says how many times as wide. Modes of a
+/// cluster have no spread of their own.
+pub(super) fn bands(
+    panel: &mut Panel,
+    result: &Campbell,
+    length: f64,
+    scale: f64,
+    quantity: impl Fn(&CampbellMode) -> Option<&Spread>,
+) -> f64 {
+    let unit = input_unit(&result.description, result.input);
+    let quantity = |mode: &CampbellMode| {
+        let own = quantity(mode).filter(|_| !mode.clustered)?;
+        own.band
+            .is_finite()
+            .then_some((scale * own.mean, scale * own.band))
+    };
+    let modes = result
+        .points
+        .iter()
+        .flat_map(|point| point.modes.iter().flatten());
+    let times = factor(modes.filter_map(quantity).map(|own| own.1), length);
+    for label in result.labels() {
+        let mut edges = Vec::new();
+        let colour = Colour::Series(label);
+        for point in &result.points {
+            let modes = point.modes.as_deref().unwrap_or_default();
+            let mode = modes.iter().find(|mode| mode.label == label);
+            match mode.and_then(quantity) {
+                Some((mean, half)) => {
+                    let value = in_unit(point.value, &unit);
+                    edges.push([value, mean - times * half, mean + times * half]);
+                }
+                None => panel.band("", colour, std::mem::take(&mut edges)),
+            }
+        }
+        panel.band("", colour, edges);
+    }
+    times
+}
+
+/// The lines of excitation, as far as they are within the panel.
+fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
+    let unit = input_unit(&result.description, result.input);
+    let ([low, high], top) = (panel.x.range, panel.y.range[1]);
+    let label = |first: bool| if first { "excitation" } else { "" };
+    for (k, line) in result.orders.iter().enumerate() {
+        let value = |own: f64| scale * (line.ratio * unit.to_si(own) + line.offset);
+        let ends: [Point; 2] = [[low, value(low)], [high, value(high)]];
+        panel.curve(Curve::new(label(k == 0), Colour::Grey, ends.map(Some)).stroke(Stroke::Dotted));
+        let inside = |t: &f64| value(low + t * (high - low)) <= 0.97 * top;
+        let place = (1..=19).rev().map(|k| 0.05 * f64::from(k)).find(inside);
+        if let Some(t) = place.filter(|_| line.ratio != 0.0) {
+            let at = low + t * (high - low);
+            panel.label([at, value(at)], format!("{} x", number(line.ratio)));
+        }
+    }
+    panel.y.range[1] = top;
+}
+
+/// Whether an event is a limit of stability, not a crossing of a line.
+pub(super) fn changes_stability(event: &Event) -> bool {
+    !matches!(
+        event,
+        Event::Crossing {
+            condition: Condition::Line(_),
+            ..
+        }
+    )
+}

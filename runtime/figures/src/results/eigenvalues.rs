@@ -1,0 +1,108 @@
+//! Eigenvalues: their parts along an input, and their paths in the plane.
+
+use eigentol::Campbell;
+
+use super::along::{Along, Course};
+use super::campbell::changes_stability;
+use super::events;
+use super::tracks::{Track, tracks};
+use crate::Error;
+use crate::caption::number;
+use crate::figure::{Axis, Colour, Curve, Figure, Panel, Shape, Stroke};
+use crate::style::Style;
+
+/// Real parts of the eigenvalues, solid, and imaginary parts, dashed, along the input, with the limits of stability and their bars of as many standard
+/// deviations as the tolerances hold.
+///
+/// # Errors
+/// [`Error::Nothing`] where there are no modes.
+pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
+    let course = Course::of(result);
+    let mut panel = Panel::new(course.axis(), Axis::new("eigenvalue", "1/s"));
+    for track in tracks(&course.stations, &course.critical) {
+        let real = match track.oscillates() {
+            true => format!("{}, real part", style.mode(track.label)),
+            false => format!("{}, real", style.mode(track.label)),
+        };
+        panel.curve(Curve {
+            label: real,
+            colour: Colour::Series(track.label),
+            stroke: Stroke::Solid,
+            pieces: track.points(|own| [own.value, own.s.re]),
+        });
+        if track.oscillates() {
+            panel.curve(Curve {
+                label: format!("{}, imaginary part", style.mode(track.label)),
+                colour: Colour::Series(track.label),
+                stroke: Stroke::Dashed,
+                pieces: track.points(|own| [own.value, own.s.im]),
+            });
+        }
+    }
+    if panel.is_empty() {
+        return Err(Error::nothing("no value has modes"));
+    }
+    if let Some(top) = style.top() {
+        panel.y.range = [-top, top];
+    }
+    panel.marks.extend(style.marks());
+    let lines = events::draw(&mut panel, result, style, |event| {
+        changes_stability(event).then_some(0.0)
+    });
+    panel.level_line(0.0);
+    let mut caption = course.caption(style);
+    caption.extend(lines);
+    let title = style.titled(format!("{}: eigenvalues", result.description.name));
+    Ok(Figure::new(title, caption, vec![panel]))
+}
+
+/// The paths of the eigenvalues in the complex plane while the input varies: real part to the right, imaginary part upwards, from
+/// a ring to a disc. To the right of zero a motion grows.
+///
+/// # Errors
+/// [`Error::Nothing`] where there are no modes.
+pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure, Error> {
+    let course = Course::of(result);
+    let mut panel = Panel::new(Axis::new("Re s", "1/s"), Axis::new("Im s", "1/s"));
+    let all = tracks(&course.stations, &course.critical);
+    for track in &all {
+        let kind = if track.oscillates() { "" } else { ", real" };
+        panel.curve(Curve {
+            label: format!("{}{kind}", style.mode(track.label)),
+            colour: Colour::Series(track.label),
+            stroke: Stroke::of(track.label),
+            pieces: track.points(|own| [own.s.re, own.s.im]),
+        });
+    }
+    if panel.is_empty() {
+        return Err(Error::nothing("no value has modes"));
+    }
+    let [first, last] = course.axis().range;
+    let unit = course.axis().unit;
+    let words = |value: f64| match unit.is_empty() {
+        true => number(value),
+        false => format!("{} {unit}", number(value)),
+    };
+    for (value, shape) in [(first, Shape::Ring), (last, Shape::Disc)] {
+        let states = all
+            .iter()
+            .flat_map(|track: &Track| track.pieces.iter().flatten());
+        let here = states.filter(|own| own.value == value);
+        let points: Vec<_> = here.map(|own| [own.s.re, own.s.im]).collect();
+        let label = format!("{} = {}", course.axis().name, words(value));
+        panel.markers(label, Colour::Black, shape, points);
+    }
+    panel.fit();
+    let [low, high] = panel.x.range;
+    panel.x.range = [low, high.max(0.02 * (high - low))];
+    if let Some(top) = style.top() {
+        panel.y.range[1] = top;
+    }
+    panel.marks.push(crate::figure::Mark {
+        label: "motions to the right grow".to_owned(),
+        at: 0.0,
+    });
+    let caption = course.caption(style);
+    let title = style.titled(format!("{}: root locus", course.description.name));
+    Ok(Figure::new(title, caption, vec![panel]))
+}

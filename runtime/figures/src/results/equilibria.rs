@@ -1,0 +1,92 @@
+//! The equilibrium along an input.
+
+use eigentol::{Equilibrium, Role};
+
+use super::along::{Along, Course};
+use crate::Error;
+use crate::caption::{in_unit, number};
+use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
+use crate::style::Style;
+
+/// The coordinates of the equilibrium along the input, a panel for each unit: unstable stretches dotted, interrupted where there is no
+/// equilibrium and where it passes to another branch at a critical value.
+///
+/// # Errors
+/// [`Error::Nothing`] without an equilibrium, or of a mechanism without coordinates that rest.
+pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure, Error> {
+    let course = Course::of(result);
+    let mut panels: Vec<Panel> = Vec::new();
+    let resting = |role: Role| role == Role::Position;
+    let infos = course.description.coordinates.iter().enumerate();
+    for (k, info) in infos.filter(|(_, info)| resting(info.role)) {
+        let known = |panel: &Panel| panel.y.unit == *info.unit.symbol;
+        let place = panels.iter().position(known).unwrap_or_else(|| {
+            let y = Axis::new("equilibrium", &*info.unit.symbol);
+            panels.push(Panel::new(course.axis(), y));
+            panels.len() - 1
+        });
+        let panel = &mut panels[place];
+        let value = |own: &Equilibrium| own.coordinates.get(k).map(|q| in_unit(*q, &info.unit));
+        for (stable, label) in [
+            (true, info.name.to_string()),
+            (false, format!("{}, unstable", info.name)),
+        ] {
+            let stroke = if stable {
+                Stroke::of(k % 3)
+            } else {
+                Stroke::Dotted
+            };
+            let points = stretch(&course, stable, value);
+            panel.curve(Curve::new(label, Colour::Series(k), points).stroke(stroke));
+        }
+    }
+    panels.retain(|panel| !panel.is_empty());
+    if panels.is_empty() {
+        return Err(Error::nothing(
+            "there is no equilibrium at any of the values",
+        ));
+    }
+    for panel in &mut panels {
+        panel.marks.extend(style.marks());
+        panel.marks.extend(course.critical.iter().map(|&at| Mark {
+            label: format!("critical {}", number(at)),
+            at,
+        }));
+    }
+    let title = style.titled(format!("{}: equilibrium", course.description.name));
+    Ok(Figure::new(title, course.caption(style), panels))
+}
+
+/// The points that are stable, or those that are not, each stretch with the first point of the next one, so that they meet.
+fn stretch(
+    course: &Course<'_>,
+    stable: bool,
+    value: impl Fn(&Equilibrium) -> Option<f64>,
+) -> Vec<Option<Point>> {
+    let mut points = Vec::new();
+    let mut before: Option<(f64, bool)> = None;
+    for (at, state) in &course.equilibria {
+        let point = state.and_then(|own| Some(([*at, value(own)?], own.stability.holds())));
+        let passes = |from: f64| {
+            course
+                .critical
+                .iter()
+                .any(|own| (from < *own) != (*at < *own))
+        };
+        let joined = before.filter(|(from, _)| !passes(*from));
+        match point {
+            Some((point, holds)) if holds == stable => {
+                if joined.is_none() {
+                    points.push(None);
+                }
+                points.push(Some(point));
+            }
+            Some((point, _)) if joined.is_some_and(|(_, held)| held == stable) => {
+                points.extend([Some(point), None]);
+            }
+            _ => points.push(None),
+        }
+        before = point.map(|(_, holds)| (*at, holds));
+    }
+    points
+}

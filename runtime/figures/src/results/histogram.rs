@@ -1,0 +1,263 @@
+//! Distributions of a frequency.
+
+use eigentol::second_order::{ModeMargin, Quadratic, SecondOrder};
+use eigentol::{FirstOrder, MonteCarlo, Quantity, Tolerances};
+
+use super::along::with_notes;
+use crate::Error;
+use crate::caption::{number, operating_point};
+use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
+use crate::style::Style;
+
+/// Points of a density.
+const POINTS: usize = 121;
+/// Intervals whose probabilities make the density of the second-order model.
+const INTERVALS: usize = 60;
+/// Standard deviations that a density is drawn to either side.
+const REACH: f64 = 4.5;
+
+/// The histogram of a sampled frequency, and the densities of first and second order over it.
+///
+/// ```
+/// use eigentol::{Study, mechanism};
+/// use eigentol_figures::{Histogram, Style};
+///
+/// mechanism! {
+///     mechanism Pendulum {
+///         design l = 1 m +/- 3%;
+///         gravity 9.81 m/s^2 along -z;
+///         body bar: rod(mass: 3 kg, length: l, along: -z);
+///         joint theta: revolute(y) from ground to bar;
+///     }
+/// }
+///
+/// let study = Study::new(Pendulum).samples(2000).seed(7);
+/// let sampled = study.monte_carlo()?;
+/// let figure = Histogram::new(&sampled, 0)
+///     .first_order(&study.first_order()?)
+///     .figure(&Style::of(&study))?;
+/// assert!(figure.caption.iter().any(|line| line.ends_with("2000 samples, seed 7")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Histogram<'a> {
+    sampled: &'a MonteCarlo,
+    mode: usize,
+    first_order: Option<&'a FirstOrder>,
+    second_order: Option<(&'a SecondOrder, &'a Tolerances)>,
+}
+
+impl<'a> Histogram<'a> {
+    /// Of the frequency of mode number `mode`, from 0.
+    #[must_use]
+    pub fn new(sampled: &'a MonteCarlo, mode: usize) -> Self {
+        Self {
+            sampled,
+            mode,
+            first_order: None,
+            second_order: None,
+        }
+    }
+
+    /// With the normal density that has mean and standard deviation of first order.
+    #[must_use]
+    pub fn first_order(mut self, found: &'a FirstOrder) -> Self {
+        self.first_order = Some(found);
+        self
+    }
+
+    /// With the density of the second-order model.
+    #[must_use]
+    pub fn second_order(mut self, found: &'a SecondOrder, tolerances: &'a Tolerances) -> Self {
+        self.second_order = Some((found, tolerances));
+        self
+    }
+
+    /// The figure.
+    ///
+    /// # Errors
+    /// [`Error::UnknownMode`]; [`Error::Nothing`] where no sample oscillates in the mode or all have the same frequency;
+    /// [`Error::Solver`] for a second-order model that has no probabilities.
+    pub fn figure(&self, style: &Style) -> Result<Figure, Error> {
+        let (mode, modes) = (self.mode, self.sampled.modes.len());
+        let own = self.sampled.modes.get(mode);
+        let own = own.ok_or(Error::UnknownMode { mode, modes })?;
+        let name = style.mode(mode);
+        let d = &*self.sampled.description;
+        let statistics = own.as_ref();
+        let sketch = statistics.and_then(|own| own.sketch());
+        let bins = |count: u64| ((2.0 * (count as f64).cbrt()) as usize).clamp(8, 60);
+        let histogram = statistics.zip(sketch).and_then(|(own, sketch)| {
+            let found = sketch.histogram(bins(own.count)).ok()?;
+            (own.min < own.max).then_some(found)
+        });
+        let (Some(statistics), Some(histogram)) = (statistics, histogram) else {
+            let why = format!("the samples of {name} have no two different frequencies");
+            return Err(Error::nothing(why));
+        };
+        let (scale, symbol) = style.frequency(None);
+        let mut panel = density_panel(&name, symbol);
+        let bars = histogram.edges.windows(2).zip(&histogram.shares);
+        let bars = bars.map(|(edge, share)| {
+            let (left, right) = (scale * edge[0], scale * edge[1]);
+            [left, right, 0.0, share / (right - left)]
+        });
+        let label = format!("Monte Carlo, {} samples", statistics.count);
+        panel.bars(label, Colour::Grey, bars.collect::<Vec<_>>());
+        let first = self.first_order.and_then(|own| own.modes.get(mode));
+        if let Some(spread) = first.and_then(|own| own.frequency.as_ref()) {
+            let points = normal(scale * spread.mean, scale * spread.sigma);
+            let curve = Curve::new(
+                "normal, mean and sigma of first order",
+                Colour::Series(0),
+                points,
+            );
+            panel.curve(curve);
+        }
+        let second = self
+            .second_order
+            .map(|(own, tolerances)| (own.modes.get(mode), tolerances));
+        if let Some((Some(Ok(own)), tolerances)) = second {
+            let (model, moments) = (&own.frequency.model, &own.frequency.moments);
+            let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
+            let curve = Curve::new("second-order model", Colour::Series(4), points);
+            panel.curve(curve.stroke(Stroke::Dashed));
+        }
+        let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
+            let (mean, sigma) = (
+                scale * statistics.mean,
+                statistics.sigma.map(|own| scale * own),
+            );
+            let sigma = sigma.map_or_else(String::new, |own| {
+                format!(", sigma {} {symbol}", number(own))
+            });
+            format!("Monte Carlo: mean {} {symbol}{sigma}.", number(mean))
+        }];
+        let counts = &self.sampled.counts;
+        let lost = counts.total() - counts.stable;
+        if lost > 0 {
+            lines.push(format!(
+                "{lost} of {} samples are not stable and not shown.",
+                counts.total()
+            ));
+        }
+        panel.fit();
+        panel.y.range[0] = 0.0;
+        panel.marks.extend(style.marks());
+        let title = style.titled(format!("{}: distribution of {name}", d.name));
+        Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
+    }
+}
+
+/// A forbidden band beside the density of first order, with the probability that tolerances bring the quantity into it.
+///
+/// # Errors
+/// [`Error::Nothing`] where no tolerance moves the quantity.
+pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
+    let (d, own) = (&*result.description, &result.margin);
+    let name = style.mode(result.mode);
+    if own.sigma <= 0.0 || !own.sigma.is_finite() {
+        return Err(Error::nothing(format!("no tolerance moves {name}")));
+    }
+    let angular = matches!(
+        result.quantity,
+        Quantity::Frequency | Quantity::NaturalFrequency
+    );
+    let (scale, symbol) = match (angular, result.quantity) {
+        (true, _) => style.frequency(None),
+        (false, Quantity::Growth) => (1.0, "1/s"),
+        (false, _) => (1.0, ""),
+    };
+    let mut panel = density_panel(&name, symbol);
+    panel.x.name = format!("{} of {name}", result.quantity);
+    let (value, sigma) = (scale * own.value, scale * own.sigma);
+    let points = normal(value, sigma);
+    panel.curve(Curve::new(
+        "normal, sigma of first order",
+        Colour::Series(0),
+        points,
+    ));
+    panel.fit();
+    panel.y.range[0] = 0.0;
+    let ends = [own.band.0, own.band.1].map(|end| scale * end);
+    let near = |end: f64| end.is_finite() && (end - value).abs() < 40.0 * sigma;
+    for end in ends.into_iter().filter(|end| near(*end)) {
+        panel.x.range = [
+            panel.x.range[0].min(end - sigma),
+            panel.x.range[1].max(end + sigma),
+        ];
+    }
+    let [left, right] = panel.x.range;
+    let edges = ends.map(|end| end.clamp(left, right));
+    let top = panel.y.range[1];
+    panel.band(
+        "forbidden band",
+        Colour::Series(4),
+        edges.map(|end| [end, 0.0, top]),
+    );
+    panel.marks.push(Mark {
+        label: "nominal value".to_owned(),
+        at: value,
+    });
+    let chance = |own: f64| format!("{} %", number(100.0 * own));
+    let text = format!(
+        "probability of the band: {} at first order, {} by the second-order model",
+        chance(own.first_order),
+        chance(own.corrected.value)
+    );
+    let place = 0.5 * (edges[0] + edges[1]);
+    panel.label(
+        [place, 0.9 * top],
+        format!("P = {}", chance(own.corrected.value)),
+    );
+    let distance = match own.distance.is_finite() {
+        true => format!("; {} sigma away", number(own.distance)),
+        false => String::new(),
+    };
+    let lines = vec![
+        operating_point(d, &result.inputs, None),
+        format!("{text}{distance}."),
+    ];
+    let title = style.titled(format!("{}: margin of {name}", d.name));
+    Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
+}
+
+fn density_panel(name: &str, symbol: &str) -> Panel {
+    let per = match symbol {
+        "rad/s" => "s/rad".to_owned(),
+        "" => String::new(),
+        other => format!("1/{}", other.trim_start_matches("1/")),
+    };
+    Panel::new(
+        Axis::new(format!("frequency of {name}"), symbol),
+        Axis::new("density", per),
+    )
+}
+
+fn normal(mean: f64, sigma: f64) -> Vec<Option<Point>> {
+    let place = |k: usize| REACH * (2.0 * k as f64 / (POINTS - 1) as f64 - 1.0);
+    let height = |z: f64| (-0.5 * z * z).exp() / (sigma * std::f64::consts::TAU.sqrt());
+    let point = |z: f64| (sigma > 0.0).then(|| [mean + z * sigma, height(z)]);
+    (0..POINTS).map(|k| point(place(k))).collect()
+}
+
+/// The mean density of each of many intervals, at its middle.
+fn quadratic(
+    model: &Quadratic,
+    tolerances: &Tolerances,
+    (mean, sigma): (f64, f64),
+    scale: f64,
+) -> Result<Vec<Option<Point>>, Error> {
+    if sigma <= 0.0 || !sigma.is_finite() {
+        return Ok(Vec::new());
+    }
+    let width = 2.0 * REACH * sigma / INTERVALS as f64;
+    let mut points = Vec::with_capacity(INTERVALS);
+    for k in 0..INTERVALS {
+        let low = mean - REACH * sigma + width * k as f64;
+        let own = model.probability(tolerances, (low, low + width))?;
+        let density = own.value / (scale * width);
+        points.push(Some([scale * (low + 0.5 * width), density]));
+    }
+    Ok(points)
+}

@@ -1,0 +1,28 @@
+//! Figures of the results of the library, one file for each kind.
+
+mod along;
+mod branches;
+mod campbell;
+mod damping;
+mod eigenvalues;
+mod equilibria;
+mod events;
+mod frequencies;
+mod histogram;
+mod scale;
+mod shapes;
+mod shares;
+mod spreads;
+mod tracks;
+
+pub use along::Along;
+pub use branches::branches;
+pub use campbell::campbell;
+pub use damping::damping_ratios;
+pub use eigenvalues::{eigenvalues, root_locus};
+pub use equilibria::equilibria;
+pub use frequencies::frequencies;
+pub use histogram::{Histogram, margin};
+pub use shapes::{mode_shapes, participation};
+pub use shares::shares;
+pub use spreads::Spreads;

@@ -1,0 +1,54 @@
+//! How many times as wide bands are drawn, so that they can be seen.
+
+/// A band narrower than this share of the axis on either side cannot be seen.
+const VISIBLE: f64 = 0.01;
+/// A band wider than this share hides what is near.
+const WIDEST: f64 = 0.12;
+
+/// The least factor of 1, 2, 5, 10, 20, 50, ..., 1000 with which the typical of these half-widths can be seen on an axis of this length, unless the
+/// widest would then hide what is near.
+pub(crate) fn factor(half_widths: impl Iterator<Item = f64>, length: f64) -> f64 {
+    let mut all: Vec<f64> = half_widths
+        .filter(|own| own.is_finite() && *own > 0.0)
+        .collect();
+    all.sort_by(f64::total_cmp);
+    let (Some(typical), Some(widest)) = (all.get(all.len() / 2), all.get(all.len() * 9 / 10))
+    else {
+        return 1.0;
+    };
+    let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
+    let visible = |factor: &f64| factor * typical >= VISIBLE * length;
+    let wanted = steps.into_iter().find(visible).unwrap_or(1000.0);
+    let fits = |factor: &f64| *factor <= wanted && factor * widest <= WIDEST * length;
+    steps.into_iter().rev().find(fits).unwrap_or(1.0)
+}
+
+/// What bands and error bars show.
+pub(crate) fn words(sigma_level: f64, factor: f64) -> String {
+    let sigma = match sigma_level == 1.0 {
+        true => "1 standard deviation".to_owned(),
+        false => format!("{sigma_level} standard deviations"),
+    };
+    match factor == 1.0 {
+        true => format!("Shaded: {sigma} to either side."),
+        false => format!("Shaded: {sigma} to either side, drawn {factor} times as wide."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factor;
+
+    #[test]
+    fn bands_are_widened_until_they_are_seen_and_no_further() {
+        let band = |half: f64| factor([half; 5].into_iter(), 100.0);
+        assert_eq!(band(2.0), 1.0);
+        assert_eq!(band(0.3), 5.0);
+        assert_eq!(band(0.01), 100.0);
+        assert_eq!(band(0.0), 1.0);
+        assert_eq!(factor(std::iter::empty(), 100.0), 1.0);
+        // A wide band among narrow ones keeps its place.
+        let mixed = [0.1, 0.1, 0.1, 4.0].into_iter();
+        assert_eq!(factor(mixed, 100.0), 2.0);
+    }
+}

@@ -1,0 +1,179 @@
+//! Mode shapes.
+
+use eigentol::{Complex, Equilibrium, Mode, Modes, Role};
+
+use super::along::with_notes;
+use crate::Error;
+use crate::caption::{design, number, operating_point};
+use crate::figure::{Axis, Colour, Figure, Panel, Shape};
+use crate::style::Style;
+
+/// More modes than these fit on no page.
+const MOST: usize = 6;
+/// Components smaller than this share of the largest have no phase worth drawing.
+const VISIBLE: f64 = 1e-3;
+/// Half of the width of the bars of one coordinate.
+const HALF: f64 = 0.38;
+
+/// Shapes of the modes as bars by coordinate, in SI units, relative to the largest component. Those of undamped modes have signs; of general
+/// modes magnitudes are drawn, and below them phases against the largest component.
+///
+/// # Errors
+/// [`Error::Nothing`] without modes.
+pub fn mode_shapes(result: &Modes, style: &Style) -> Result<Figure, Error> {
+    let shown = shown(result)?;
+    let real = |mode: &&Mode| {
+        let whole = mode.shape.iter().map(|own| own.norm()).fold(0.0, f64::max);
+        mode.shape.iter().all(|own| own.im.abs() <= 1e-9 * whole)
+    };
+    let real = shown.iter().all(real);
+    let mut upper = panel(result, if real { "shape" } else { "magnitude" }, "");
+    let mut lower = panel(result, "phase", "deg");
+    for (r, mode) in shown.iter().enumerate() {
+        let own = relative(result, mode);
+        let heights = own.iter().map(|own| if real { own.re } else { own.norm() });
+        let bars: Vec<[f64; 4]> = columns(heights, r, shown.len()).collect();
+        upper.bars(label(mode, style), Colour::Series(r), bars);
+        let phases = columns(own.iter().map(|own| own.arg().to_degrees()), r, shown.len());
+        let phases = phases.zip(&own).filter(|(_, own)| own.norm() >= VISIBLE);
+        let points = phases.map(|([left, right, low, high], _)| {
+            [0.5 * (left + right), if low < 0.0 { low } else { high }]
+        });
+        lower.markers(
+            "",
+            Colour::Series(r),
+            Shape::of(r),
+            points.collect::<Vec<_>>(),
+        );
+    }
+    let panels = if real {
+        upper.fit();
+        upper.level_line(0.0);
+        vec![upper]
+    } else {
+        lower.y.range = [-195.0, 195.0];
+        lower.level_line(0.0);
+        vec![upper, lower]
+    };
+    let mut caption = caption(result);
+    let mut units: Vec<&str> = resting(result)
+        .map(|k| &*result.description.coordinates[k].unit.symbol)
+        .collect();
+    units.dedup();
+    if units.len() > 1 {
+        caption.push("Coordinates in rad and in m do not compare.".to_owned());
+    }
+    let caption = with_notes(caption, style, &result.description);
+    let title = style.titled(format!("{}: mode shapes", result.description.name));
+    Ok(Figure::new(title, caption, panels))
+}
+
+/// What share of the kinetic energy of each mode is in each coordinate, `Re(phi_i* (Mhat phi)_i) / phi^H Mhat phi`: coordinates of any
+/// unit compare. Coupled coordinates can have negative shares.
+///
+/// # Errors
+/// [`Error::Nothing`] without modes, or for an equilibrium of another mechanism.
+pub fn participation(result: &Modes, at: &Equilibrium, style: &Style) -> Result<Figure, Error> {
+    let shown = shown(result)?;
+    let mass = &at.linear.mass;
+    let mut panel = panel(result, "share of kinetic energy", "%");
+    for (r, mode) in shown.iter().enumerate() {
+        let product = |i: usize| -> Option<f64> {
+            let row = mass.iter().nth(i)?;
+            let own: Complex = row
+                .iter()
+                .zip(mode.shape.iter())
+                .map(|(m, phi)| phi * *m)
+                .sum();
+            Some((mode.shape.get(i)?.conj() * own).re)
+        };
+        let all: Option<Vec<f64>> = (0..mode.shape.len()).map(product).collect();
+        let all =
+            all.ok_or_else(|| Error::nothing("the equilibrium is that of another mechanism"))?;
+        let whole: f64 = all.iter().sum();
+        let own = resting(result).map(|k| 100.0 * all[k] / whole);
+        let bars: Vec<[f64; 4]> = columns(own, r, shown.len()).collect();
+        panel.bars(label(mode, style), Colour::Series(r), bars);
+    }
+    if panel.is_empty() {
+        return Err(Error::nothing("no mode moves a mass"));
+    }
+    let mut caption = caption(result);
+    caption.insert(1, design(&result.description, &at.design, &[]));
+    let caption = with_notes(caption, style, &result.description);
+    let title = style.titled(format!(
+        "{}: what moves in each mode",
+        result.description.name
+    ));
+    Ok(Figure::new(title, caption, vec![panel]))
+}
+
+fn shown(result: &Modes) -> Result<Vec<&Mode>, Error> {
+    let shown: Vec<&Mode> = result.modes.iter().take(MOST).collect();
+    match shown.is_empty() || resting(result).next().is_none() {
+        true => Err(Error::nothing("the mechanism has no modes")),
+        false => Ok(shown),
+    }
+}
+
+/// Coordinates and speeds; reactions are no motion.
+fn resting(result: &Modes) -> impl Iterator<Item = usize> + '_ {
+    let infos = result.description.coordinates.iter().enumerate();
+    infos
+        .filter(|(_, info)| matches!(info.role, Role::Position | Role::Speed))
+        .map(|(k, _)| k)
+}
+
+fn panel(result: &Modes, name: &str, unit: &str) -> Panel {
+    let names = resting(result).map(|k| result.description.coordinates[k].name.to_string());
+    Panel::new(
+        Axis::of_categories("", names.collect()),
+        Axis::new(name, unit),
+    )
+}
+
+/// Components over the largest one, whose phase is zero.
+fn relative(result: &Modes, mode: &Mode) -> Vec<Complex> {
+    let own: Vec<Complex> = resting(result)
+        .filter_map(|k| mode.shape.get(k).copied())
+        .collect();
+    let largest = own
+        .iter()
+        .copied()
+        .max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    match largest.filter(|largest| largest.norm() > 0.0) {
+        Some(largest) => own.iter().map(|own| own / largest).collect(),
+        None => own,
+    }
+}
+
+/// Bars of mode number `r` of `modes` beside those of the others, one for each coordinate.
+fn columns(
+    heights: impl Iterator<Item = f64>,
+    r: usize,
+    modes: usize,
+) -> impl Iterator<Item = [f64; 4]> {
+    let width = 2.0 * HALF / modes as f64;
+    heights.enumerate().map(move |(k, height)| {
+        let left = k as f64 - HALF + width * r as f64;
+        [left, left + 0.9 * width, height.min(0.0), height.max(0.0)]
+    })
+}
+
+fn label(mode: &Mode, style: &Style) -> String {
+    let (scale, symbol) = style.frequency(None);
+    let name = style.mode(mode.label);
+    match mode.frequency() {
+        Some(own) => format!("{name}, {} {symbol}", number(scale * own)),
+        None => format!("{name}, s = {} 1/s", number(mode.s.re)),
+    }
+}
+
+fn caption(result: &Modes) -> Vec<String> {
+    let mut lines = vec![operating_point(&result.description, &result.inputs, None)];
+    let all = result.modes.len();
+    if all > MOST {
+        lines.push(format!("The first {MOST} of {all} modes."));
+    }
+    lines
+}

@@ -1,0 +1,168 @@
+//! What the user says about a figure.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use eigentol::modes::Sense;
+use eigentol::{InputInfo, Kernels, Study};
+
+use crate::caption::{design, number};
+
+/// What the user says about a figure; [`Style::default`] says nothing.
+///
+/// ```
+/// use eigentol_figures::Style;
+///
+/// let style = Style::default().name_mode(0, "swing").hertz();
+/// # let _ = style;
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Style {
+    title: Option<String>,
+    names: BTreeMap<usize, String>,
+    frequency: Option<Frequency>,
+    highest: Option<f64>,
+    marks: Vec<(f64, String)>,
+    notes: Vec<String>,
+}
+
+/// The unit of frequencies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Frequency {
+    Hertz,
+    RadiansPerSecond,
+}
+
+impl Style {
+    /// A style whose captions have the design variables of a study with their tolerances, and the samples and the seed it is set
+    /// to.
+    #[must_use]
+    pub fn of<M: Kernels>(study: &Study<M>) -> Self {
+        let sampling = study.sampling();
+        let description = study.description();
+        let half_widths = study.tolerances();
+        let half_widths = half_widths.as_ref().map(|own| own.half_widths());
+        Self::default()
+            .note(design(
+                description,
+                study.design_values(),
+                half_widths.unwrap_or_default(),
+            ))
+            .note(format!(
+                "Monte Carlo: {} samples, seed {}",
+                sampling.samples, sampling.seed
+            ))
+    }
+
+    /// The title.
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// Calls a mode by what it is, in place of its number. `label` is that of the mode, from 0: along an input the number of the
+    /// motion.
+    #[must_use]
+    pub fn name_mode(mut self, label: usize, name: impl Into<String>) -> Self {
+        self.names.insert(label, name.into());
+        self
+    }
+
+    /// Names for the modes 0, 1, 2, ...
+    #[must_use]
+    pub fn name_modes<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        let names = names.into_iter().map(Into::into);
+        self.names.extend(names.enumerate());
+        self
+    }
+
+    /// Frequencies in Hz. Without a word they are in Hz along an input in rpm or Hz, and in rad/s otherwise.
+    #[must_use]
+    pub fn hertz(mut self) -> Self {
+        self.frequency = Some(Frequency::Hertz);
+        self
+    }
+
+    /// Frequencies in rad/s.
+    #[must_use]
+    pub fn radians_per_second(mut self) -> Self {
+        self.frequency = Some(Frequency::RadiansPerSecond);
+        self
+    }
+
+    /// The upper end of the first vertical axis, in its unit; of eigenvalues the lower end is its negative.
+    #[must_use]
+    pub fn highest(mut self, value: f64) -> Self {
+        self.highest = Some(value).filter(|own| own.is_finite() && *own > 0.0);
+        self
+    }
+
+    /// A vertical line at a value of the horizontal axis, in its unit: the speed at which a machine runs.
+    #[must_use]
+    pub fn mark(mut self, at: f64, label: impl Into<String>) -> Self {
+        self.marks.push((at, label.into()));
+        self
+    }
+
+    /// A line of the caption.
+    #[must_use]
+    pub fn note(mut self, line: impl Into<String>) -> Self {
+        self.notes.push(line.into());
+        self.notes.retain(|line| !line.is_empty());
+        self
+    }
+
+    pub(crate) fn titled(&self, otherwise: String) -> String {
+        self.title.clone().unwrap_or(otherwise)
+    }
+
+    pub(crate) fn mode(&self, label: usize) -> String {
+        let own = self.names.get(&label);
+        own.cloned()
+            .unwrap_or_else(|| format!("mode {}", label + 1))
+    }
+
+    /// The name of a mode with the sense of its whirl.
+    pub(crate) fn whirling(&self, label: usize, sense: Option<Sense>) -> String {
+        let name = self.mode(label);
+        match sense {
+            Some(Sense::Forward) => format!("{name}, forward"),
+            Some(Sense::Backward) => format!("{name}, backward"),
+            Some(Sense::Planar) => format!("{name}, planar"),
+            None => name,
+        }
+    }
+
+    /// What one rad/s is in the unit of frequencies, and the symbol of that.
+    pub(crate) fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
+        let turning = |info: &InputInfo| matches!(&*info.unit.symbol, "rpm" | "Hz");
+        let hertz = match self.frequency {
+            Some(own) => own == Frequency::Hertz,
+            None => along.is_some_and(turning),
+        };
+        match hertz {
+            true => (1.0 / TAU, "Hz"),
+            false => (1.0, "rad/s"),
+        }
+    }
+
+    pub(crate) fn top(&self) -> Option<f64> {
+        self.highest
+    }
+
+    pub(crate) fn marks(&self) -> impl Iterator<Item = crate::figure::Mark> {
+        let finite = self.marks.iter().filter(|(at, _)| at.is_finite());
+        finite.map(|(at, label)| crate::figure::Mark {
+            label: match label.is_empty() {
+                true => number(*at),
+                false => label.clone(),
+            },
+            at: *at,
+        })
+    }
+
+    pub(crate) fn notes(&self) -> impl Iterator<Item = String> {
+        self.notes.iter().cloned()
+    }
+}

@@ -1,0 +1,333 @@
+//! Figures along an input.
+
+use std::f64::consts::{PI, TAU};
+
+use eigentol::Study;
+use eigentol_figures::figure::{Panel, Point, Stroke};
+use eigentol_figures::{
+    Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria, frequencies,
+    root_locus,
+};
+
+use crate::machines::{Bars, Door, Pendulum, bars, pendulum, rotor_diagram, save, values};
+
+/// All points of the curves of a panel whose label begins like this.
+fn points<'a>(panel: &'a Panel, label: &str) -> Vec<&'a Point> {
+    let own = panel
+        .curves
+        .iter()
+        .filter(|curve| curve.label.starts_with(label));
+    own.flat_map(|curve| curve.pieces.iter().flatten())
+        .collect()
+}
+
+#[test]
+fn a_campbell_diagram_has_the_frequencies_bands_and_events_of_its_result() {
+    let result = rotor_diagram(61);
+    let style = Style::default()
+        .name_mode(0, "rocking")
+        .mark(3000.0, "running speed");
+    let figure = campbell(&result, &style).unwrap();
+    let panel = &figure.panels[0];
+    assert_eq!((&*panel.x.unit, &*panel.y.unit), ("rpm", "Hz"));
+    for point in &result.points {
+        for mode in point.modes.as_ref().unwrap() {
+            let Some(own) = mode.behaviour.frequency() else {
+                continue;
+            };
+            let expected = [point.value * 30.0 / PI, own / TAU];
+            let name = if mode.label == 0 {
+                "rocking".to_owned()
+            } else {
+                format!("mode {}", mode.label + 1)
+            };
+            let near = |at: &&&Point| {
+                (at[0] - expected[0]).abs() < 1e-6 && (at[1] - expected[1]).abs() < 1e-9
+            };
+            assert!(
+                points(panel, &name).iter().any(|at| near(&at)),
+                "{name} {expected:?}"
+            );
+        }
+    }
+    let bars: Vec<_> = panel.error_bars.iter().flat_map(|own| &own.bars).collect();
+    let shown = result.crossings.iter().filter(|own| own.value.is_finite());
+    assert!(!bars.is_empty());
+    for event in shown {
+        let at = event.value * 30.0 / PI;
+        let bar = bars.iter().find(|bar| (bar.at[0] - at).abs() < 1e-9);
+        if let Some(bar) = bar {
+            let half = 3.0 * event.sigma().unwrap() * 30.0 / PI;
+            assert!((bar.high[0] - at - half).abs() < 1e-9);
+        }
+    }
+    assert!(
+        figure
+            .caption
+            .iter()
+            .any(|line| line.contains("rocking, backward meets 1 x at")),
+        "{:?}",
+        figure.caption
+    );
+    assert!(
+        figure
+            .caption
+            .iter()
+            .any(|line| line.contains("radius = 250 mm"))
+    );
+    save(&figure, "campbell");
+}
+
+#[test]
+fn thin_bands_are_widened_and_the_caption_says_how_much() {
+    let result = rotor_diagram(31);
+    let figure = campbell(&result, &Style::default()).unwrap();
+    let panel = &figure.panels[0];
+    let line = figure
+        .caption
+        .iter()
+        .find(|line| line.starts_with("Shaded: 3 standard"));
+    let line = line.expect("the caption explains the bands");
+    let times: f64 = line
+        .split_whitespace()
+        .filter_map(|word| word.parse().ok())
+        .nth(1)
+        .unwrap_or(1.0);
+    let length = panel.y.range[1] - panel.y.range[0];
+    let mut halves = Vec::new();
+    for band in &panel.bands {
+        halves.extend(band.edges.iter().map(|[_, low, high]| 0.5 * (high - low)));
+    }
+    halves.sort_by(f64::total_cmp);
+    assert!(
+        halves[halves.len() / 2] > 0.01 * length,
+        "the typical band can be seen"
+    );
+    let mode = &result.points[10].modes.as_ref().unwrap()[0];
+    let half = times * mode.frequency.as_ref().unwrap().band / TAU;
+    assert!(
+        halves.iter().any(|own| (own - half).abs() < 1e-9 * half),
+        "{times}"
+    );
+}
+
+#[test]
+fn damping_ratios_cross_zero_at_the_limit_of_stability() {
+    let result = rotor_diagram(61);
+    let figure = damping_ratios(&result, &Style::default().mark(3000.0, "running speed")).unwrap();
+    let panel = &figure.panels[0];
+    assert!(panel.y.range[0] <= 0.0 && panel.y.range[1] > 0.0);
+    let onsets: Vec<f64> = result
+        .flutter_onsets
+        .iter()
+        .map(|own| own.value * 30.0 / PI)
+        .collect();
+    let limits = panel
+        .error_bars
+        .iter()
+        .find(|own| own.label == "limit of stability");
+    let found: Vec<f64> = limits
+        .iter()
+        .flat_map(|own| &own.bars)
+        .map(|bar| bar.at[0])
+        .collect();
+    assert!(!onsets.is_empty());
+    assert_eq!(onsets, found);
+    save(&figure, "damping");
+}
+
+#[test]
+fn modes_that_coalesce_are_drawn_without_a_gap() {
+    // I = 1 kg m^2, k = m g l / 2: s = (-c +- sqrt(c^2 - 4 I k)) / (2 I).
+    let (inertia, stiffness) = (1.0, 0.5 * 3.0 * 9.81);
+    let turn = 2.0 * f64::sqrt(inertia * stiffness);
+    let study = Study::new(Door);
+    let result = study
+        .campbell(Door::oil, &values(0.0, 12.0, 25), &[] as &[f64])
+        .unwrap();
+    let figure = eigenvalues(&result, &Style::default()).unwrap();
+    let curves = figure.panels[0]
+        .curves
+        .iter()
+        .filter(|own| own.label.starts_with("mode"));
+    let mut reached = 0;
+    for curve in curves {
+        let all = curve.pieces.iter().flatten();
+        let near = all
+            .map(|at| (at[0] - turn).abs())
+            .fold(f64::INFINITY, f64::min);
+        assert!(near < 0.01, "{} ends {near} before the turn", curve.label);
+        reached += 1;
+        for at in curve.pieces.iter().flatten() {
+            let square = at[0] * at[0] / 4.0 - stiffness;
+            let middle = -0.5 * at[0];
+            let exact = match square > 0.0 {
+                true => vec![middle - square.sqrt(), middle + square.sqrt()],
+                false => vec![middle, (-square).sqrt()],
+            };
+            let far = exact
+                .iter()
+                .map(|own| (own - at[1]).abs())
+                .fold(f64::INFINITY, f64::min);
+            assert!(far < 0.05, "{} {at:?} {exact:?}", curve.label);
+        }
+    }
+    assert_eq!(
+        reached, 4,
+        "real and imaginary part, and two real eigenvalues"
+    );
+    save(&figure, "eigenvalues");
+    let figure = root_locus(&result, &Style::default()).unwrap();
+    save(&figure, "root_locus");
+    let meets = |curve: &&eigentol_figures::figure::Curve| {
+        curve
+            .pieces
+            .iter()
+            .flatten()
+            .any(|at| (at[0] + turn / 2.0).abs() < 0.01 && at[1] == 0.0)
+    };
+    assert_eq!(figure.panels[0].curves.iter().filter(meets).count(), 3);
+    save(
+        &frequencies(&result, &Style::default()).unwrap(),
+        "frequencies_damped",
+    );
+}
+
+#[test]
+fn the_frequency_of_the_pendulum_touches_zero_at_its_critical_speed() {
+    let critical = f64::sqrt(1.5 * 9.81);
+    let sweep = pendulum()
+        .sweep(Pendulum::omega, &values(0.0, 8.0, 33))
+        .unwrap();
+    let figure = frequencies(&sweep, &Style::default().name_modes(["swing"])).unwrap();
+    let own = points(&figure.panels[0], "swing");
+    let lowest = own.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    assert!(
+        (lowest[0] - critical).abs() < 1e-8 && lowest[1] == 0.0,
+        "{lowest:?}"
+    );
+    assert_eq!(figure.panels.len(), 1, "nothing is damped");
+    save(&figure, "frequencies");
+
+    let figure = equilibria(&sweep, &Style::default()).unwrap();
+    for at in points(&figure.panels[0], "theta") {
+        let exact = if at[0] < critical {
+            0.0
+        } else {
+            (critical / at[0]).powi(2).acos()
+        };
+        assert!((at[1].abs() - exact).abs() < 1e-6, "{at:?}");
+    }
+    assert_eq!(
+        figure.panels[0].curves[0].pieces.len(),
+        2,
+        "cut at the critical speed"
+    );
+    save(&figure, "equilibrium");
+}
+
+#[test]
+fn branches_have_stable_and_unstable_parts_and_their_pitchfork() {
+    let found = pendulum().branches(Pendulum::omega, 0.0, 8.0).unwrap();
+    let figure = branches(&found, &Style::of(&pendulum())).unwrap();
+    let panel = &figure.panels[0];
+    let unstable: Vec<_> = panel
+        .curves
+        .iter()
+        .filter(|own| own.stroke == Stroke::Dotted)
+        .collect();
+    assert!(unstable.iter().all(|own| own.label.ends_with(", unstable")) && !unstable.is_empty());
+    let critical = f64::sqrt(1.5 * 9.81);
+    let forks = panel
+        .markers
+        .iter()
+        .find(|own| own.label == "branch point")
+        .unwrap();
+    assert!(
+        forks
+            .points
+            .iter()
+            .any(|at| (at[0] - critical).abs() < 1e-9)
+    );
+    assert!(
+        figure
+            .caption
+            .iter()
+            .any(|line| line.contains("pitchfork, supercritical at 3.836")),
+        "{:?}",
+        figure.caption
+    );
+    save(&figure, "branches");
+}
+
+#[test]
+fn spreads_are_those_of_their_results_and_means_are_differences() {
+    let speeds = [3.0, 4.2, 5.0, 6.0, 7.0];
+    let dense = values(2.0, 7.5, 60);
+    let study = bars().samples(300).seed(11);
+    let level = |percent: f64| {
+        let own = [Bars::l1, Bars::l2, Bars::m1, Bars::m2];
+        own.into_iter().fold(study.clone(), |study, variable| {
+            study.relative_tolerance(variable, percent / 100.0)
+        })
+    };
+    let found: Vec<_> = [3.0, 6.0, 12.0]
+        .into_iter()
+        .map(|percent| {
+            let study = level(percent);
+            let first: Vec<_> = dense.iter().chain(&speeds).copied().collect::<Vec<f64>>();
+            let mut first = first;
+            first.sort_by(f64::total_cmp);
+            let first = study.first_order_sweep(Bars::omega, &first).unwrap();
+            let first: Vec<_> = first.into_iter().flatten().collect();
+            let sampled = speeds.map(|speed| {
+                study
+                    .clone()
+                    .input(Bars::omega, speed)
+                    .monte_carlo()
+                    .unwrap()
+            });
+            (percent, first, sampled)
+        })
+        .collect();
+    let mut spreads = Spreads::new(Bars::omega.any(), 0);
+    for (percent, first, sampled) in &found {
+        spreads = spreads.under(format!("{percent} %"), first, sampled);
+    }
+    let figure = spreads.figure(&Style::of(&study)).unwrap();
+    let [sigmas, means] = &figure.panels[..] else {
+        panic!("two panels")
+    };
+    assert_eq!(sigmas.error_bars.len(), 3);
+    for (k, (_, first, sampled)) in found.iter().enumerate() {
+        for (own, speed) in sampled.iter().zip(speeds) {
+            let statistics = own.modes[0].as_ref().unwrap();
+            let bar = sigmas.error_bars[k]
+                .bars
+                .iter()
+                .find(|bar| bar.at[0] == speed)
+                .unwrap();
+            assert_eq!(bar.at[1], statistics.sigma.unwrap());
+            let nominal = first.iter().find(|own| own.inputs[0] == speed).unwrap();
+            let nominal = nominal.modes[0].behaviour.frequency().unwrap();
+            let bar = means.error_bars[k]
+                .bars
+                .iter()
+                .find(|bar| bar.at[0] == speed)
+                .unwrap();
+            assert_eq!(bar.at[1], statistics.mean - nominal);
+        }
+    }
+    // Three tolerances do not hide each other: means are apart by more than a hundredth of the axis somewhere.
+    let length = means.y.range[1] - means.y.range[0];
+    let heights = means.error_bars.iter().map(|own| own.bars[1].at[1]);
+    let heights: Vec<f64> = heights.collect();
+    assert!((heights[2] - heights[0]).abs() > 0.01 * length);
+    assert!(
+        figure
+            .caption
+            .iter()
+            .any(|line| line.ends_with("300 samples, seed 11"))
+    );
+    save(&figure, "spreads");
+}

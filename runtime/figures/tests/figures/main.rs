@@ -1,0 +1,7 @@
+//! Figures against the results that they show.
+
+mod along;
+mod degenerate;
+mod drawing;
+mod machines;
+mod point;

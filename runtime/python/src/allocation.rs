@@ -1,0 +1,141 @@
+//! The cheapest tolerances that meet requirements.
+
+use eigentol::allocation::{self, Choices, Cost, HalfWidth, Nominal};
+use eigentol::{Description, Unit};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Array1, vector};
+use crate::names;
+use crate::results::result;
+use crate::study::Study;
+use crate::values::{List, number};
+
+/// Least and greatest half-width, and what it costs: fixed, factor, power.
+type Chosen<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, (f64, f64, f64));
+
+#[pymethods]
+impl Study {
+    /// The cheapest tolerances that meet requirements, as `chances` takes them; samples check what is found.
+    ///
+    ///     study.allocate(
+    ///         [(("frequency", 0), 3.9, None)],
+    ///         failure=[1e-3],
+    ///         tolerances={"l": ("0.1 mm", "5 mm", (0.0, 1e-3, 1.0))},
+    ///     )
+    ///
+    /// Arguments:
+    ///   failure: greatest probability of failing each requirement.
+    ///   tolerances: by name of a design variable, or of an input that has a tolerance: least and greatest half-width T, and what
+    ///       it costs, (fixed, factor, power): fixed + factor / T^power, T in SI.
+    ///   nominals: by name of a design variable that may move: least and greatest nominal value.
+    #[pyo3(signature = (requirements, *, failure, tolerances, nominals=None))]
+    fn allocate(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Bound<'_, PyAny>>,
+        failure: Vec<f64>,
+        tolerances: &Bound<'_, PyDict>,
+        nominals: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Allocation> {
+        let wanted = self.requirements(&requirements)?;
+        let of = self.inner.description();
+        let mut half_widths = Vec::new();
+        for (name, chosen) in tolerances {
+            let name = name.extract::<String>()?;
+            let (variable, unit) = self.toleranced(py, of, &name)?;
+            let (least, most, cost) = chosen.extract::<Chosen<'_>>()?;
+            let limits = (number(&least, &unit, &name)?, number(&most, &unit, &name)?);
+            half_widths.push((variable, limits, cost));
+        }
+        let mut moving = Vec::new();
+        for (name, limits) in nominals.into_iter().flatten() {
+            let name = name.extract::<String>()?;
+            let (variable, unit) = List::Design.find(py, of, &name)?;
+            let (least, most) = limits.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()?;
+            let limits = (number(&least, &unit, &name)?, number(&most, &unit, &name)?);
+            moving.push(Nominal { variable, limits });
+        }
+        let found = self.ask(py, move |study| {
+            let own = |(variable, limits, (fixed, factor, power))| HalfWidth {
+                variable,
+                limits,
+                cost: Cost::reciprocal(fixed, factor, power),
+            };
+            let choices = Choices {
+                half_widths: half_widths.into_iter().map(own).collect(),
+                nominals: moving,
+                failure,
+            };
+            study.allocation(&wanted, &choices)
+        });
+        found.map(Allocation)
+    }
+}
+
+impl Study {
+    /// Position and unit among the design variables, tolerances of inputs after them.
+    fn toleranced(&self, py: Python<'_>, of: &Description, name: &str) -> PyResult<(usize, Unit)> {
+        let inputs = self.inner.deviating_inputs();
+        let input = inputs
+            .iter()
+            .position(|own| of.inputs[own.index()].name == *name);
+        match input {
+            Some(k) => Ok((
+                of.design.len() + k,
+                of.inputs[inputs[k].index()].unit.clone(),
+            )),
+            None => List::Design.find(py, of, name),
+        }
+    }
+}
+
+result! {
+    /// The cheapest tolerances that were found. `k` is the number of requirements.
+    Allocation(allocation::Allocation)
+}
+
+#[pymethods]
+impl Allocation {
+    /// Names of the design variables, and after them of the inputs that have a tolerance.
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        names::design(&self.0.description)
+    }
+
+    /// Nominal values, SI, shape (variables,).
+    #[getter]
+    fn nominal<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.nominal.iter().copied())
+    }
+
+    /// Half-widths, SI, shape (variables,).
+    #[getter]
+    fn half_widths<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.half_widths.iter().copied())
+    }
+
+    /// Sum of the costs.
+    #[getter]
+    fn cost(&self) -> f64 {
+        self.0.cost
+    }
+
+    /// The same for the tolerances at the start.
+    #[getter]
+    fn cost_before(&self) -> f64 {
+        self.0.cost_before
+    }
+
+    /// Share of the samples that fail each requirement, shape (k,).
+    #[getter]
+    fn sampled_failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.chances.each.iter().map(|own| own.failure()))
+    }
+
+    /// Positions of the requirements that the samples refute: first order failed there, allow less.
+    #[getter]
+    fn refuted(&self) -> Vec<usize> {
+        self.0.refuted.clone()
+    }
+}

@@ -1,0 +1,88 @@
+// Solids as flat faces, in the frame of their body: lists of corners, anticlockwise seen from outside.
+
+const SIDES = 28;
+
+// The faces of a solid of a scene; what has no thickness of its own gets one that can be seen in a mechanism of this size.
+function facesOf({ center, shape }, size) {
+  const [[kind, data]] = Object.entries(shape);
+  const thin = 0.007 * size;
+  switch (kind) {
+    case "Point": return ball(center, Array(3).fill(0.016 * size), identity());
+    case "Sphere": return ball(center, Array(3).fill(data.radius), identity());
+    case "Ellipsoid": return ball(center, data.semi_axes.map((own) => Math.max(own, 0.3 * thin)), data.axes);
+    case "Rod": return cylinder(center, data.along, thin, data.length);
+    case "Disk": return cylinder(center, data.axis, data.radius, 0.6 * thin);
+    case "Cylinder": return cylinder(center, data.axis, data.radius, data.length);
+    case "Tube": return tube(center, data);
+    case "Box": return box(center, data.edges, data.size);
+    default: return [];
+  }
+}
+
+function identity() {
+  return [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+}
+
+function ring(center, axis, radius, offset) {
+  const [a, b] = across(axis);
+  return Array.from({ length: SIDES }, (_, k) => {
+    const angle = (2 * Math.PI * k) / SIDES;
+    const out = plus(times(radius * Math.cos(angle), a), times(radius * Math.sin(angle), b));
+    return plus(plus(center, times(offset, axis)), out);
+  });
+}
+
+// Quadrangles between two rings of corners.
+function belt(under, over) {
+  return under.map((corner, k) => {
+    const next = (k + 1) % under.length;
+    return { corners: [corner, under[next], over[next], over[k]], smooth: true };
+  });
+}
+
+function cylinder(center, axis, radius, long) {
+  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, radius, offset));
+  return [...belt(under, over), { corners: over }, { corners: [...under].reverse() }];
+}
+
+function tube(center, { axis, inner, outer, length: long }) {
+  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, outer, offset));
+  const [below, above] = [-long / 2, long / 2].map((offset) => ring(center, axis, inner, offset));
+  const flat = (faces) => faces.map(({ corners }) => ({ corners }));
+  return [...belt(under, over), ...belt(above, below), ...flat(belt(over, above)), ...flat(belt(below, under))];
+}
+
+function box(center, edges, size) {
+  const half = edges.map((edge, k) => times(size[k] / 2, edge));
+  const right = dot(cross(edges[0], edges[1]), edges[2]) > 0;
+  const faces = [];
+  for (const k of [0, 1, 2]) {
+    const [a, b] = [half[(k + 1) % 3], half[(k + 2) % 3]];
+    for (const side of [1, -1]) {
+      const middle = plus(center, times(side, half[k]));
+      const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([p, q]) => plus(middle, plus(times(p, a), times(q, b))));
+      faces.push({ corners: (side > 0) === right ? corners : corners.reverse() });
+    }
+  }
+  return faces;
+}
+
+function ball(center, radii, axes) {
+  const rows = 10;
+  const columns = 16;
+  const right = dot(cross(axes[0], axes[1]), axes[2]) > 0;
+  const at = (row, column) => {
+    const [v, h] = [(Math.PI * row) / rows, (2 * Math.PI * column) / columns];
+    const own = [Math.sin(v) * Math.cos(h), Math.sin(v) * Math.sin(h), Math.cos(v)];
+    return own.reduce((sum, value, k) => plus(sum, times(value * radii[k], axes[k])), center);
+  };
+  const faces = [];
+  for (let row = 0; row < rows; row += 1) {
+    for (let column = 0; column < columns; column += 1) {
+      const all = [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
+      const corners = row === 0 ? all.slice(0, 3) : row === rows - 1 ? [all[0], all[1], all[3]] : all;
+      faces.push({ corners: right ? corners : corners.reverse(), smooth: true });
+    }
+  }
+  return faces;
+}

@@ -1,0 +1,230 @@
+// A mechanism in space, drawn from the back to the front on a canvas: at its equilibrium, or along a mode.
+
+const BODY_COLOURS = ["#4d9fd1", "#e8b04a", "#5cc2a0", "#d98a5b", "#b08ac0", "#9ccff0", "#c9c06a", "#8fa3ad"];
+const LIGHT = unit([0.35, 0.55, 0.75]);
+const REST = "#9a9a9a";
+
+class Model {
+  constructor(scene) {
+    this.scene = scene;
+    const [low, high] = scene.bounds;
+    this.middle = times(0.5, plus(low, high));
+    this.size = length(minus(high, low)) || 1;
+    this.rest = scene.bodies.map((body) => body.pose);
+    this.faces = scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size)));
+    this.sticks = scene.bodies.map((_, number) => this.stick(number));
+    this.colours = this.colourBodies();
+  }
+
+  // Bodies without a solid are seen as lines between what is fixed in them.
+  stick(number) {
+    const seats = this.scene.joints.flatMap(({ from, to }) => [from, to]).filter(({ body }) => body === number);
+    const places = [...seats, ...this.scene.points.filter(({ body }) => body === number)].map(({ place }) => place);
+    return places.map((place) => [[0, 0, 0], place]).filter(([a, b]) => length(minus(a, b)) > 1e-9 * this.size);
+  }
+
+  colourBodies() {
+    let number = 0;
+    return this.faces.map((faces) => (faces.length > 0 ? BODY_COLOURS[number++ % BODY_COLOURS.length] : "#777777"));
+  }
+
+  place(poses, body, place) {
+    return body === null ? place : placed(poses[body], place);
+  }
+
+  direction(poses, body, direction) {
+    return body === null ? direction : turned(poses[body].rotation, direction);
+  }
+
+  point(poses, number) {
+    const { body, place } = this.scene.points[number];
+    return this.place(poses, body, place);
+  }
+}
+
+// One picture of a model: projects, sorts, paints.
+class Painter {
+  constructor(canvas, model) {
+    this.canvas = canvas;
+    this.model = model;
+    this.context = canvas.getContext("2d");
+    this.azimuth = -0.9;
+    this.elevation = 0.42;
+    this.zoom = 1;
+  }
+
+  paint(poses, { ghost = false, names = false, triad = true } = {}) {
+    const { canvas, context, model } = this;
+    const sharp = Math.max(2, window.devicePixelRatio || 1);
+    const [wide, high] = [canvas.clientWidth || canvas.width / sharp, canvas.clientHeight || canvas.height / sharp];
+    if (canvas.width !== Math.round(wide * sharp) || canvas.height !== Math.round(high * sharp)) {
+      canvas.width = Math.round(wide * sharp);
+      canvas.height = Math.round(high * sharp);
+    }
+    context.setTransform(sharp, 0, 0, sharp, 0, 0);
+    context.fillStyle = "#ffffff";
+    context.fillRect(0, 0, wide, high);
+    this.view = viewer(this.azimuth, this.elevation);
+    this.factor = (0.86 * this.zoom * Math.min(wide, high * 1.25)) / model.size;
+    this.origin = [wide / 2, high / 2];
+    if (ghost) this.run(this.bodies(model.rest, true));
+    this.run([...this.bodies(poses, false), ...this.joints(poses), ...this.links(poses), ...this.wheels(poses)]);
+    if (names) this.names(poses);
+    if (triad) this.triad(wide, high);
+  }
+
+  run(jobs) {
+    jobs.sort((a, b) => a.depth - b.depth);
+    for (const { paint } of jobs) paint();
+  }
+
+  // Pixel and depth of a place.
+  see(place) {
+    const [right, up, near] = turned(this.view, minus(place, this.model.middle));
+    return [this.origin[0] + this.factor * right, this.origin[1] - this.factor * up, near];
+  }
+
+  bodies(poses, ghost) {
+    const jobs = [];
+    this.model.faces.forEach((faces, body) => {
+      const pose = poses[body];
+      for (const { corners, smooth } of faces) {
+        const seen = corners.map((corner) => this.see(placed(pose, corner)));
+        if (turns(seen) >= 0) continue;
+        const depth = seen.reduce((sum, own) => sum + own[2], 0) / seen.length;
+        const colour = ghost ? "#ececec" : this.shade(this.model.colours[body], pose, corners);
+        jobs.push({ depth, paint: () => this.polygon(seen, colour, ghost ? "#d8d8d8" : smooth ? colour : "rgba(0,0,0,0.35)") });
+      }
+      if (faces.length > 0) return;
+      for (const ends of this.model.sticks[body]) {
+        const [a, b] = ends.map((end) => this.see(placed(pose, end)));
+        jobs.push({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], ghost ? "#dddddd" : REST, 2) });
+      }
+    });
+    return jobs;
+  }
+
+  joints(poses) {
+    const long = 0.035 * this.model.size;
+    return this.model.scene.joints.flatMap(({ from }) => {
+      const place = this.model.place(poses, from.body, from.place);
+      const seen = this.see(place);
+      // In front of what it holds together.
+      const depth = seen[2] + 0.02 * this.model.size;
+      const jobs = [{ depth, paint: () => this.dot(seen, 2.6) }];
+      if (from.axis) {
+        const axis = times(long, this.model.direction(poses, from.body, from.axis));
+        const ends = [minus(place, axis), plus(place, axis)].map((end) => this.see(end));
+        jobs.push({ depth, paint: () => this.line(ends, "#222222", 1.4) });
+      }
+      return jobs;
+    });
+  }
+
+  links(poses) {
+    return this.model.scene.links.map(({ kind, ends }) => {
+      const [a, b] = ends.map((end) => this.see(this.model.point(poses, end)));
+      const points = /spring|bushing/.test(kind) ? zigzag(a, b) : [a, b];
+      const depth = (a[2] + b[2]) / 2 + 0.01 * this.model.size;
+      return { depth, paint: () => this.line(points, "#7a3b69", 1.6) };
+    });
+  }
+
+  wheels(poses) {
+    return this.model.scene.wheels.map(({ center, axle, radius }) => {
+      const middle = this.model.point(poses, center);
+      const { body } = this.model.scene.points[center];
+      const rim = axle ? ring(middle, this.model.direction(poses, body, axle), radius, 0) : ring(middle, this.view[2], radius, 0);
+      const seen = rim.map((own) => this.see(own));
+      return { depth: this.see(middle)[2], paint: () => this.line([...seen, seen[0]], "#222222", 2) };
+    });
+  }
+
+  names(poses) {
+    this.context.font = "12px system-ui, sans-serif";
+    const { bodies } = this.model.scene;
+    bodies.forEach(({ name, solids }, body) => {
+      const [x, y] = this.see(placed(poses[body], solids[0]?.center ?? [0, 0, 0]));
+      this.written(name, x + 5, y - 5);
+    });
+  }
+
+  // Words with a rim that keeps them readable on anything.
+  written(text, x, y) {
+    const { context } = this;
+    context.lineWidth = 3;
+    context.strokeStyle = "rgba(255,255,255,0.85)";
+    context.strokeText(text, x, y);
+    context.fillStyle = "#111111";
+    context.fillText(text, x, y);
+  }
+
+  triad(wide, high) {
+    const origin = [38, high - 36];
+    this.context.font = "12px system-ui, sans-serif";
+    ["x", "y", "z"].forEach((name, k) => {
+      const end = [origin[0] + 24 * this.view[0][k], origin[1] - 24 * this.view[1][k]];
+      this.line([origin, end], ["#b3261e", "#1b7a3d", "#1d4fa3"][k], 2);
+      this.written(name, end[0] + (end[0] >= origin[0] ? 3 : -9), end[1] + 4);
+    });
+  }
+
+  shade(colour, pose, corners) {
+    const normal = turned(pose.rotation, unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[1]))));
+    const [right, up, near] = turned(this.view, normal);
+    const light = 0.62 + 0.38 * Math.max(0, dot([right, up, near], LIGHT));
+    const part = (from) => Math.round(parseInt(colour.slice(from, from + 2), 16) * light);
+    return `rgb(${part(1)},${part(3)},${part(5)})`;
+  }
+
+  polygon(points, fill, stroke) {
+    const { context } = this;
+    context.beginPath();
+    for (const [x, y] of points) context.lineTo(x, y);
+    context.closePath();
+    context.fillStyle = fill;
+    context.fill();
+    context.lineWidth = 0.6;
+    context.strokeStyle = stroke;
+    context.stroke();
+  }
+
+  line(points, colour, wide) {
+    const { context } = this;
+    context.beginPath();
+    for (const [x, y] of points) context.lineTo(x, y);
+    context.lineWidth = wide;
+    context.strokeStyle = colour;
+    context.stroke();
+  }
+
+  dot([x, y], radius) {
+    const { context } = this;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fillStyle = "#222222";
+    context.fill();
+  }
+}
+
+// Negative when the corners go anticlockwise on the screen, where y points down: the outside is seen.
+function turns(points) {
+  let area = 0;
+  points.forEach(([x, y], k) => {
+    const [p, q] = points[(k + 1) % points.length];
+    area += x * q - p * y;
+  });
+  return area;
+}
+
+function zigzag([x, y], [p, q]) {
+  const long = Math.hypot(p - x, q - y);
+  if (long < 12) return [[x, y], [p, q]];
+  const wide = Math.min(5, 0.12 * long);
+  const across = [(-wide * (q - y)) / long, (wide * (p - x)) / long];
+  const inner = [0.2, 0.26, 0.38, 0.5, 0.62, 0.74, 0.8].map((share, k, all) => {
+    const side = k === 0 || k === all.length - 1 ? 0 : k % 2 ? 1 : -1;
+    return [x + share * (p - x) + side * across[0], y + share * (q - y) + side * across[1]];
+  });
+  return [[x, y], ...inner, [p, q]];
+}

@@ -1,0 +1,188 @@
+//! What a report says: every result of a study, or why there is none. From here on nothing depends on the type of the mechanism.
+
+use eigentol::branches::Branches;
+use eigentol::kernels::{PictureKernels, SummaryKernels};
+use eigentol::picture::{ModePictures, Scene};
+use eigentol::summary::Summary;
+use eigentol::tolerance::OutputTolerances;
+use eigentol::{
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Tolerances,
+    Value,
+};
+
+use eigentol_figures::Style;
+
+use crate::Report;
+use crate::scene::{AMPLITUDE, frames};
+
+/// Everything that a page is made of.
+pub(crate) struct Content {
+    pub(crate) title: String,
+    pub(crate) declaration: Option<String>,
+    pub(crate) description: Description,
+    pub(crate) setup: Setup,
+    /// Of figures that say all of what they rest on.
+    pub(crate) style: Style,
+    /// Of figures that stand below a sentence that says it.
+    pub(crate) brief_style: Style,
+    pub(crate) equilibrium: Result<Equilibrium, Error>,
+    pub(crate) modes: Result<Modes, Error>,
+    pub(crate) pictures: Result<Pictures, Error>,
+    pub(crate) outputs: Result<OutputTolerances, Error>,
+    /// `None` where nothing has a tolerance.
+    pub(crate) spread: Option<Spreads>,
+    /// `None` where no input is swept.
+    pub(crate) along: Option<Along>,
+}
+
+/// The values and tolerances that were set.
+pub(crate) struct Setup {
+    pub(crate) inputs: Vec<f64>,
+    pub(crate) design: Vec<f64>,
+    pub(crate) tolerances: Tolerances,
+    /// Positions of the inputs whose tolerances follow those of the design variables.
+    pub(crate) deviating: Vec<usize>,
+    pub(crate) seed: u64,
+    pub(crate) stream: u64,
+}
+
+/// What there is to see.
+pub(crate) struct Pictures {
+    pub(crate) scene: Scene,
+    /// Of the modes from the first on; large mechanisms have more of them.
+    pub(crate) modes: Vec<Result<ModePictures, Error>>,
+}
+
+/// What tolerances do.
+pub(crate) struct Spreads {
+    pub(crate) summary: Result<Summary, Error>,
+    pub(crate) monte_carlo: Result<MonteCarlo, Error>,
+}
+
+/// What happens along an input.
+pub(crate) struct Along {
+    pub(crate) campbell: Result<Campbell, Error>,
+    pub(crate) branches: Result<Branches, Error>,
+}
+
+impl Content {
+    /// Asks the study everything.
+    ///
+    /// # Errors
+    /// A mistake of the caller: everything else is kept, to be said in its place.
+    pub(crate) fn of<M: SummaryKernels + PictureKernels + Clone>(
+        report: &Report<M>,
+    ) -> Result<Self, Error> {
+        let study = &report.study;
+        let setup = Setup::of(study)?;
+        let equilibrium = answer(study.equilibrium())?;
+        let solved = answer(study.solve())?;
+        let outputs = match &solved {
+            Ok(solved) => answer(solved.output_tolerances())?,
+            Err(error) => Err(error.clone()),
+        };
+        let pictures = match (&solved, &equilibrium) {
+            (Ok(solved), _) => answer(Pictures::of(solved))?,
+            (Err(_), Ok(_)) => answer(study.picture())?.map(Pictures::at_rest),
+            (Err(error), Err(_)) => Err(error.clone()),
+        };
+        let varies = setup.tolerances.sigmas().iter().any(|sigma| *sigma > 0.0);
+        let spread = match &solved {
+            _ if !varies => None,
+            Ok(solved) => Some(Spreads {
+                summary: answer(solved.summary())?,
+                monte_carlo: answer(solved.monte_carlo())?,
+            }),
+            Err(error) => Some(Spreads {
+                summary: Err(error.clone()),
+                monte_carlo: Err(error.clone()),
+            }),
+        };
+        let along = report.along.as_ref();
+        let along = along.map(|(input, values)| Along::of(study, *input, values, &report.orders));
+        let description = study.description().clone();
+        Ok(Self {
+            title: (report.title.clone()).unwrap_or_else(|| description.name.to_string()),
+            declaration: report.declaration.clone(),
+            description,
+            setup,
+            style: Style::of(study),
+            brief_style: Style::default(),
+            equilibrium,
+            pictures,
+            modes: solved.map(|solved| solved.modes),
+            outputs,
+            spread,
+            along: along.transpose()?,
+        })
+    }
+}
+
+impl Pictures {
+    fn of<M: PictureKernels>(solved: &Solved<'_, M>) -> Result<Self, Error> {
+        let scene = solved.picture()?;
+        let (modes, phases) = frames(scene.bodies.len(), solved.modes.modes.len());
+        let modes = (0..modes).map(|mode| solved.mode_pictures(mode, phases, AMPLITUDE));
+        Ok(Self {
+            modes: modes.collect(),
+            scene,
+        })
+    }
+
+    fn at_rest(scene: Scene) -> Self {
+        Self {
+            scene,
+            modes: Vec::new(),
+        }
+    }
+}
+
+impl Setup {
+    fn of<M: SummaryKernels>(study: &Study<M>) -> Result<Self, Error> {
+        let sampling = study.sampling();
+        Ok(Self {
+            inputs: study.input_values().to_vec(),
+            design: study.design_values().to_vec(),
+            tolerances: study.tolerances()?,
+            deviating: (study.deviating_inputs().iter())
+                .map(|input| input.index())
+                .collect(),
+            seed: sampling.seed,
+            stream: sampling.stream,
+        })
+    }
+}
+
+impl Along {
+    fn of<M: SummaryKernels>(
+        study: &Study<M>,
+        input: Input<M>,
+        values: &[Value],
+        orders: &[f64],
+    ) -> Result<Self, Error> {
+        let campbell = answer(study.campbell(input, values, orders))?;
+        let si = |value: &Value| Ok(study.continuation(input, *value, *value)?.low);
+        let values = values.iter().map(si).collect::<Result<Vec<f64>, Error>>()?;
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Ok(Self {
+            campbell,
+            // No range, no branches: a sweep of one value, or of none, is no mistake.
+            branches: study.branches(input, low, high),
+        })
+    }
+}
+
+/// What an analysis refuses is an answer, a mistake of the caller is not.
+fn answer<T>(found: Result<T, Error>) -> Result<Result<T, Error>, Error> {
+    match found {
+        Err(
+            mistake @ (Error::Setting { .. }
+            | Error::NotFinite { .. }
+            | Error::WrongLength { .. }
+            | Error::UnknownHandle { .. }
+            | Error::Threads(_)),
+        ) => Err(mistake),
+        found => Ok(found),
+    }
+}

@@ -1,0 +1,15 @@
+#![doc = include_str!("../README.md")]
+
+mod charts;
+mod content;
+mod error;
+mod html;
+mod page;
+mod report;
+mod scene;
+mod sections;
+mod tables;
+mod words;
+
+pub use error::Error;
+pub use report::Report;

@@ -1,0 +1,85 @@
+//! The page: head, sections in order, scripts.
+
+use crate::content::Content;
+use crate::html::Html;
+use crate::words::operating_point;
+use crate::{Error, sections};
+
+/// Scripts, each after those it builds on. In one module, so that none of their names is global.
+const SCRIPTS: [&str; 9] = [
+    include_str!("../assets/svg.js"),
+    include_str!("../assets/axes.js"),
+    include_str!("../assets/chart.js"),
+    include_str!("../assets/tables.js"),
+    include_str!("../assets/vectors.js"),
+    include_str!("../assets/solids.js"),
+    include_str!("../assets/view3d.js"),
+    include_str!("../assets/player.js"),
+    include_str!("../assets/page.js"),
+];
+
+/// Nothing is loaded, from nowhere, whatever a text in the page may say.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+
+/// The text of the file.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn html(content: &Content) -> Result<String, Error> {
+    let mut html = Html::default();
+    html.constant("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    html.open(
+        "meta",
+        &[
+            ("http-equiv", "Content-Security-Policy"),
+            ("content", POLICY),
+        ],
+    );
+    html.constant("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    html.leaf("title", &[], &content.title);
+    html.constant("\n<style>\n");
+    html.constant(include_str!("../assets/report.css"));
+    html.constant("</style>\n</head>\n<body>\n");
+    header(&mut html, content);
+    html.constant("<main>\n");
+    sections::all(&mut html, content)?;
+    html.constant("</main>\n");
+    footer(&mut html);
+    html.constant("<script type=\"module\">\n");
+    for script in SCRIPTS {
+        html.constant(script);
+    }
+    html.constant("</script>\n</body>\n</html>\n");
+    Ok(html.finish())
+}
+
+fn header(html: &mut Html, content: &Content) {
+    let d = &content.description;
+    html.element("header", &[], |html| {
+        html.leaf("h1", &[], &content.title);
+        let point = operating_point(d, &content.setup.inputs);
+        let name = match point.is_empty() {
+            true => d.name.to_string(),
+            false => format!("{} at {point}", d.name),
+        };
+        html.leaf("p", &[("class", "subject")], &name);
+        html.constant(
+            "<noscript><p class=\"refused\">Charts, the view in 3-D and the copy buttons need JavaScript. Words and tables are here without it.</p></noscript>",
+        );
+        html.element("nav", &[("aria-label", "Sections")], |html| {
+            for (id, heading) in sections::HEADINGS {
+                html.leaf("a", &[("href", &format!("#{id}"))], heading);
+            }
+        });
+    });
+}
+
+fn footer(html: &mut Html) {
+    html.element("footer", &[], |html| {
+        html.paragraph(concat!(
+            "Written by eigentol ",
+            env!("CARGO_PKG_VERSION"),
+            ". Values are in declared units. A tolerance and a band hold the number of standard deviations that is said beside them."
+        ));
+    });
+}

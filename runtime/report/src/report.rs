@@ -1,0 +1,124 @@
+//! What a report is asked for.
+
+use std::fs;
+use std::path::Path;
+
+use eigentol::kernels::{PictureKernels, SummaryKernels};
+use eigentol::{Input, Study, Value};
+
+use crate::content::Content;
+use crate::{Error, page};
+
+/// A report of a study: what it asks of the study, and how it is headed.
+///
+/// ```
+/// use eigentol::{Study, mechanism};
+/// use eigentol_report::Report;
+///
+/// mechanism! {
+///     mechanism Pendulum {
+///         input  omega: rad/s;
+///         design l = 1.0 m +/- 3%;
+///         gravity 9.81 m/s^2 along -z;
+///         body shaft: massless;
+///         body bar: rod(mass: 3 kg, length: l, along: -z);
+///         joint spin:  revolute(z) from ground to shaft, driven at omega;
+///         joint theta: revolute(y) from shaft to bar;
+///     }
+/// }
+///
+/// let study = Study::new(Pendulum).input(Pendulum::omega, 5.0).start(Pendulum::theta, 1.0);
+/// let report = Report::new(&study)
+///     .title("The bar on its shaft")
+///     .samples(500)
+///     .sweep(Pendulum::omega, &[4.0, 4.5, 5.0, 5.5, 6.0]);
+/// assert!(report.html()?.starts_with("<!doctype html>"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Report<M> {
+    pub(crate) study: Study<M>,
+    pub(crate) title: Option<String>,
+    pub(crate) declaration: Option<String>,
+    pub(crate) along: Option<(Input<M>, Vec<Value>)>,
+    pub(crate) orders: Vec<f64>,
+}
+
+impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
+    /// A report of a study as it is set up: its operating point, tolerances, samples and seed.
+    #[must_use]
+    pub fn new(study: &Study<M>) -> Self {
+        Self {
+            study: study.clone(),
+            title: None,
+            declaration: None,
+            along: None,
+            orders: Vec::new(),
+        }
+    }
+
+    /// Sets the title (the name of the mechanism unless set).
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// Shows the text that declares the mechanism.
+    #[must_use]
+    pub fn declaration(mut self, text: impl Into<String>) -> Self {
+        self.declaration = Some(text.into());
+        self
+    }
+
+    /// Follows equilibria, modes and their spread along an input, at these values, ascending or descending. Branches are followed
+    /// from the least to the greatest of them.
+    #[must_use]
+    pub fn sweep(mut self, input: Input<M>, values: &[impl Into<Value> + Copy]) -> Self {
+        let values = values.iter().map(|&value| value.into()).collect();
+        self.along = Some((input, values));
+        self
+    }
+
+    /// Marks where a frequency is this many times the input of the sweep: engine orders.
+    #[must_use]
+    pub fn orders(mut self, orders: &[f64]) -> Self {
+        self.orders = orders.to_vec();
+        self
+    }
+
+    /// Sets the number of Monte Carlo samples.
+    #[must_use]
+    pub fn samples(mut self, samples: usize) -> Self {
+        self.study = self.study.samples(samples);
+        self
+    }
+
+    /// Sets the seed of the samples.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.study = self.study.seed(seed);
+        self
+    }
+
+    /// The report as the text of an HTML file, which loads nothing.
+    ///
+    /// # Errors
+    /// [`Error::Study`] where the study is set up wrongly. What an analysis refuses is no error: the report says it in its place.
+    pub fn html(&self) -> Result<String, Error> {
+        page::html(&Content::of(self)?)
+    }
+
+    /// Writes the report to a file.
+    ///
+    /// # Errors
+    /// As [`Report::html`]; [`Error::Write`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        let written = fs::write(path, self.html()?);
+        written.map_err(|source| Error::Write {
+            path: path.to_owned(),
+            source,
+        })
+    }
+}

@@ -1,0 +1,127 @@
+//! What the view in 3-D is drawn from: a scene, and of each mode its poses along one period.
+
+use std::f64::consts::TAU;
+
+use eigentol::picture::{ModePictures, Pose, Scene};
+use eigentol::{Mode, Modes};
+use serde::Serialize;
+
+use crate::content::Pictures;
+use crate::words::number;
+
+/// Most poses of all modes together: they are the bulk of the file.
+const POSES: usize = 14_000;
+/// Poses along one period. Between them the view goes in straight lines.
+const MOST_FRAMES: usize = 24;
+const LEAST_FRAMES: usize = 8;
+
+/// How far the farthest place moves in a mode, as a fraction of the size of the mechanism.
+pub(crate) const AMPLITUDE: f64 = 0.12;
+
+/// How many modes are animated, each with how many poses of every body.
+pub(crate) fn frames(bodies: usize, modes: usize) -> (usize, usize) {
+    let poses = POSES / bodies.max(1);
+    let frames = (poses / modes.max(1)).clamp(LEAST_FRAMES, MOST_FRAMES);
+    (modes.min(poses / frames), frames)
+}
+
+/// A scene with its modes, for the script.
+#[derive(Serialize)]
+pub(crate) struct View<'a> {
+    scene: &'a Scene,
+    modes: Vec<Motion>,
+}
+
+#[derive(Serialize)]
+struct Motion {
+    title: String,
+    about: String,
+    /// Of each phase the poses of all bodies: twelve numbers each, position and rows of the rotation.
+    frames: Vec<Vec<f64>>,
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn new(pictures: &'a Pictures, modes: Option<&Modes>) -> Self {
+        let scene = &pictures.scene;
+        let size = scene.size();
+        let motion = |own: &ModePictures| {
+            let mode = modes?.modes.get(own.mode)?;
+            let frames = own.frames.iter().map(|poses| flat(poses, size));
+            Some(Motion {
+                title: title(mode),
+                about: about(mode, own.amplitude),
+                frames: frames.collect(),
+            })
+        };
+        Self {
+            scene,
+            modes: pictures.modes.iter().flatten().filter_map(motion).collect(),
+        }
+    }
+}
+
+/// Four decimals of the size are more than a screen shows.
+fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
+    let step = if size > 0.0 {
+        10_f64.powf(size.log10().floor() - 4.0)
+    } else {
+        1e-4
+    };
+    let round = |value: f64, step: f64| {
+        let digits = (value / step).round() * step;
+        // What is not a multiple in decimals is the nearest number that is short.
+        format!("{digits:.6e}").parse().unwrap_or(digits)
+    };
+    let all = poses.iter().flat_map(|pose| {
+        let position = pose.position.map(|value| round(value, step));
+        let rotation = pose.rotation.as_flattened().to_vec();
+        position
+            .into_iter()
+            .chain(rotation.into_iter().map(|value| round(value, 1e-4)))
+    });
+    all.collect()
+}
+
+fn title(mode: &Mode) -> String {
+    let number_of_mode = mode.label + 1;
+    match mode.frequency() {
+        Some(omega) => format!("Mode {number_of_mode}: {} rad/s", number(omega)),
+        None => format!("Mode {number_of_mode}"),
+    }
+}
+
+fn about(mode: &Mode, amplitude: f64) -> String {
+    if amplitude == 0.0 {
+        return format!("{}; it moves no body", mode.behaviour);
+    }
+    let damping = mode
+        .damping_ratio()
+        .filter(|ratio| *ratio != 0.0 && mode.frequency().is_some());
+    let damping = damping.map_or_else(String::new, |ratio| {
+        format!(", damping ratio {}", number(ratio))
+    });
+    let pace = match mode.frequency() {
+        Some(omega) => format!("{} Hz, ", number(omega / TAU)),
+        None => String::new(),
+    };
+    format!(
+        "{pace}{}{damping}; shown at constant amplitude, not in real time",
+        mode.behaviour
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEAST_FRAMES, MOST_FRAMES, POSES, frames};
+
+    #[test]
+    fn large_mechanisms_get_fewer_poses_and_then_fewer_modes() {
+        assert_eq!(frames(3, 2), (2, MOST_FRAMES));
+        assert_eq!(frames(0, 0), (0, MOST_FRAMES));
+        for (bodies, modes) in [(30, 30), (60, 120), (POSES, 5), (2 * POSES, 5)] {
+            let (animated, each) = frames(bodies, modes);
+            assert!(animated <= modes && (LEAST_FRAMES..=MOST_FRAMES).contains(&each));
+            assert!(bodies * animated * each <= POSES, "{bodies} {modes}");
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What happens along an input: branches of equilibria, frequencies, damping, critical values.
+
+use eigentol_figures::{branches, campbell, damping_ratios, root_locus};
+use eigentol_tables::tables;
+
+use super::refused;
+use crate::Error;
+use crate::charts::chart;
+use crate::content::{Along, Content};
+use crate::html::Html;
+use crate::tables::table;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let Some(along) = &content.along else {
+        let text = match content.description.inputs.is_empty() {
+            true => "The mechanism has no input.",
+            false => "No sweep was asked for.",
+        };
+        html.leaf("p", &[("class", "refused")], text);
+        return Ok(());
+    };
+    states(html, content, along)?;
+    modes(html, content, along)
+}
+
+fn states(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
+    let found = match &along.branches {
+        Ok(found) => found,
+        Err(error) => {
+            refused(html, "branches of equilibria were not followed", error);
+            return Ok(());
+        }
+    };
+    chart(
+        html,
+        &branches(
+            found,
+            &content.style.clone().title("Branches of equilibria"),
+        ),
+    )?;
+    if found.truncated {
+        html.paragraph("There are more branches than were followed.");
+    }
+    for own in tables(found) {
+        if own.name == "special points" {
+            table(html, "Folds and branch points", &own, &[])?;
+        }
+    }
+    Ok(())
+}
+
+fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error> {
+    let found = match &along.campbell {
+        Ok(found) => found,
+        Err(error) => {
+            refused(html, "frequencies along the input are not known", error);
+            return Ok(());
+        }
+    };
+    let failed = found
+        .points
+        .iter()
+        .filter(|point| point.modes.is_err())
+        .count();
+    if failed > 0 {
+        let text = format!(
+            "At {failed} of {} values there are no modes: the table says why.",
+            found.points.len()
+        );
+        html.leaf("p", &[("class", "refused")], &text);
+    }
+    chart(
+        html,
+        &campbell(found, &content.style.clone().title("Campbell diagram")),
+    )?;
+    let damped = found
+        .points
+        .iter()
+        .flat_map(|point| point.modes.iter().flatten());
+    if damped.into_iter().any(|mode| mode.damping_ratio.is_some()) {
+        chart(
+            html,
+            &damping_ratios(found, &content.style.clone().title("Damping ratios")),
+        )?;
+        chart(
+            html,
+            &root_locus(found, &content.style.clone().title("Root locus")),
+        )?;
+    }
+    for own in tables(found) {
+        let (caption, columns): (&str, &[&str]) = match &*own.name {
+            "crossings" => ("Where a frequency is a multiple of the input", &[]),
+            "critical states" => ("Where the equilibrium loses its stiffness", &[]),
+            "flutter onsets" => ("Where an oscillation begins or ceases to grow", &[]),
+            _ => ("All modes along the input", &[]),
+        };
+        table(html, caption, &own, columns)?;
+    }
+    Ok(())
+}

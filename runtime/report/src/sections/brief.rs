@@ -1,0 +1,239 @@
+//! What matters first, in sentences.
+
+use eigentol::sweep::{Condition, Event, EventTolerance};
+use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
+use eigentol::{Campbell, Description, Modes};
+
+use super::verdicts::{NOTHING_VARIES, named};
+use crate::Error;
+use crate::content::{Along, Content, Spreads};
+use crate::html::Html;
+use crate::words::{digits, number, sentence, with_unit};
+
+/// Modes that are described one by one.
+const MODES: usize = 6;
+/// Events along the input that are described one by one.
+const EVENTS: usize = 8;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    html.element("ul", &[("class", "verdicts")], |html| {
+        for (good, text) in all(content) {
+            let class = match good {
+                Some(true) => "good",
+                Some(false) => "bad",
+                None => "fact",
+            };
+            html.leaf("li", &[("class", class)], &text);
+        }
+    });
+    Ok(())
+}
+
+/// Good news, bad news or neither.
+type Line = (Option<bool>, String);
+
+fn all(content: &Content) -> Vec<Line> {
+    let mut lines = vec![equilibrium(content)];
+    if let Ok(modes) = &content.modes {
+        lines.extend(frequencies(modes, content.spread.as_ref()));
+    }
+    match &content.spread {
+        None => lines.push((None, NOTHING_VARIES.to_owned())),
+        Some(spread) => lines.extend(tolerances(spread)),
+    }
+    lines.extend(content.along.as_ref().map_or_else(Vec::new, along));
+    lines
+}
+
+fn equilibrium(content: &Content) -> Line {
+    match &content.equilibrium {
+        Err(error) => (Some(false), sentence(&format!("no equilibrium: {error}"))),
+        Ok(state) if state.constraints.singular => (
+            Some(false),
+            "The configuration is singular: stability is not decided.".to_owned(),
+        ),
+        Ok(state) => {
+            let text = sentence(&format!("the equilibrium is {}", state.stability));
+            (Some(state.stability.holds()), text)
+        }
+    }
+}
+
+/// Each mode with its spread and what most of it comes from.
+fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
+    let first = spread
+        .and_then(|own| own.summary.as_ref().ok())
+        .map(|own| &own.first);
+    let each = modes.modes.iter().enumerate().take(MODES);
+    let mut lines: Vec<Line> = each
+        .map(|(r, mode)| {
+            let number_of_mode = r + 1;
+            let text = match mode.frequency() {
+                Some(omega) => {
+                    let spread = first.map_or_else(String::new, |first| spread_of(first, r));
+                    format!(
+                        "Mode {number_of_mode} at {} rad/s{spread}: it {}.",
+                        number(omega),
+                        mode.behaviour
+                    )
+                }
+                None => format!(
+                    "Mode {number_of_mode} does not oscillate: it {}.",
+                    mode.behaviour
+                ),
+            };
+            let news = mode.behaviour.grows().then_some(false);
+            (news, text)
+        })
+        .collect();
+    if modes.modes.len() > MODES {
+        let more = modes.modes.len() - MODES;
+        lines.push((
+            None,
+            format!("{more} more modes are in the table of modes."),
+        ));
+    }
+    lines
+}
+
+/// ` +- 0.2 (3 sigma), mostly by l (97 %)`.
+fn spread_of(first: &FirstOrder, mode: usize) -> String {
+    let Some(own) = first.modes.get(mode).filter(|own| !own.clustered) else {
+        return String::new();
+    };
+    let Some(spread) = own.frequency.as_ref().filter(|own| own.sigma > 0.0) else {
+        return String::new();
+    };
+    let shares = spread
+        .variance_shares
+        .iter()
+        .zip(first.description.design.iter());
+    let greatest = shares.max_by(|a, b| a.0.total_cmp(b.0));
+    let cause = greatest.map_or_else(String::new, |(share, info)| {
+        format!(", mostly from {} ({:.0} %)", info.name, 100.0 * share)
+    });
+    format!(
+        " \u{b1} {} ({} sigma){cause}",
+        digits(spread.band, 3),
+        first.sigma_level
+    )
+}
+
+fn tolerances(spread: &Spreads) -> Vec<Line> {
+    let mut lines = Vec::new();
+    match &spread.summary {
+        Ok(summary) if summary.trusted() => {
+            lines.push((
+                Some(true),
+                "The first-order spread of every mode can be trusted.".to_owned(),
+            ));
+        }
+        Ok(summary) => {
+            let doubted = summary.trust.iter().filter(|own| !own.trusted());
+            let doubted: Vec<usize> = doubted.map(|own| own.mode).collect();
+            let text = format!(
+                "{}: the first-order spread is not to be trusted. See Tolerances.",
+                named(&doubted)
+            );
+            lines.push((Some(false), text));
+        }
+        Err(error) => lines.push((Some(false), sentence(&format!("no spread: {error}")))),
+    }
+    if let Ok(found) = &spread.monte_carlo {
+        lines.push(stable_samples(found));
+    }
+    lines
+}
+
+pub(super) fn stable_samples(found: &MonteCarlo) -> Line {
+    let (stable, all) = (found.counts.stable, found.samples);
+    if stable == all {
+        return (Some(true), format!("All of {all} samples are stable."));
+    }
+    let others = Outcome::ALL
+        .into_iter()
+        .filter(|own| *own != Outcome::Stable);
+    let others = others.filter_map(|outcome| match found.counts.of(outcome) {
+        0 => None,
+        count => Some(format!("{count} {}", word(outcome))),
+    });
+    let others: Vec<String> = others.collect();
+    (
+        Some(false),
+        format!(
+            "{stable} of {all} samples are stable; {}.",
+            others.join(", ")
+        ),
+    )
+}
+
+fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Stable => "stable",
+        Outcome::Divergent => "diverge",
+        Outcome::Flutter => "flutter",
+        Outcome::Undecided => "are not decided",
+        Outcome::NoEquilibrium => "have no equilibrium",
+        Outcome::NotAssembled => "cannot be assembled",
+        Outcome::Unphysical => "have bodies that cannot exist",
+        _ => "have no modes",
+    }
+}
+
+fn along(along: &Along) -> Vec<Line> {
+    let Ok(campbell) = &along.campbell else {
+        return Vec::new();
+    };
+    let bad = campbell.critical.iter().chain(&campbell.flutter_onsets);
+    let bad: Vec<Line> = bad
+        .map(|event| (Some(false), happening(campbell, event)))
+        .collect();
+    let met = campbell
+        .crossings
+        .iter()
+        .map(|event| (None, happening(campbell, event)));
+    let mut lines: Vec<Line> = bad.into_iter().chain(met).collect();
+    let more = lines.len().saturating_sub(EVENTS);
+    lines.truncate(EVENTS);
+    if more > 0 {
+        lines.push((
+            None,
+            format!("{more} more events are in the tables along the input."),
+        ));
+    }
+    lines
+}
+
+/// `Frequency 2 is 1 times speed at speed = 2045 rpm +- 27 (3 sigma).`
+fn happening(campbell: &Campbell, event: &EventTolerance) -> String {
+    let d: &Description = &campbell.description;
+    let Some(info) = d.inputs.get(event.input.index()) else {
+        return String::new();
+    };
+    let what = match event.event {
+        Event::Crossing {
+            mode,
+            condition: Condition::Line(line),
+            ..
+        } => {
+            format!(
+                "frequency {} is {} times {}",
+                mode + 1,
+                line.ratio,
+                info.name
+            )
+        }
+        Event::Crossing { mode, .. } => format!("mode {} begins or ceases to grow", mode + 1),
+        _ => "the equilibrium loses its stiffness".to_owned(),
+    };
+    let spread = match &event.spread {
+        Ok(spread) if spread.sigma > 0.0 => format!(
+            " \u{b1} {} ({} sigma)",
+            digits(info.unit.from_si(spread.band), 3),
+            event.sigma_level
+        ),
+        _ => String::new(),
+    };
+    let value = with_unit(event.value, &info.unit);
+    sentence(&format!("{what} at {} = {value}{spread}", info.name))
+}

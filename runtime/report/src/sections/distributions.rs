@@ -1,0 +1,76 @@
+//! How samples of the tolerances are distributed, beside first order.
+
+use eigentol_figures::Histogram;
+use eigentol_tables::tables;
+
+use super::brief::stable_samples;
+use super::verdicts::NOTHING_VARIES;
+use super::{MODES, beyond, refused};
+use crate::Error;
+use crate::charts::charts;
+use crate::content::Content;
+use crate::html::Html;
+use crate::tables::table;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let Some(spread) = &content.spread else {
+        html.leaf("p", &[("class", "refused")], NOTHING_VARIES);
+        return Ok(());
+    };
+    let found = match &spread.monte_carlo {
+        Ok(found) => found,
+        Err(error) => {
+            refused(html, "there are no samples", error);
+            return Ok(());
+        }
+    };
+    let setup = &content.setup;
+    let stream = match setup.stream {
+        0 => String::new(),
+        stream => format!(", stream {stream}"),
+    };
+    html.paragraph(&format!(
+        "{} samples of the variables within their tolerances (seed {}{stream}), each solved anew. {}",
+        found.samples,
+        setup.seed,
+        stable_samples(found).1
+    ));
+    let count = found.modes.len();
+    let figures = (0..count.min(MODES)).map(|mode| {
+        let style = content
+            .brief_style
+            .clone()
+            .title(format!("Mode {}", mode + 1));
+        let mut histogram = Histogram::new(found, mode);
+        if let Ok(summary) = &spread.summary {
+            histogram = histogram.first_order(&summary.first);
+        }
+        histogram.figure(&style)
+    });
+    charts(html, figures)?;
+    beyond(html, count, "distributions of");
+    for own in tables(found) {
+        if own.name == "outcomes" && found.counts.stable == found.samples {
+            continue;
+        }
+        let caption = match &*own.name {
+            "outcomes" => "What became of the samples",
+            _ => "Statistics of the samples",
+        };
+        let columns: &[&str] = match &*own.name {
+            "outcomes" => &["outcome", "samples"],
+            _ => &[
+                "mode",
+                "samples of frequency",
+                "mean of frequency",
+                "standard error of frequency",
+                "sigma of frequency",
+                "skewness of frequency",
+                "least of frequency",
+                "greatest of frequency",
+            ],
+        };
+        table(html, caption, &own, columns)?;
+    }
+    Ok(())
+}

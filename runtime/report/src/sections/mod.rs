@@ -1,0 +1,76 @@
+//! The sections of a report, one per question.
+
+mod along;
+mod brief;
+mod distributions;
+mod equilibrium;
+mod mechanism;
+mod modes;
+mod parts;
+mod shares;
+mod verdicts;
+
+use crate::Error;
+use crate::content::Content;
+use crate::html::Html;
+use crate::words::sentence;
+
+/// Their anchors and headings, in order.
+pub(crate) const HEADINGS: [(&str, &str); 8] = [
+    ("brief", "In short"),
+    ("mechanism", "Mechanism"),
+    ("equilibrium", "Equilibrium"),
+    ("modes", "Modes"),
+    ("verdicts", "Tolerances"),
+    ("shares", "Contributions"),
+    ("distributions", "Distributions"),
+    ("along", "Along an input"),
+];
+
+/// What writes a section.
+type Section = fn(&mut Html, &Content) -> Result<(), Error>;
+
+const SECTIONS: [Section; 8] = [
+    brief::section,
+    mechanism::section,
+    equilibrium::section,
+    modes::section,
+    verdicts::section,
+    shares::section,
+    distributions::section,
+    along::section,
+];
+
+/// Writes all of them.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn all(html: &mut Html, content: &Content) -> Result<(), Error> {
+    for ((id, heading), section) in HEADINGS.into_iter().zip(SECTIONS) {
+        let mut written = Ok(());
+        html.element("section", &[("id", id)], |html| {
+            html.leaf("h2", &[], heading);
+            written = section(html, content);
+        });
+        html.constant("\n");
+        written?;
+    }
+    Ok(())
+}
+
+/// Modes that have figures of their own.
+const MODES: usize = 6;
+
+/// Says of how many modes there are no figures.
+fn beyond(html: &mut Html, modes: usize, what: &str) {
+    if modes > MODES {
+        let more = modes - MODES;
+        html.paragraph(&format!("The {what} {more} more modes are in the table."));
+    }
+}
+
+/// Says why something is not there.
+fn refused(html: &mut Html, what: &str, why: &eigentol::Error) {
+    let text = sentence(&format!("{what}: {why}"));
+    html.leaf("p", &[("class", "refused")], &text);
+}

@@ -1,0 +1,78 @@
+//! How the mechanism vibrates.
+
+use eigentol_figures::{mode_shapes, participation};
+use eigentol_tables::tables;
+
+use super::refused;
+use crate::Error;
+use crate::charts::chart;
+use crate::content::{Content, Pictures};
+use crate::html::Html;
+use crate::scene::{AMPLITUDE, View};
+use crate::tables::table;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    match &content.pictures {
+        Ok(pictures) => view(html, content, pictures)?,
+        Err(error) => refused(html, "there is no picture", error),
+    }
+    let modes = match &content.modes {
+        Ok(modes) => modes,
+        Err(error) => {
+            refused(html, "there are no modes", error);
+            return Ok(());
+        }
+    };
+    if modes.damping_ignored {
+        html.paragraph(
+            "Damping and gyroscopic forces are not zero here and are ignored: undamped modes.",
+        );
+    }
+    let columns = ["mode", "frequency", "damping ratio", "Re s", "motion"];
+    for own in tables(modes) {
+        table(html, "Natural modes", &own, &columns)?;
+    }
+    let style = content.brief_style.clone();
+    chart(
+        html,
+        &mode_shapes(modes, &style.clone().title("Mode shapes")),
+    )?;
+    if let Ok(state) = &content.equilibrium {
+        chart(
+            html,
+            &participation(modes, state, &style.title("What moves in each mode")),
+        )?;
+    }
+    Ok(())
+}
+
+/// The mechanism in space.
+fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
+    let modes = content.modes.as_ref().ok();
+    let json = serde_json::to_string(&View::new(pictures, modes))?;
+    html.element("div", &[("class", "mechanism")], |html| {
+        html.leaf("div", &[("class", "drawing")], "");
+        html.data("scene", &json);
+    });
+    html.paragraph(&format!(
+        "In a mode the farthest place moves by {:.0} % of the size of the mechanism, in truth by as little as the disturbance. Grey: the equilibrium.",
+        100.0 * AMPLITUDE
+    ));
+    for (mode, picture) in pictures.modes.iter().enumerate() {
+        if let Err(error) = picture {
+            refused(
+                html,
+                &format!("mode {} is not shown in motion", mode + 1),
+                error,
+            );
+        }
+    }
+    let count = modes.map_or(0, |modes| modes.modes.len());
+    if count > pictures.modes.len() {
+        let shown = pictures.modes.len();
+        html.paragraph(&format!(
+            "The first {shown} of {count} modes are shown in motion."
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,108 @@
+//! Bodies, joints and what connects points, as tables.
+
+use eigentol::picture::{Scene, Shape, Solid};
+use eigentol_tables::Table;
+
+use crate::words::number;
+
+/// Those that there are, with their captions.
+pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
+    let all = [
+        ("Bodies; lengths in m, masses in kg", bodies(scene)),
+        ("Joints", joints(scene)),
+        ("Forces and constraints between points", links(scene)),
+        ("What rolls", wheels(scene)),
+    ];
+    all.into_iter().filter(|(_, own)| own.rows() > 0).collect()
+}
+
+fn bodies(scene: &Scene) -> Table {
+    let all = scene.bodies.iter();
+    let mut table = Table::new("bodies");
+    table.texts("body", all.clone().map(|own| Some(own.name.to_string())));
+    let made_of = |solids: &[Solid]| match solids {
+        [] => "massless".to_owned(),
+        all => all.iter().map(solid).collect::<Vec<_>>().join("; "),
+    };
+    table.texts("made of", all.map(|own| Some(made_of(&own.solids))));
+    table
+}
+
+fn solid(own: &Solid) -> String {
+    let text = shape(&own.shape);
+    if own.hole {
+        format!("less a {text}")
+    } else {
+        text
+    }
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Point { mass } => format!("point mass, {}", number(*mass)),
+        Shape::Rod { length, .. } => format!("rod, length {}", number(*length)),
+        Shape::Disk { radius, .. } => format!("disk, radius {}", number(*radius)),
+        Shape::Cylinder { radius, length, .. } => {
+            format!(
+                "cylinder, radius {}, length {}",
+                number(*radius),
+                number(*length)
+            )
+        }
+        Shape::Tube {
+            inner,
+            outer,
+            length,
+            ..
+        } => format!(
+            "tube, radii {} and {}, length {}",
+            number(*inner),
+            number(*outer),
+            number(*length)
+        ),
+        Shape::Box { size, .. } => format!("box, {}", size.map(number).join(" x ")),
+        Shape::Sphere { radius } => format!("sphere, radius {}", number(*radius)),
+        Shape::Ellipsoid { semi_axes, .. } => format!(
+            "rigid body of given inertia, drawn as an ellipsoid of semi-axes {}",
+            semi_axes.map(number).join(", ")
+        ),
+    }
+}
+
+/// The name of a body; `None` is the ground.
+fn body(scene: &Scene, number: Option<usize>) -> Option<String> {
+    let found = number.map(|own| scene.bodies.get(own).map(|own| own.name.to_string()));
+    found.unwrap_or_else(|| Some("ground".to_owned()))
+}
+
+fn joints(scene: &Scene) -> Table {
+    let all = scene.joints.iter();
+    let mut table = Table::new("joints");
+    table.texts("joint", all.clone().map(|own| Some(own.name.to_string())));
+    table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
+    table.texts("from", all.clone().map(|own| body(scene, own.from.body)));
+    table.texts("to", all.clone().map(|own| body(scene, own.to.body)));
+    let closes =
+        |own: &eigentol::picture::Joint| own.closes_loop.then(|| "closes a loop".to_owned());
+    table.texts("role", all.map(closes));
+    table
+}
+
+fn links(scene: &Scene) -> Table {
+    let all = scene.links.iter();
+    let point = |number: usize| Some(scene.points.get(number)?.name.to_string());
+    let mut table = Table::new("links");
+    table.texts("name", all.clone().map(|own| Some(own.name.to_string())));
+    table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
+    table.texts("from", all.clone().map(|own| point(own.ends[0])));
+    table.texts("to", all.map(|own| point(own.ends[1])));
+    table
+}
+
+fn wheels(scene: &Scene) -> Table {
+    let all = scene.wheels.iter();
+    let mut table = Table::new("wheels");
+    table.texts("name", all.clone().map(|own| Some(own.name.to_string())));
+    table.numbers("radius", "m", all.map(|own| own.radius));
+    table
+}

@@ -1,0 +1,76 @@
+//! Which variables the spread of each mode comes from.
+
+use eigentol::FirstOrder;
+use eigentol_figures::shares;
+use eigentol_tables::{Table, tables};
+
+use super::verdicts::NOTHING_VARIES;
+use super::{MODES, beyond, refused};
+use crate::Error;
+use crate::charts::charts;
+use crate::content::Content;
+use crate::html::Html;
+use crate::tables::table;
+
+pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
+    let first = match &content.spread {
+        None => {
+            html.leaf("p", &[("class", "refused")], NOTHING_VARIES);
+            return Ok(());
+        }
+        Some(spread) => match &spread.summary {
+            Ok(summary) => &summary.first,
+            Err(error) => {
+                refused(html, "contributions are not known", error);
+                return Ok(());
+            }
+        },
+    };
+    html.paragraph("Shares of the variables in the variance of each frequency, at first order.");
+    let count = first.modes.len();
+    let of = |mode: usize| {
+        let style = content.brief_style.clone();
+        shares(first, mode, &style.title(format!("Mode {}", mode + 1)))
+    };
+    charts(html, (0..count.min(MODES)).map(of))?;
+    beyond(html, count, "contributions of");
+    table(
+        html,
+        "Shares in the variance of each frequency",
+        &by_variable(first),
+        &[],
+    )?;
+    for own in tables(first) {
+        let columns = [
+            "mode",
+            "frequency",
+            "sigma of frequency",
+            "band of frequency",
+            "cluster",
+        ];
+        table(html, "First order, mode by mode", &own, &columns)?;
+    }
+    Ok(())
+}
+
+/// A row for each variable, a column for each mode; nothing of the members of a cluster, which have no spread of their own.
+fn by_variable(first: &FirstOrder) -> Table {
+    let design = first.description.design.iter();
+    let mut table = Table::new("shares");
+    table.texts(
+        "variable",
+        design.clone().map(|info| Some(info.name.to_string())),
+    );
+    for (r, mode) in first.modes.iter().enumerate() {
+        let shares = mode.variance_shares();
+        let share = |k: usize| {
+            shares
+                .get(k)
+                .filter(|_| !mode.clustered)
+                .map(|share| 100.0 * share)
+        };
+        let name = format!("mode {}", r + 1);
+        table.numbers(name, "%", (0..design.len()).map(share));
+    }
+    table
+}

@@ -1,0 +1,118 @@
+//! Tables of a page: six digits to read, all digits and all columns to copy.
+
+use eigentol_tables::{Column, Table, Values};
+
+use crate::Error;
+use crate::html::Html;
+use crate::words::number;
+
+/// Rows that are shown; the others are only copied.
+const ROWS: usize = 24;
+
+/// A table with the columns of these names, or with all that are not empty where none are named. What is not shown is said, and
+/// copied.
+///
+/// # Errors
+/// [`Error::Data`].
+pub(crate) fn table(
+    html: &mut Html,
+    caption: &str,
+    table: &Table,
+    names: &[&str],
+) -> Result<(), Error> {
+    let filled = |column: &&Column| !is_empty(&column.values);
+    let named = |column: &&Column| names.is_empty() || names.contains(&&*column.name);
+    let columns: Vec<&Column> = (table.columns.iter().filter(named))
+        .filter(filled)
+        .collect();
+    let json = serde_json::to_string(table)?;
+    let rows = table.rows();
+    let hidden = (table.columns.iter()).filter(filled).count() - columns.len();
+    html.element("div", &[("class", "table")], |html| {
+        html.element("div", &[("class", "scroll")], |html| {
+            html.element("table", &[], |html| {
+                html.leaf("caption", &[], caption);
+                head(html, &columns);
+                html.element("tbody", &[], |html| {
+                    for row in 0..rows.min(ROWS) {
+                        html.element("tr", &[], |html| {
+                            for column in &columns {
+                                cell(html, &column.values, row);
+                            }
+                        });
+                    }
+                });
+            });
+        });
+        html.element("p", &[("class", "copy")], |html| {
+            html.element("button", &[("type", "button"), ("data-copy", "")], |html| {
+                html.text("Copy for a spreadsheet");
+            });
+            html.text(&left_out(rows, hidden));
+            html.open("span", &[("role", "status")]);
+            html.constant("</span>");
+        });
+        html.data("table", &json);
+    });
+    Ok(())
+}
+
+/// What the copy has and the page has not.
+fn left_out(rows: usize, columns: usize) -> String {
+    let rows = rows.saturating_sub(ROWS);
+    let count = |count: usize, what: &str| match count {
+        0 => None,
+        1 => Some(format!("1 more {what}")),
+        _ => Some(format!("{count} more {what}s")),
+    };
+    let more: Vec<String> = [count(rows, "row"), count(columns, "column")]
+        .into_iter()
+        .flatten()
+        .collect();
+    match more.is_empty() {
+        true => " with all digits".to_owned(),
+        false => format!(" with all digits, {}", more.join(" and ")),
+    }
+}
+
+fn head(html: &mut Html, columns: &[&Column]) {
+    html.element("thead", &[], |html| {
+        html.element("tr", &[], |html| {
+            for column in columns {
+                let class = class_of(&column.values);
+                html.leaf(
+                    "th",
+                    &[("scope", "col"), ("class", class)],
+                    &column.heading(),
+                );
+            }
+        });
+    });
+}
+
+fn cell(html: &mut Html, values: &Values, row: usize) {
+    let text = match values {
+        Values::Numbers(all) => all[row].map(number),
+        Values::Whole(all) => all[row].map(|own| own.to_string()),
+        Values::Texts(all) => all[row].clone(),
+        Values::Flags(all) => all[row].map(|own| if own { "yes" } else { "no" }.to_owned()),
+    };
+    let text = text.unwrap_or_else(|| "\u{2013}".to_owned());
+    html.leaf("td", &[("class", class_of(values))], &text);
+}
+
+fn class_of(values: &Values) -> &'static str {
+    match values {
+        Values::Numbers(_) | Values::Whole(_) => "number",
+        Values::Texts(_) | Values::Flags(_) => "words",
+    }
+}
+
+fn is_empty(values: &Values) -> bool {
+    match values {
+        Values::Numbers(all) => all.iter().all(Option::is_none),
+        Values::Whole(all) => all.iter().all(Option::is_none),
+        Values::Texts(all) => all.iter().flatten().all(String::is_empty),
+        Values::Flags(all) => all.iter().all(Option::is_none),
+    }
+}

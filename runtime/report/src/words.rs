@@ -1,0 +1,100 @@
+//! Numbers and names as people read them.
+
+use eigentol::{Description, Unit};
+
+/// A number with six significant digits, in scientific form where that is shorter to read.
+pub(crate) fn number(value: f64) -> String {
+    digits(value, 6)
+}
+
+/// A number with so many significant digits.
+pub(crate) fn digits(value: f64, count: usize) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&size) {
+        return trimmed(&format!("{value:.*e}", count.saturating_sub(1)));
+    }
+    let before = size.log10().floor() as i32 + 1;
+    let decimals = (count as i32 - before).clamp(0, 9) as usize;
+    trimmed(&format!("{value:.decimals$}"))
+}
+
+/// Without the zeros that end a fraction.
+fn trimmed(text: &str) -> String {
+    let (digits, power) = match text.split_once('e') {
+        Some((digits, power)) => (digits, format!("e{power}")),
+        None => (text, String::new()),
+    };
+    if !digits.contains('.') {
+        return text.to_owned();
+    }
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    format!("{digits}{power}")
+}
+
+/// A value with its unit: `3000 rpm`.
+pub(crate) fn with_unit(value: f64, unit: &Unit) -> String {
+    let number = number(unit.from_si(value));
+    match unit.symbol.is_empty() {
+        true => number,
+        false => format!("{number} {}", unit.symbol),
+    }
+}
+
+/// `speed = 3000 rpm, load = 2 N`; empty without inputs.
+pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
+    let each = d.inputs.iter().zip(inputs);
+    let each =
+        each.map(|(info, &value)| format!("{} = {}", info.name, with_unit(value, &info.unit)));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+/// A sentence: the first letter a capital, a full stop at the end.
+pub(crate) fn sentence(text: &str) -> String {
+    let text = text.trim();
+    let mut letters = text.chars();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    let stop = if text.ends_with(['.', '?', '!']) {
+        ""
+    } else {
+        "."
+    };
+    format!("{first}{}{stop}", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{number, sentence};
+
+    #[test]
+    fn numbers_have_six_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (3000.0, "3000"),
+            (0.1, "0.1"),
+            (12.345678, "12.3457"),
+            (-1.0 / 3.0, "-0.333333"),
+            (1e-9, "1e-9"),
+            (1.234_567_8e12, "1.23457e12"),
+            (999_999.7, "1000000"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn a_sentence_begins_and_ends() {
+        assert_eq!(
+            sentence("no oscillation, so no frequency."),
+            "No oscillation, so no frequency."
+        );
+        assert_eq!(sentence("\u{3c9} diverges"), "\u{3a9} diverges.");
+        assert_eq!(sentence(""), ".");
+    }
+}

@@ -1,0 +1,179 @@
+//! Modes as poses along one period.
+
+use super::extent::dot;
+use super::read::{poses, scene};
+use super::scene::{ModePictures, Pose, Scene};
+use crate::constraints::Structure;
+use crate::equilibrium::assemble;
+use crate::kernels::PictureKernels;
+use crate::{Complex, Equilibrium, Error, Modes};
+
+/// The step, rad or m, over which displacements along a mode are measured.
+const STEP: f64 = 1e-4;
+/// What is displaced by less, relative to the size of the mechanism, stands still: rounding.
+const STILL: f64 = 1e-12;
+/// Most that a body turns to either side, rad: of a slender shaft in torsion nothing else could be seen.
+const MOST_TURN: f64 = 0.5;
+
+/// The poses of all bodies along one period of mode `mode`, counted from 0: at `q* + a Re(phi e^(i theta))` for so many evenly spaced
+/// phases `theta`, the first at zero.
+///
+/// The factor `a` is such that what moves most goes to either side by the share `amplitude` of the size of the mechanism
+/// ([`Scene::size`]; of one without size, of a metre), to first order, and no body turns by more than half a radian. Growth and decay
+/// are not shown. Loops are closed: coordinates go from there to the nearest place that meets the constraints on positions.
+///
+/// # Errors
+/// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is negative or not
+/// finite.
+pub fn mode_pictures(
+    mechanism: &dyn PictureKernels,
+    at: &Equilibrium,
+    modes: &Modes,
+    mode: usize,
+    phases: usize,
+    amplitude: f64,
+) -> Result<ModePictures, Error> {
+    let Some(found) = modes.modes.get(mode) else {
+        return Err(Error::NoSuchMode {
+            mode,
+            count: modes.modes.len(),
+        });
+    };
+    if !(amplitude >= 0.0 && amplitude.is_finite()) {
+        return Err(Error::Setting {
+            setting: "amplitude",
+            reason: format!("it has to be a share of the size of the mechanism, not {amplitude}"),
+        });
+    }
+    let structure = Structure::of(&mechanism.description());
+    let shape: Vec<Complex> = (found.shape.iter().enumerate())
+        .map(|(k, &value)| match k < structure.coordinates {
+            true => value,
+            false => Complex::ZERO,
+        })
+        .collect();
+    let motion = Motion {
+        mechanism,
+        at,
+        closes: structure.position_constraints > 0,
+    };
+    let amplitude = motion.factor(&shape, amplitude)?;
+    let frames = (0..phases).map(|k| {
+        let angle = core::f64::consts::TAU * k as f64 / phases as f64;
+        motion.poses(&shape, Complex::from_polar(amplitude, angle))
+    });
+    Ok(ModePictures {
+        mode,
+        amplitude,
+        frames: frames.collect::<Result<_, _>>()?,
+    })
+}
+
+/// The states about an equilibrium.
+struct Motion<'a> {
+    mechanism: &'a dyn PictureKernels,
+    at: &'a Equilibrium,
+    closes: bool,
+}
+
+impl Motion<'_> {
+    /// Poses at `q* + Re(factor shape)`.
+    fn poses(&self, shape: &[Complex], factor: Complex) -> Result<Vec<Pose>, Error> {
+        let Equilibrium {
+            coordinates,
+            inputs,
+            design,
+            ..
+        } = self.at;
+        let moved = coordinates.iter().zip(shape);
+        let moved: Vec<f64> = moved.map(|(q, phi)| q + (factor * phi).re).collect();
+        let closed = match self.closes {
+            true => assemble(self.mechanism, inputs, design, &moved, &[]).ok(),
+            false => None,
+        };
+        let q = closed.as_ref().map_or(&*moved, |state| &*state.coordinates);
+        poses(self.mechanism, q, inputs, design)
+    }
+
+    /// The factor of the shape with which the mechanism moves by a share of its size.
+    fn factor(&self, shape: &[Complex], share: f64) -> Result<f64, Error> {
+        let largest = shape.iter().fold(0.0, |most: f64, c| most.max(c.norm()));
+        if largest == 0.0 || share == 0.0 {
+            return Ok(0.0);
+        }
+        let scene = scene(
+            self.mechanism,
+            &self.at.coordinates,
+            &self.at.inputs,
+            &self.at.design,
+        )?;
+        let size = match scene.size() {
+            0.0 => 1.0,
+            size => size,
+        };
+        let step = STEP / largest;
+        let open = Self {
+            closes: false,
+            ..*self
+        };
+        let either = |factor: Complex| -> Result<[Vec<Pose>; 2], Error> {
+            Ok([open.poses(shape, factor)?, open.poses(shape, -factor)?])
+        };
+        // Re(h phi) and Re(i h phi) are the displacements a quarter of a period apart.
+        let (first, second) = (
+            either(Complex::new(step, 0.0))?,
+            either(Complex::new(0.0, step))?,
+        );
+        let travel = farthest(&scene, |body, place| {
+            [&first, &second].map(|[ahead, behind]| {
+                let (ahead, behind) = (ahead[body].place(place), behind[body].place(place));
+                core::array::from_fn(|i| (ahead[i] - behind[i]) / 2.0)
+            })
+        });
+        if travel <= STILL * size {
+            return Ok(0.0);
+        }
+        let turn = (0..scene.bodies.len())
+            .map(|body| semi_major([&first, &second].map(|[a, b]| turned(&a[body], &b[body]))))
+            .fold(0.0, f64::max);
+        let by_turn = match turn > 0.0 {
+            true => MOST_TURN / turn,
+            false => f64::INFINITY,
+        };
+        Ok(step * (share * size / travel).min(by_turn))
+    }
+}
+
+/// The greatest displacement of what can be seen of the bodies; `displaced` tells the displacements of a place of a body at
+/// two phases a quarter of a period apart.
+fn farthest(scene: &Scene, displaced: impl Fn(usize, [f64; 3]) -> [[f64; 3]; 2]) -> f64 {
+    let solids = scene.bodies.iter().enumerate().flat_map(|(body, found)| {
+        let tips = found.solids.iter().flat_map(|solid| solid.tips());
+        tips.map(move |place| (body, place))
+    });
+    let seats = scene.joints.iter().flat_map(|joint| [joint.from, joint.to]);
+    let seats = seats.map(|seat| (seat.body, seat.place));
+    let points = scene.points.iter().map(|point| (point.body, point.place));
+    let fixed = seats
+        .chain(points)
+        .filter_map(|(body, place)| Some((body?, place)));
+    let places = solids.chain(fixed);
+    places
+        .map(|(body, place)| semi_major(displaced(body, place)))
+        .fold(0.0, f64::max)
+}
+
+/// Half of the rotation from one pose to the other, as a vector, to second order in it.
+fn turned(ahead: &Pose, behind: &Pose) -> [f64; 3] {
+    let rows = (ahead.rotation, behind.rotation);
+    // The antisymmetric part of `ahead behind^T`.
+    let entry = |i: usize, j: usize| dot(rows.0[i], rows.1[j]);
+    [(2, 1), (0, 2), (1, 0)].map(|(i, j)| (entry(i, j) - entry(j, i)) / 4.0)
+}
+
+/// The larger semi-axis of the ellipse `x cos + y sin`.
+fn semi_major([x, y]: [[f64; 3]; 2]) -> f64 {
+    let (xx, yy, xy) = (dot(x, x), dot(y, y), dot(x, y));
+    let radius = ((xx - yy) / 2.0).hypot(xy);
+    ((xx + yy) / 2.0 + radius).sqrt()
+}

@@ -1,0 +1,216 @@
+//! Modes as poses: where they are, how far they go, that loops stay closed.
+
+use eigentol::picture::{ModePictures, Pose, Scene, scene};
+use eigentol::{Error, Kernels, Study};
+use eigentol_interpreter::Interpreted;
+use eigentol_tests::corpus::rotating_double_pendulum::RotatingDoublePendulum;
+use eigentol_tests::loops::SliderCrank;
+use eigentol_tests::machines::JeffcottRotor;
+use eigentol_tests::tables::constrained;
+
+use crate::space::{Vector, add, dot, norm, scaled, subtract};
+
+/// A place of a body in a frame of a mode.
+fn place(frame: &[Pose], body: usize, place: Vector) -> Vector {
+    frame[body].place(place)
+}
+
+fn double_pendulum() -> Study<RotatingDoublePendulum> {
+    Study::new(RotatingDoublePendulum)
+        .input(RotatingDoublePendulum::omega, 4.0)
+        .start(RotatingDoublePendulum::theta1, 0.9)
+}
+
+#[test]
+fn frames_are_scenes_along_the_shape() {
+    let study = double_pendulum();
+    let solved = study.solve().expect("modes");
+    for mode in 0..2 {
+        let swing = solved.mode_pictures(mode, 8, 0.1).expect("a swing");
+        assert_eq!((swing.mode, swing.frames.len()), (mode, 8));
+        for (k, frame) in swing.frames.iter().enumerate() {
+            let angle = std::f64::consts::TAU * k as f64 / 8.0;
+            let at = &solved.equilibrium;
+            let shape = &solved.modes.modes[mode].shape;
+            let q: Vec<f64> = (at.coordinates.iter().zip(shape))
+                .map(|(q, phi)| q + swing.amplitude * angle.cos() * phi.re)
+                .collect();
+            let there = scene(study.mechanism(), &q, &at.inputs, &at.design).expect("a scene");
+            for (pose, body) in frame.iter().zip(&there.bodies) {
+                let apart = norm(subtract(pose.position, body.pose.position));
+                assert!(apart < 1e-14, "mode {mode}, frame {k}: {apart}");
+            }
+        }
+    }
+}
+
+/// To first order: with a small share the tip goes as far as was asked for, whatever the mode.
+#[test]
+fn what_moves_most_moves_by_the_share_of_the_size() {
+    let solved = double_pendulum();
+    let solved = solved.solve().expect("modes");
+    let rest = solved.picture().expect("a picture");
+    for mode in 0..2 {
+        let share = 1e-4;
+        let swing = solved.mode_pictures(mode, 4, share).expect("a swing");
+        let tips = rest.bodies.iter().enumerate().flat_map(|(body, shown)| {
+            shown.solids.iter().flat_map(move |solid| {
+                // A bar of this machine hangs from the origin of its body.
+                let end = scaled(2.0, solid.center);
+                [(body, end), (body, [0.0; 3])]
+            })
+        });
+        let farthest = tips.map(|(body, end)| {
+            let moved = place(&swing.frames[0], body, end);
+            norm(subtract(moved, rest.place(Some(body), end)))
+        });
+        let farthest = farthest.fold(0.0, f64::max);
+        let expected = share * rest.size();
+        assert!(
+            (farthest / expected - 1.0).abs() < 1e-3,
+            "{farthest} {expected}"
+        );
+    }
+}
+
+/// The two sides of every joint that turns meet in every frame, and the slider stays on its guide.
+#[test]
+fn loops_stay_closed() {
+    let study = Study::new(SliderCrank)
+        .input(SliderCrank::omega, 3.0)
+        .start(SliderCrank::crank_angle, 0.6);
+    let solved = study.solve().expect("modes");
+    let rest = solved.picture().expect("a picture");
+    let swing = solved.mode_pictures(0, 12, 0.1).expect("a swing");
+    assert!(rest.joints.iter().any(|joint| joint.closes_loop));
+    let mut most = 0.0_f64;
+    for frame in &swing.frames {
+        let moved = with(&rest, frame);
+        for joint in &moved.joints {
+            let ends = [joint.from, joint.to].map(|seat| moved.place(seat.body, seat.place));
+            let gap = subtract(ends[1], ends[0]);
+            let gap = match &*joint.kind {
+                "revolute" => norm(gap),
+                _ => gap[1].hypot(gap[2]),
+            };
+            assert!(gap < 1e-9, "{}: {gap}", joint.name);
+        }
+        for (pose, body) in frame.iter().zip(&rest.bodies) {
+            most = most.max(norm(subtract(pose.position, body.pose.position)));
+        }
+    }
+    let share = most / rest.size();
+    assert!((0.05..0.15).contains(&share), "{share}");
+}
+
+fn with(scene: &Scene, frame: &[Pose]) -> Scene {
+    let mut moved = scene.clone();
+    for (body, pose) in moved.bodies.iter_mut().zip(frame) {
+        body.pose = *pose;
+    }
+    moved
+}
+
+/// Both modes of the rotor circle, in opposite senses as the ground sees them relative to the shaft: the centre stays as far from
+/// its place, and a quarter of a period turns it by a right angle.
+#[test]
+fn whirling_shapes_circle() {
+    let study = Study::new(JeffcottRotor).input(JeffcottRotor::speed, 50.0);
+    let solved = study.solve().expect("modes");
+    let rest = solved.picture().expect("a picture");
+    for mode in 0..solved.modes.modes.len() {
+        let swing = solved.mode_pictures(mode, 8, 0.05).expect("a swing");
+        assert!(swing.amplitude > 0.0);
+        let body = rest.bodies.len() - 1;
+        let offset = |k: usize| {
+            subtract(
+                swing.frames[k % 8][body].position,
+                rest.bodies[body].pose.position,
+            )
+        };
+        let radius = norm(offset(0));
+        assert!(radius > 0.0);
+        for k in 0..8 {
+            assert!((norm(offset(k)) / radius - 1.0).abs() < 1e-6, "{mode} {k}");
+            let across = dot(offset(k), offset(k + 2)) / radius.powi(2);
+            assert!(across.abs() < 1e-6, "{mode} {k}: {across}");
+            let half = add(offset(k), offset(k + 4));
+            assert!(norm(half) < 1e-9 * radius.max(1.0), "{mode} {k}");
+        }
+    }
+}
+
+/// The rim of a thin shaft would have to go round several times to move by a tenth of its length.
+#[test]
+fn slender_shafts_turn_by_half_a_radian() {
+    let machine = Interpreted::from_text(
+        "mechanism Shaft {
+            body shaft: cylinder(mass: 1 kg, radius: 1 mm, length: 1 m, axis: x);
+            joint twist: revolute(x) from ground to shaft;
+            force torsion: spring(on: twist, stiffness: 1 N*m/rad);
+        }",
+    );
+    let study = Study::new(machine.expect("a declaration"));
+    let ModePictures { frames, .. } = study.mode_pictures(0, 4, 0.1).expect("a swing");
+    let turn = frames[0][0].rotation[2][1].atan2(frames[0][0].rotation[1][1]);
+    assert!((turn.abs() - 0.5).abs() < 1e-6, "{turn}");
+    assert!((frames[0][0].rotation[2][1] + frames[2][0].rotation[2][1]).abs() < 1e-12);
+}
+
+/// Only coordinates move bodies: modes of speeds and of nothing else show the equilibrium.
+#[test]
+fn modes_of_speeds_alone_stand_still() {
+    let mut still = 0;
+    for machine in constrained() {
+        let description = machine.picture.description();
+        let kernels: &dyn Kernels = &*machine.kernels;
+        if machine.name != "geared_coasting" && machine.name != "geared_motor" {
+            continue;
+        }
+        let u = vec![1.0; description.inputs.len()];
+        let b: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
+        let start = vec![0.1; description.coordinates.len()];
+        let Ok(at) =
+            eigentol::equilibrium::equilibrium(kernels, &u, &b, &start, eigentol::Policy::Stable)
+        else {
+            continue;
+        };
+        let modes = eigentol::modes::modes(&at).expect("modes");
+        let rest = scene(&*machine.picture, &at.coordinates, &u, &b).expect("a picture");
+        for mode in 0..modes.modes.len() {
+            let swing =
+                eigentol::picture::mode_pictures(&*machine.picture, &at, &modes, mode, 3, 0.1);
+            let swing = swing.expect("a swing");
+            let moves = (0..description.coordinates.len()).any(|k| {
+                description.coordinates[k].role == eigentol::Role::Position
+                    && modes.modes[mode].shape[k].norm() > 1e-9
+            });
+            if !moves {
+                assert_eq!(swing.amplitude, 0.0, "{} mode {mode}", machine.name);
+                for (pose, body) in swing.frames[1].iter().zip(&rest.bodies) {
+                    assert_eq!(*pose, body.pose);
+                }
+                still += 1;
+            }
+        }
+    }
+    assert!(still > 0);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let study = double_pendulum();
+    let error = study.mode_pictures(7, 8, 0.1).unwrap_err();
+    assert!(
+        matches!(error, Error::NoSuchMode { mode: 7, count: 2 }),
+        "{error}"
+    );
+    for amplitude in [-0.1, f64::NAN, f64::INFINITY] {
+        let error = study.mode_pictures(0, 8, amplitude).unwrap_err();
+        assert!(matches!(error, Error::Setting { .. }), "{error}");
+    }
+    let still = study.mode_pictures(0, 2, 0.0).expect("a picture");
+    assert_eq!(still.amplitude, 0.0);
+    let none = study.mode_pictures(0, 0, 0.1).expect("no frames");
+    assert!(none.frames.is_empty());
+}

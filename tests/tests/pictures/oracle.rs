@@ -1,0 +1,277 @@
+//! Random trees, half of them full of special cases, against the oracle: poses by products of matrices, seats and axes of joints,
+//! points, and solids by the inertia that their looks imply.
+
+use std::cell::Cell;
+
+use eigentol::picture::{Scene, Seat, Shape, scene};
+use eigentol_compiler::mechanics::Limits;
+use eigentol_compiler::program::Operation;
+use eigentol_compiler::{Compilation, compile_text};
+use eigentol_interpreter::Interpreted;
+use eigentol_oracle::Oracle;
+use eigentol_oracle::agreement::Case;
+use eigentol_oracle::declaration::declaration;
+use eigentol_oracle::model::{Frame, Model, Placement};
+use eigentol_oracle::random::on_plans;
+
+use crate::space::{Vector, add, difference, dot, scaled};
+
+/// Metres, and components of unit vectors.
+const TOLERANCE: f64 = 1e-11;
+
+/// What a picture shows otherwise than the oracle.
+fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
+    let [q, _, b] = &case.at;
+    let oracle = Oracle::new(model);
+    let mut found = Vec::new();
+    let mut same = |what: String, one: &[f64], other: &[f64]| {
+        let apart = difference(one, other);
+        if apart > TOLERANCE {
+            found.push(format!("{what}: {one:?}, the oracle says {other:?}"));
+        }
+    };
+    let body = |frame: Frame| match frame {
+        Frame::Ground => None,
+        Frame::Body(body) => Some(body),
+    };
+    let origin = |frame, placement: &Placement| oracle.place(q, b, frame, placement).0;
+
+    assert_eq!(scene.bodies.len(), model.bodies.len());
+    for ((shown, declared), (position, rotation)) in scene
+        .bodies
+        .iter()
+        .zip(&model.bodies)
+        .zip(oracle.poses(q, b))
+    {
+        let name = &declared.name;
+        assert!(shown.name == name.as_str());
+        same(format!("place of {name}"), &shown.pose.position, &position);
+        let axes = shown.pose.rotation.as_flattened();
+        same(format!("axes of {name}"), axes, rotation.as_flattened());
+        assert_eq!(shown.solids.len(), declared.parts.len());
+        for (solid, part) in shown.solids.iter().zip(&declared.parts) {
+            let (mass, center, tensor) = Oracle::piece(part, b);
+            assert_eq!(solid.hole, part.hole);
+            same(format!("centre in {name}"), &solid.center, &center);
+            let implied = inertia(&solid.shape, mass);
+            let what = format!("{:?} of {name}", solid.shape);
+            same(what, implied.as_flattened(), tensor.as_flattened());
+        }
+    }
+    assert_eq!(scene.joints.len(), model.joints.len());
+    let directions = oracle.directions(q, b);
+    for ((shown, declared), directions) in scene.joints.iter().zip(&model.joints).zip(directions) {
+        let name = &declared.name;
+        assert!(shown.name == name.as_str() && !shown.closes_loop);
+        let sides = [
+            (
+                shown.from,
+                declared.from,
+                &declared.from_placement,
+                directions.first(),
+            ),
+            (
+                shown.to,
+                declared.to,
+                &declared.to_placement,
+                directions.last(),
+            ),
+        ];
+        for (seat, frame, placement, axis) in sides {
+            let Seat { place, .. } = seat;
+            assert_eq!(seat.body, body(frame));
+            let place = scene.place(seat.body, place);
+            same(
+                format!("place of {name}"),
+                &place,
+                &origin(frame, placement),
+            );
+            assert_eq!(seat.axis.is_some(), axis.is_some(), "{name}");
+            if let (Some(axis), Some(expected)) = (seat.axis, axis) {
+                let start = scene.place(seat.body, [0.0; 3]);
+                let axis = add(scene.place(seat.body, axis), scaled(-1.0, start));
+                same(format!("axis of {name}"), &axis, expected);
+            }
+        }
+    }
+    assert_eq!(scene.points.len(), model.points.len());
+    for (shown, declared) in scene.points.iter().zip(&model.points) {
+        assert!(shown.name == declared.name.as_str());
+        assert_eq!(shown.body, body(declared.frame));
+        let place = scene.place(shown.body, shown.place);
+        let expected = origin(declared.frame, &declared.placement);
+        same(format!("point {}", declared.name), &place, &expected);
+    }
+    found
+}
+
+/// Central inertia of a uniform solid, from the textbook.
+fn inertia(shape: &Shape, mass: f64) -> [[f64; 3]; 3] {
+    let round = |axis: Vector, about: f64, across: f64| -> [[f64; 3]; 3] {
+        let entry = |i: usize, j: usize| {
+            let one = if i == j { across } else { 0.0 };
+            mass * (one + (about - across) * axis[i] * axis[j])
+        };
+        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    };
+    // Of squares of lengths along three perpendicular directions: sum (|a|^2 1 - a a^T).
+    let along = |axes: [Vector; 3], squares: [f64; 3]| -> [[f64; 3]; 3] {
+        let sum: f64 = squares.iter().sum();
+        let entry = |i: usize, j: usize| {
+            let own: f64 = (0..3).map(|k| squares[k] * axes[k][i] * axes[k][j]).sum();
+            mass * (if i == j { sum } else { 0.0 } - own)
+        };
+        std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
+    };
+    match shape {
+        Shape::Point { mass: own } => {
+            assert!((own - mass).abs() <= 1e-12 * mass, "{own} {mass}");
+            [[0.0; 3]; 3]
+        }
+        Shape::Rod { along, length } => round(*along, 0.0, length.powi(2) / 12.0),
+        Shape::Disk { axis, radius } => round(*axis, radius.powi(2) / 2.0, radius.powi(2) / 4.0),
+        Shape::Cylinder {
+            axis,
+            radius,
+            length,
+        } => {
+            let across = radius.powi(2) / 4.0 + length.powi(2) / 12.0;
+            round(*axis, radius.powi(2) / 2.0, across)
+        }
+        Shape::Tube {
+            axis,
+            inner,
+            outer,
+            length,
+        } => {
+            assert!(inner < outer);
+            let radii = inner.powi(2) + outer.powi(2);
+            round(*axis, radii / 2.0, radii / 4.0 + length.powi(2) / 12.0)
+        }
+        Shape::Box { edges, size } => along(*edges, size.map(|edge| edge.powi(2) / 12.0)),
+        Shape::Sphere { radius } => {
+            let moment = 0.4 * radius.powi(2);
+            round([1.0, 0.0, 0.0], moment, moment)
+        }
+        Shape::Ellipsoid { axes, semi_axes } => {
+            for (k, axis) in axes.iter().enumerate() {
+                assert!((dot(*axis, *axis) - 1.0).abs() < 1e-12);
+                assert!(dot(*axis, axes[(k + 1) % 3]).abs() < 1e-12);
+            }
+            along(*axes, semi_axes.map(|length| length.powi(2) / 5.0))
+        }
+    }
+}
+
+/// A random tree that the compiler accepts, with a state.
+fn compiled(model: &Model, seed: u64) -> Option<(Compilation, Case)> {
+    let compilation = compile_text(&declaration(model), Limits::default()).ok()?;
+    Some((compilation, Case::random(model, seed)))
+}
+
+fn shown(compilation: &Compilation, case: &Case) -> Scene {
+    let [q, u, b] = &case.at;
+    scene(&Interpreted::new(compilation), q, u, b).expect("a picture")
+}
+
+fn agree_on(trees: u32) {
+    let compared = Cell::new(0);
+    on_plans(trees, |plan| {
+        let model = plan.model();
+        if let Some((compilation, case)) = compiled(&model, plan.seed) {
+            let found = differences(&model, &shown(&compilation, &case), &case);
+            assert!(
+                found.is_empty(),
+                "{}\n{}",
+                found.join("\n"),
+                declaration(&model)
+            );
+            compared.set(compared.get() + 1);
+        }
+    });
+    let compared = compared.get();
+    assert!(compared >= trees * 3 / 4, "{compared} trees compared");
+}
+
+#[test]
+fn pictures_of_random_trees_are_those_of_the_oracle() {
+    agree_on(60);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn pictures_of_many_random_trees_are_those_of_the_oracle() {
+    agree_on(600);
+}
+
+/// A comparison that cannot fail proves nothing: every sign of every sum of the kernel turned round, every result exchanged with
+/// the next, every number that is not computed changed. What changes no result but zeros is not counted.
+#[test]
+fn every_wrong_sign_and_place_is_found() {
+    let seen = Cell::new([0; 3]);
+    on_plans(6, |plan| {
+        let model = plan.model();
+        let Some((compilation, case)) = compiled(&model, plan.seed) else {
+            return;
+        };
+        let right = shown(&compilation, &case);
+        let look = |kind: usize, what: String, wrong: &Compilation| {
+            let wrong = shown(wrong, &case);
+            if difference_of(&wrong, &right) < 1e-9 {
+                return;
+            }
+            let found = differences(&model, &wrong, &case);
+            assert!(!found.is_empty(), "{what} of\n{}", declaration(&model));
+            let mut count = seen.get();
+            count[kind] += 1;
+            seen.set(count);
+        };
+        let kernels = &compilation.program.kernels;
+        let place = kernels.iter().position(|kernel| kernel.name == "picture");
+        let place = place.expect("every mechanism has a picture");
+        let kernel = &kernels[place];
+        for k in 0..kernel.instructions.len() {
+            if let Some(operation) = turned_round(&kernel.instructions[k].operation) {
+                let mut wrong = compilation.clone();
+                wrong.program.kernels[place].instructions[k].operation = operation;
+                look(0, format!("instruction {k}"), &wrong);
+            }
+        }
+        for k in 1..kernel.results[0].values.len() {
+            let mut wrong = compilation.clone();
+            wrong.program.kernels[place].results[0]
+                .values
+                .swap(k - 1, k);
+            look(1, format!("results {k}"), &wrong);
+        }
+        let computed = &compilation.functions.picture.computed;
+        for k in 0..compilation.functions.picture.numbers.len() {
+            if !computed.iter().any(|&place| place as usize == k) {
+                let mut wrong = compilation.clone();
+                wrong.functions.picture.numbers[k] += 0.01;
+                look(2, format!("number {k}"), &wrong);
+            }
+        }
+    });
+    let [signs, results, numbers] = seen.get();
+    assert!(signs > 100 && results > 100 && numbers > 300, "{seen:?}");
+}
+
+fn turned_round(operation: &Operation) -> Option<Operation> {
+    use eigentol_compiler::algebra::Operator::{Add, Subtract};
+    match *operation {
+        Operation::Binary(Add, a, b) => Some(Operation::Binary(Subtract, a, b)),
+        Operation::Binary(Subtract, a, b) => Some(Operation::Binary(Add, a, b)),
+        _ => None,
+    }
+}
+
+/// How far two pictures are apart, by their numbers as text.
+fn difference_of(one: &Scene, other: &Scene) -> f64 {
+    let numbers = |scene: &Scene| -> Vec<f64> {
+        let text = serde_json::to_string(scene).expect("a scene is written");
+        let words = text.split(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c));
+        words.filter_map(|word| word.parse().ok()).collect()
+    };
+    difference(&numbers(one), &numbers(other))
+}

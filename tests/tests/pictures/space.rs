@@ -1,0 +1,39 @@
+//! Vectors for comparisons.
+
+pub(crate) type Vector = [f64; 3];
+
+pub(crate) fn subtract(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+pub(crate) fn add(a: Vector, b: Vector) -> Vector {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+pub(crate) fn scaled(factor: f64, a: Vector) -> Vector {
+    a.map(|x| factor * x)
+}
+
+pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub(crate) fn norm(a: Vector) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// The largest difference of two lists; infinite where one is longer or a difference is no number.
+pub(crate) fn difference(found: &[f64], expected: &[f64]) -> f64 {
+    if found.len() != expected.len() {
+        return f64::INFINITY;
+    }
+    let pairs = found.iter().zip(expected);
+    pairs.fold(0.0, |most, (a, b)| {
+        let apart = (a - b).abs();
+        if apart.is_nan() {
+            f64::INFINITY
+        } else {
+            apart.max(most)
+        }
+    })
+}
