@@ -238,6 +238,13 @@ class Study:
         self, input: str, values: ArrayLike, orders: Sequence[float] = [1.0], unit: str | None = None
     ) -> Campbell: ...
     def branches(self, input: str, low: Value, high: Value) -> Branches: ...
+    def report(
+        self,
+        path: str | PathLike[str],
+        sweep: tuple[str, ArrayLike] | tuple[str, ArrayLike, str] | None = None,
+        orders: Sequence[float] = [],
+        title: str | None = None,
+    ) -> None: ...
     def critical(self, input: str, low: Value, high: Value) -> Event: ...
     def crossings(
         self, input: str, low: Value, high: Value, order: float = 1.0, offset: float = 0.0

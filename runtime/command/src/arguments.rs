@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
-    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, sample,
-    sensitivities, tolerance,
+    allocate, branches, campbell, check, completions, expand, import, merge, modes, new, report,
+    sample, sensitivities, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -99,6 +99,7 @@ enum Command {
     Sample(sample::Sample),
     Merge(merge::Merge),
     Allocate(allocate::Allocate),
+    Report(report::Report),
     Expand(expand::Expand),
     New(new::New),
     Import(import::Import),
@@ -141,6 +142,7 @@ impl Command {
             Self::Sample(own) => own.run(),
             Self::Merge(own) => own.run(),
             Self::Allocate(own) => own.run(),
+            Self::Report(own) => own.run(),
             Self::Expand(own) => own.run(),
             Self::New(own) => own.run(),
             Self::Import(own) => own.run(),

@@ -51,6 +51,8 @@ pub(crate) enum Failure {
     #[error("{0}")]
     Analysis(#[from] Error),
     #[error("{0}")]
+    Report(eigentol_report::Error),
+    #[error("{0}")]
     Table(#[from] eigentol_tables::Error),
     /// The reader of a pipe has gone: no failure.
     #[error("nobody reads the output")]
@@ -74,6 +76,7 @@ impl Failure {
             Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }
             | Self::Table(_)
+            | Self::Report(_)
             | Self::Signal(_)
             | Self::Part { .. }
             | Self::Read { .. }
@@ -119,6 +122,15 @@ impl Failure {
         Self::Write {
             path: path.to_owned(),
             source,
+        }
+    }
+}
+
+impl From<eigentol_report::Error> for Failure {
+    fn from(error: eigentol_report::Error) -> Self {
+        match error {
+            eigentol_report::Error::Study(error) => Self::Analysis(error),
+            other => Self::Report(other),
         }
     }
 }

@@ -44,6 +44,8 @@ pub(crate) struct Point {
 pub(crate) struct Question {
     pub(crate) study: Study<Interpreted>,
     pub(crate) file: StudyFile,
+    /// The declaration.
+    pub(crate) text: String,
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {
@@ -66,8 +68,8 @@ impl Point {
             let help = "name the file with the declaration, or a study file that does";
             return Err(Failure::usage("no mechanism is given", help));
         };
-        let mechanism = Declaration::read(path)?.mechanism()?;
-        let mut study = Study::new(mechanism);
+        let declaration = Declaration::read(path)?;
+        let mut study = Study::new(declaration.mechanism()?);
         if let Some(level) = self.sigma_level.or(file.sigma_level) {
             study = study.sigma_level(level);
         }
@@ -89,7 +91,11 @@ impl Point {
             study = tolerate(study, name, text)?;
         }
         study = correlate(study, &file.correlation)?;
-        Ok(Question { study, file })
+        Ok(Question {
+            study,
+            file,
+            text: declaration.text,
+        })
     }
 }
 

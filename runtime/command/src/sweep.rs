@@ -10,6 +10,9 @@ use crate::point::{Question, input};
 /// Points of a sweep unless said otherwise.
 const POINTS: usize = 51;
 
+/// How a range is written.
+const HELP: &str = "write `--sweep speed=0..6000rpm`";
+
 /// Along what.
 #[derive(Args, Debug)]
 pub(crate) struct Sweep {
@@ -35,10 +38,15 @@ pub(crate) struct Range {
 
 impl Sweep {
     pub(crate) fn range(&self, question: &Question) -> Result<Range, Failure> {
-        const HELP: &str = "write `--sweep speed=0..6000rpm`";
+        let found = self.range_if_any(question)?;
+        found.ok_or_else(|| Failure::usage("no input to sweep is given", HELP))
+    }
+
+    /// The range; `None` where neither the command line nor a study file has one.
+    pub(crate) fn range_if_any(&self, question: &Question) -> Result<Option<Range>, Failure> {
         let text = self.sweep.as_ref().or(question.file.sweep.as_ref());
         let Some(text) = text else {
-            return Err(Failure::usage("no input to sweep is given", HELP));
+            return Ok(None);
         };
         let parts = text
             .split_once('=')
@@ -49,11 +57,11 @@ impl Sweep {
         let (input, unit) = input(&question.study, name)?;
         let refused = |mistakes| Failure::value(format!("sweep {text}"), &mistakes);
         let end = |text: &str| value(text, &unit, &format!("`{name}`")).map_err(refused);
-        Ok(Range {
+        Ok(Some(Range {
             input,
             low: end(&with_unit_of(low, high))?,
             high: end(high)?,
-        })
+        }))
     }
 }
 

@@ -11,6 +11,7 @@ mod motion;
 mod names;
 mod parts;
 mod questions;
+mod report;
 mod requirements;
 mod response;
 mod results;

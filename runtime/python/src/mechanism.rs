@@ -61,7 +61,7 @@ impl Mechanism {
 
     /// The declaration.
     #[getter]
-    fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.text
     }
 

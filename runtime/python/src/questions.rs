@@ -73,7 +73,7 @@ impl Study {
     }
 
     /// An input, and values of it, SI.
-    fn values(
+    pub(crate) fn values(
         &self,
         py: Python<'_>,
         input: &str,

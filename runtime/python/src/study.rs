@@ -128,7 +128,7 @@ impl Study {
 
     /// The mechanism.
     #[getter]
-    fn mechanism(&self, py: Python<'_>) -> Py<Mechanism> {
+    pub(crate) fn mechanism(&self, py: Python<'_>) -> Py<Mechanism> {
         self.mechanism.clone_ref(py)
     }
 

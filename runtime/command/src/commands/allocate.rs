@@ -30,7 +30,7 @@ impl Allocate {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;
-        let Question { study, file } = question;
+        let Question { study, file, .. } = question;
         if file.require.is_empty() || file.choose.is_empty() {
             let help = "a study file has `[[require]]` and `[[choose]]`: `eigentol help allocate`";
             let message = "nothing is required, or nothing may be chosen";

@@ -1,0 +1,69 @@
+//! Reports.
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::place::Place;
+use crate::point::Point;
+use crate::sweep::{Points, Sweep};
+use crate::verdict::Verdict;
+
+/// All that can be said of a mechanism as one HTML file: the view in 3-D with modes in motion, charts, verdicts, tables
+#[derive(Args, Debug)]
+pub(crate) struct Report {
+    #[command(flatten)]
+    point: Point,
+    #[command(flatten)]
+    sweep: Sweep,
+    #[command(flatten)]
+    points: Points,
+    /// Engine order whose crossings are located; may be given several times [default: none]
+    #[arg(long = "order", value_name = "NUMBER")]
+    orders: Vec<f64>,
+    /// Number of Monte Carlo samples [default: 3000]
+    #[arg(long, value_name = "COUNT")]
+    samples: Option<usize>,
+    /// Seed of the samples [default: 0]
+    #[arg(long, value_name = "NUMBER")]
+    seed: Option<u64>,
+    /// Heading of the report [default: the name of the mechanism]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    #[command(flatten)]
+    place: Place,
+}
+
+impl Report {
+    pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        self.place.check()?;
+        let question = self.point.question()?;
+        let range = self.sweep.range_if_any(&question)?;
+        let values = match &range {
+            Some(range) => self.points.values(range, &question)?,
+            None => Vec::new(),
+        };
+        let file = &question.file;
+        let study = (question.study.clone())
+            .samples(self.samples.or(file.samples).unwrap_or(3000))
+            .seed(self.seed.or(file.seed).unwrap_or(0))
+            .stream(file.stream.unwrap_or(0));
+        let given = file.orders.clone().unwrap_or_default();
+        let orders = match self.orders.is_empty() {
+            true => &given,
+            false => &self.orders,
+        };
+        let mut report = eigentol_report::Report::new(&study)
+            .declaration(question.text)
+            .orders(orders);
+        if let Some(title) = &self.title {
+            report = report.title(title);
+        }
+        if let Some(range) = &range {
+            report = report.sweep(range.input, &values);
+        }
+        self.place.write(&report.html()?)?;
+        // What the report says is not there is an answer of "no" here.
+        let solved = study.solve()?;
+        Ok(Verdict::of(&solved.equilibrium, &solved.modes))
+    }
+}

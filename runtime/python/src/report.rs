@@ -1,0 +1,66 @@
+//! A study as one HTML file.
+
+use std::path::PathBuf;
+
+use eigentol_report::{Error, Report};
+use pyo3::exceptions::{PyOSError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::errors::raise;
+use crate::study::Study;
+use crate::values::not_finite;
+
+#[pymethods]
+impl Study {
+    /// Writes a report: one HTML file with the mechanism in 3-D, its modes in motion, charts, verdicts and tables.
+    ///
+    /// `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for plain numbers as
+    /// its third entry: `("speed", range(0, 6001, 100), "rpm")`. `orders` are multiples of that input whose crossings are marked.
+    /// Samples and seed are those of the study.
+    ///
+    /// Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
+    #[pyo3(signature = (path, sweep=None, orders=vec![], title=None))]
+    fn report(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        sweep: Option<&Bound<'_, PyTuple>>,
+        orders: Vec<f64>,
+        title: Option<String>,
+    ) -> PyResult<()> {
+        if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
+            return Err(not_finite(py, "orders", *other));
+        }
+        let text = self.mechanism(py).get().text().to_owned();
+        let mut report = Report::new(&self.inner).declaration(text).orders(&orders);
+        if let Some(title) = title {
+            report = report.title(title);
+        }
+        if let Some(sweep) = sweep {
+            let (input, values, unit) = parts(sweep)?;
+            let (input, values) = self.values(py, &input, &values, unit.as_deref())?;
+            report = report.sweep(input, &values);
+        }
+        py.detach(|| report.save(path)).map_err(|error| match error {
+            Error::Study(error) => raise(py, error),
+            other => PyOSError::new_err(other.to_string()),
+        })
+    }
+}
+
+/// Name, values, unit.
+fn parts<'py>(
+    sweep: &Bound<'py, PyTuple>,
+) -> PyResult<(String, Bound<'py, PyAny>, Option<String>)> {
+    match sweep.len() {
+        2 => {
+            let (input, values) = sweep.extract()?;
+            Ok((input, values, None))
+        }
+        3 => sweep.extract(),
+        _ => Err(PyTypeError::new_err(
+            "a sweep is a tuple: (\"speed\", values) or (\"speed\", values, \"rpm\")",
+        )),
+    }
+}
