@@ -19,6 +19,7 @@ mod modes;
 mod partial;
 mod propagate;
 mod quadratic;
+mod quiet;
 mod range;
 mod reliable;
 mod rounding;

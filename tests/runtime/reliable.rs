@@ -484,7 +484,7 @@ fn reports_name_what_they_are_about() {
         "{text}"
     );
     let text = study.reliability(&wanted).unwrap().to_string();
-    assert!(text.contains("gap at least 0.0395000 m"), "{text}");
+    assert!(text.contains("gap at least 0.0395 m"), "{text}");
     assert!(text.contains("a [mm]"), "{text}");
     assert!(text.contains("Requirement 2 has no design point"), "{text}");
     let settings = SamplingSettings::default();

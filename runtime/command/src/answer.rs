@@ -27,6 +27,7 @@ struct Written {
     /// As text or as a document.
     text: String,
     tables: Vec<Table>,
+    aside: bool,
 }
 
 impl Answer {
@@ -48,18 +49,36 @@ impl Answer {
             Form::Csv => (String::new(), result.tables()),
             Form::Json => (json::to_string(result)?, Vec::new()),
         };
-        self.results.push(Written { kind, text, tables });
+        self.results.push(Written {
+            kind,
+            text,
+            tables,
+            aside: false,
+        });
         Ok(())
     }
 
-    /// The answer in its form: as text all results or the one of this kind, otherwise that one or the first.
+    /// Adds a result that as text is only shown where it is asked for, because another says what is in it.
+    pub(crate) fn add_aside<R: Display + eigentol_tables::Answer>(
+        &mut self,
+        result: &R,
+    ) -> Result<(), Failure> {
+        self.add(result)?;
+        if let Some(own) = self.results.last_mut() {
+            own.aside = true;
+        }
+        Ok(())
+    }
+
+    /// The answer in its form: as text all results that are not aside or the one of this kind, otherwise that one or the first.
     pub(crate) fn written(
         &self,
         kind: Option<&str>,
         table: Option<&str>,
     ) -> Result<String, Failure> {
         if self.form == Form::Text && kind.is_none() {
-            let all: Vec<&str> = self.results.iter().map(|own| own.text.as_str()).collect();
+            let shown = self.results.iter().filter(|own| !own.aside);
+            let all: Vec<&str> = shown.map(|own| own.text.as_str()).collect();
             return Ok(all.join("\n"));
         }
         let result = named("result", &self.results, kind, |own| own.kind)?;

@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, optional};
+use super::margin::chance;
+use super::numbers::{given, heading, in_unit, or_dash, rough, rough_in, short};
+use super::table::{Table, cells};
 use super::title::title;
 use crate::allocation::Allocation;
 
@@ -13,15 +15,15 @@ impl fmt::Display for Allocation {
             f,
             "{}: allocation, cost {} instead of {}",
             title(d, &self.inputs),
-            number(self.cost),
-            number(self.cost_before)
+            rough(self.cost),
+            rough(self.cost_before)
         )?;
         let mut table = Table::new(cells(["variable", "nominal value", "half-width"]));
         for (k, info) in d.design.iter().enumerate() {
             table.row(vec![
                 heading(&info.name, &info.unit),
                 in_unit(self.nominal[k], &info.unit),
-                in_unit(self.half_widths[k], &info.unit),
+                rough_in(self.half_widths[k], &info.unit),
             ]);
         }
         write!(f, "{table}")?;
@@ -35,9 +37,9 @@ impl fmt::Display for Allocation {
         for (k, allowed) in self.failure.iter().enumerate() {
             table.row(vec![
                 (k + 1).to_string(),
-                number(*allowed),
-                optional(self.reliability.beta_of(k)),
-                number(self.chances.each[k].failure()),
+                given(*allowed),
+                or_dash(self.reliability.beta_of(k), short),
+                chance(self.chances.each[k].failure(), 0.0),
                 if self.refuted.contains(&k) {
                     "yes"
                 } else {

@@ -1,10 +1,17 @@
-//! Campbell diagrams as text.
+//! Campbell diagrams as text: what happens, each mode in one line, and some of the points.
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, undamped};
+use super::numbers::{given_in, heading, in_unit, number, optional, or_dash, rough, rough_in};
+use super::relevance::{EVERYTHING, shown};
+use super::shares::mostly;
+use super::table::{Table, cells, undamped};
 use super::title::title_along;
-use crate::campbell::Campbell;
+use super::tolerance::{spread_of, what_happens};
+use crate::campbell::{Campbell, CampbellMode};
+use crate::modes::Family;
+use crate::tolerance::Spread;
+use crate::{Behaviour, InputInfo};
 
 impl fmt::Display for Campbell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -14,48 +21,166 @@ impl fmt::Display for Campbell {
         let Some(info) = d.inputs.get(self.input.index()) else {
             return Ok(());
         };
-        let mut head = vec![heading(&info.name, &info.unit)];
-        head.extend(cells([
-            "mode",
-            "omega [rad/s]",
-            "sigma",
-            "damping ratio",
-            "sigma",
-            "whirl",
-            "motion",
-        ]));
-        let mut table = Table::new(head);
-        for point in &self.points {
-            let value = in_unit(point.value, &info.unit);
-            let modes = match &point.modes {
-                Ok(modes) => modes,
-                Err(error) => {
-                    table.row(vec![value, error.to_string()]);
-                    continue;
-                }
-            };
-            for mode in modes {
-                let own = |exists: bool, text: String| if exists { text } else { "-".to_owned() };
-                let oscillates = mode.behaviour.frequency().is_some();
-                let sigma = |spread: Option<f64>| of_mode(spread, mode.clustered);
-                table.row(vec![
-                    value.clone(),
-                    (mode.label + 1).to_string(),
-                    own(oscillates, number(mode.s.im)),
-                    sigma(mode.frequency.as_ref().map(|spread| spread.sigma)),
-                    optional(mode.damping_ratio.as_ref().map(|spread| spread.mean)),
-                    sigma(mode.damping_ratio.as_ref().map(|spread| spread.sigma)),
-                    mode.whirl.map_or("-".to_owned(), |whirl| whirl.to_string()),
-                    mode.behaviour.to_string(),
-                ]);
-            }
+        self.events(f, info)?;
+        self.by_mode(f, info)?;
+        self.by_point(f, info)?;
+        undamped(f, self.family, d)
+    }
+}
+
+impl Campbell {
+    /// Critical values, onsets of flutter, crossings.
+    fn events(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
+        let mut table = Table::new(vec![
+            "what happens".to_owned(),
+            heading(&format!("at {}", info.name), &info.unit),
+            format!("{} sigma", self.sigma_level),
+            "mostly from".to_owned(),
+        ]);
+        let events = self.critical.iter().chain(&self.flutter_onsets);
+        for event in events.chain(&self.crossings) {
+            let mut row = vec![
+                what_happens(&event.event, &info.name),
+                in_unit(event.value, &info.unit),
+            ];
+            row.extend(match &event.spread {
+                Ok(own) => vec![
+                    rough_in(own.band, &info.unit),
+                    mostly(&self.description, &own.variance_shares),
+                ],
+                Err(error) => vec!["-".to_owned(), error.to_string()],
+            });
+            table.row(row);
         }
-        write!(f, "{table}")?;
-        undamped(f, self.family, d)?;
-        let events = self.crossings.iter().chain(&self.critical);
-        for event in events.chain(&self.flutter_onsets) {
-            write!(f, "{event}")?;
+        match table.is_empty() {
+            true => Ok(()),
+            false => write!(f, "{table}"),
+        }
+    }
+
+    /// Each mode from end to end: where its spread is greatest and its damping least.
+    fn by_mode(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
+        let general = self.family == Family::General;
+        let spread = |own: &CampbellMode| own.frequency.as_ref().map_or(0.0, spread_of);
+        let damped = |own: &CampbellMode| own.damping_ratio.as_ref().map(|own| own.mean);
+        let mut head = cells(["mode", "omega [rad/s]", "to", "most sigma"]);
+        head.push(format!("at {}", info.name));
+        if general {
+            head.extend(cells(["least damping ratio", "sigma"]));
+            head.push(format!("at {}", info.name));
+        }
+        head.extend(cells(["whirl", "motion"]));
+        let mut table = Table::new(head);
+        for label in self.labels() {
+            let all: Vec<(f64, &CampbellMode)> = self.branch(label).collect();
+            let (Some((_, first)), Some((_, last))) = (all.first(), all.last()) else {
+                continue;
+            };
+            let mut row = vec![
+                (label + 1).to_string(),
+                optional(first.behaviour.frequency()),
+                optional(last.behaviour.frequency()),
+            ];
+            let widest = (all
+                .iter()
+                .filter(|(_, own)| !own.clustered && spread(own) > 0.0))
+            .max_by(|(_, a), (_, b)| spread(a).total_cmp(&spread(b)));
+            row.push(or_dash(widest.map(|(_, own)| spread(own)), rough));
+            row.push(widest.map_or("-".to_owned(), |(value, _)| given_in(*value, &info.unit)));
+            if general {
+                let has = all.iter().filter(|(_, own)| damped(own).is_some());
+                let least = has.min_by(|(_, a), (_, b)| {
+                    let ratio = |own| damped(own).unwrap_or(f64::INFINITY);
+                    ratio(a).total_cmp(&ratio(b))
+                });
+                let sigma = |own: &Spread| spread_of(own);
+                row.push(or_dash(least.and_then(|(_, own)| damped(own)), rough));
+                let own = least.filter(|(_, own)| !own.clustered);
+                let own = own.and_then(|(_, own)| own.damping_ratio.as_ref());
+                row.push(or_dash(own.map(sigma), rough));
+                row.push(least.map_or("-".to_owned(), |(value, _)| given_in(*value, &info.unit)));
+            }
+            let whirl = last.whirl.or(first.whirl);
+            row.push(whirl.map_or("-".to_owned(), |whirl| whirl.sense().to_string()));
+            row.push(motions(&all));
+            table.row(row);
+        }
+        match table.is_empty() {
+            true => Ok(()),
+            false => write!(f, "{table}"),
+        }
+    }
+
+    /// The frequencies at some of the values.
+    fn by_point(&self, f: &mut fmt::Formatter<'_>, info: &InputInfo) -> fmt::Result {
+        let oscillates = |label: &usize| {
+            let mut branch = self.branch(*label);
+            branch.any(|(_, mode)| mode.behaviour.frequency().is_some())
+        };
+        let mut labels = self.labels();
+        labels.retain(oscillates);
+        let mut head = vec![heading(&info.name, &info.unit)];
+        head.extend(
+            labels
+                .iter()
+                .map(|label| format!("omega{} [rad/s]", label + 1)),
+        );
+        let mut table = Table::new(head);
+        let rows = shown(self.points.len());
+        for &k in &rows {
+            let point = &self.points[k];
+            let mut row = vec![given_in(point.value, &info.unit)];
+            match &point.modes {
+                Ok(modes) => row.extend(labels.iter().map(|label| {
+                    let own = modes.iter().find(|mode| mode.label == *label);
+                    let omega = own.and_then(|mode| mode.behaviour.frequency());
+                    omega.map_or("-".to_owned(), number)
+                })),
+                Err(error) => row.push(error.to_string()),
+            }
+            table.row(row);
+        }
+        if !table.is_empty() {
+            write!(f, "{table}")?;
+        }
+        let failed = self
+            .points
+            .iter()
+            .filter(|point| point.modes.is_err())
+            .count();
+        if failed > 0 {
+            writeln!(
+                f,
+                "  {failed} of {} points have no modes.",
+                self.points.len()
+            )?;
+        }
+        if rows.len() < self.points.len() {
+            let (shown, all) = (rows.len(), self.points.len());
+            writeln!(
+                f,
+                "  {shown} of {all} points are shown: {EVERYTHING}, with sigma, damping and whirl."
+            )?;
         }
         Ok(())
     }
+}
+
+/// What a mode does along the way, each once, in order.
+fn motions(branch: &[(f64, &CampbellMode)]) -> String {
+    let mut said: Vec<&str> = Vec::new();
+    for (_, mode) in branch {
+        let word = match mode.behaviour {
+            Behaviour::Oscillating(_) => "oscillates",
+            Behaviour::Damped(_) => "decays",
+            Behaviour::Flutter(_) => "grows (flutter)",
+            Behaviour::Decaying(_) => "creeps back",
+            Behaviour::Neutral => "free",
+            Behaviour::Divergent(_) => "diverges",
+        };
+        if said.last() != Some(&word) {
+            said.push(word);
+        }
+    }
+    said.join(", then ")
 }

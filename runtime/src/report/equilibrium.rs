@@ -3,7 +3,9 @@
 use core::fmt;
 
 use super::branches::critical_vectors;
-use super::table::{Table, cells, heading, in_unit, number};
+use super::numbers::{given, heading, in_unit, rough_in};
+use super::relevance::{largest, unless_rounding};
+use super::table::{Table, cells};
 use super::title::{title, title_along};
 use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState};
 use crate::sweep::{Condition, CriticalState, Crossing};
@@ -41,11 +43,12 @@ pub(super) fn meeting(mode: usize, condition: Condition, name: &str) -> String {
     let mode = mode + 1;
     match condition {
         Condition::Line(line) if line.offset == 0.0 => {
-            format!("frequency {mode} is {} times {name}", line.ratio)
+            format!("frequency {mode} is {} times {name}", given(line.ratio))
         }
         Condition::Line(line) => format!(
             "frequency {mode} is {} times {name} plus {} rad/s",
-            line.ratio, line.offset
+            given(line.ratio),
+            given(line.offset)
         ),
         Condition::FlutterOnset => format!("onset of flutter of mode {mode}"),
     }
@@ -61,17 +64,8 @@ impl fmt::Display for Equilibrium {
             write!(f, "{}", self.stability)?;
         }
         writeln!(f)?;
-        write!(
-            f,
-            "{}",
-            unknowns(d, &self.coordinates, "residual", &self.residual)
-        )?;
+        unknowns(f, d, &self.coordinates, None)?;
         redundancy(f, &self.constraints, self.dependent_constraints())?;
-        writeln!(
-            f,
-            "  relative residual {:.1e} after {} iterations",
-            self.relative_residual, self.iterations
-        )?;
         match &self.pose {
             Some(pose) if pose.margin < NEAR_SINGULAR => writeln!(
                 f,
@@ -83,30 +77,67 @@ impl fmt::Display for Equilibrium {
     }
 }
 
-/// Coordinates, speeds and reactions, each with its own heading, and one more value of each. A reaction is what `from` exerts on
-/// `to`, its gap what is left to go in that direction.
-fn unknowns(description: &Description, values: &[f64], other: &str, others: &[f64]) -> Table {
-    let mut table = Table::new(cells(["coordinate", "value", other]));
-    let mut last = Role::Position;
-    for (i, info) in description.coordinates.iter().enumerate() {
-        let headings = match (last, info.role) {
-            (before, now) if before == now => None,
-            (_, Role::Position) => None,
-            (_, Role::Speed) => Some(["speed", "value", other]),
-            (Role::PositionReaction, Role::VelocityReaction) => None,
-            _ => Some(["reaction", "value", "gap"]),
-        };
-        if let Some(headings) = headings {
-            table.row(cells(headings));
+/// Coordinates, speeds and reactions, each with its own heading, and how far each was moved. A reaction is what `from` exerts on `to`.
+/// Of a long list those that are zero are only counted.
+fn unknowns(
+    f: &mut fmt::Formatter<'_>,
+    description: &Description,
+    values: &[f64],
+    moved: Option<&[f64]>,
+) -> fmt::Result {
+    let infos = &description.coordinates;
+    let value = |i: usize| of_its_kind(description, values, i);
+    let still = |i: &usize| value(*i) == 0.0 && moved.is_none_or(|moved| moved[*i] == 0.0);
+    let zero = (0..infos.len()).filter(still).count();
+    let counted = infos.len() > LISTED && zero > 0;
+    let heads = |name: &str| {
+        let both = [name, "value", "moved"];
+        let columns = if moved.is_some() { 3 } else { 2 };
+        cells(both)[..columns].to_vec()
+    };
+    let mut table = Table::default();
+    let mut last = None;
+    for (i, info) in infos.iter().enumerate() {
+        if counted && still(&i) {
+            continue;
         }
-        last = info.role;
-        table.row(vec![
+        let kind = match info.role {
+            Role::Position => "coordinate",
+            Role::Speed => "speed",
+            Role::PositionReaction | Role::VelocityReaction => "reaction",
+        };
+        if last.replace(kind) != Some(kind) {
+            table.row(heads(kind));
+        }
+        let mut row = vec![
             heading(&info.name, &info.unit),
-            in_unit(values[i], &info.unit),
-            number(others[i]),
-        ]);
+            in_unit(value(i), &info.unit),
+        ];
+        row.extend(moved.map(|moved| rough_in(moved[i], &info.unit)));
+        table.row(row);
     }
-    table
+    if !table.is_empty() {
+        write!(f, "{table}")?;
+    }
+    match counted {
+        true => writeln!(
+            f,
+            "  Zero, within rounding: the other {zero} of {}.",
+            infos.len()
+        ),
+        false => Ok(()),
+    }
+}
+
+/// Unknowns of which all are listed.
+const LISTED: usize = 12;
+
+/// The value of an unknown, or zero where it is rounding beside others of its unit.
+pub(super) fn of_its_kind(description: &Description, values: &[f64], i: usize) -> f64 {
+    let infos = description.coordinates.iter().zip(values);
+    let own = &description.coordinates[i].unit.symbol;
+    let kind = infos.filter(|(info, _)| info.unit.symbol == *own);
+    unless_rounding(values[i], largest(kind.map(|(_, value)| *value)))
 }
 
 fn redundancy(
@@ -148,11 +179,7 @@ impl fmt::Display for Assembly {
             write!(f, ", margin to a dead centre {:.1e}", self.margin)?;
         }
         writeln!(f)?;
-        write!(
-            f,
-            "{}",
-            unknowns(d, &self.coordinates, "moved", &self.changes())
-        )?;
+        unknowns(f, d, &self.coordinates, Some(&self.changes()))?;
         redundancy(f, &self.constraints, self.dependent_constraints())?;
         if self.singular && !self.constraints.singular {
             writeln!(

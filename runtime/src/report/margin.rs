@@ -2,8 +2,11 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, per};
+use super::numbers::{given_in, heading, in_unit, per, rough, rough_in, short};
+use super::relevance::{BELOW, CHANCE, largest, names, relevant};
+use super::table::{Table, cells};
 use super::title::title;
+use super::tolerance::far;
 use crate::second_order::Margin;
 use crate::setters::setters;
 use crate::{Description, Unit};
@@ -45,6 +48,18 @@ impl<'a> MarginTable<'a> {
     }
 }
 
+/// A probability, as far as it can be told from zero.
+pub(super) fn chance(value: f64, error: f64) -> String {
+    let told = error.max(CHANCE);
+    if value == 0.0 && error == 0.0 {
+        "0".to_owned()
+    } else if value < told {
+        format!("< {}", short(told))
+    } else {
+        rough(value)
+    }
+}
+
 impl fmt::Display for MarginTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (margin, unit, d) = (self.margin, &self.unit, self.description);
@@ -54,8 +69,8 @@ impl fmt::Display for MarginTable<'_> {
             "{}: margin of {} against the band {} to {} {}",
             title(d, self.inputs),
             self.quantity,
-            in_unit(low, unit),
-            in_unit(high, unit),
+            given_in(low, unit),
+            given_in(high, unit),
             unit.symbol
         )?;
         let mut table = Table::new(vec![
@@ -68,10 +83,10 @@ impl fmt::Display for MarginTable<'_> {
         ]);
         table.row(vec![
             in_unit(margin.value, unit),
-            in_unit(margin.sigma, unit),
-            number(margin.distance),
-            number(margin.first_order),
-            number(margin.corrected.value),
+            rough_in(margin.sigma, unit),
+            far(margin.distance),
+            chance(margin.first_order, 0.0),
+            chance(margin.corrected.value, margin.corrected.error),
             format!("{:.0e}", margin.corrected.error),
         ]);
         write!(f, "{table}")?;
@@ -85,14 +100,32 @@ impl fmt::Display for MarginTable<'_> {
                 "  No variable changes the probability, within the range of a double."
             );
         }
+        if margin.first_order < CHANCE {
+            return writeln!(f, "  What changes so small a probability is in the tables.");
+        }
+        let size = |k: usize| {
+            let half_width = slopes.by_half_width[k];
+            slopes.by_design[k].abs().max(half_width.abs()) * d.design[k].nominal.abs()
+        };
+        let most = largest((0..d.design.len()).map(size));
         let mut table = Table::new(cells(["probability by", "nominal value", "half-width"]));
+        let mut left = Vec::new();
         for (k, info) in d.design.iter().enumerate() {
+            if info.nominal != 0.0 && !relevant(size(k), most) {
+                left.push(&*info.name);
+                continue;
+            }
             table.row(vec![
                 per(&info.name, &info.unit),
-                number(slopes.by_design[k] * info.unit.scale),
-                number(slopes.by_half_width[k] * info.unit.scale),
+                rough(slopes.by_design[k] * info.unit.scale),
+                rough(slopes.by_half_width[k] * info.unit.scale),
             ]);
         }
-        write!(f, "{table}")
+        write!(f, "{table}")?;
+        if left.is_empty() {
+            return Ok(());
+        }
+        let names = names(&left, "variables");
+        writeln!(f, "  Left out, {BELOW} of the largest effect: {names}")
     }
 }

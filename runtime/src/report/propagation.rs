@@ -4,7 +4,9 @@ use core::fmt;
 
 use eigentol_statistics::sensitivity::Estimate;
 
-use super::table::{Table, cells, heading, in_unit, number, optional, unit_of};
+use super::numbers::{heading, in_unit, or_dash, percent, short, unit_of};
+use super::relevance::{BELOW, names, relevant, unless_rounding};
+use super::table::{Table, cells};
 use super::title::title;
 use crate::propagation::{
     Controlled, Estimated, Influence, Method, Points, Propagation, QUANTILES, WorstCase,
@@ -75,8 +77,7 @@ impl fmt::Display for Propagation {
                 None => cells(["-", "-"]),
                 Some(own) => vec![
                     in_unit(own.value, &unit),
-                    own.error
-                        .map_or_else(|| "-".to_owned(), |error| in_unit(error, &unit)),
+                    or_dash(own.error.map(|error| unit.from_si(error)), short),
                 ],
             };
             let nominal = own
@@ -84,10 +85,13 @@ impl fmt::Display for Propagation {
                 .map_or_else(|| "-".to_owned(), |value| in_unit(value, &unit));
             let mut row = vec![label.clone(), nominal];
             row.extend(both(Some(own.mean)));
-            row.extend(both(own.sigma));
-            row.push(optional(own.skewness.map(|own| own.value)));
-            row.push(optional(own.skewness.and_then(|own| own.error)));
-            row.push(number(own.share));
+            row.extend(both(own.sigma.map(|sigma| Estimated {
+                value: unless_rounding(sigma.value, own.mean.value),
+                ..sigma
+            })));
+            row.push(or_dash(own.skewness.map(|own| own.value), short));
+            row.push(or_dash(own.skewness.and_then(|own| own.error), short));
+            row.push(percent(own.share));
             table.row(row);
             if !own.quantiles.is_empty() {
                 any = true;
@@ -117,7 +121,8 @@ impl Propagation {
         let mut table = Table::new(head);
         for (i, name) in names.into_iter().enumerate() {
             let mut row = vec![name];
-            row.extend((0..self.wanted.len()).map(|j| optional(self.correlation(i, j))));
+            let own = (0..self.wanted.len()).map(|j| self.correlation(i, j));
+            row.extend(own.map(|own| own.map_or("-".to_owned(), |own| format!("{own:.3}"))));
             table.row(row);
         }
         table
@@ -203,11 +208,8 @@ impl fmt::Display for Controlled {
             let mut row = vec![label];
             for (own, worth) in [(own.mean, own.worth), (own.sigma, own.worth_of_sigma)] {
                 row.push(in_unit(own.value, &unit));
-                row.push(
-                    own.error
-                        .map_or_else(|| "-".to_owned(), |error| in_unit(error, &unit)),
-                );
-                row.push(number(worth));
+                row.push(or_dash(own.error.map(|error| unit.from_si(error)), short));
+                row.push(short(worth));
             }
             row.push(own.model.to_string());
             table.row(row);
@@ -240,12 +242,19 @@ impl fmt::Display for Influence {
                 "at high",
             ];
             let mut table = Table::new([vec![label], cells(head)].concat());
+            let mut left = Vec::new();
             for own in &own.variables {
+                let none =
+                    |index: Option<Estimate>| index.is_some_and(|own| !relevant(own.upper, 1.0));
+                if none(own.first) && none(own.total) {
+                    left.push(&*d.design[own.variable].name);
+                    continue;
+                }
                 let index = |own: Option<Estimate>| match own {
                     None => cells(["-", "-"]),
                     Some(own) => vec![
-                        number(own.value),
-                        format!("{} to {}", number(own.lower), number(own.upper)),
+                        short(own.value),
+                        format!("{} to {}", short(own.lower), short(own.upper)),
                     ],
                 };
                 let value = |own: Option<f64>| {
@@ -254,11 +263,20 @@ impl fmt::Display for Influence {
                 let mut row = vec![d.design[own.variable].name.to_string()];
                 row.extend(index(own.first));
                 row.extend(index(own.total));
-                row.extend([own.correlation, own.rank_correlation, own.regression].map(optional));
+                row.extend(
+                    [own.correlation, own.rank_correlation, own.regression]
+                        .map(|own| or_dash(own, short)),
+                );
                 row.extend([own.at_low, own.at_high].map(value));
                 table.row(row);
             }
-            write!(f, "{table}")?;
+            if !table.is_empty() {
+                write!(f, "{table}")?;
+            }
+            if !left.is_empty() {
+                let names = names(&left, "variables");
+                writeln!(f, "  Left out, certainly {BELOW} of the variance: {names}")?;
+            }
             if own.missing > 0 {
                 writeln!(
                     f,

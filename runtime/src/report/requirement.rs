@@ -2,7 +2,10 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, in_unit, number, optional};
+use super::margin::chance;
+use super::numbers::{given, given_in, heading, in_unit, or_dash, rough, short};
+use super::relevance::{BELOW, names, relevant};
+use super::table::{Table, cells};
 use super::title::title;
 use crate::requirement::{
     Chances, DesignPoint, Edge, Limit, LimitReliability, RareFailure, Reliability, Tally,
@@ -35,7 +38,7 @@ impl fmt::Display for Chances {
         if stable < samples {
             writeln!(
                 f,
-                "  {} samples are not stable: {:?}",
+                "  {} samples are not stable: {}",
                 samples - stable,
                 self.counts
             )?;
@@ -47,14 +50,14 @@ impl fmt::Display for Chances {
 fn row(name: String, tally: &Tally) -> Vec<String> {
     let interval = tally.clopper_pearson(CONFIDENCE).map_or_else(
         |_| "-".to_owned(),
-        |found| format!("{} to {}", number(found.lower), number(found.upper)),
+        |found| format!("{} to {}", short(found.lower), short(found.upper)),
     );
     vec![
         name,
         tally.met.to_string(),
         tally.failed.to_string(),
         tally.untold.to_string(),
-        number(tally.failure()),
+        rough(tally.failure()),
         interval,
     ]
 }
@@ -73,9 +76,9 @@ impl fmt::Display for Reliability {
             writeln!(
                 f,
                 "  Any of these fails with probability {} to first order (bounds {} to {}).",
-                number(system.probability.value),
-                number(system.bounds.lower),
-                number(system.bounds.upper)
+                chance(system.probability.value, 0.0),
+                chance(system.bounds.lower, 0.0),
+                chance(system.bounds.upper, 0.0)
             )?;
         }
         Ok(())
@@ -102,9 +105,9 @@ fn point(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::
     writeln!(
         f,
         "  beta {}, probability of failure {} (first order), {} (second order); design point {}",
-        number(at.beta()),
-        number(at.probability()),
-        optional(at.second_order),
+        rough(at.beta()),
+        chance(at.probability(), 0.0),
+        or_dash(at.second_order, |value| chance(value, 0.0)),
         if at.verified {
             "verified"
         } else {
@@ -118,34 +121,49 @@ fn point(f: &mut fmt::Formatter<'_>, at: &DesignPoint, d: &Description) -> fmt::
         "beta by nominal value",
         "by half-width",
     ]));
+    let mut left = Vec::new();
     for (k, info) in d.design.iter().enumerate() {
+        if !relevant(at.importance[k], 1.0) {
+            left.push(&*info.name);
+            continue;
+        }
         let scale = info.unit.scale;
         table.row(vec![
             heading(&info.name, &info.unit),
             in_unit(at.design[k], &info.unit),
-            number(at.importance[k]),
-            number(at.by_nominal[k].beta * scale),
-            number(at.by_half_width[k].beta * scale),
+            format!("{:.3}", at.importance[k]),
+            rough(at.by_nominal[k].beta * scale),
+            rough(at.by_half_width[k].beta * scale),
         ]);
     }
-    write!(f, "{table}")
+    if !table.is_empty() {
+        write!(f, "{table}")?;
+    }
+    match left.is_empty() {
+        true => Ok(()),
+        false => writeln!(
+            f,
+            "  Left out, {BELOW} of the importance: {}",
+            names(&left, "variables")
+        ),
+    }
 }
 
 /// `frequency 1 at least 4.00000 rad/s`.
 fn text(limit: &Limit, d: &Description) -> String {
     let one = |end: f64| match limit.response {
         Response::Mode { quantity, .. } => match quantity {
-            Quantity::DampingRatio => number(end),
-            Quantity::Growth => format!("{} 1/s", number(end)),
-            _ => format!("{} rad/s", number(end)),
+            Quantity::DampingRatio => given(end),
+            Quantity::Growth => format!("{} 1/s", given(end)),
+            _ => format!("{} rad/s", given(end)),
         },
         Response::Output(output) => match d.outputs.get(output.index()) {
-            Some(info) => format!("{} {}", in_unit(end, &info.unit), info.unit.symbol),
-            None => number(end),
+            Some(info) => format!("{} {}", given_in(end, &info.unit), info.unit.symbol),
+            None => given(end),
         },
         Response::Critical(range) => match d.inputs.get(range.input.index()) {
-            Some(info) => format!("{} {}", in_unit(end, &info.unit), info.unit.symbol),
-            None => number(end),
+            Some(info) => format!("{} {}", given_in(end, &info.unit), info.unit.symbol),
+            None => given(end),
         },
     };
     let name = match limit.response {
@@ -186,8 +204,8 @@ impl fmt::Display for RareFailure {
         writeln!(
             f,
             "  Some requirement fails with probability {} +- {} ({} samples failed, {} cannot tell).",
-            number(found.probability.value),
-            number(found.probability.standard_error),
+            rough(found.probability.value),
+            short(found.probability.standard_error),
             found.failures,
             found.without_value
         )

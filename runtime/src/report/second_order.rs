@@ -3,7 +3,9 @@
 use core::fmt;
 
 use super::margin::MarginTable;
-use super::table::{Table, cells, number, unit_of};
+use super::numbers::{number, rough, unit_of};
+use super::relevance::unless_rounding;
+use super::table::{Table, cells};
 use super::title::title;
 use crate::second_order::{ModeMargin, SecondOrder};
 
@@ -31,11 +33,11 @@ impl fmt::Display for SecondOrder {
                 (r + 1).to_string(),
                 number(frequency.model.value),
                 number(frequency.moments.mean),
-                number(frequency.moments.first_order_sigma),
-                number(frequency.moments.sigma),
-                number(frequency.moments.skewness),
-                number(damping.moments.mean),
-                number(damping.moments.sigma),
+                sigma(frequency.moments.first_order_sigma, frequency.moments.mean),
+                sigma(frequency.moments.sigma, frequency.moments.mean),
+                format!("{:+.3}", frequency.moments.skewness),
+                rough(damping.moments.mean),
+                sigma(damping.moments.sigma, damping.moments.mean),
             ]);
         }
         write!(f, "{table}")?;
@@ -46,6 +48,10 @@ impl fmt::Display for SecondOrder {
         }
         Ok(())
     }
+}
+
+fn sigma(value: f64, mean: f64) -> String {
+    rough(unless_rounding(value, mean))
 }
 
 impl fmt::Display for ModeMargin {
@@ -62,7 +68,7 @@ impl fmt::Display for ModeMargin {
             return Ok(());
         };
         for (info, slope) in self.description.inputs.iter().zip(by_input) {
-            let slope = number(slope * info.unit.scale);
+            let slope = rough(slope * info.unit.scale);
             let symbol = &info.unit.symbol;
             writeln!(f, "  probability by {} [{symbol}]: {slope}", info.name)?;
         }

@@ -2,39 +2,106 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, heading, number, of_mode, per, undamped};
+use super::numbers::{heading, number, of_mode, per, rough};
+use super::relevance::{BELOW, largest, names, relevant, unless_rounding};
+use super::table::{Table, cells, undamped};
 use super::title::title;
 use crate::Sensitivities;
 use crate::modes::Family;
 use crate::sensitivity::{EquilibriumShift, Method, OutputSensitivities, Quantity};
 use crate::{Description, Text, Unit};
 
-/// Names and units of all variables, inputs first.
-fn variables(d: &Description) -> impl Iterator<Item = (&Text, &Unit)> {
-    let inputs = d.inputs.iter().map(|info| (&info.name, &info.unit));
-    inputs.chain(d.design.iter().map(|info| (&info.name, &info.unit)))
+/// A variable: its name, its unit and its value, SI. Inputs come first.
+fn variables<'a>(
+    d: &'a Description,
+    inputs: &'a [f64],
+) -> impl Iterator<Item = (&'a Text, &'a Unit, f64)> {
+    let of_inputs = d.inputs.iter().zip(inputs);
+    let of_inputs = of_inputs.map(|(info, value)| (&info.name, &info.unit, *value));
+    let design = d.design.iter();
+    of_inputs.chain(design.map(|info| (&info.name, &info.unit, info.nominal)))
 }
 
-/// A table of derivatives: one row for each variable, in its declared unit.
-fn derivatives(
-    d: &Description,
+/// Derivatives by variable and quantity.
+struct Derivatives<'a> {
+    description: &'a Description,
+    inputs: &'a [f64],
+    /// What the quantities are.
     columns: Vec<String>,
-    value: impl Fn(usize, usize) -> Option<f64>,
-    clustered: impl Fn(usize) -> bool,
-) -> Table {
-    let mut head = cells(["derivative by"]);
-    let count = columns.len();
-    head.extend(columns);
-    let mut table = Table::new(head);
-    for (j, (name, unit)) in variables(d).enumerate() {
-        let mut row = vec![per(name, unit)];
-        row.extend((0..count).map(|column| {
-            let value = value(column, j).map(|value| value * unit.scale);
-            of_mode(value, clustered(column))
-        }));
-        table.row(row);
+}
+
+impl Derivatives<'_> {
+    /// One row for each variable that matters, in its declared unit, one column for each quantity that depends on any. A variable
+    /// matters if the derivative times its value is among the large ones of a column; of a value of zero nobody can tell.
+    fn write(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        value: impl Fn(usize, usize) -> Option<f64>,
+        clustered: impl Fn(usize) -> bool,
+    ) -> fmt::Result {
+        let variables: Vec<_> = variables(self.description, self.inputs).collect();
+        let effect = |column: usize, j: usize| {
+            let size = variables[j].2.abs();
+            value(column, j).map(|value| value * if size > 0.0 { size } else { 1.0 })
+        };
+        let every = 0..variables.len();
+        let most = |column: usize| largest(every.clone().filter_map(|j| effect(column, j)));
+        let most: Vec<f64> = (0..self.columns.len()).map(most).collect();
+        let depends =
+            |column: &usize| unless_rounding(most[*column], 0.0) != 0.0 || clustered(*column);
+        let (columns, still): (Vec<usize>, Vec<usize>) = (0..self.columns.len()).partition(depends);
+        let matters = |j: &usize| {
+            let own = |column: &usize| match effect(*column, *j) {
+                Some(own) if variables[*j].2 == 0.0 => unless_rounding(own, most[*column]) != 0.0,
+                Some(own) => relevant(own, most[*column]),
+                None => false,
+            };
+            columns
+                .iter()
+                .any(|column| clustered(*column) || own(column))
+        };
+        let (rows, left): (Vec<usize>, Vec<usize>) = every.partition(matters);
+        let mut head = cells(["derivative by"]);
+        head.extend(columns.iter().map(|&column| self.columns[column].clone()));
+        let mut table = Table::new(head);
+        for j in rows {
+            let (name, unit, _) = variables[j];
+            let mut row = vec![per(name, unit)];
+            row.extend(columns.iter().map(|&column| {
+                let own = effect(column, j).map(|own| unless_rounding(own, most[column]));
+                let shown = value(column, j).filter(|_| own.is_some());
+                let shown = shown.map(|value| if own == Some(0.0) { 0.0 } else { value });
+                of_mode(
+                    shown.map(|value| value * unit.scale),
+                    clustered(column),
+                    rough,
+                )
+            }));
+            table.row(row);
+        }
+        if !table.is_empty() {
+            write!(f, "{table}")?;
+        }
+        let exists = |column: &usize| variables.is_empty() || value(*column, 0).is_some();
+        let (zero, none): (Vec<usize>, Vec<usize>) = still.into_iter().partition(exists);
+        for (columns, what) in [(zero, "Zero"), (none, "No derivative")] {
+            let all: Vec<&str> = (columns.iter())
+                .map(|&column| self.columns[column].as_str())
+                .collect();
+            if !all.is_empty() {
+                writeln!(f, "  {what}: {}.", names(&all, "columns"))?;
+            }
+        }
+        if !left.is_empty() && !columns.is_empty() {
+            let left: Vec<&str> = left.iter().map(|&j| &**variables[j].0).collect();
+            let names = names(&left, "variables");
+            writeln!(
+                f,
+                "  Left out, relative effect {BELOW} of the strongest: {names}."
+            )?;
+        }
+        Ok(())
     }
-    table
 }
 
 /// Element `j` of inputs followed by design variables.
@@ -98,8 +165,12 @@ impl fmt::Display for Sensitivities {
             pick(&slopes.by_input, &slopes.by_design, j)
         };
         let clustered = |column| mode(column).clustered;
-        let table = derivatives(&self.description, columns, value, clustered);
-        write!(f, "{table}")?;
+        let table = Derivatives {
+            description: &self.description,
+            inputs: &self.inputs,
+            columns,
+        };
+        table.write(f, value, clustered)?;
         undamped(f, self.family, &self.description)?;
         for (r, mode) in self.modes.iter().enumerate() {
             if mode.clustered {
@@ -128,8 +199,12 @@ impl fmt::Display for EquilibriumShift {
             let scale = d.coordinates.get(i)?.unit.scale;
             Some(pick(&self.by_input[i], &self.by_design[i], j)? / scale)
         };
-        let table = derivatives(d, columns, value, |_| false);
-        write!(f, "{table}")
+        let table = Derivatives {
+            description: d,
+            inputs: &self.inputs,
+            columns,
+        };
+        table.write(f, value, |_| false)
     }
 }
 
@@ -154,7 +229,11 @@ impl fmt::Display for OutputSensitivities {
             );
             Some(pick(inputs, design, j)? / unit.scale)
         };
-        let table = derivatives(d, columns, value, |_| false);
-        write!(f, "{table}")
+        let table = Derivatives {
+            description: d,
+            inputs: &self.inputs,
+            columns,
+        };
+        table.write(f, value, |_| false)
     }
 }

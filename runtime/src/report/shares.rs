@@ -1,47 +1,94 @@
-//! Shares of design variables in a variance, as columns of a table.
+//! Shares of design variables in variances, as columns of a table.
 
+use core::fmt;
+
+use super::numbers::percent;
+use super::relevance::{BELOW, COLUMNS, RELEVANT, names};
 use crate::Description;
 
-/// Of more design variables only the greatest shares are named.
-const SEPARATE: usize = 8;
-/// So many at most, and no more than make up this part of the variance.
+/// So many are named at most, and no more than make up this part of the variance.
 const NAMED: usize = 4;
 const MOST: f64 = 0.9;
 
-/// Headings: one column for each variable, or one for the greatest shares.
-pub(super) fn head(description: &Description) -> Vec<String> {
-    let design = &description.design;
-    if design.len() > SEPARATE {
-        return vec!["variance mostly from".to_owned()];
-    }
-    let name = |info: &crate::DesignInfo| format!("share of {}", info.name);
-    design.iter().map(name).collect()
+/// Columns of shares for several quantities: one for each variable that matters to any of them, or one that names the greatest.
+pub(super) struct Shares<'a> {
+    description: &'a Description,
+    columns: Vec<usize>,
+    below: Vec<&'a str>,
 }
 
-/// The cells below [`head`]; `None` where there are no shares.
-pub(super) fn cells(description: &Description, shares: Option<&[f64]>) -> Vec<String> {
-    let design = &description.design;
-    let Some(shares) = shares else {
-        return vec!["-".to_owned(); head(description).len()];
-    };
-    if design.len() <= SEPARATE {
-        let percent = |share: &f64| format!("{:.1} %", 100.0 * share);
-        return shares.iter().map(percent).collect();
+impl<'a> Shares<'a> {
+    /// For quantities with these shares.
+    pub(super) fn of<'b>(
+        description: &'a Description,
+        quantities: impl Iterator<Item = &'b [f64]> + Clone,
+    ) -> Self {
+        let mut columns = Vec::new();
+        let mut below = Vec::new();
+        for (k, info) in description.design.iter().enumerate() {
+            let shares = quantities.clone().filter_map(|shares| shares.get(k));
+            if shares.clone().any(|share| share.abs() >= RELEVANT) {
+                columns.push(k);
+            } else if shares.clone().any(|share| *share != 0.0) {
+                below.push(&*info.name);
+            }
+        }
+        Self {
+            description,
+            columns,
+            below,
+        }
     }
-    let mut order: Vec<usize> = (0..design.len()).collect();
+
+    fn side_by_side(&self) -> bool {
+        self.columns.len() <= COLUMNS
+    }
+
+    pub(super) fn head(&self) -> Vec<String> {
+        if !self.side_by_side() {
+            return vec!["variance mostly from".to_owned()];
+        }
+        let name = |k: &usize| format!("share of {}", self.description.design[*k].name);
+        self.columns.iter().map(name).collect()
+    }
+
+    /// The cells below the head; `None` where there are no shares.
+    pub(super) fn cells(&self, shares: Option<&[f64]>) -> Vec<String> {
+        let Some(shares) = shares else {
+            return vec!["-".to_owned(); self.head().len()];
+        };
+        if self.side_by_side() {
+            return (self.columns.iter().map(|&k| percent(shares[k]))).collect();
+        }
+        vec![mostly(self.description, shares)]
+    }
+
+    /// Names the variables that vary and have no column.
+    pub(super) fn rest(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.below.is_empty() || !self.side_by_side() {
+            return Ok(());
+        }
+        let names = names(&self.below, "variables");
+        writeln!(f, "  Left out, {BELOW} of every variance: {names}")
+    }
+}
+
+/// The greatest shares by name: `modulus 52.3 %, diameter 23.2 %`.
+pub(super) fn mostly(description: &Description, shares: &[f64]) -> String {
+    let mut order: Vec<usize> = (0..description.design.len().min(shares.len())).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
     let mut sum = 0.0;
     let mut named = Vec::new();
     for k in order.into_iter().take(NAMED) {
-        if sum >= MOST || shares[k] <= 0.0 {
+        if sum >= MOST || shares[k] < RELEVANT {
             break;
         }
         sum += shares[k];
-        named.push(format!("{} {:.1} %", design[k].name, 100.0 * shares[k]));
+        let name = &description.design[k].name;
+        named.push(format!("{name} {}", percent(shares[k])));
     }
-    vec![if named.is_empty() {
-        "-".to_owned()
-    } else {
-        named.join(", ")
-    }]
+    if named.is_empty() {
+        return "-".to_owned();
+    }
+    named.join(", ")
 }

@@ -2,22 +2,37 @@
 
 use core::fmt;
 
-use super::table::{Table, cells, number, optional, undamped};
+use super::numbers::{number, optional, or_dash, rough, short};
+use super::relevance::unless_rounding;
+use super::shares::mostly;
+use super::table::{Table, cells, undamped};
 use super::title::title;
+use super::tolerance::{far, spread_of, unmoved};
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
 use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampled, Sampling, Summary};
 use crate::tolerance::{Outcome, Statistics, TRUSTED_DISTANCE};
 
-/// `mode 2`, `modes 2 and 3`, `modes 1, 2 and 3`, counted from 1.
+/// `mode 2`, `modes 2 and 3`, `modes 1 to 4 and 7`, counted from 1.
 fn named(modes: &[usize]) -> String {
-    match modes {
-        [] => "no mode".to_owned(),
-        [one] => format!("mode {}", one + 1),
-        [others @ .., last] => {
-            let others: Vec<String> = others.iter().map(|mode| (mode + 1).to_string()).collect();
-            format!("modes {} and {}", others.join(", "), last + 1)
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &mode in modes {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == mode => *last = mode,
+            _ => runs.push((mode, mode)),
         }
+    }
+    let texts = runs.iter().flat_map(|&(first, last)| match last - first {
+        0 => vec![(first + 1).to_string()],
+        1 => vec![(first + 1).to_string(), (last + 1).to_string()],
+        _ => vec![format!("{} to {}", first + 1, last + 1)],
+    });
+    let texts: Vec<String> = texts.collect();
+    match &texts[..] {
+        [] => "no mode".to_owned(),
+        [one] if modes.len() == 1 => format!("mode {one}"),
+        [one] => format!("modes {one}"),
+        [others @ .., last] => format!("modes {} and {last}", others.join(", ")),
     }
 }
 
@@ -33,7 +48,7 @@ fn statistics(name: String, value: Option<&Statistics>) -> Vec<String> {
     vec![
         name,
         of(|s| Some(s.mean)),
-        of(|s| s.sigma),
+        or_dash(value.and_then(|s| s.sigma), rough),
         of(|s| Some(s.min)),
         of(|s| Some(s.max)),
         value.map_or(0, |s| s.count).to_string(),
@@ -68,7 +83,7 @@ impl fmt::Display for ClusterTolerance {
             }
             Err(error) => return writeln!(f, "{title}: {modes} form a cluster: {error}"),
         };
-        let (distance, samples) = (number(self.distance), spread.samples);
+        let (distance, samples) = (short(self.distance), spread.samples);
         writeln!(
             f,
             "{title}: {modes} form a cluster, {distance} standard deviations apart; {samples} samples"
@@ -76,7 +91,7 @@ impl fmt::Display for ClusterTolerance {
         let mut table = Table::new(cells(["sorted", "mean", "sigma", "min", "max", "samples"]));
         if let Some(mean) = self.mean.as_ref().and_then(|mean| mean.frequency.as_ref()) {
             let name = "of the mean eigenvalue [rad/s]".to_owned();
-            let (mean, sigma) = (number(mean.mean), number(mean.sigma));
+            let (mean, sigma) = (number(mean.mean), rough(mean.sigma));
             let none = || "-".to_owned();
             table.row(vec![name, mean, sigma, none(), none(), none()]);
         }
@@ -112,38 +127,12 @@ impl fmt::Display for Summary {
         let d = &self.description;
         let title = title(d, &self.inputs);
         writeln!(f, "{title}: what tolerances do to the frequencies")?;
-        let mut head = cells([
-            "mode",
-            "nominal [rad/s]",
-            "sigma, first order",
-            "second order",
-        ]);
-        let sampled = self.sampled().is_some();
-        if sampled {
-            head.push("sampled".to_owned());
+        if self.first.modes.iter().all(unmoved) {
+            writeln!(f, "  No tolerance moves a mode.")?;
+        } else {
+            self.frequencies(f)?;
+            self.damping_ratios(f)?;
         }
-        head.push(format!("{} sigma [rad/s]", self.first.sigma_level));
-        head.push("trusted".to_owned());
-        let mut table = Table::new(head);
-        for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
-            let alone = self.cluster_of(r).is_none();
-            let own = |value: Option<f64>| optional(value.filter(|_| alone));
-            let frequency = mode.frequency.as_ref();
-            let mut row = vec![
-                (r + 1).to_string(),
-                optional(mode.behaviour.frequency()),
-                own(frequency.map(|spread| spread.sigma)),
-                own(self.second_order_sigma(r)),
-            ];
-            if sampled {
-                let check = trust.check(Quantity::Frequency);
-                row.push(optional(check.map(|check| check.sigma.value)));
-            }
-            row.push(own(frequency.map(|spread| spread.band)));
-            row.push(verdict(&trust.doubts));
-            table.row(row);
-        }
-        write!(f, "{table}")?;
         undamped(f, self.first.family, d)?;
         self.sentences(f)?;
         self.about_samples(f)?;
@@ -174,6 +163,79 @@ fn verdict(doubts: &[Doubt]) -> String {
 }
 
 impl Summary {
+    /// The spread of each frequency by every method, what it comes from, and whether first order is right.
+    fn frequencies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut head = cells([
+            "mode",
+            "nominal [rad/s]",
+            "sigma: first order",
+            "second order",
+        ]);
+        let sampled = self.sampled().is_some();
+        if sampled {
+            head.push("sampled".to_owned());
+        }
+        head.push(format!("{} sigma", self.first.sigma_level));
+        head.extend(cells(["mostly from", "trusted"]));
+        let mut table = Table::new(head);
+        for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
+            let alone = self.cluster_of(r).is_none();
+            let own = |value: Option<f64>| or_dash(value.filter(|_| alone), rough);
+            let sigma = mode.frequency.as_ref().map(spread_of);
+            let nominal = mode.behaviour.frequency();
+            let second = self.second_order_sigma(r);
+            let mut row = vec![
+                (r + 1).to_string(),
+                optional(nominal),
+                own(sigma),
+                own(second.map(|sigma| unless_rounding(sigma, nominal.unwrap_or(0.0)))),
+            ];
+            if sampled {
+                let check = trust.check(Quantity::Frequency);
+                row.push(or_dash(check.map(|check| check.sigma.value), rough));
+            }
+            row.push(own(sigma.map(|sigma| sigma * self.first.sigma_level)));
+            let moved = alone && sigma.is_none_or(|sigma| sigma != 0.0);
+            let shares = moved.then(|| mostly(&self.description, mode.variance_shares()));
+            row.push(shares.unwrap_or_else(|| "-".to_owned()));
+            row.push(verdict(&trust.doubts));
+            table.row(row);
+        }
+        write!(f, "{table}")
+    }
+
+    /// The same of damping ratios, where any varies.
+    fn damping_ratios(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sampled = self.sampled().is_some();
+        let mut head = cells(["mode", "damping ratio", "sigma: first order"]);
+        if sampled {
+            head.push("sampled".to_owned());
+        }
+        head.extend(cells(["to instability [sigma]", "mostly from"]));
+        let mut table = Table::new(head);
+        for (r, (mode, trust)) in self.first.modes.iter().zip(&self.trust).enumerate() {
+            let Some(own) = mode.damping_ratio.as_ref() else {
+                continue;
+            };
+            let sigma = spread_of(own);
+            if sigma == 0.0 || self.cluster_of(r).is_some() {
+                continue;
+            }
+            let mut row = vec![(r + 1).to_string(), rough(own.mean), rough(sigma)];
+            if sampled {
+                let check = trust.check(Quantity::DampingRatio);
+                row.push(or_dash(check.map(|check| check.sigma.value), rough));
+            }
+            row.push(far(mode.distance_to_instability));
+            row.push(mostly(&self.description, &own.variance_shares));
+            table.row(row);
+        }
+        match table.is_empty() {
+            true => Ok(()),
+            false => write!(f, "{table}"),
+        }
+    }
+
     /// Each doubt once, with all the modes that share it.
     fn sentences(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut said: Vec<&Doubt> = Vec::new();
@@ -186,21 +248,26 @@ impl Summary {
             let modes: Vec<usize> = shares.map(|own| own.mode).collect();
             writeln!(f, "  {}: {doubt}", capital(named(&modes)))?;
         }
-        for trust in &self.trust {
+        for trust in self.trust.iter().filter(|own| !own.trusted()) {
             trust
                 .checks
                 .iter()
                 .try_for_each(|check| row_of(f, trust.mode, check))?;
         }
         for advice in [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling] {
-            let own = self.trust.iter().filter(|own| own.advice == advice);
-            let modes: Vec<usize> = own.map(|own| own.mode).collect();
+            let own = || self.trust.iter().filter(|own| own.advice == advice);
+            let modes: Vec<usize> = own().map(|own| own.mode).collect();
             let text = match advice {
-                Advice::FirstOrder => "nothing speaks against the first-order sigma.",
-                Advice::SecondOrder => "use second order, which agrees with the samples.",
-                _ => "use Monte Carlo.",
+                Advice::FirstOrder => format!(
+                    "nothing speaks against the first-order sigma{}.",
+                    confirmed(own().flat_map(|own| &own.checks))
+                ),
+                Advice::SecondOrder => {
+                    "use second order, which agrees with the samples.".to_owned()
+                }
+                _ => "use Monte Carlo.".to_owned(),
             };
-            if !modes.is_empty() {
+            if !modes.is_empty() && !self.first.modes.iter().all(unmoved) {
                 writeln!(f, "  {}: {text}", capital(named(&modes)))?;
             }
         }
@@ -231,6 +298,20 @@ impl Summary {
     }
 }
 
+/// By how much first order misses the samples at most; empty without samples.
+fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
+    let errors = checks.filter_map(|check| Some((check.first_order_error?, check.count)));
+    let most = errors.max_by(|(a, _), (b, _)| a.value.abs().total_cmp(&b.value.abs()));
+    match most {
+        None => String::new(),
+        Some((error, count)) => format!(
+            ", which is off by at most {:.1} % (+- {:.1}) over {count} samples",
+            100.0 * error.value.abs(),
+            200.0 * error.standard_error
+        ),
+    }
+}
+
 /// By how much first and second order miss the samples.
 fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check) -> fmt::Result {
     let percent = |error: Measured| {
@@ -246,7 +327,7 @@ fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check) -> fmt::Result
         f,
         "  Mode {}: sigma of the {name} over {count} {}",
         mode + 1,
-        number(check.sigma.value)
+        rough(check.sigma.value)
     )?;
     if let Some(error) = check.first_order_error {
         write!(f, "; first order is off by {}", percent(error))?;
@@ -322,7 +403,7 @@ impl fmt::Display for Doubt {
                 "tolerances mix {}, {} standard deviations apart. None has a sigma of its own: use that of the \
                  mean, of the lowest and of the highest below, or Monte Carlo.",
                 named(modes),
-                number(*distance)
+                short(*distance)
             ),
             Self::NearCritical { distance: 0.0 } => write!(
                 f,
@@ -336,7 +417,7 @@ impl fmt::Display for Doubt {
                 f,
                 "the critical state is {} standard deviations away. Within {TRUSTED_DISTANCE} of them the error of sigma \
                  has no bound.",
-                number(*distance)
+                short(*distance)
             ),
             Self::NearInstability { distance: 0.0 } => write!(
                 f,
@@ -351,13 +432,13 @@ impl fmt::Display for Doubt {
                 f,
                 "the vibration begins to grow {} standard deviations away. Sigma counts samples that are unstable: see \
                  the counts of Monte Carlo.",
-                number(*distance)
+                short(*distance)
             ),
             Self::NearCriticalDamping { distance } => write!(
                 f,
                 "the oscillation ceases {} standard deviations away, where it becomes two decaying motions. Within \
                  {TRUSTED_DISTANCE} of them the error of sigma has no bound.",
-                number(*distance)
+                short(*distance)
             ),
             Self::Nonlinear {
                 quantity,

@@ -1,8 +1,11 @@
-//! Sweeps as text: one row for each point.
+//! Sweeps as text: one row for each point, or for some of many.
 
 use core::fmt;
 
-use super::table::{Table, heading, in_unit, optional, undamped};
+use super::equilibrium::of_its_kind;
+use super::numbers::{given_in, heading, in_unit, optional};
+use super::relevance::{EVERYTHING, names, shown};
+use super::table::{Table, undamped};
 use super::title::title_along;
 use crate::Mode;
 use crate::sweep::Sweep;
@@ -14,11 +17,17 @@ impl fmt::Display for Sweep {
         writeln!(f, "{title}: sweep")?;
         let input = d.inputs.get(self.input.index());
         let mut head = vec![input.map_or_else(String::new, |info| heading(&info.name, &info.unit))];
-        head.extend(
-            d.coordinates
-                .iter()
-                .map(|info| heading(&info.name, &info.unit)),
-        );
+        let states = self
+            .points
+            .iter()
+            .filter_map(|point| point.equilibrium.as_ref().ok());
+        let moves = |i: &usize| {
+            let mut states = states.clone();
+            states.any(|state| of_its_kind(d, &state.coordinates, *i) != 0.0)
+        };
+        let (moving, still): (Vec<usize>, Vec<usize>) = (0..d.coordinates.len()).partition(moves);
+        let name = |i: &usize| heading(&d.coordinates[*i].name, &d.coordinates[*i].unit);
+        head.extend(moving.iter().map(name));
         let found = || {
             self.points
                 .iter()
@@ -29,14 +38,20 @@ impl fmt::Display for Sweep {
         head.extend((1..=labels).map(|r| format!("omega{r} [rad/s]")));
         head.push("state".to_owned());
         let mut table = Table::new(head);
-        for point in &self.points {
-            let value = input.map_or_else(String::new, |info| in_unit(point.value, &info.unit));
+        let rows = shown(self.points.len());
+        for point in rows.iter().map(|&k| &self.points[k]) {
+            let value = input.map_or_else(String::new, |info| given_in(point.value, &info.unit));
             let mut row = vec![value];
-            row.extend(d.coordinates.iter().enumerate().map(|(i, info)| {
+            row.extend(moving.iter().map(|&i| {
                 let state = point.equilibrium.as_ref().ok();
                 state.map_or_else(
                     || "-".to_owned(),
-                    |state| in_unit(state.coordinates[i], &info.unit),
+                    |state| {
+                        in_unit(
+                            of_its_kind(d, &state.coordinates, i),
+                            &d.coordinates[i].unit,
+                        )
+                    },
                 )
             }));
             row.extend((0..labels).map(|label| {
@@ -51,6 +66,14 @@ impl fmt::Display for Sweep {
             table.row(row);
         }
         write!(f, "{table}")?;
+        if !still.is_empty() {
+            let still: Vec<&str> = still.iter().map(|&i| &*d.coordinates[i].name).collect();
+            writeln!(f, "  Zero all along: {}.", names(&still, "coordinates"))?;
+        }
+        if rows.len() < self.points.len() {
+            let (rows, all) = (rows.len(), self.points.len());
+            writeln!(f, "  {rows} of {all} points are shown: {EVERYTHING}.")?;
+        }
         for critical in &self.critical {
             if let Some(info) = input {
                 let value = in_unit(critical.value, &info.unit);

@@ -3,12 +3,17 @@
 use core::fmt;
 
 use crate::modes::Family;
-use crate::{DampingKind, Description, Quantity, Text, Unit};
+use crate::{DampingKind, Description};
 
-/// A table: a head and rows of equal length; the first column is left-aligned, the others right.
+/// A table: a head and rows; the first column and columns of words are left-aligned, the others right. Columns that do not fit into
+/// the width of a page follow below, beside the first column again.
+#[derive(Default)]
 pub(super) struct Table {
     rows: Vec<Vec<String>>,
 }
+
+/// Characters side by side.
+const WIDTH: usize = 150;
 
 impl Table {
     pub(super) fn new(head: Vec<String>) -> Self {
@@ -18,104 +23,65 @@ impl Table {
     pub(super) fn row(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
     }
+
+    /// Whether there is nothing below the head.
+    pub(super) fn is_empty(&self) -> bool {
+        self.rows.len() < 2
+    }
+
+    fn width(&self, column: usize) -> usize {
+        let cells = self.rows.iter().filter_map(|row| row.get(column));
+        let widths = cells.map(|cell| cell.chars().count());
+        widths.max().unwrap_or(0)
+    }
+
+    fn is_words(&self, column: usize) -> bool {
+        let cells = self.rows.iter().skip(1).filter_map(|row| row.get(column));
+        let mut cells = cells.filter(|cell| !cell.is_empty() && *cell != "-");
+        column == 0 || cells.all(|cell| cell.starts_with(char::is_alphabetic) && cell != "inf")
+    }
+
+    /// Ranges of columns that fit side by side, beside the first.
+    fn blocks(&self, widths: &[usize]) -> Vec<Vec<usize>> {
+        let first = widths.first().map_or(0, |width| width + 2);
+        let mut blocks = vec![vec![0]];
+        let mut used = first;
+        for (column, width) in widths.iter().enumerate().skip(1) {
+            if used + width + 2 > WIDTH && used > first {
+                blocks.push(vec![0]);
+                used = first;
+            }
+            used += width + 2;
+            if let Some(block) = blocks.last_mut() {
+                block.push(column);
+            }
+        }
+        blocks
+    }
 }
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let mut widths = vec![0; columns];
-        for row in &self.rows {
-            for (width, cell) in widths.iter_mut().zip(row) {
-                *width = (*width).max(cell.chars().count());
-            }
-        }
-        for row in &self.rows {
-            let mut line = String::new();
-            for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
-                if column == 0 {
-                    line.push_str(&format!("  {cell:<width$}"));
-                } else {
-                    line.push_str(&format!("  {cell:>width$}"));
+        let widths: Vec<usize> = (0..columns).map(|column| self.width(column)).collect();
+        let words: Vec<bool> = (0..columns).map(|column| self.is_words(column)).collect();
+        for block in self.blocks(&widths) {
+            for row in &self.rows {
+                let mut line = String::new();
+                for &column in &block {
+                    let (Some(cell), width) = (row.get(column), widths[column]) else {
+                        continue;
+                    };
+                    line.push_str("  ");
+                    line.push_str(&match words[column] {
+                        true => format!("{cell:<width$}"),
+                        false => format!("{cell:>width$}"),
+                    });
                 }
+                writeln!(f, "{}", line.trim_end())?;
             }
-            writeln!(f, "{}", line.trim_end())?;
         }
         Ok(())
-    }
-}
-
-/// A number with six significant digits, in scientific form where that is shorter to read.
-pub(super) fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if !value.is_finite() {
-        if value > 0.0 {
-            "inf".to_owned()
-        } else {
-            format!("{value}")
-        }
-    } else if !(1e-3..1e6).contains(&size) {
-        format!("{value:.5e}")
-    } else {
-        let before = size.log10().floor() as i32 + 1;
-        let decimals = (6 - before).clamp(0, 8) as usize;
-        format!("{value:.decimals$}")
-    }
-}
-
-pub(super) fn optional(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), number)
-}
-
-/// What stands in place of a number that a member of a cluster of equal eigenvalues does not have.
-pub(super) const CLUSTER: &str = "cluster";
-
-/// As [`optional`], of a mode that may be a member of a cluster.
-pub(super) fn of_mode(value: Option<f64>, clustered: bool) -> String {
-    if clustered {
-        CLUSTER.to_owned()
-    } else {
-        optional(value)
-    }
-}
-
-/// A value converted from SI to a declared unit.
-pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
-    number(if unit.scale == 0.0 {
-        value
-    } else {
-        value / unit.scale
-    })
-}
-
-/// The unit of a quantity of a mode.
-pub(super) fn unit_of(quantity: Quantity) -> Unit {
-    Unit {
-        symbol: Text::Static(match quantity {
-            Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
-            Quantity::DampingRatio => "",
-            Quantity::Growth => "1/s",
-        }),
-        scale: 1.0,
-    }
-}
-
-/// `name [unit]`.
-pub(super) fn heading(name: &str, unit: &Unit) -> String {
-    if unit.symbol.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{name} [{}]", unit.symbol)
-    }
-}
-
-/// `top per unit`, for derivatives.
-pub(super) fn per(name: &str, unit: &Unit) -> String {
-    if unit.symbol.is_empty() {
-        format!("/ {name}")
-    } else {
-        format!("/ {name} [{}]", unit.symbol)
     }
 }
 

@@ -1,9 +1,9 @@
 //! What a report is about: a mechanism at an operating point.
 
-use super::table::in_unit;
+use super::numbers::given_in;
 use crate::{Description, Input};
 
-/// `Rotor at speed = 3000.00 rpm, load = 2.00000 N`.
+/// `Rotor at speed = 3000 rpm, load = 2 N`.
 pub(super) fn title(description: &Description, inputs: &[f64]) -> String {
     named(description, inputs, None)
 }
@@ -17,7 +17,7 @@ fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
     let each = d.inputs.iter().zip(inputs).enumerate();
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
     let values = fixed.map(|(_, (info, &value))| {
-        let (value, symbol) = (in_unit(value, &info.unit), &*info.unit.symbol);
+        let (value, symbol) = (given_in(value, &info.unit), &*info.unit.symbol);
         let space = if symbol.is_empty() { "" } else { " " };
         format!("{} = {value}{space}{symbol}", info.name)
     });

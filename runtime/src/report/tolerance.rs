@@ -3,14 +3,26 @@
 use core::fmt;
 
 use super::equilibrium::meeting;
-use super::shares;
-use super::table::{Table, cells, heading, in_unit, number, of_mode, optional, per, undamped};
+use super::numbers::{
+    CLUSTER, given, heading, in_unit, number, of_mode, optional, or_dash, per, percent, rough,
+    rough_in, short,
+};
+use super::relevance::{BELOW, names, relevant, unless_rounding};
+use super::shares::Shares;
+use super::table::{Table, cells, undamped};
 use super::title::{title, title_along};
 use crate::modes::Family;
 use crate::summary::Doubt;
 use crate::sweep::{Event, EventTolerance};
-use crate::tolerance::{Counts, OutputTolerances, Statistics, TRUSTED_DISTANCE};
+use crate::tolerance::{
+    Counts, ModeTolerance, OutputTolerances, Spread, Statistics, TRUSTED_DISTANCE,
+};
 use crate::{FirstOrder, MonteCarlo};
+
+/// The standard deviation, or zero where it is rounding beside the mean.
+pub(super) fn spread_of(spread: &Spread) -> f64 {
+    unless_rounding(spread.sigma, spread.mean)
+}
 
 impl fmt::Display for OutputTolerances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -19,23 +31,46 @@ impl fmt::Display for OutputTolerances {
         writeln!(f, "{title}: first-order spread of the outputs")?;
         let mut head = cells(["output", "mean", "sigma"]);
         head.push(format!("{} sigma", self.sigma_level));
-        head.extend(shares::head(d));
+        let spreads = self.spreads.iter().flatten();
+        let moved = spreads.filter(|own| spread_of(own) != 0.0);
+        let shares = Shares::of(d, moved.map(|own| &own.variance_shares[..]));
+        head.extend(shares.head());
         let mut table = Table::new(head);
         let values = self.values.iter().zip(&self.spreads);
         for (info, (value, own)) in d.outputs.iter().zip(values) {
             let scaled = |value: f64| value / info.unit.scale;
             let own = own.as_ref();
+            let sigma = own.map(|own| scaled(spread_of(own)));
             let mut row = vec![
                 heading(&info.name, &info.unit),
-                number(scaled(*value)),
-                optional(own.map(|own| scaled(own.sigma))),
-                optional(own.map(|own| scaled(own.band))),
+                optional(Some(scaled(*value))),
+                or_dash(sigma, rough),
+                or_dash(sigma.map(|sigma| sigma * self.sigma_level), rough),
             ];
-            row.extend(shares::cells(d, own.map(|own| &own.variance_shares[..])));
+            let moved = own.filter(|_| sigma != Some(0.0));
+            row.extend(shares.cells(moved.map(|own| &own.variance_shares[..])));
             table.row(row);
         }
-        write!(f, "{table}")
+        write!(f, "{table}")?;
+        shares.rest(f)
     }
+}
+
+/// A distance in standard deviations; `-` where nothing leads there.
+pub(super) fn far(distance: f64) -> String {
+    or_dash(
+        Some(distance).filter(|distance| distance.is_finite()),
+        short,
+    )
+}
+
+/// Whether no tolerance moves the mode.
+pub(super) fn unmoved(mode: &ModeTolerance) -> bool {
+    let moved = |spread: &Option<Spread>| spread.as_ref().is_some_and(|own| spread_of(own) != 0.0);
+    !mode.clustered
+        && mode.lambda.sigma == 0.0
+        && !moved(&mode.growth)
+        && !moved(&mode.damping_ratio)
 }
 
 impl fmt::Display for FirstOrder {
@@ -43,35 +78,11 @@ impl fmt::Display for FirstOrder {
         let d = &self.description;
         let title = title(d, &self.inputs);
         writeln!(f, "{title}: first-order spread of the frequencies")?;
-        let general = self.family == Family::General;
-        let mut head = cells(["mode", "mean [rad/s]", "sigma [rad/s]"]);
-        head.push(format!("{} sigma [rad/s]", self.sigma_level));
-        if general {
-            head.extend(cells(["damping ratio", "sigma", "to instability [sigma]"]));
+        if self.modes.iter().all(unmoved) {
+            writeln!(f, "  No tolerance moves a mode.")?;
+        } else {
+            self.spreads(f)?;
         }
-        head.push("to critical [sigma]".to_owned());
-        head.extend(shares::head(d));
-        let mut table = Table::new(head);
-        for (r, mode) in self.modes.iter().enumerate() {
-            let own = |value: Option<f64>| of_mode(value, mode.clustered);
-            let (frequency, damping) = (mode.frequency.as_ref(), mode.damping_ratio.as_ref());
-            let mut row = vec![
-                (r + 1).to_string(),
-                optional(mode.behaviour.frequency()),
-                own(frequency.map(|spread| spread.sigma)),
-                own(frequency.map(|spread| spread.band)),
-            ];
-            if general {
-                row.push(optional(damping.map(|spread| spread.mean)));
-                row.push(own(damping.map(|spread| spread.sigma)));
-                row.push(own(Some(mode.distance_to_instability)));
-            }
-            row.push(own(Some(mode.distance_to_critical)));
-            let shares = (!mode.clustered).then(|| mode.variance_shares());
-            row.extend(shares::cells(d, shares));
-            table.row(row);
-        }
-        write!(f, "{table}")?;
         undamped(f, self.family, d)?;
         if self.distance_to_critical == 0.0 {
             return writeln!(
@@ -90,7 +101,7 @@ impl fmt::Display for FirstOrder {
                 f,
                 "  Not to be trusted: the critical state is {} standard deviations away. First order errs by several \
                  percent at {TRUSTED_DISTANCE} of them, and without bound nearer. Use Monte Carlo here.",
-                number(self.distance_to_critical)
+                short(self.distance_to_critical)
             )?;
         }
         for (r, mode) in self
@@ -108,7 +119,7 @@ impl fmt::Display for FirstOrder {
                 false => writeln!(
                     f,
                     "samples mix it with another mode, {} standard deviations away.",
-                    number(mode.distance_to_neighbour)
+                    short(mode.distance_to_neighbour)
                 )?,
             }
         }
@@ -130,6 +141,49 @@ impl fmt::Display for FirstOrder {
             )?;
         }
         Ok(())
+    }
+}
+
+impl FirstOrder {
+    /// The spread of every mode and what it comes from.
+    fn spreads(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let d = &self.description;
+        let general = self.family == Family::General;
+        let mut head = cells(["mode", "mean [rad/s]", "sigma [rad/s]"]);
+        head.push(format!("{} sigma [rad/s]", self.sigma_level));
+        if general {
+            head.extend(cells(["damping ratio", "sigma", "to instability [sigma]"]));
+        }
+        head.push("to critical [sigma]".to_owned());
+        let alone = self.modes.iter().filter(|mode| !mode.clustered);
+        let shares = Shares::of(d, alone.map(ModeTolerance::variance_shares));
+        head.extend(shares.head());
+        let mut table = Table::new(head);
+        for (r, mode) in self.modes.iter().enumerate() {
+            let own = |value: Option<f64>| of_mode(value, mode.clustered, rough);
+            let away = |distance: f64| match mode.clustered {
+                true => CLUSTER.to_owned(),
+                false => far(distance),
+            };
+            let (frequency, damping) = (mode.frequency.as_ref(), mode.damping_ratio.as_ref());
+            let sigma = frequency.map(spread_of);
+            let mut row = vec![
+                (r + 1).to_string(),
+                optional(mode.behaviour.frequency()),
+                own(sigma),
+                own(sigma.map(|sigma| sigma * self.sigma_level)),
+            ];
+            if general {
+                row.push(or_dash(damping.map(|spread| spread.mean), rough));
+                row.push(own(damping.map(spread_of)));
+                row.push(away(mode.distance_to_instability));
+            }
+            row.push(away(mode.distance_to_critical));
+            row.extend(shares.cells((!mode.clustered).then(|| mode.variance_shares())));
+            table.row(row);
+        }
+        write!(f, "{table}")?;
+        shares.rest(f)
     }
 }
 
@@ -162,6 +216,9 @@ impl fmt::Display for MonteCarlo {
             self.samples,
             self.counts
         )?;
+        let general = self.family == Family::General;
+        let complete = |own: &Statistics| own.count == self.counts.stable as u64;
+        let all = self.modes.iter().flatten().all(complete);
         let mut head = cells([
             "mode",
             "mean [rad/s]",
@@ -169,33 +226,53 @@ impl fmt::Display for MonteCarlo {
             "sigma [rad/s]",
             "min",
             "max",
-            "samples",
         ]);
-        let general = self.family == Family::General;
+        if !all {
+            head.push("samples".to_owned());
+        }
         if general {
             head.extend(cells(["damping ratio", "sigma"]));
         }
         let mut table = Table::new(head);
+        let mut without = Vec::new();
         for (r, mode) in self.modes.iter().enumerate() {
-            let value =
-                |pick: fn(&Statistics) -> Option<f64>| optional(mode.as_ref().and_then(pick));
+            let Some(own) = mode else {
+                without.push((r + 1).to_string());
+                continue;
+            };
             let mut row = vec![
                 (r + 1).to_string(),
-                value(|s| Some(s.mean)),
-                value(|s| s.standard_error),
-                value(|s| s.sigma),
-                value(|s| Some(s.min)),
-                value(|s| Some(s.max)),
-                mode.as_ref().map_or(0, |s| s.count).to_string(),
+                number(own.mean),
+                or_dash(own.standard_error, short),
+                or_dash(
+                    own.sigma.map(|sigma| unless_rounding(sigma, own.mean)),
+                    rough,
+                ),
+                number(own.min),
+                number(own.max),
             ];
+            if !all {
+                row.push(own.count.to_string());
+            }
             if general {
                 let damping = self.damping_ratios[r].as_ref();
-                row.push(optional(damping.map(|s| s.mean)));
-                row.push(optional(damping.and_then(|s| s.sigma)));
+                row.push(or_dash(damping.map(|own| own.mean), rough));
+                row.push(or_dash(damping.and_then(|own| own.sigma), rough));
             }
             table.row(row);
         }
-        write!(f, "{table}")?;
+        if !table.is_empty() {
+            write!(f, "{table}")?;
+        }
+        if !without.is_empty() {
+            let names: Vec<&str> = without.iter().map(String::as_str).collect();
+            let names = names_of_modes(&names);
+            writeln!(
+                f,
+                "  {names}: no oscillation in any stable sample, so no frequency."
+            )?;
+        }
+        self.skewed(f)?;
         undamped(f, self.family, &self.description)?;
         if self.samples < self.planned {
             writeln!(
@@ -227,6 +304,67 @@ impl fmt::Display for MonteCarlo {
     }
 }
 
+fn names_of_modes(numbers: &[&str]) -> String {
+    let word = if numbers.len() == 1 { "Mode" } else { "Modes" };
+    format!("{word} {}", names(numbers, "of them"))
+}
+
+/// Skewness from which mean and sigma do not describe a distribution: tails of 3 sigma differ by half.
+const SKEWED: f64 = 0.1;
+/// Shares of a normal distribution below minus one to three sigma, its middle, and the same above.
+const QUANTILES: [f64; 5] = [0.00135, 0.15866, 0.5, 0.84134, 0.99865];
+
+impl MonteCarlo {
+    /// Quantiles of what is not distributed like a normal variable.
+    fn skewed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut head = cells(["not symmetric", "skewness"]);
+        head.extend(QUANTILES.map(|p| format!("{} %", given(100.0 * p))));
+        let mut table = Table::new(head);
+        let frequencies = self.modes.iter().map(|own| ("frequency", own));
+        let dampings = self.damping_ratios.iter().map(|own| ("damping ratio", own));
+        let both = frequencies.enumerate().chain(dampings.enumerate());
+        for (r, (name, own)) in both {
+            let Some((own, skewness)) = own.as_ref().and_then(|own| Some((own, own.skewness?)))
+            else {
+                continue;
+            };
+            let moves = own
+                .sigma
+                .is_some_and(|sigma| unless_rounding(sigma, own.mean) != 0.0);
+            let told = own
+                .skewness_error
+                .is_some_and(|error| skewness.abs() > 4.0 * error);
+            if skewness.abs() < SKEWED || !told || !moves {
+                continue;
+            }
+            let quantile = |p: f64| or_dash(own.quantile(p).ok().map(|own| own.value), rough);
+            let mut row = vec![format!("{name} {}", r + 1), format!("{skewness:+.2}")];
+            row.extend(QUANTILES.map(quantile));
+            table.row(row);
+        }
+        if table.is_empty() {
+            return Ok(());
+        }
+        write!(f, "{table}")
+    }
+}
+
+/// What happens, without the value: `frequency 1 is 2 times speed (backward)`.
+pub(super) fn what_happens(event: &Event, name: &str) -> String {
+    match event {
+        Event::Critical => "critical".to_owned(),
+        Event::Crossing {
+            mode,
+            condition,
+            whirl,
+            ..
+        } => {
+            let sense = whirl.map_or(String::new(), |whirl| format!(" ({})", whirl.sense()));
+            format!("{}{sense}", meeting(*mode, *condition, name))
+        }
+    }
+}
+
 impl fmt::Display for EventTolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.description;
@@ -235,19 +373,7 @@ impl fmt::Display for EventTolerance {
         };
         let (name, unit) = (&info.name, &info.unit);
         let title = title_along(d, &self.inputs, self.input);
-        match self.event {
-            Event::Critical => write!(f, "{title}: critical at {name}")?,
-            Event::Crossing {
-                mode,
-                condition,
-                whirl,
-                ..
-            } => {
-                let what = meeting(mode, condition, name);
-                let sense = whirl.map_or(String::new(), |whirl| format!(" ({})", whirl.sense()));
-                write!(f, "{title}: {what}{sense} at {name}")?;
-            }
-        }
+        write!(f, "{title}: {} at {name}", what_happens(&self.event, name))?;
         let (value, symbol) = (in_unit(self.value, unit), &unit.symbol);
         let spread = match &self.spread {
             Ok(spread) => spread,
@@ -256,23 +382,36 @@ impl fmt::Display for EventTolerance {
         writeln!(
             f,
             " = {value} +/- {} {symbol} ({} sigma)",
-            in_unit(spread.band, unit),
+            rough_in(spread.band, unit),
             self.sigma_level
         )?;
+        let mut order: Vec<usize> = (0..d.design.len()).collect();
+        order.sort_by(|&a, &b| {
+            let size = |k: usize| spread.variance_shares[k].abs();
+            size(b).total_cmp(&size(a))
+        });
+        let matters = |k: &usize| relevant(spread.variance_shares[*k], 1.0);
+        let (shown, left): (Vec<usize>, Vec<usize>) = order.into_iter().partition(matters);
         let mut table = Table::new(cells(["derivative by", "value", "share of variance"]));
-        for ((info, &slope), &share) in d
-            .design
-            .iter()
-            .zip(&spread.by_design)
-            .zip(&spread.variance_shares)
-        {
+        for k in shown {
+            let info = &d.design[k];
             table.row(vec![
                 per(&info.name, &info.unit),
-                number(slope * info.unit.scale / unit.scale),
-                format!("{:.1} %", 100.0 * share),
+                rough(spread.by_design[k] * info.unit.scale / unit.scale),
+                percent(spread.variance_shares[k]),
             ]);
         }
-        write!(f, "{table}")?;
+        if !table.is_empty() {
+            write!(f, "{table}")?;
+        }
+        if !left.is_empty() {
+            let left: Vec<&str> = left.iter().map(|&k| &*d.design[k].name).collect();
+            writeln!(
+                f,
+                "  Left out, {BELOW} of the variance: {}",
+                names(&left, "variables")
+            )?;
+        }
         undamped(f, self.family, d)
     }
 }

@@ -33,7 +33,7 @@ fn reports_name_what_they_show() {
         "theta [rad]",
         "supercritical pitchfork",
         "3.83601",
-        "branch 2: branch point to high end of the range",
+        "branches 2, 3: branch point to high end of the range",
     ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }

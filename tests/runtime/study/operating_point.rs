@@ -105,7 +105,7 @@ fn reports_name_the_operating_point() {
             .to_string(),
     ];
     for report in reports {
-        let title = "Governor at speed = 60.0000 rpm, push = 0.250000 N*m: ";
+        let title = "Governor at speed = 60 rpm, push = 0.25 N*m: ";
         assert!(report.starts_with(title), "{report}");
     }
 }
@@ -126,7 +126,7 @@ fn reports_along_an_input_name_the_others() {
         crossings[0].to_string(),
     ];
     for report in reports {
-        let title = "Governor at push = 0.250000 N*m: ";
+        let title = "Governor at push = 0.25 N*m: ";
         assert!(report.starts_with(title), "{report}");
     }
     let free = study.input(Governor::push, 0.0);

@@ -22,7 +22,7 @@ impl Tolerance {
         let question = self.point.question()?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
-        answer.add(&solved.first_order()?)?;
+        answer.add_aside(&solved.first_order()?)?;
         answer.add(&solved.summary()?)?;
         if !question.study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;

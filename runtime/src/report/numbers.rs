@@ -1,0 +1,137 @@
+//! Numbers as text, with as many digits as they deserve.
+
+use crate::{Quantity, Text, Unit};
+
+/// A computed value: six significant digits, in scientific form where that is shorter to read.
+pub(super) fn number(value: f64) -> String {
+    digits(value, 6)
+}
+
+/// A spread or a derivative: four.
+pub(super) fn rough(value: f64) -> String {
+    digits(value, 4)
+}
+
+/// A distance in standard deviations, or the error of something: three.
+pub(super) fn short(value: f64) -> String {
+    digits(value, 3)
+}
+
+/// A value that somebody gave: no zeros at the end.
+pub(super) fn given(value: f64) -> String {
+    let text = number(value);
+    match text.split_once('e') {
+        None => without_zeros(&text).to_owned(),
+        Some((digits, exponent)) => format!("{}e{exponent}", without_zeros(digits)),
+    }
+}
+
+fn without_zeros(text: &str) -> &str {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
+    }
+}
+
+fn digits(value: f64, count: usize) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !value.is_finite() {
+        if value > 0.0 {
+            "inf".to_owned()
+        } else {
+            format!("{value}")
+        }
+    } else {
+        let scientific = format!("{value:.*e}", count - 1);
+        if !(1e-3..1e6).contains(&size) {
+            return scientific;
+        }
+        // Of the rounded number: 0.99999 has one digit before the point.
+        let exponent = scientific.rsplit('e').next();
+        let exponent = exponent.and_then(|text| text.parse::<i32>().ok());
+        let decimals = (count as i32 - 1 - exponent.unwrap_or(0)).clamp(0, 8) as usize;
+        format!("{value:.decimals$}")
+    }
+}
+
+/// `-` where there is none.
+pub(super) fn optional(value: Option<f64>) -> String {
+    or_dash(value, number)
+}
+
+/// In a form of its own, or `-`.
+pub(super) fn or_dash(value: Option<f64>, form: fn(f64) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), form)
+}
+
+/// `12.3 %`.
+pub(super) fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// What stands in place of a number that a member of a cluster of equal eigenvalues does not have.
+pub(super) const CLUSTER: &str = "cluster";
+
+/// As [`or_dash`], of a mode that may be a member of a cluster.
+pub(super) fn of_mode(value: Option<f64>, clustered: bool, form: fn(f64) -> String) -> String {
+    if clustered {
+        CLUSTER.to_owned()
+    } else {
+        or_dash(value, form)
+    }
+}
+
+/// A value converted from SI to a declared unit.
+pub(super) fn in_unit(value: f64, unit: &Unit) -> String {
+    number(converted(value, unit))
+}
+
+/// As [`in_unit`], of a value that somebody gave.
+pub(super) fn given_in(value: f64, unit: &Unit) -> String {
+    given(converted(value, unit))
+}
+
+/// As [`in_unit`], of a spread.
+pub(super) fn rough_in(value: f64, unit: &Unit) -> String {
+    rough(converted(value, unit))
+}
+
+fn converted(value: f64, unit: &Unit) -> f64 {
+    if unit.scale == 0.0 {
+        value
+    } else {
+        value / unit.scale
+    }
+}
+
+/// The unit of a quantity of a mode.
+pub(super) fn unit_of(quantity: Quantity) -> Unit {
+    Unit {
+        symbol: Text::Static(match quantity {
+            Quantity::Frequency | Quantity::NaturalFrequency => "rad/s",
+            Quantity::DampingRatio => "",
+            Quantity::Growth => "1/s",
+        }),
+        scale: 1.0,
+    }
+}
+
+/// `name [unit]`.
+pub(super) fn heading(name: &str, unit: &Unit) -> String {
+    if unit.symbol.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} [{}]", unit.symbol)
+    }
+}
+
+/// `top per unit`, for derivatives.
+pub(super) fn per(name: &str, unit: &Unit) -> String {
+    if unit.symbol.is_empty() {
+        format!("/ {name}")
+    } else {
+        format!("/ {name} [{}]", unit.symbol)
+    }
+}

@@ -1,0 +1,95 @@
+//! Texts leave out noise, and say so.
+
+use eigentol::second_order::Band;
+use eigentol::{Coordinate, DesignVariable, InDeclaredUnit, Input, Study};
+
+use crate::common::pendulum::Pendulum;
+
+const OMEGA: Input<Pendulum> = Input::new(0);
+const MASS: DesignVariable<Pendulum> = DesignVariable::new(0);
+
+/// Hundreds of standard deviations away.
+const FAR: Band = Band::Between {
+    low: 9.0,
+    high: 10.0,
+};
+
+/// Hangs at zero, where the angle does not depend on anything, and the frequency not on the mass.
+fn hanging() -> Study<Pendulum> {
+    Study::new(Pendulum)
+        .input(OMEGA, 2.0)
+        .relative_tolerance(MASS, 0.01)
+}
+
+fn assert_quiet(text: &str) {
+    for line in text.lines() {
+        assert!(line.chars().count() <= 150 || line.ends_with('.'), "{line}");
+    }
+    let tiny = |word: &str| {
+        word.split_once("e-")
+            .is_some_and(|(_, power)| power.len() > 2)
+    };
+    let words = text.split_whitespace();
+    let found: Vec<&str> = words.filter(|word| tiny(word)).collect();
+    assert!(found.is_empty(), "{found:?} in\n{text}");
+}
+
+#[test]
+fn what_has_no_influence_is_named_and_not_listed() {
+    let solved_study = hanging();
+    let solved = solved_study.solve().unwrap();
+    let slopes = solved.sensitivities().unwrap().to_string();
+    assert!(!slopes.contains("/ m ["), "{slopes}");
+    assert!(
+        slopes.contains("below 0.1 % of the strongest: m"),
+        "{slopes}"
+    );
+    let shift = solved.equilibrium_shift().unwrap().to_string();
+    assert!(shift.contains("Zero: theta [rad]"), "{shift}");
+    let spread = solved.first_order().unwrap().to_string();
+    assert!(
+        spread.contains("share of l") && !spread.contains("share of m"),
+        "{spread}"
+    );
+    for text in [slopes, shift, spread, solved.equilibrium.to_string()] {
+        assert_quiet(&text);
+    }
+}
+
+#[test]
+fn a_chance_too_small_to_tell_is_a_bound() {
+    let margin = hanging().margin(0, FAR).unwrap();
+    let text = margin.to_string();
+    assert!(text.contains("< 1.00e-12"), "{text}");
+    assert!(!text.contains("probability by"), "{text}");
+    assert_quiet(&text);
+}
+
+#[test]
+fn long_diagrams_show_some_points_and_say_how_many() {
+    let values: Vec<InDeclaredUnit> = (0..60)
+        .map(|k| InDeclaredUnit(f64::from(k) * 0.1))
+        .collect();
+    let study = hanging().start(Coordinate::new(0), 0.5);
+    let campbell = study.campbell(OMEGA, &values, &[1.0]).unwrap();
+    assert_eq!(campbell.points.len(), 60);
+    let sweep = study.sweep(OMEGA, &values).unwrap();
+    for text in [campbell.to_string(), sweep.to_string()] {
+        assert!(text.contains("11 of 60 points are shown"), "{text}");
+        assert!(text.lines().count() < 30, "{text}");
+        assert_quiet(&text);
+    }
+    // Both ends are among them.
+    let text = sweep.to_string();
+    assert!(
+        text.contains("\n  5.9 ") && text.contains("\n  0 "),
+        "{text}"
+    );
+    // The critical speed stands first, with its spread and its cause.
+    let first = campbell.to_string();
+    let second_row = first.lines().nth(2).unwrap();
+    assert!(
+        second_row.contains("critical") && second_row.contains("l 100.0 %"),
+        "{first}"
+    );
+}
