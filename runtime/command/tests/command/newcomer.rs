@@ -74,6 +74,8 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
     follow(&chapter, &folder);
     let own = fs::read_to_string(folder.join("pendulum.mechanism")).unwrap();
     assert!(own.contains("+/- 1%"), "the tolerance was edited");
+    let report = fs::read_to_string(folder.join("fan.html")).unwrap();
+    assert!(report.starts_with("<!doctype html>") && report.contains("Fan"));
 
     let text = fs::read_to_string(&chapter).unwrap();
     let mut output = String::new();
