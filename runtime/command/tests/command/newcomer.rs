@@ -65,7 +65,7 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
 
     // `cargo install` with the packages of this build.
     let readme = fs::read_to_string(clone.join("README.md")).unwrap();
-    let install = "cargo install --path runtime/command\n";
+    let install = "cargo install --locked --path runtime/command\n";
     assert!(parts(&readme).contains(&Part::Shell(install)));
     cargo(&clone, &["build", "--package", "eigentol-cli"]);
     follow(&clone.join("README.md"), &clone);
