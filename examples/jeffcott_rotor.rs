@@ -12,9 +12,10 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use eigentol::{Mechanism, Study, mechanism};
-use eigentol_examples::figures::Whirling;
+use eigentol_examples::rotor::margin::margin;
 use eigentol_examples::rotor::{RPM, Risk, events, record, tables};
 use eigentol_examples::{Failure, Options, RotorQuestion, program};
+use eigentol_figures::{Style, campbell, damping_ratios};
 
 mechanism! {
     /// Jeffcott's rotor with the disk nearer to one of its two rigid bearings.
@@ -95,35 +96,42 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
         .seed(options.seed)
         .threads(options.threads);
 
-    let campbell = question.campbell(&study, question.range, options.speeds)?;
+    let diagram = question.campbell(&study, question.range, options.speeds)?;
     let events = events::find(&study, &question)?;
     let risk = Risk::assess(&study, &question, options.samples)?;
 
     let design = study.description().design.clone();
     let names: Vec<&str> = design.iter().map(|info| &*info.name).collect();
-    record::diagram(&campbell, &options.file("sweep.csv"))?;
+    record::diagram(&diagram, &options.file("sweep.csv"))?;
     record::events(&events, &names, &options.file("events.csv"))?;
-    let whole = Whirling {
-        question: &question,
-        campbell: &campbell,
-        events: &events,
-    };
     let near = (0.8 * question.running, 1.2 * question.running);
-    let close = Whirling {
-        campbell: &question.campbell(&study, near, CLOSE)?,
-        ..whole
-    };
-    let title = "Rotor: frequencies near the running speed";
-    for figure in [
-        whole.frequencies("campbell", "Rotor: Campbell diagram", 120.0),
-        whole.damping_ratios("damping", "Rotor: damping ratios"),
-        close.margin("margin", title, &risk),
+    let close = question.campbell(&study, near, CLOSE)?;
+    let style = Style::of(&study).mark(question.running / RPM, "running speed");
+    let title = |text: &str| style.clone().title(format!("Rotor: {text}"));
+    for (name, figure) in [
+        (
+            "campbell",
+            campbell(&diagram, &title("Campbell diagram").highest(120.0))?,
+        ),
+        (
+            "damping",
+            damping_ratios(&diagram, &title("damping ratios"))?,
+        ),
+        (
+            "margin",
+            margin(
+                &question,
+                &close,
+                &risk,
+                title("frequencies near the running speed"),
+            )?,
+        ),
     ] {
-        figure.save(&options.directory())?;
+        figure.save(options.file(&format!("{name}.svg")))?;
     }
 
     writeln!(out, "JEFFCOTT ROTOR, disk off the middle\n")?;
-    tables::diagram(out, &campbell)?;
+    tables::diagram(out, &diagram)?;
     tables::events(
         out,
         &events,

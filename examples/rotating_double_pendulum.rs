@@ -8,7 +8,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use eigentol::{Study, mechanism};
-use eigentol_examples::figures::{angles, contributions, deviations, frequencies, means};
+use eigentol_examples::pictures::{angles, contributions, deviations, frequencies, means};
 use eigentol_examples::summary::Paper;
 use eigentol_examples::{Analysis, Failure, Options, Question, program};
 

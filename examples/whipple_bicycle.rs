@@ -12,9 +12,9 @@ use std::process::ExitCode;
 
 use eigentol::sweep::EventTolerance;
 use eigentol::{Campbell, Mechanism, Study, mechanism};
-use eigentol_examples::figures::eigenvalues;
 use eigentol_examples::table::{Table, number};
 use eigentol_examples::{Failure, Options, program, rotor};
+use eigentol_figures::{Style, eigenvalues};
 
 mechanism! {
     /// Two wheels, a rear body and a front body, each symmetric about its middle plane, rolling straight ahead without hands.
@@ -112,8 +112,8 @@ pub fn run(arguments: Vec<OsString>, out: &mut dyn Write) -> Result<(), Failure>
 
     rotor::record::diagram(&campbell, &options.file("sweep.csv"))?;
     let title = "Whipple's bicycle: eigenvalues over the speed";
-    eigenvalues(("eigenvalues", title), &campbell, "speed [m/s]", 10.0)
-        .save(&options.directory())?;
+    let style = Style::of(&study).title(title).highest(10.0);
+    eigenvalues(&campbell, &style)?.save(options.file("eigenvalues.svg"))?;
 
     writeln!(
         out,

@@ -7,7 +7,7 @@ use eigentol::{Error, Mechanism, Study};
 
 use crate::cost::Cost;
 use crate::events::Events;
-use crate::figures::{Figure, Sweeps};
+use crate::pictures::{Named, Sweeps};
 use crate::summary::{self, Paper};
 use crate::{Failure, Options, Question, Sweep, progress, record, speeds};
 
@@ -22,6 +22,8 @@ pub struct Analysis {
     pub curve: Sweep,
     /// CPU times, by tolerance.
     pub costs: Vec<Cost>,
+    /// Mechanism, what varies, samples and seed: the caption of every figure.
+    pub caption: String,
 }
 
 impl Analysis {
@@ -50,7 +52,16 @@ impl Analysis {
         let dense = speeds::dense(question.range, critical);
         let curve = Sweep::run(study, question, &dense, None)?;
         let cost = |&level: &f64| Cost::measure(study, question, level, &places, &sampling);
+        let varied: Vec<&str> = sampled.variables.iter().map(|own| &**own).collect();
+        let caption = format!(
+            "{}, tolerances of {}. Monte Carlo: {} samples at each speed, seed {}.",
+            study.description().name,
+            varied.join(", "),
+            options.samples,
+            options.seed
+        );
         Ok(Self {
+            caption,
             events,
             sampled,
             curve,
@@ -64,6 +75,7 @@ impl Analysis {
             curve: &self.curve,
             sampled: &self.sampled,
             critical: self.events.critical.speed,
+            caption: self.caption.clone(),
         }
     }
 
@@ -71,10 +83,10 @@ impl Analysis {
     ///
     /// # Errors
     /// [`Failure::Output`].
-    pub fn save(&self, options: &Options, table: &str, figures: &[Figure]) -> Result<(), Failure> {
+    pub fn save(&self, options: &Options, table: &str, figures: &[Named]) -> Result<(), Failure> {
         record::write(&self.sampled, &options.file(table))?;
-        for figure in figures {
-            figure.save(&options.directory())?;
+        for (name, figure) in figures {
+            figure.save(options.file(&format!("{name}.svg")))?;
         }
         Ok(())
     }

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use eigentol_figures::Error;
+
 /// Why a run ended without its full result.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
@@ -20,9 +22,25 @@ pub enum Failure {
     /// A question to the library failed as a whole; a single point that fails is reported in the summary instead.
     #[error(transparent)]
     Solver(#[from] eigentol::Error),
+    /// There is nothing to draw, or it cannot be drawn.
+    #[error(transparent)]
+    Figure(Error),
     /// Standard output is closed.
     #[error("cannot write to standard output: {0}")]
     Print(#[from] io::Error),
+}
+
+/// A file that cannot be written is one of the results.
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Write { path, source } => Self::Output {
+                path,
+                reason: source.to_string(),
+            },
+            other => Self::Figure(other),
+        }
+    }
 }
 
 impl Failure {
@@ -33,7 +51,7 @@ impl Failure {
             Self::CommandLine(error) if !error.use_stderr() => 0,
             Self::Print(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
             Self::CommandLine(_) | Self::Output { .. } => 2,
-            Self::Solver(_) | Self::Print(_) => 1,
+            Self::Solver(_) | Self::Figure(_) | Self::Print(_) => 1,
         }
     }
 }

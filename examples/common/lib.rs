@@ -2,15 +2,15 @@
 //!
 //! An example file declares its mechanism and says what it wants to know; how that is gathered, drawn and written is
 //! here, in the order of a run:
-//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`figures`], [`record`], [`summary`]; for
-//! rotors [`options`], [`rotor`], [`figures`].
+//! [`options`], [`analysis`] (which runs [`events`], [`sweep`] and [`cost`]), [`pictures`], [`record`], [`summary`]; for
+//! rotors [`options`], [`rotor`]. The crate `eigentol-figures` draws.
 
 pub mod analysis;
 pub mod cost;
 pub mod events;
 pub mod failure;
-pub mod figures;
 pub mod options;
+pub mod pictures;
 pub mod program;
 pub mod progress;
 pub mod question;

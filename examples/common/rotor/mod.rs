@@ -4,6 +4,7 @@
 //! Engineers of rotating machinery count turns: speeds are shown in rpm, frequencies in Hz. Files are in SI units.
 
 pub mod events;
+pub mod margin;
 pub mod record;
 pub mod risk;
 pub mod tables;

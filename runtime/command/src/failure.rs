@@ -54,6 +54,8 @@ pub(crate) enum Failure {
     Report(eigentol_report::Error),
     #[error("{0}")]
     Table(#[from] eigentol_tables::Error),
+    #[error("{0}")]
+    Figure(#[from] eigentol_figures::Error),
     /// The reader of a pipe has gone: no failure.
     #[error("nobody reads the output")]
     NobodyReads,
@@ -72,6 +74,11 @@ impl Failure {
                 | Error::UnknownName { .. }
                 | Error::NoSuchMode { .. } => 2,
                 _ => 1,
+            },
+            Self::Figure(error) => match error {
+                eigentol_figures::Error::Nothing(_) => 1,
+                eigentol_figures::Error::Ending { .. } => 2,
+                _ => 3,
             },
             Self::Usage(..) | Self::UnknownName { .. } | Self::Value { .. } => 2,
             Self::Exists { .. }

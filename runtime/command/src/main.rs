@@ -10,6 +10,7 @@ mod interrupt;
 mod mistake;
 mod output;
 mod parts;
+mod picture;
 mod place;
 mod point;
 mod progress;

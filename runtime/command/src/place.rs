@@ -49,7 +49,7 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// A file to write.
-enum Target<'a> {
+pub(crate) enum Target<'a> {
     /// Written beside and moved into place, so that a failure leaves what was there.
     File { path: &'a Path, beside: PathBuf },
     /// A device or a pipe.
@@ -57,7 +57,7 @@ enum Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    fn of(path: &'a Path) -> Self {
+    pub(crate) fn of(path: &'a Path) -> Self {
         let device = fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir());
         if device {
             return Self::Device(path);
@@ -68,7 +68,7 @@ impl<'a> Target<'a> {
         Self::File { path, beside }
     }
 
-    fn check(&self) -> io::Result<()> {
+    pub(crate) fn check(&self) -> io::Result<()> {
         match self {
             Self::Device(path) => OpenOptions::new().write(true).open(path).map(|_| ()),
             Self::File { path, beside } => {
@@ -81,7 +81,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn write(&self, content: &[u8]) -> io::Result<()> {
+    pub(crate) fn write(&self, content: &[u8]) -> io::Result<()> {
         self.check()?;
         match self {
             Self::Device(path) => OpenOptions::new()

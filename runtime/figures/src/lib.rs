@@ -8,10 +8,12 @@ pub mod figure;
 mod results;
 mod style;
 
+#[cfg(feature = "draw")]
+pub use draw::Form;
 pub use error::Error;
 pub use figure::Figure;
 pub use results::{
     Along, Histogram, Spreads, branches, campbell, damping_ratios, eigenvalues, equilibria,
-    frequencies, margin, mode_shapes, participation, root_locus, shares,
+    frequencies, margin, mode_shapes, participation, root_locus, shares, shares_of_all,
 };
 pub use style::Style;

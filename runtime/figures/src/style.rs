@@ -21,9 +21,12 @@ pub struct Style {
     title: Option<String>,
     names: BTreeMap<usize, String>,
     frequency: Option<Frequency>,
+    lowest: Option<f64>,
     highest: Option<f64>,
+    true_width: bool,
     marks: Vec<(f64, String)>,
     notes: Vec<String>,
+    seed: Option<u64>,
 }
 
 /// The unit of frequencies.
@@ -34,24 +37,17 @@ enum Frequency {
 }
 
 impl Style {
-    /// A style whose captions have the design variables of a study with their tolerances, and the samples and the seed it is set
-    /// to.
+    /// A style whose captions have the design variables of a study with their tolerances and, where samples are shown, its seed.
     #[must_use]
     pub fn of<M: Kernels>(study: &Study<M>) -> Self {
-        let sampling = study.sampling();
         let description = study.description();
-        let half_widths = study.tolerances();
-        let half_widths = half_widths.as_ref().map(|own| own.half_widths());
-        Self::default()
-            .note(design(
-                description,
-                study.design_values(),
-                half_widths.unwrap_or_default(),
-            ))
-            .note(format!(
-                "Monte Carlo: {} samples, seed {}",
-                sampling.samples, sampling.seed
-            ))
+        let tolerances = study.tolerances();
+        let half_widths = tolerances.as_ref().map(|own| own.half_widths());
+        let half_widths = half_widths.unwrap_or_default();
+        Self {
+            seed: Some(study.sampling().seed),
+            ..Self::default().note(design(description, study.design_values(), half_widths))
+        }
     }
 
     /// The title.
@@ -98,6 +94,20 @@ impl Style {
         self
     }
 
+    /// The lower end of the first vertical axis of a Campbell diagram, in its unit: for a part of it.
+    #[must_use]
+    pub fn lowest(mut self, value: f64) -> Self {
+        self.lowest = Some(value).filter(|own| own.is_finite());
+        self
+    }
+
+    /// Bands as wide as they are, even where they cannot be seen.
+    #[must_use]
+    pub fn true_width(mut self) -> Self {
+        self.true_width = true;
+        self
+    }
+
     /// A vertical line at a value of the horizontal axis, in its unit: the speed at which a machine runs.
     #[must_use]
     pub fn mark(mut self, at: f64, label: impl Into<String>) -> Self {
@@ -111,6 +121,14 @@ impl Style {
         self.notes.push(line.into());
         self.notes.retain(|line| !line.is_empty());
         self
+    }
+
+    /// `4000 samples, seed 7`.
+    pub(crate) fn sampled(&self, samples: usize) -> String {
+        match self.seed {
+            Some(seed) => format!("{samples} samples, seed {seed}"),
+            None => format!("{samples} samples"),
+        }
     }
 
     pub(crate) fn titled(&self, otherwise: String) -> String {
@@ -145,6 +163,14 @@ impl Style {
             true => (1.0 / TAU, "Hz"),
             false => (1.0, "rad/s"),
         }
+    }
+
+    pub(crate) fn bottom(&self) -> f64 {
+        self.lowest.unwrap_or(0.0)
+    }
+
+    pub(crate) fn has_true_width(&self) -> bool {
+        self.true_width
     }
 
     pub(crate) fn top(&self) -> Option<f64> {

@@ -1,9 +1,11 @@
 //! Branches of equilibria.
 
 use clap::Args;
+use eigentol_figures::{self as figures, Style};
 
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::picture::Picture;
 use crate::point::Point;
 use crate::sweep::Sweep;
 use crate::verdict::Verdict;
@@ -17,11 +19,14 @@ pub(crate) struct Branches {
     sweep: Sweep,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    picture: Picture,
 }
 
 impl Branches {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
+        self.picture.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let found = question
@@ -29,6 +34,8 @@ impl Branches {
             .branches(range.input, range.low, range.high)?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
+        let style = Style::of(&question.study);
+        self.picture.draw(|| figures::branches(&found, &style))?;
         self.output.write(&answer)?;
         if found.stable().next().is_some() {
             return Ok(Verdict::Yes);

@@ -1,9 +1,11 @@
 //! Campbell diagrams.
 
 use clap::Args;
+use eigentol_figures::{self as figures, Style};
 
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::picture::Picture;
 use crate::point::Point;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
@@ -22,11 +24,14 @@ pub(crate) struct Campbell {
     orders: Vec<f64>,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    picture: Picture,
 }
 
 impl Campbell {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
+        self.picture.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question)?;
@@ -39,6 +44,8 @@ impl Campbell {
         let found = question.study.campbell(range.input, &values, orders)?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
+        let style = Style::of(&question.study);
+        self.picture.draw(|| figures::campbell(&found, &style))?;
         self.output.write(&answer)?;
         let mut states = found.points.iter().map(|point| point.modes.is_ok());
         if states.any(|found| found) {

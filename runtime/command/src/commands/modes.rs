@@ -1,9 +1,11 @@
 //! Equilibrium and natural modes.
 
 use clap::Args;
+use eigentol_figures::{Style, mode_shapes};
 
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::picture::Picture;
 use crate::point::Point;
 use crate::verdict::Verdict;
 
@@ -14,16 +16,21 @@ pub(crate) struct Modes {
     point: Point,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    picture: Picture,
 }
 
 impl Modes {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
+        self.picture.check()?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
         answer.add(&solved.modes)?;
         answer.add(&solved.equilibrium)?;
+        let style = Style::of(&question.study);
+        self.picture.draw(|| mode_shapes(&solved.modes, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

@@ -1,9 +1,11 @@
 //! What tolerances do at one operating point.
 
 use clap::Args;
+use eigentol_figures::{Style, shares_of_all};
 
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::picture::Picture;
 use crate::point::Point;
 use crate::verdict::Verdict;
 
@@ -14,19 +16,25 @@ pub(crate) struct Tolerance {
     point: Point,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    picture: Picture,
 }
 
 impl Tolerance {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
+        self.picture.check()?;
         let question = self.point.question()?;
         let solved = question.study.solve()?;
         let mut answer = self.output.answer();
-        answer.add_aside(&solved.first_order()?)?;
+        let first = solved.first_order()?;
+        answer.add_aside(&first)?;
         answer.add(&solved.summary()?)?;
         if !question.study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
         }
+        let style = Style::of(&question.study);
+        self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }

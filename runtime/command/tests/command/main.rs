@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod declarations;
+mod figures;
 mod import;
 #[cfg(target_os = "linux")]
 mod interrupt;

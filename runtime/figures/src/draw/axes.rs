@@ -95,18 +95,27 @@ fn ticks(axis: &Axis, wanted: f64) -> Vec<(f64, String)> {
     if !rough.is_normal() || rough < 0.0 {
         return Vec::new();
     }
-    let power = 10f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 2.5, 5.0, 10.0]
-        .into_iter()
-        .map(|own| own * power);
-    let step = steps
-        .into_iter()
-        .find(|own| *own >= 0.999 * rough)
-        .unwrap_or(10.0 * power);
+    let step = step(rough, &axis.unit);
     let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
     let count = (last - first).clamp(0.0, 100.0) as usize;
     let values = (0..=count).map(|k| first + k as f64).map(|own| own * step);
     values.map(|value| (value, number(value, step))).collect()
+}
+
+/// The round number next above; of angles one that divides a turn.
+fn step(rough: f64, unit: &str) -> f64 {
+    let power = 10f64.powf(rough.log10().floor());
+    let decimal = [1.0, 2.0, 2.5, 5.0, 10.0].map(|own| own * power);
+    let turns: &[f64] = match unit {
+        "deg" => &[15.0, 30.0, 45.0, 90.0, 180.0],
+        _ => &[],
+    };
+    let all = match rough > 10.0 {
+        true => turns.iter().chain(&decimal),
+        false => [].iter().chain(&decimal),
+    };
+    let mut wide = all.copied().filter(|own| *own >= 0.999 * rough);
+    wide.next().unwrap_or(10.0 * power)
 }
 
 /// A number with the decimals that its step asks for.

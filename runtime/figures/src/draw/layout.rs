@@ -16,7 +16,7 @@ const RIGHT: i32 = 28;
 const BELOW: i32 = 58;
 const ABOVE: i32 = 10;
 /// Characters of a line of the caption.
-const LINE: usize = 124;
+const LINE: usize = 116;
 
 /// Pixels of the drawing.
 pub(super) fn px(shown: i32) -> i32 {

@@ -13,6 +13,8 @@ mod png;
 mod save;
 mod svg;
 
+pub use self::save::Form;
+
 use plotters::coord::Shift;
 use plotters::prelude::{DrawingArea, DrawingBackend};
 

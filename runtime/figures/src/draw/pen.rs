@@ -105,7 +105,8 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
 
     /// A bar with an outline.
     pub(super) fn bar(&self, corners: [Pixel; 2], own: Colour) -> Outcome {
-        let fill = Rectangle::new(corners, colour(own).mix(0.75).filled());
+        let strength = if own == Colour::Grey { 0.35 } else { 0.75 };
+        let fill = Rectangle::new(corners, colour(own).mix(strength).filled());
         self.area.draw(&fill).map_err(words)?;
         let outline = Rectangle::new(corners, BLACK.mix(0.7).stroke_width(SCALE as u32));
         self.area.draw(&outline).map_err(words)
@@ -124,15 +125,8 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
             Shape::Triangle => self.area.draw(&TriangleMarker::new((x, y), px(5), filled)),
             Shape::Cross => self.area.draw(&Cross::new((x, y), size, thin)),
             Shape::Square => {
-                let corners = [
-                    (x - size, y - size),
-                    (x + size, y - size),
-                    (x + size, y + size),
-                    (x - size, y + size),
-                    (x - size, y - size),
-                    (x + size, y - size),
-                ];
-                self.area.draw(&PathElement::new(corners, thin))
+                let corners = [(x - size, y - size), (x + size, y + size)];
+                self.area.draw(&Rectangle::new(corners, thin))
             }
             Shape::Diamond => {
                 let size = px(5);

@@ -5,32 +5,60 @@ use std::path::Path;
 
 use crate::{Error, Figure};
 
-/// The endings that [`Figure::save`] knows.
-const KNOWN: &str = if cfg!(feature = "png") {
-    "`.svg` or `.png`"
-} else {
-    "`.svg`"
-};
+/// In which form a figure is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Form {
+    /// A drawing of lines and letters.
+    Svg,
+    /// A picture of pixels.
+    #[cfg(feature = "png")]
+    Png,
+}
 
-impl Figure {
-    /// Writes the figure into a file, in the form that the ending of its name says: `.svg`, or `.png` with the feature `png`.
+impl Form {
+    /// That which the ending of a file asks for: `.svg`, or `.png` with the feature `png`.
     ///
     /// # Errors
-    /// [`Error::Ending`] for another one, [`Error::Write`], [`Error::Drawing`].
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+    /// [`Error::Ending`] for another one.
+    pub fn of(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let ending = path.extension().and_then(|own| own.to_str());
-        let file = match ending.map(str::to_ascii_lowercase).as_deref() {
-            Some("svg") => self.svg()?.into_bytes(),
+        match ending.map(str::to_ascii_lowercase).as_deref() {
+            Some("svg") => Ok(Self::Svg),
             #[cfg(feature = "png")]
-            Some("png") => self.png()?,
-            _ => {
-                return Err(Error::Ending {
-                    path: path.to_owned(),
-                    known: KNOWN,
-                });
-            }
-        };
+            Some("png") => Ok(Self::Png),
+            _ => Err(Error::Ending {
+                path: path.to_owned(),
+                known: match cfg!(feature = "png") {
+                    true => "`.svg` or `.png`",
+                    false => "`.svg`",
+                },
+            }),
+        }
+    }
+}
+
+impl Figure {
+    /// The content of a file of this form.
+    ///
+    /// # Errors
+    /// [`Error::Drawing`].
+    pub fn file(&self, form: Form) -> Result<Vec<u8>, Error> {
+        match form {
+            Form::Svg => Ok(self.svg()?.into_bytes()),
+            #[cfg(feature = "png")]
+            Form::Png => self.png(),
+        }
+    }
+
+    /// Writes the figure into a file, in the form that the ending of its name says ([`Form::of`]).
+    ///
+    /// # Errors
+    /// [`Error::Ending`], [`Error::Write`], [`Error::Drawing`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        let file = self.file(Form::of(path)?)?;
         fs::write(path, file).map_err(|source| Error::Write {
             path: path.to_owned(),
             source,

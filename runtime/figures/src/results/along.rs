@@ -1,5 +1,6 @@
 //! What is found along an input, whichever result it is.
 
+use eigentol::branches::SpecialKind;
 use eigentol::modes::{Sense, Whirl};
 use eigentol::sweep::Sweep;
 use eigentol::{Campbell, Complex, Description, Equilibrium, Error, Input, InputInfo, Unit};
@@ -31,7 +32,9 @@ pub(crate) struct Station {
 }
 
 pub(crate) mod sealed {
-    use super::{Campbell, Complex, Description, Equilibrium, Error, Input, Sense, Sweep, Whirl};
+    use super::{
+        Campbell, Complex, Description, Equilibrium, Error, Input, Sense, SpecialKind, Sweep, Whirl,
+    };
 
     type Found = (usize, Complex, Option<f64>, Option<Sense>);
 
@@ -41,8 +44,8 @@ pub(crate) mod sealed {
         fn inputs(&self) -> &[f64];
         /// Values, SI, with their equilibria and with labels, eigenvalues, frequencies and senses of their modes.
         fn points(&self) -> Vec<(f64, Result<&Equilibrium, &Error>, Vec<Found>)>;
-        /// Values, SI, at which stiffness is lost.
-        fn critical(&self) -> Vec<f64>;
+        /// Values, SI, at which stiffness is lost, with the equilibrium where it changes without a jump.
+        fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)>;
     }
 
     impl Along for Sweep {
@@ -67,8 +70,13 @@ pub(crate) mod sealed {
             each.collect()
         }
 
-        fn critical(&self) -> Vec<f64> {
-            self.critical.iter().map(|own| own.value).collect()
+        fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
+            let soft = SpecialKind::Pitchfork {
+                supercritical: Some(true),
+            };
+            let each = self.critical.iter();
+            each.map(|own| (own.value, (own.kind == soft).then_some(&own.equilibrium)))
+                .collect()
         }
     }
 
@@ -96,8 +104,8 @@ pub(crate) mod sealed {
             each.collect()
         }
 
-        fn critical(&self) -> Vec<f64> {
-            self.critical.iter().map(|own| own.value).collect()
+        fn critical(&self) -> Vec<(f64, Option<&Equilibrium>)> {
+            self.critical.iter().map(|own| (own.value, None)).collect()
         }
     }
 }
@@ -111,6 +119,8 @@ pub(crate) struct Course<'a> {
     pub(crate) equilibria: Vec<(f64, Option<&'a Equilibrium>)>,
     /// Values at which stiffness is lost, in the unit of the input.
     pub(crate) critical: Vec<f64>,
+    /// The equilibria at those of them where it changes without a jump.
+    pub(crate) soft: Vec<(f64, &'a Equilibrium)>,
 }
 
 impl<'a> Course<'a> {
@@ -134,13 +144,18 @@ impl<'a> Course<'a> {
             });
             equilibria.push((own(value), equilibrium.ok()));
         }
+        let critical = result.critical();
+        let soft = critical
+            .iter()
+            .filter_map(|(value, state)| Some((*value, (*state)?)));
         Self {
             description,
             input,
             inputs: result.inputs(),
             stations,
             equilibria,
-            critical: result.critical().into_iter().map(own).collect(),
+            critical: critical.iter().map(|(value, _)| own(*value)).collect(),
+            soft: soft.map(|(value, state)| (own(value), state)).collect(),
         }
     }
 

@@ -67,8 +67,11 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let top = style
         .top()
         .unwrap_or(if highest > 0.0 { 1.05 * highest } else { 1.0 });
-    panel.y.range = [0.0, top];
-    let times = bands(&mut panel, result, top, scale, |own| own.frequency.as_ref());
+    let bottom = style.bottom().min(0.99 * top);
+    panel.y.range = [bottom, top];
+    let times = bands(&mut panel, result, (style, top - bottom), scale, |own| {
+        own.frequency.as_ref()
+    });
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
     let lines = events::draw(&mut panel, result, style, |event| {
@@ -76,7 +79,7 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
             Event::Crossing { s, .. } => scale * s.im,
             _ => 0.0,
         };
-        (height <= top).then_some(height)
+        (bottom..=top).contains(&height).then_some(height)
     });
     let mut caption = course.caption(style);
     if !panel.bands.is_empty() {
@@ -115,7 +118,7 @@ pub(super) fn oscillation(
 pub(super) fn bands(
     panel: &mut Panel,
     result: &Campbell,
-    length: f64,
+    (style, length): (&Style, f64),
     scale: f64,
     quantity: impl Fn(&CampbellMode) -> Option<&Spread>,
 ) -> f64 {
@@ -130,7 +133,10 @@ pub(super) fn bands(
         .points
         .iter()
         .flat_map(|point| point.modes.iter().flatten());
-    let times = factor(modes.filter_map(quantity).map(|own| own.1), length);
+    let times = match style.has_true_width() {
+        true => 1.0,
+        false => factor(modes.filter_map(quantity).map(|own| own.1), length),
+    };
     for label in result.labels() {
         let mut edges = Vec::new();
         let colour = Colour::Series(label);
@@ -153,20 +159,19 @@ pub(super) fn bands(
 /// The lines of excitation, as far as they are within the panel.
 fn orders(panel: &mut Panel, result: &Campbell, scale: f64) {
     let unit = input_unit(&result.description, result.input);
-    let ([low, high], top) = (panel.x.range, panel.y.range[1]);
+    let ([low, high], [bottom, top]) = (panel.x.range, panel.y.range);
     let label = |first: bool| if first { "excitation" } else { "" };
     for (k, line) in result.orders.iter().enumerate() {
         let value = |own: f64| scale * (line.ratio * unit.to_si(own) + line.offset);
         let ends: [Point; 2] = [[low, value(low)], [high, value(high)]];
         panel.curve(Curve::new(label(k == 0), Colour::Grey, ends.map(Some)).stroke(Stroke::Dotted));
-        let inside = |t: &f64| value(low + t * (high - low)) <= 0.97 * top;
+        let inside = |t: &f64| (bottom..=0.97 * top).contains(&value(low + t * (high - low)));
         let place = (1..=19).rev().map(|k| 0.05 * f64::from(k)).find(inside);
         if let Some(t) = place.filter(|_| line.ratio != 0.0) {
             let at = low + t * (high - low);
             panel.label([at, value(at)], format!("{} x", number(line.ratio)));
         }
     }
-    panel.y.range[1] = top;
 }
 
 /// Whether an event is a limit of stability, not a crossing of a line.

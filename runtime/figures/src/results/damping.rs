@@ -29,7 +29,7 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
     let mut fitted = panel.clone();
     fitted.fit();
     let length = fitted.y.range[1] - fitted.y.range[0];
-    let times = bands(&mut panel, result, length, 100.0, |own| {
+    let times = bands(&mut panel, result, (style, length), 100.0, |own| {
         own.damping_ratio.as_ref()
     });
     panel.marks.extend(style.marks());

@@ -8,6 +8,9 @@ use crate::caption::{in_unit, number};
 use crate::figure::{Axis, Colour, Curve, Figure, Mark, Panel, Point, Stroke};
 use crate::style::Style;
 
+/// Points between a critical value and the next station.
+const STEPS: usize = 8;
+
 /// The coordinates of the equilibrium along the input, a panel for each unit: unstable stretches dotted, interrupted where there is no
 /// equilibrium and where it passes to another branch at a critical value.
 ///
@@ -57,36 +60,52 @@ pub fn equilibria<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
     Ok(Figure::new(title, course.caption(style), panels))
 }
 
-/// The points that are stable, or those that are not, each stretch with the first point of the next one, so that they meet.
+/// The points that are stable, or those that are not, each stretch with the first point of the next one, so that they meet. At a critical value
+/// where the equilibrium does not jump it leaves like a square root.
 fn stretch(
     course: &Course<'_>,
     stable: bool,
     value: impl Fn(&Equilibrium) -> Option<f64>,
 ) -> Vec<Option<Point>> {
     let mut points = Vec::new();
-    let mut before: Option<(f64, bool)> = None;
+    let mut before: Option<(Point, bool)> = None;
     for (at, state) in &course.equilibria {
         let point = state.and_then(|own| Some(([*at, value(own)?], own.stability.holds())));
-        let passes = |from: f64| {
-            course
-                .critical
-                .iter()
-                .any(|own| (from < *own) != (*at < *own))
-        };
-        let joined = before.filter(|(from, _)| !passes(*from));
+        let passed = |own: f64, from: f64| (from < own) != (*at < own);
+        let (mut start, mut end) = (None, before);
+        if let Some((from, _)) = before
+            && course.critical.iter().any(|own| passed(*own, from[0]))
+        {
+            let turn = course.soft.iter().find(|own| passed(own.0, from[0]));
+            start = turn.and_then(|(at, state)| Some([*at, value(state)?]));
+            end = None;
+            if before.is_some_and(|(_, held)| held == stable) {
+                points.push(start);
+            }
+        }
         match point {
             Some((point, holds)) if holds == stable => {
-                if joined.is_none() {
+                if end.is_none() {
                     points.push(None);
+                    points.extend(start.iter().flat_map(|start| root(*start, point)));
                 }
                 points.push(Some(point));
             }
-            Some((point, _)) if joined.is_some_and(|(_, held)| held == stable) => {
+            Some((point, _)) if end.is_some_and(|(_, held)| held == stable) => {
                 points.extend([Some(point), None]);
             }
             _ => points.push(None),
         }
-        before = point.map(|(_, holds)| (*at, holds));
+        before = point;
     }
     points
+}
+
+/// From a point of a square root on to shortly before another.
+fn root(from: Point, to: Point) -> impl Iterator<Item = Option<Point>> {
+    (0..STEPS).map(move |k| {
+        let t = k as f64 / STEPS as f64;
+        let x = from[0] + t * t * (to[0] - from[0]);
+        Some([x, from[1] + t * (to[1] - from[1])])
+    })
 }

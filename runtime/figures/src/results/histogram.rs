@@ -15,6 +15,8 @@ const POINTS: usize = 121;
 const INTERVALS: usize = 60;
 /// Standard deviations that a density is drawn to either side.
 const REACH: f64 = 4.5;
+/// Smaller probabilities say more about the model than about the machine.
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// The histogram of a sampled frequency, and the densities of first and second order over it.
 ///
@@ -36,7 +38,7 @@ const REACH: f64 = 4.5;
 /// let figure = Histogram::new(&sampled, 0)
 ///     .first_order(&study.first_order()?)
 ///     .figure(&Style::of(&study))?;
-/// assert!(figure.caption.iter().any(|line| line.ends_with("2000 samples, seed 7")));
+/// assert!(figure.caption.iter().any(|line| line.contains("2000 samples, seed 7")));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +133,13 @@ impl<'a> Histogram<'a> {
             let sigma = sigma.map_or_else(String::new, |own| {
                 format!(", sigma {} {symbol}", number(own))
             });
-            format!("Monte Carlo: mean {} {symbol}{sigma}.", number(mean))
+            {
+                let samples = style.sampled(self.sampled.samples);
+                format!(
+                    "Monte Carlo, {samples}: mean {} {symbol}{sigma}.",
+                    number(mean)
+                )
+            }
         }];
         let counts = &self.sampled.counts;
         let lost = counts.total() - counts.stable;
@@ -199,7 +207,10 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
         label: "nominal value".to_owned(),
         at: value,
     });
-    let chance = |own: f64| format!("{} %", number(100.0 * own));
+    let chance = |own: f64| match own < NEGLIGIBLE {
+        true => format!("below {} %", number(100.0 * NEGLIGIBLE)),
+        false => format!("{} %", number(100.0 * own)),
+    };
     let text = format!(
         "probability of the band: {} at first order, {} by the second-order model",
         chance(own.first_order),
@@ -208,7 +219,7 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
     let place = 0.5 * (edges[0] + edges[1]);
     panel.label(
         [place, 0.9 * top],
-        format!("P = {}", chance(own.corrected.value)),
+        format!("probability {}", chance(own.corrected.value)),
     );
     let distance = match own.distance.is_finite() {
         true => format!("; {} sigma away", number(own.distance)),

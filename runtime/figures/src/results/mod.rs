@@ -24,5 +24,5 @@ pub use equilibria::equilibria;
 pub use frequencies::frequencies;
 pub use histogram::{Histogram, margin};
 pub use shapes::{mode_shapes, participation};
-pub use shares::shares;
+pub use shares::{shares, shares_of_all};
 pub use spreads::Spreads;

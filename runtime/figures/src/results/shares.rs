@@ -13,24 +13,78 @@ const MOST: usize = 12;
 /// Half of the height of a bar.
 const HALF: f64 = 0.36;
 
+/// More panels than these fit on no page.
+const PANELS: usize = 4;
+
 /// Shares of the design variables in the variance of the frequency of mode number `mode`, from 0, the greatest at the top (a tornado
 /// chart). Of a mode without a frequency they are those of `lambda`. Correlated variables can have negative shares.
 ///
 /// # Errors
 /// [`Error::UnknownMode`]; [`Error::Nothing`] where nothing moves the mode.
 pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure, Error> {
+    let panel = panel(result, mode, "")?;
+    let name = style.mode(mode);
+    let lines = vec![
+        operating_point(&result.description, &result.inputs, None),
+        spread(result, mode, style),
+    ];
+    let d = &*result.description;
+    let title = style.titled(format!(
+        "{}: where the variance of {name} comes from",
+        d.name
+    ));
+    Ok(Figure::new(title, with_notes(lines, style, d), vec![panel]))
+}
+
+/// The same of the first modes that tolerances move, a panel for each.
+///
+/// # Errors
+/// [`Error::Nothing`] where nothing moves any mode.
+pub fn shares_of_all(result: &FirstOrder, style: &Style) -> Result<Figure, Error> {
+    let d = &*result.description;
+    let mut lines = vec![operating_point(d, &result.inputs, None)];
+    let mut panels = Vec::new();
+    for mode in 0..result.modes.len() {
+        if panels.len() == PANELS {
+            lines.push(format!(
+                "The first {PANELS} modes of {}.",
+                result.modes.len()
+            ));
+            break;
+        }
+        let name = style.mode(mode);
+        if let Ok(own) = panel(result, mode, &name) {
+            panels.push(own);
+            let spread = spread(result, mode, style);
+            if !spread.is_empty() {
+                lines.push(format!("{name}: {spread}"));
+            }
+        }
+    }
+    if panels.is_empty() {
+        return Err(Error::nothing("no tolerance moves a mode"));
+    }
+    let title = style.titled(format!("{}: where variance comes from", d.name));
+    Ok(Figure::new(title, with_notes(lines, style, d), panels))
+}
+
+fn panel(result: &FirstOrder, mode: usize, name: &str) -> Result<Panel, Error> {
     let modes = result.modes.len();
     let own = result.modes.get(mode);
     let own = own.ok_or(Error::UnknownMode { mode, modes })?;
-    let d = &*result.description;
-    let name = style.mode(mode);
-    let shares = own.variance_shares().iter().zip(d.design.iter());
+    let shares = own
+        .variance_shares()
+        .iter()
+        .zip(result.description.design.iter());
     let shares = shares.map(|(share, info)| (info.name.to_string(), 100.0 * share));
     let mut all: Vec<(String, f64)> = shares
         .filter(|(_, share)| share.is_finite() && *share != 0.0)
         .collect();
     if all.is_empty() {
-        return Err(Error::nothing(format!("no tolerance moves {name}")));
+        return Err(Error::nothing(format!(
+            "no tolerance moves mode {}",
+            mode + 1
+        )));
     }
     all.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
     if all.len() > MOST {
@@ -46,14 +100,15 @@ pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure,
     });
     let bars: Vec<[f64; 4]> = bars.collect();
     let names = all.iter().map(|own| own.0.clone()).collect();
-    let mut panel = Panel::new(
-        Axis::new("share in the variance", "%"),
-        Axis::of_categories("", names),
-    );
+    let heading = match name.is_empty() {
+        true => "share in the variance".to_owned(),
+        false => format!("share in the variance of {name}"),
+    };
+    let mut panel = Panel::new(Axis::new(heading, "%"), Axis::of_categories("", names));
     panel.bars("", Colour::Series(0), bars);
     for (k, (_, share)) in all.iter().enumerate() {
         let text = match share.abs() < 0.05 {
-            true => format!("{share:.1e}"),
+            true => "below 0.1".to_owned(),
             false => format!("{share:.1}"),
         };
         panel.label([share.max(0.0), k as f64], text);
@@ -63,19 +118,7 @@ pub fn shares(result: &FirstOrder, mode: usize, style: &Style) -> Result<Figure,
         [low.min(share), high.max(share)]
     });
     panel.x.range = [1.1 * low, high + 0.12 * (high - low)];
-    let caption = with_notes(
-        vec![
-            operating_point(d, &result.inputs, None),
-            spread(result, mode, style),
-        ],
-        style,
-        d,
-    );
-    let title = style.titled(format!(
-        "{}: where the variance of {name} comes from",
-        d.name
-    ));
-    Ok(Figure::new(title, caption, vec![panel]))
+    Ok(panel)
 }
 
 fn spread(result: &FirstOrder, mode: usize, style: &Style) -> String {
@@ -86,6 +129,6 @@ fn spread(result: &FirstOrder, mode: usize, style: &Style) -> String {
         .and_then(|own| own.frequency.as_ref());
     own.map_or_else(String::new, |own| {
         let (mean, sigma) = (number(scale * own.mean), number(scale * own.sigma));
-        format!("First order: frequency {mean} {symbol}, sigma {sigma} {symbol}.")
+        format!("frequency {mean} {symbol}, sigma {sigma} {symbol} at first order.")
     })
 }

@@ -124,8 +124,9 @@ impl<'a> Spreads<'a> {
             );
         }
         lower.x.range = upper.x.range;
-        if self.series.iter().any(|own| !own.sampled.is_empty()) {
-            caption.push("Bars: standard errors of the sampled values.".to_owned());
+        if let Some(own) = self.series.iter().find_map(|own| own.sampled.first()) {
+            let samples = style.sampled(own.samples);
+            caption.push(format!("Monte Carlo: {samples}; bars are standard errors."));
         }
         let panels = match lower.is_empty() {
             true => vec![upper],

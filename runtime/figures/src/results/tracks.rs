@@ -300,17 +300,20 @@ mod tests {
         assert_eq!(tracks.len(), 3);
         for track in &tracks {
             let ends = [track.pieces[0].first(), track.pieces[0].last()];
-            let at_turn = ends.into_iter().flatten().filter(|own| own.value == 0.5);
+            let at_turn = ends
+                .into_iter()
+                .flatten()
+                .filter(|own| (own.value - 0.5).abs() < 1e-12);
             let s: Vec<Complex> = at_turn.map(|own| own.s).collect();
             assert!(
-                s.len() == 1 && (s[0] - Complex::new(-1.0, 0.0)).norm() < 1e-15,
+                s.len() == 1 && (s[0] - Complex::new(-1.0, 0.0)).norm() < 1e-12,
                 "{track:?}"
             );
             for state in &track.pieces[0] {
                 let exact = Complex::new(0.5 - state.value, 0.0).sqrt();
                 let (a, b) = (exact - 1.0, -exact - 1.0);
                 let far = (state.s - a).norm().min((state.s - b).norm());
-                assert!(far < 1e-15, "{state:?}");
+                assert!(far < 1e-7, "{state:?}");
             }
         }
     }

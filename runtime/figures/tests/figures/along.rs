@@ -161,15 +161,14 @@ fn modes_that_coalesce_are_drawn_without_a_gap() {
         for at in curve.pieces.iter().flatten() {
             let square = at[0] * at[0] / 4.0 - stiffness;
             let middle = -0.5 * at[0];
-            let exact = match square > 0.0 {
-                true => vec![middle - square.sqrt(), middle + square.sqrt()],
-                false => vec![middle, (-square).sqrt()],
+            // (s - middle)^2 between two values of the sweep is taken to be linear: h^2 / 8 times its curvature is missed.
+            let own = match curve.label.ends_with("imaginary part") {
+                true => -at[1] * at[1],
+                false => (at[1] - middle).powi(2),
             };
-            let far = exact
-                .iter()
-                .map(|own| (own - at[1]).abs())
-                .fold(f64::INFINITY, f64::min);
-            assert!(far < 0.05, "{} {at:?} {exact:?}", curve.label);
+            let real_part = curve.label.ends_with("real part");
+            let expected = if real_part { 0.0 } else { square };
+            assert!((own - expected).abs() < 0.016, "{} {at:?}", curve.label);
         }
     }
     assert_eq!(
@@ -211,18 +210,18 @@ fn the_frequency_of_the_pendulum_touches_zero_at_its_critical_speed() {
 
     let figure = equilibria(&sweep, &Style::default()).unwrap();
     for at in points(&figure.panels[0], "theta") {
-        let exact = if at[0] < critical {
-            0.0
-        } else {
-            (critical / at[0]).powi(2).acos()
+        let exact = match at[0] < critical {
+            true => 0.0,
+            false => (critical / at[0]).powi(2).acos(),
         };
-        assert!((at[1].abs() - exact).abs() < 1e-6, "{at:?}");
+        let solved = sweep.points.iter().any(|point| point.value == at[0]);
+        let near = if solved { 1e-6 } else { 5e-3 };
+        assert!((at[1].abs() - exact).abs() < near, "{at:?} {exact}");
     }
-    assert_eq!(
-        figure.panels[0].curves[0].pieces.len(),
-        2,
-        "cut at the critical speed"
-    );
+    let [before, after] = &figure.panels[0].curves[0].pieces[..] else {
+        panic!("cut at the critical speed");
+    };
+    assert_eq!(before.last(), after.first(), "no jump, so no gap");
     save(&figure, "equilibrium");
 }
 
@@ -327,7 +326,7 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
         figure
             .caption
             .iter()
-            .any(|line| line.ends_with("300 samples, seed 11"))
+            .any(|line| line.contains("300 samples, seed 11"))
     );
     save(&figure, "spreads");
 }

@@ -1,0 +1,69 @@
+//! Figures beside answers.
+
+use std::fs;
+
+use crate::program::{answer, folder, pendulum, run};
+
+#[test]
+fn every_command_draws_its_figure_beside_the_same_answer() {
+    let folder = folder("figures");
+    let sweep = ["--sweep", "omega=4..8rad/s", "--start", "theta=60deg"];
+    let rotating = "rotating_pendulum.mechanism";
+    let campbell = ["campbell", rotating, "--points", "5"];
+    let branches = ["branches", rotating];
+    for (name, arguments, words) in [
+        ("modes", pendulum("modes", &[]), "mode shapes"),
+        (
+            "tolerance",
+            pendulum("tolerance", &[]),
+            "share in the variance",
+        ),
+        (
+            "campbell",
+            [&campbell[..], &sweep].concat(),
+            "Campbell diagram",
+        ),
+        ("branches", [&branches[..], &sweep].concat(), "theta [rad]"),
+    ] {
+        let path = folder.join(format!("{name}.svg"));
+        let place = path.display().to_string();
+        let drawn = answer(&[&arguments[..], &["--figure", &place]].concat());
+        assert_eq!(drawn, answer(&arguments), "{name}");
+        let text = fs::read_to_string(path).unwrap();
+        assert!(text.starts_with("<svg") && text.contains(words), "{name}");
+        assert!(!text.contains("NaN"), "{name}");
+    }
+}
+
+#[test]
+fn the_ending_says_whether_it_is_a_picture() {
+    let folder = folder("figure_forms");
+    let path = folder.join("modes.png");
+    let place = path.display().to_string();
+    answer(&pendulum("modes", &["--figure", &place]));
+    assert!(fs::read(path).unwrap().starts_with(b"\x89PNG"));
+    // Before any work: the declaration is not even read.
+    let other = run(&["modes", "missing.mechanism", "--figure", "modes.pdf"]);
+    assert_eq!(other.code, 2);
+    assert!(other.err.contains("`.svg` or `.png`"), "{}", other.err);
+    let missing = folder
+        .join("missing")
+        .join("modes.svg")
+        .display()
+        .to_string();
+    let other = run(&["modes", "missing.mechanism", "--figure", &missing]);
+    assert_eq!(other.code, 3);
+}
+
+#[test]
+fn nothing_to_draw_is_said() {
+    let path = folder("no_figure").join("tolerance.svg");
+    let place = path.display().to_string();
+    let none = run(&pendulum(
+        "tolerance",
+        &["--tol", "l=0%", "--figure", &place],
+    ));
+    assert_eq!(none.code, 1);
+    assert!(none.err.contains("nothing to draw"), "{}", none.err);
+    assert!(!path.exists());
+}
