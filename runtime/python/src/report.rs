@@ -42,10 +42,11 @@ impl Study {
             let (input, values) = self.values(py, &input, &values, unit.as_deref())?;
             report = report.sweep(input, &values);
         }
-        py.detach(|| report.save(path)).map_err(|error| match error {
-            Error::Study(error) => raise(py, error),
-            other => PyOSError::new_err(other.to_string()),
-        })
+        py.detach(|| report.save(path))
+            .map_err(|error| match error {
+                Error::Study(error) => raise(py, error),
+                other => PyOSError::new_err(other.to_string()),
+            })
     }
 }
 

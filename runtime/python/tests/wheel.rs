@@ -151,6 +151,7 @@ fn the_module_passes_its_tests() {
         "test_mistakes.py",
         "test_motion.py",
         "test_parts.py",
+        "test_report.py",
         "test_robots.py",
     ];
     run("python", &packages, &files);

@@ -1,7 +1,7 @@
 // The mechanism with its modes: a small picture of each to choose from, and a large one that moves and can be turned.
 
 const SECONDS = 2;
-const VIEWS = [["oblique", -0.9, 0.42], ["along x", 0, 0], ["along y", -Math.PI / 2, 0], ["along z", -Math.PI / 2, Math.PI / 2]];
+const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
 function showMechanism({ scene, modes }, parent) {
   const model = new Model(scene);
@@ -46,7 +46,15 @@ class Player {
       this.phase = Number(this.slider.value) / 360;
       this.paint();
     });
-    for (const [name, azimuth, elevation] of VIEWS) button(`View ${name}`, () => this.look(azimuth, elevation));
+    for (const [name, azimuth, elevation] of VIEWS) button(name[0].toUpperCase() + name.slice(1), () => this.look(azimuth, elevation));
+    const up = htmlElement("label", {}, bar, "Up ");
+    this.upwards = htmlElement("select", {}, up);
+    for (const name of Object.keys(UPRIGHT)) htmlElement("option", { value: name }, this.upwards, name);
+    this.upwards.addEventListener("change", () => {
+      this.painter.up = this.upwards.value;
+      this.paint();
+      this.paintGallery();
+    });
     const names = htmlElement("label", {}, bar);
     this.named = htmlElement("input", { type: "checkbox" }, names);
     names.append(" Names");
@@ -111,7 +119,7 @@ class Player {
   paintGallery() {
     this.states.forEach(({ frames }, number) => {
       const { painter } = this.small[number];
-      Object.assign(painter, { azimuth: this.painter.azimuth, elevation: this.painter.elevation });
+      Object.assign(painter, { azimuth: this.painter.azimuth, elevation: this.painter.elevation, up: this.painter.up });
       painter.paint(frames[0], { ghost: number > 0, triad: false });
     });
   }

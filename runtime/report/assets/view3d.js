@@ -3,6 +3,15 @@
 const BODY_COLOURS = ["#4d9fd1", "#e8b04a", "#5cc2a0", "#d98a5b", "#b08ac0", "#9ccff0", "#c9c06a", "#8fa3ad"];
 const LIGHT = unit([0.35, 0.55, 0.75]);
 const REST = "#9a9a9a";
+// Rotations that bring a direction of the common frame upwards.
+const UPRIGHT = {
+  z: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+  "-z": [[1, 0, 0], [0, -1, 0], [0, 0, -1]],
+  y: [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+  "-y": [[0, 0, -1], [1, 0, 0], [0, -1, 0]],
+  x: [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
+  "-x": [[0, -1, 0], [0, 0, 1], [-1, 0, 0]],
+};
 
 class Model {
   constructor(scene) {
@@ -51,6 +60,7 @@ class Painter {
     this.azimuth = -0.9;
     this.elevation = 0.42;
     this.zoom = 1;
+    this.up = "z";
   }
 
   paint(poses, { ghost = false, names = false, triad = true } = {}) {
@@ -80,8 +90,13 @@ class Painter {
 
   // Pixel and depth of a place.
   see(place) {
-    const [right, up, near] = turned(this.view, minus(place, this.model.middle));
+    const [right, up, near] = this.seen(minus(place, this.model.middle));
     return [this.origin[0] + this.factor * right, this.origin[1] - this.factor * up, near];
+  }
+
+  // Right, up and towards the viewer, of a direction of the common frame.
+  seen(direction) {
+    return turned(this.view, turned(UPRIGHT[this.up], direction));
   }
 
   bodies(poses, ghost) {
@@ -131,12 +146,15 @@ class Painter {
   }
 
   wheels(poses) {
-    return this.model.scene.wheels.map(({ center, axle, radius }) => {
+    return this.model.scene.wheels.flatMap(({ center, axle, radius }) => {
       const middle = this.model.point(poses, center);
       const { body } = this.model.scene.points[center];
-      const rim = axle ? ring(middle, this.model.direction(poses, body, axle), radius, 0) : ring(middle, this.view[2], radius, 0);
+      const rim = axle ? ring(middle, this.model.direction(poses, body, axle), radius, 0) : ring(middle, [0, 0, 1], radius, 0);
       const seen = rim.map((own) => this.see(own));
-      return { depth: this.see(middle)[2], paint: () => this.line([...seen, seen[0]], "#222222", 2) };
+      return seen.map((own, k) => {
+        const next = seen[(k + 1) % seen.length];
+        return { depth: (own[2] + next[2]) / 2 + 0.01 * this.model.size, paint: () => this.line([own, next], "#222222", 2) };
+      });
     });
   }
 
@@ -163,7 +181,8 @@ class Painter {
     const origin = [38, high - 36];
     this.context.font = "12px system-ui, sans-serif";
     ["x", "y", "z"].forEach((name, k) => {
-      const end = [origin[0] + 24 * this.view[0][k], origin[1] - 24 * this.view[1][k]];
+      const [right, up] = this.seen(identity()[k]);
+      const end = [origin[0] + 24 * right, origin[1] - 24 * up];
       this.line([origin, end], ["#b3261e", "#1b7a3d", "#1d4fa3"][k], 2);
       this.written(name, end[0] + (end[0] >= origin[0] ? 3 : -9), end[1] + 4);
     });
@@ -171,7 +190,7 @@ class Painter {
 
   shade(colour, pose, corners) {
     const normal = turned(pose.rotation, unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[1]))));
-    const [right, up, near] = turned(this.view, normal);
+    const [right, up, near] = this.seen(normal);
     const light = 0.62 + 0.38 * Math.max(0, dot([right, up, near], LIGHT));
     const part = (from) => Math.round(parseInt(colour.slice(from, from + 2), 16) * light);
     return `rgb(${part(1)},${part(3)},${part(5)})`;

@@ -86,7 +86,7 @@ fn title(mode: &Mode) -> String {
     let number_of_mode = mode.label + 1;
     match mode.frequency() {
         Some(omega) => format!("Mode {number_of_mode}: {} rad/s", number(omega)),
-        None => format!("Mode {number_of_mode}"),
+        None => format!("Mode {number_of_mode}: {}", mode.behaviour),
     }
 }
 
@@ -104,6 +104,9 @@ fn about(mode: &Mode, amplitude: f64) -> String {
         Some(omega) => format!("{} Hz, ", number(omega / TAU)),
         None => String::new(),
     };
+    if mode.frequency().is_none() {
+        return "shown as if it oscillated, not in real time".to_owned();
+    }
     format!(
         "{pace}{}{damping}; shown at constant amplitude, not in real time",
         mode.behaviour

@@ -14,6 +14,7 @@ mod outputs;
 mod parts;
 mod program;
 mod readme;
+mod reports;
 mod rust_examples;
 mod starter;
 mod subcommands;

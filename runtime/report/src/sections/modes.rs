@@ -32,6 +32,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     for own in tables(modes) {
         table(html, "Natural modes", &own, &columns)?;
     }
+    if content.description.coordinates.len() < 2 {
+        // Every shape is the same.
+        return Ok(());
+    }
     let style = content.brief_style.clone();
     chart(
         html,

@@ -43,16 +43,249 @@ fn save(report: &Report<Interpreted>, name: &str) -> PathBuf {
     path
 }
 
-/// The page as it is seen, and as it is printed, for people to look at.
+/// A browser with the report of the rotor; `None`, and a word about it, where there is none.
+fn opened(name: &str) -> Option<Chrome> {
+    let file = save(&rotor(), name);
+    let Some(mut chrome) = Chrome::start(name) else {
+        println!("skipped, reports are not seen in a browser: there is no Chromium");
+        return None;
+    };
+    chrome.open(&file);
+    Some(chrome)
+}
+
+/// The middle of an element on the screen, which it is brought to.
+fn middle(chrome: &mut Chrome, element: &str) -> [f64; 2] {
+    chrome.evaluate(&format!("{element}.scrollIntoView({{ block: 'center' }})"));
+    ["left + box.width / 2", "top + box.height / 2"].map(|of| {
+        chrome.number(&format!(
+            "(() => {{ const box = {element}.getBoundingClientRect(); return box.{of}; }})()"
+        ))
+    })
+}
+
+/// The chart of this title.
+fn chart(title: &str) -> String {
+    format!(
+        "[...document.querySelectorAll('figure')].find((own) => own.querySelector('h3').textContent === '{title}')"
+    )
+}
+
 #[test]
-fn look() {
-    let file = save(&rotor(), "rotor");
-    let Some(mut chrome) = Chrome::start("look") else {
+fn the_page_is_drawn_without_a_complaint_and_loads_nothing() {
+    let Some(mut chrome) = opened("drawn") else {
+        return;
+    };
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drawn.html");
+    assert!(fs::metadata(&file).unwrap().len() < 3_000_000);
+    assert_eq!(chrome.complaints, Vec::<String>::new());
+    assert_eq!(chrome.requests.len(), 1, "{:?}", chrome.requests);
+    let load = "performance.getEntriesByType('navigation')[0].loadEventEnd";
+    println!(
+        "the report of the rotor is loaded and drawn in {:.0} ms",
+        chrome.number(load)
+    );
+    let curves = format!(
+        "{}.querySelectorAll('g.curve').length",
+        chart("Campbell diagram")
+    );
+    assert!(chrome.number(&curves) >= 4.0);
+    let broken = "[...document.querySelectorAll('svg *')].filter((own) => \
+        [...own.attributes].some(({ value }) => /NaN|Infinity|undefined/.test(value))).length";
+    assert_eq!(chrome.evaluate(broken), json!(0));
+    // The page scrolls downwards only.
+    let wide = "document.documentElement.scrollWidth <= document.documentElement.clientWidth";
+    assert_eq!(chrome.evaluate(wide), json!(true));
+    fs::write(file.with_extension("png"), chrome.screenshot()).unwrap();
+    fs::write(file.with_extension("pdf"), chrome.pdf()).unwrap();
+}
+
+#[test]
+fn the_pointer_and_the_keys_show_values() {
+    let Some(mut chrome) = opened("hover") else {
+        return;
+    };
+    let figure = chart("Campbell diagram");
+    middle(
+        &mut chrome,
+        &format!("{figure}.querySelector('svg[tabindex]')"),
+    );
+    // A point of the first curve, where it is drawn.
+    let place = |axis: usize| {
+        format!(
+            "(() => {{ const svg = {figure}.querySelector('svg[tabindex]'); \
+              const path = svg.querySelector('g.curve path'); \
+              const [x, y] = path.getAttribute('d').slice(1).split('L')[20].split(' ').map(Number); \
+              const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM()); return [at.x, at.y][{axis}]; }})()"
+        )
+    };
+    let at = [0, 1].map(|axis| chrome.number(&place(axis)));
+    chrome.mouse("mouseMoved", at);
+    let tip = format!("{figure}.querySelector('.tip')");
+    assert_eq!(chrome.evaluate(&format!("{tip}.hidden")), json!(false));
+    let text = chrome.text(&format!("{tip}.textContent"));
+    // What the data have there.
+    let expected = chrome.text(&format!(
+        "(() => {{ const {{ panels }} = JSON.parse({figure}.querySelector('script').textContent); \
+          return panels[0].curves[0].pieces[0][20][0].toPrecision(6); }})()"
+    ));
+    let speed: f64 = expected.parse().unwrap();
+    assert!(
+        text.contains(&format!("speed: {speed} rpm")),
+        "{text} lacks {speed}"
+    );
+    assert!(
+        text.contains("frequency: ") && text.contains("Hz"),
+        "{text}"
+    );
+    chrome.evaluate(&format!("{figure}.querySelector('svg[tabindex]').focus()"));
+    chrome.key("ArrowRight");
+    let first = chrome.text(&format!("{tip}.textContent"));
+    chrome.key("ArrowRight");
+    let second = chrome.text(&format!("{tip}.textContent"));
+    assert!(
+        first.contains("speed: ") && first != second,
+        "{first} {second}"
+    );
+}
+
+#[test]
+fn the_legend_hides_what_it_names() {
+    let Some(mut chrome) = opened("legend") else {
+        return;
+    };
+    let figure = chart("Campbell diagram");
+    let curves = format!("{figure}.querySelectorAll('g.curve').length");
+    let before = chrome.number(&curves);
+    let button = format!("{figure}.querySelector('.legend button')");
+    let at = middle(&mut chrome, &button);
+    chrome.drag(at, at);
+    assert_eq!(
+        chrome.evaluate(&format!("{button}.getAttribute('aria-pressed')")),
+        json!("false")
+    );
+    assert_eq!(chrome.number(&curves), before - 1.0);
+    chrome.evaluate(&format!("{button}.focus()"));
+    chrome.key("Enter");
+    assert_eq!(chrome.number(&curves), before);
+}
+
+#[test]
+fn a_rectangle_zooms_and_a_double_click_shows_all() {
+    let Some(mut chrome) = opened("zoom") else {
+        return;
+    };
+    let figure = chart("Campbell diagram");
+    let svg = format!("{figure}.querySelector('svg[tabindex]')");
+    let ticks = format!(
+        "[...{svg}.querySelectorAll('.axes text')].map((own) => own.textContent).join(' ')"
+    );
+    let [x, y] = middle(&mut chrome, &svg);
+    let all = chrome.text(&ticks);
+    chrome.drag([x - 60.0, y - 50.0], [x + 60.0, y + 50.0]);
+    let part = chrome.text(&ticks);
+    assert_ne!(all, part);
+    chrome.evaluate(&format!(
+        "{svg}.dispatchEvent(new MouseEvent('dblclick', {{ bubbles: true }}))"
+    ));
+    assert_eq!(chrome.text(&ticks), all);
+}
+
+/// How many pixels of the large canvas differ from white, and a sum that tells pictures apart.
+const PIXELS: &str = "(() => { const canvas = document.querySelector('canvas.view3d'); \
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height); \
+    let [inked, sum] = [0, 0]; \
+    for (let k = 0; k < data.length; k += 4) if (data[k] + data[k + 1] + data[k + 2] < 750) { inked += 1; sum = (sum * 31 + k + data[k]) % 1000003; } \
+    return [inked, sum]; })()";
+
+#[test]
+fn the_mechanism_is_seen_turned_and_moved() {
+    let Some(mut chrome) = opened("space") else {
+        return;
+    };
+    let at = middle(&mut chrome, "document.querySelector('canvas.view3d')");
+    let rest = chrome.evaluate(PIXELS);
+    assert!(rest[0].as_f64().unwrap() > 5_000.0, "{rest}");
+    chrome.drag(at, [at[0] + 90.0, at[1] + 40.0]);
+    let turned = chrome.evaluate(PIXELS);
+    assert_ne!(rest, turned);
+    // A mode, held at two phases.
+    let choose = "document.querySelectorAll('.gallery button')[1].click()";
+    let hold = |phase: u32| {
+        format!(
+            "(() => {{ const own = document.querySelector('input[type=range]'); own.value = {phase}; own.dispatchEvent(new Event('input')); }})()"
+        )
+    };
+    chrome.evaluate(choose);
+    chrome.evaluate(&hold(0));
+    let start = chrome.evaluate(PIXELS);
+    chrome.evaluate(&hold(180));
+    let half = chrome.evaluate(PIXELS);
+    assert!(start != turned && half != start, "{start} {half}");
+    chrome.evaluate(&hold(360));
+    assert_eq!(
+        chrome.evaluate(PIXELS),
+        start,
+        "a period ends where it begins"
+    );
+    // It moves by itself.
+    chrome.evaluate("[...document.querySelectorAll('.controls button')].find((own) => own.textContent === 'Play').click()");
+    let moved = (0..100).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(30));
+        chrome.evaluate(PIXELS) != start
+    });
+    assert!(moved);
+    assert_eq!(chrome.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn a_table_is_copied_with_all_its_digits() {
+    let Some(mut chrome) = opened("copy") else {
+        return;
+    };
+    // What would go to the clipboard is caught: a browser without a window may have none.
+    chrome.evaluate("document.execCommand = () => { window.caught = document.activeElement.value; return true; }");
+    chrome.evaluate("Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => { throw new Error(); } } })");
+    let button = "document.querySelector('#modes [data-copy]')";
+    let at = middle(&mut chrome, button);
+    chrome.drag(at, at);
+    chrome.evaluate("new Promise((done) => setTimeout(done, 50))");
+    let text = chrome.text("window.caught");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 5, "{text}");
+    assert!(lines[0].starts_with("mode\tfrequency [rad/s]\t"), "{text}");
+    let study = rotor_modes();
+    for (line, expected) in lines[1..].iter().zip(study) {
+        let frequency: f64 = line.split('\t').nth(1).unwrap().parse().unwrap();
+        assert_eq!(Some(frequency), expected);
+    }
+}
+
+/// The frequencies that the report of the rotor has.
+fn rotor_modes() -> Vec<Option<f64>> {
+    let mechanism = Interpreted::from_text(&declaration("jeffcott_rotor")).unwrap();
+    let study = Study::new(mechanism);
+    let speed = study.find_input("speed").unwrap();
+    let study = study.input(speed, InDeclaredUnit(3000.0));
+    study.modes().unwrap().frequencies().to_vec()
+}
+
+/// A declaration whose every text tries to break out.
+#[test]
+fn words_from_outside_run_nothing() {
+    let attack =
+        "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 1'>";
+    let report = rotor().title(attack).declaration(attack);
+    let file = save(&report, "attack");
+    let Some(mut chrome) = Chrome::start("attack") else {
         return;
     };
     chrome.open(&file);
-    println!("{:?}", chrome.complaints);
-    fs::write(file.with_extension("png"), chrome.screenshot()).expect("a screenshot is written");
-    fs::write(file.with_extension("pdf"), chrome.pdf()).expect("a print is written");
-    let _ = json!(0);
+    assert_eq!(chrome.complaints, Vec::<String>::new());
+    assert_eq!(chrome.evaluate("window.broken === undefined"), json!(true));
+    assert_eq!(chrome.text("document.title"), attack);
+    assert_eq!(
+        chrome.text("document.querySelector('pre').textContent"),
+        attack
+    );
 }

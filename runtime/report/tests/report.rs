@@ -1,0 +1,310 @@
+//! The text of reports: numbers are those of the results, names stay names, nothing is dropped without a word.
+
+use eigentol::{InDeclaredUnit, Study, mechanism};
+use eigentol_interpreter::Interpreted;
+use eigentol_report::{Error, Report};
+use serde_json::Value;
+
+mechanism! {
+    mechanism Pendulum {
+        input  omega: rad/s;
+        design m = 3.0 kg;
+        design l = 1.0 m +/- 3%;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar: rod(mass: m, length: l, along: -z);
+        joint spin:  revolute(z) from ground to shaft, driven at omega;
+        joint theta: revolute(y) from shaft to bar;
+        output angle = theta;
+    }
+}
+
+fn swinging() -> Study<Pendulum> {
+    Study::new(Pendulum)
+        .input(Pendulum::omega, 5.0)
+        .start(Pendulum::theta, 1.0)
+        .samples(500)
+        .seed(3)
+}
+
+/// The pieces of data of one kind, in order.
+fn data(html: &str, kind: &str) -> Vec<Value> {
+    let start = format!("<script type=\"application/json\" data-kind=\"{kind}\">");
+    let pieces = html.split(&start).skip(1);
+    pieces
+        .map(|rest| {
+            let (json, _) = rest.split_once("</script>").expect("a script ends");
+            serde_json::from_str(json).expect("JSON")
+        })
+        .collect()
+}
+
+fn table(html: &str, name: &str) -> Value {
+    let mut all = data(html, "table").into_iter();
+    all.find(|own| own["name"] == name)
+        .unwrap_or_else(|| panic!("no table `{name}`"))
+}
+
+fn column(table: &Value, name: &str) -> Vec<Option<f64>> {
+    let columns = table["columns"].as_array().expect("columns");
+    let own = columns.iter().find(|own| own["name"] == name);
+    let own = own.unwrap_or_else(|| panic!("no column `{name}` in {table}"));
+    let values = own["values"].as_array().expect("values");
+    values.iter().map(Value::as_f64).collect()
+}
+
+/// The words of a page.
+fn words(html: &str) -> String {
+    let page = html.split("<main>").nth(1).expect("a page");
+    let mut text = String::new();
+    for piece in page
+        .split("<script")
+        .map(|own| own.split_once("</script>").map_or(own, |own| own.1))
+    {
+        for part in piece.split('<').filter_map(|own| own.split_once('>')) {
+            text += part.1;
+            text.push(' ');
+        }
+    }
+    text
+}
+
+#[test]
+fn tables_have_the_numbers_of_the_results_bit_by_bit() {
+    let study = swinging();
+    let html = Report::new(&study).html().unwrap();
+    let solved = study.solve().unwrap();
+    let modes = table(&html, "modes");
+    assert_eq!(
+        column(&modes, "frequency"),
+        [solved.modes.modes[0].frequency()]
+    );
+    let equilibrium = table(&html, "equilibrium");
+    let coordinates: Vec<_> = solved
+        .equilibrium
+        .coordinates
+        .iter()
+        .copied()
+        .map(Some)
+        .collect();
+    assert_eq!(column(&equilibrium, "value"), coordinates);
+    let first = solved.first_order().unwrap();
+    let sigma = first.modes[0].frequency.as_ref().map(|own| own.sigma);
+    assert_eq!(
+        column(&table(&html, "summary"), "sigma, first order"),
+        [sigma]
+    );
+    assert_eq!(
+        column(&table(&html, "shares"), "mode 1"),
+        [Some(0.0), Some(100.0)]
+    );
+    let sampled = solved.monte_carlo().unwrap();
+    let mean = sampled.modes[0].as_ref().map(|own| own.mean);
+    assert_eq!(
+        column(&table(&html, "Monte Carlo"), "mean of frequency"),
+        [mean]
+    );
+    let spread = solved.output_tolerances().unwrap();
+    assert_eq!(
+        column(&table(&html, "output tolerances"), "mean"),
+        [Some(spread.values[0])]
+    );
+}
+
+#[test]
+fn the_table_of_variables_has_values_and_tolerances_in_their_units() {
+    let study = swinging()
+        .design(Pendulum::l, 1.2)
+        .tolerance(Pendulum::omega, 0.1);
+    let variables = table(&Report::new(&study).html().unwrap(), "variables");
+    assert_eq!(
+        column(&variables, "value"),
+        [Some(5.0), Some(3.0), Some(1.2)]
+    );
+    let half: Vec<Option<f64>> = column(&variables, "half-width");
+    assert!((half[0].unwrap() - 0.1).abs() < 1e-15 && half[1].is_none());
+    assert!((half[2].unwrap() - 0.03).abs() < 1e-15, "{half:?}");
+}
+
+/// The charts are the figures of the crate eigentol-figures, whose numbers its own tests check.
+#[test]
+fn charts_are_the_figures_of_the_results() {
+    let study = swinging();
+    let values = [3.0, 4.0, 5.0, 6.0];
+    let html = Report::new(&study)
+        .sweep(Pendulum::omega, &values)
+        .orders(&[1.0])
+        .html()
+        .unwrap();
+    let figures = data(&html, "figure");
+    let titles: Vec<&str> = figures
+        .iter()
+        .filter_map(|own| own["title"].as_str())
+        .collect();
+    for wanted in ["Branches of equilibria", "Campbell diagram"] {
+        assert!(titles.contains(&wanted), "{titles:?}");
+    }
+    let campbell = study.campbell(Pendulum::omega, &values, &[1.0]).unwrap();
+    let expected = eigentol_figures::campbell(
+        &campbell,
+        &eigentol_figures::Style::of(&study).title("Campbell diagram"),
+    );
+    let expected = serde_json::to_value(expected.unwrap()).unwrap();
+    assert!(figures.contains(&expected));
+}
+
+#[test]
+fn the_view_in_3d_has_every_body_and_the_poses_of_every_mode() {
+    let study = swinging();
+    let scenes = data(&Report::new(&study).html().unwrap(), "scene");
+    let [view] = &scenes[..] else {
+        panic!("{} views", scenes.len())
+    };
+    let bodies = view["scene"]["bodies"].as_array().unwrap();
+    let names: Vec<_> = bodies
+        .iter()
+        .map(|own| own["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["shaft", "bar"]);
+    let solved = study.solve().unwrap();
+    let frames = view["modes"][0]["frames"].as_array().unwrap();
+    let expected = solved.mode_pictures(0, frames.len(), 0.12).unwrap();
+    for (frame, poses) in frames.iter().zip(&expected.frames) {
+        let numbers: Vec<f64> = frame
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(Value::as_f64)
+            .collect();
+        let all = poses.iter().flat_map(|pose| {
+            pose.position
+                .into_iter()
+                .chain(pose.rotation.into_iter().flatten())
+        });
+        let all: Vec<f64> = all.collect();
+        assert_eq!(numbers.len(), all.len());
+        assert!(
+            numbers.iter().zip(&all).all(|(a, b)| (a - b).abs() <= 1e-4),
+            "{numbers:?}\n{all:?}"
+        );
+    }
+}
+
+/// A text that tries to leave the place it stands in.
+const ATTACK: &str =
+    "</script></title><script>alert('x')</script><img src=x onerror=alert(1)>\" ' & <!--";
+
+#[test]
+fn words_from_outside_never_become_markup() {
+    let study = swinging();
+    let plain = Report::new(&study)
+        .title("t")
+        .declaration("d")
+        .html()
+        .unwrap();
+    let attacked = Report::new(&study)
+        .title(ATTACK)
+        .declaration(ATTACK)
+        .html()
+        .unwrap();
+    for mark in [
+        "<script",
+        "</script",
+        "<img",
+        "<title",
+        "</title",
+        "<!--",
+        "onerror=alert(1)>",
+    ] {
+        let count = |html: &str| html.matches(mark).count();
+        assert_eq!(count(&plain), count(&attacked), "{mark}");
+    }
+    assert!(attacked.contains("&lt;/script&gt;&lt;/title&gt;"));
+}
+
+#[test]
+fn nothing_is_loaded_from_anywhere() {
+    let html = Report::new(&swinging()).html().unwrap();
+    for mark in ["src=", "@import", "url(http", "<link", "fetch(", "import("] {
+        assert!(!html.contains(mark), "{mark}");
+    }
+    // Names of XML's vocabularies are no addresses.
+    let addresses = html.matches("http").count();
+    let known =
+        html.matches("http://www.w3.org/2000/svg").count() + html.matches("http-equiv").count();
+    assert_eq!(addresses, known);
+}
+
+#[test]
+fn what_there_is_not_is_said_in_its_place() {
+    let study = swinging().relative_tolerance(Pendulum::l, 0.0);
+    let text = words(&Report::new(&study).html().unwrap());
+    assert_eq!(
+        text.matches("No variable has a tolerance").count(),
+        4,
+        "{text}"
+    );
+    assert!(text.contains("No sweep was asked for."));
+}
+
+#[test]
+fn an_unstable_equilibrium_is_said_and_shown() {
+    let declaration = "mechanism UpsideDown { design m = 1 kg +/- 1%; gravity 9.81 m/s^2 along -z;
+        body bar: rod(mass: m, length: 1 m, along: z);
+        joint theta: revolute(y) from ground to bar; }";
+    let study = Study::new(Interpreted::from_text(declaration).unwrap())
+        .policy(eigentol::Policy::Nearest)
+        .samples(64);
+    let html = Report::new(&study).html().unwrap();
+    let text = words(&html);
+    assert!(text.contains("The equilibrium is divergent"), "{text}");
+    assert!(text.contains("Mode 1 does not oscillate"), "{text}");
+    assert_eq!(data(&html, "scene").len(), 1);
+}
+
+#[test]
+fn no_equilibrium_is_said_in_every_section() {
+    // Gravity holds no more than 4.9 N*m.
+    let declaration = "mechanism Overloaded { design m = 1 kg +/- 1%; gravity 9.81 m/s^2 along -z;
+        body bar: rod(mass: m, length: 1 m, along: -z);
+        joint theta: revolute(y) from ground to bar;
+        force motor: generalized(on: theta, value: 10 N*m); }";
+    let study = Study::new(Interpreted::from_text(declaration).unwrap());
+    let html = Report::new(&study).html().unwrap();
+    let text = words(&html);
+    assert!(text.contains("There is no equilibrium"), "{text}");
+    assert!(text.contains("There are no modes"), "{text}");
+}
+
+#[test]
+fn mistakes_of_the_caller_are_errors() {
+    let study = swinging();
+    let wrong = Report::new(&study)
+        .sweep(Pendulum::omega, &[f64::NAN])
+        .html();
+    assert!(matches!(wrong, Err(Error::Study(_))), "{wrong:?}");
+    let wrong = Report::new(&study.clone().tolerance(Pendulum::l, -1.0)).html();
+    assert!(matches!(wrong, Err(Error::Study(_))), "{wrong:?}");
+    let nowhere = Report::new(&study).save("no/such/folder/report.html");
+    let message = nowhere.unwrap_err().to_string();
+    assert!(
+        message.starts_with("cannot write `no/such/folder/report.html`"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_sweep_of_one_value_has_no_branches_and_says_so() {
+    let study = swinging();
+    let html = Report::new(&study)
+        .sweep(Pendulum::omega, &[InDeclaredUnit(5.0)])
+        .html()
+        .unwrap();
+    assert!(words(&html).contains("Branches of equilibria were not followed"));
+}
+
+#[test]
+fn the_same_study_gives_the_same_report() {
+    let html = || Report::new(&swinging()).html().unwrap();
+    assert!(html() == html());
+}
