@@ -65,7 +65,7 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
 
     // `cargo install` with the packages of this build.
     let readme = fs::read_to_string(clone.join("README.md")).unwrap();
-    let install = "cargo install --path runtime/command\n";
+    let install = "cargo install --locked --path runtime/command\n";
     assert!(parts(&readme).contains(&Part::Shell(install)));
     cargo(&clone, &["build", "--package", "eigentol-cli"]);
     follow(&clone.join("README.md"), &clone);
@@ -74,6 +74,8 @@ fn a_newcomer_gets_from_a_clone_to_his_own_rotor() {
     follow(&chapter, &folder);
     let own = fs::read_to_string(folder.join("pendulum.mechanism")).unwrap();
     assert!(own.contains("+/- 1%"), "the tolerance was edited");
+    let report = fs::read_to_string(folder.join("fan.html")).unwrap();
+    assert!(report.starts_with("<!doctype html>") && report.contains("Fan"));
 
     let text = fs::read_to_string(&chapter).unwrap();
     let mut output = String::new();
