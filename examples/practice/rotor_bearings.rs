@@ -1,9 +1,13 @@
-//! At which speed do the oil films of its bearings make this rotor unstable, and how sure is that?
+//! At which speed do its oil films make this rotor unstable, and how sure is that?
 //!
 //! `cargo run --release --example rotor_bearings`
 
-use eigentol::{Error, Study, mechanism};
+use std::error::Error;
+use std::io::{self, Write};
 
+use eigentol::{Study, mechanism};
+
+/// One revolution per minute, rad/s.
 const RPM: f64 = std::f64::consts::TAU / 60.0;
 
 mechanism! {
@@ -16,7 +20,6 @@ mechanism! {
     pub mechanism RotorBearings {
         /// Speed of the rotor.
         input speed: rpm;
-
         design radius = 70 mm +/- 0.1 mm;
         design length = 800 mm +/- 0.5 mm;
         design near = 300 mm +/- 1 mm;
@@ -32,7 +35,6 @@ mechanism! {
         curve cxx: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [208.4, 199.7, 197.9, 197.2, 196.9, 196.7] kN*s/m;
         curve cxy: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [-58.17, -29.6, -19.81, -14.88, -11.91, -9.931] kN*s/m;
         curve cyy: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [243.3, 209.1, 202.1, 199.6, 198.5, 197.8] kN*s/m;
-
         let stiffness = stiffness_factor * [[kxx(speed), kxy(speed), 0], [kyx(speed), kyy(speed), 0], [0, 0, 0]];
         let damping = damping_factor * [[cxx(speed), cxy(speed), 0], [cxy(speed), cyy(speed), 0], [0, 0, 0]];
 
@@ -40,12 +42,10 @@ mechanism! {
         body center: massless;
         body carrier: massless;
         body rotor: cylinder(density: 7850 kg/m^3, radius: radius, length: length, axis: z);
-
         joint x: prismatic(x) from ground to across;
         joint y: prismatic(y) from across to center;
         joint tilt: universal(alpha: x, beta: y) from center to carrier;
         joint spin: revolute(z) from carrier to rotor, driven at speed;
-
         point seat1: ground at [0, 0, -near];
         point seat2: ground at [0, 0, far];
         point journal1: carrier at [0, 0, -near];
@@ -55,21 +55,28 @@ mechanism! {
     }
 }
 
-fn main() -> Result<(), Error> {
-    let study = Study::new(RotorBearings).input(RotorBearings::speed, 6000.0 * RPM);
-    println!("{}", study.modes()?);
-    let (low, high) = (2000.0 * RPM, 12000.0 * RPM);
-    for limit in study.flutter_onset_tolerances(RotorBearings::speed, low, high)? {
-        let spread = limit.spread?;
-        let [value, sigma] = [limit.value, spread.sigma].map(|speed| speed / RPM);
-        println!(
-            "Stable up to {value:.0} rpm, sigma {sigma:.0} rpm. One sigma of each tolerance moves it by"
-        );
-        let tolerances = study.tolerances()?;
-        let each = spread.by_design.iter().zip(tolerances.half_widths());
-        for (info, (slope, width)) in study.description().design.iter().zip(each) {
-            println!("{:>20} {:8.1} rpm", &*info.name, slope * width / 3.0 / RPM);
-        }
-    }
+/// The rotor at work.
+pub fn study() -> Study<RotorBearings> {
+    Study::new(RotorBearings).input(RotorBearings::speed, 6000.0 * RPM)
+}
+
+/// The limit speed, and what makes it uncertain.
+pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let (study, low, high) = (study(), 2000.0 * RPM, 12000.0 * RPM);
+    let limits = study.flutter_onset_tolerances(RotorBearings::speed, low, high)?;
+    let limit = limits.first().ok_or("stable at all these speeds")?;
+    let spread = limit.spread.as_ref().map_err(Clone::clone)?;
+    let (speed, sigma) = (limit.value / RPM, spread.sigma / RPM);
+    writeln!(
+        out,
+        "ROTOR BEARINGS: stable up to {speed:.0} rpm, sigma {sigma:.0} rpm."
+    )?;
+    let film = 100.0 * (spread.variance_shares[4] + spread.variance_shares[5]);
+    writeln!(out, "{film:.1} % of the variance are due to the film.")?;
     Ok(())
+}
+
+#[allow(dead_code, reason = "others take this file as a module")]
+fn main() -> Result<(), Box<dyn Error>> {
+    answer(&mut io::stdout())
 }
