@@ -18,7 +18,6 @@ mechanism! {
     /// to carry (formulas: M. I. Friswell et al., Dynamics of Rotating Machines, 2010, section 5.5). They hold about the place to which the
     /// load has moved the journal: coordinates are counted from there, and weight is not declared again.
     pub mechanism RotorBearings {
-        /// Speed of the rotor.
         input speed: rpm;
         design radius = 70 mm +/- 0.1 mm;
         design length = 800 mm +/- 0.5 mm;
@@ -27,7 +26,6 @@ mechanism! {
         /// What stiffness and damping of the film have of their calculated values.
         design stiffness_factor = 1 +/- 15%;
         design damping_factor = 1 +/- 15%;
-
         curve kxx: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [12.15, 12.39, 12.44, 12.46, 12.47, 12.48] MN/m;
         curve kxy: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [20.39, 41.05, 61.64, 82.21, 102.8, 123.3] MN/m;
         curve kyx: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [-26.91, -44.58, -64.03, -84.02, -104.2, -124.6] MN/m;
@@ -37,7 +35,6 @@ mechanism! {
         curve cyy: [2000, 4000, 6000, 8000, 10000, 12000] rpm -> [243.3, 209.1, 202.1, 199.6, 198.5, 197.8] kN*s/m;
         let stiffness = stiffness_factor * [[kxx(speed), kxy(speed), 0], [kyx(speed), kyy(speed), 0], [0, 0, 0]];
         let damping = damping_factor * [[cxx(speed), cxy(speed), 0], [cxy(speed), cyy(speed), 0], [0, 0, 0]];
-
         body across: massless;
         body center: massless;
         body carrier: massless;
