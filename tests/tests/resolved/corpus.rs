@@ -115,8 +115,8 @@ fn first_derivatives_of_equilibria_outputs_and_undamped_modes() {
     let mut gradients = Gradients::default();
     every_machine(&mut gradients);
     assert!(gradients.points >= corpus().len());
-    // Of the corpus, the bearing's rotor and the press; Jeffcott's rotor twice, and the column.
-    assert_eq!(gradients.nonsymmetric, 5);
+    // Of the corpus, the bearing's rotor and the press, and the film's rotor twice; Jeffcott's rotor twice, and the column.
+    assert_eq!(gradients.nonsymmetric, 7);
     // Four isotropic states, two modes each.
     assert_eq!(gradients.repeated, 8);
     assert!(gradients.modes > 55, "{}", gradients.modes);

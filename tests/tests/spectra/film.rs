@@ -2,6 +2,7 @@
 
 use eigentol::modes::Sense;
 use eigentol::{Error, Study};
+use eigentol_interpreter::Interpreted;
 use eigentol_oracle::model::{Curve, Unit};
 use eigentol_tests::corpus::film_rotor::FilmRotor;
 
@@ -135,4 +136,40 @@ fn a_curve_ends() {
         .design(FilmRotor::temperature, 95.0);
     let text = warm.modes().expect_err("too warm").to_string();
     assert!(text.contains("viscosity"), "{text}");
+}
+
+/// Equal numbers are not enough: a tolerance moves each variable by itself.
+#[test]
+fn only_a_symmetric_matrix_has_a_symmetric_stiffness() {
+    let is_symmetric = |xy: &str, yx: &str| {
+        let text = format!(
+            "mechanism Plate {{
+                input speed: rpm;
+                design k = 1 N/m;
+                design l = 1 N/m;
+                curve c: [0, 1000, 2000] rpm -> [1, 2, 2] N/m;
+                body slide: massless;
+                body plate: box(mass: 1 kg, size: [1, 1, 1] m);
+                joint x: prismatic(x) from ground to slide;
+                joint y: prismatic(y) from slide to plate;
+                point seat: ground;
+                point center: plate;
+                force mount: bushing(from: seat, to: center, stiffness: [[9 N/m, {xy}, 0], [{yx}, 8 N/m, 0], [0, 0, 0]]);
+            }}"
+        );
+        let mechanism = Interpreted::from_text(&text).expect("a mechanism");
+        mechanism.description().symmetric_stiffness
+    };
+    for (xy, yx, expected) in [
+        ("0", "0", true),
+        ("k", "k", true),
+        ("2 * k", "k + k", true),
+        ("c(speed)", "c(speed)", true),
+        ("k", "l", false),
+        ("k", "-k", false),
+        ("0", "k", false),
+        ("c(speed)", "c(speed / 2)", false),
+    ] {
+        assert_eq!(is_symmetric(xy, yx), expected, "{xy}, {yx}");
+    }
 }

@@ -19,7 +19,8 @@ pub(super) fn constants(program: &Program) -> String {
         let (name, pieces) = (pieces_of(spline), spline.pieces());
         let _ = writeln!(
             text,
-            "const {name}: [[f64; 5]; {}] = {pieces:?};",
+            "#[allow(non_upper_case_globals, clippy::all, clippy::pedantic)]
+            const {name}: [[f64; 5]; {}] = {pieces:?};",
             pieces.len()
         );
     }

@@ -128,6 +128,19 @@ impl Curve {
         let pieces = self.spline.pieces();
         [start(pieces.first()), start(pieces.last())]
     }
+
+    /// The range, and a little more: rounding must not take its ends away.
+    pub fn range_with_ends(&self) -> [f64; 2] {
+        let [first, last] = self.range();
+        let slack = 1e-9 * (last - first);
+        [first - slack, last + slack]
+    }
+
+    /// Whether an argument, SI, is on the curve.
+    pub fn reaches(&self, argument: f64) -> bool {
+        let [low, high] = self.range_with_ends();
+        low < argument && argument < high
+    }
 }
 
 /// An argument of a curve that depends on inputs and design variables only.

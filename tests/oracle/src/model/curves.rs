@@ -1,7 +1,8 @@
 //! Curves through points.
 
+use num_dual::DualNum;
+
 use super::values::Unit;
-use crate::matrices::Scalar;
 
 /// A natural cubic spline, straight beyond its ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Curve {
 
 impl Curve {
     /// The value at `x`: `m0 (x1 - x)^3 / (6 h) + m1 (x - x0)^3 / (6 h) + ..` with the second derivatives `m` at both ends of the piece.
-    pub fn at<D: Scalar>(&self, x: D) -> D {
+    pub fn at<D: DualNum<Primitive = f64> + Copy>(&self, x: D) -> D {
         let (points, m) = (&self.points, self.curvatures());
         let last = points.len() - 1;
         let [first_x, first_y] = points[0];

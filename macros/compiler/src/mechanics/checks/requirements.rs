@@ -70,15 +70,14 @@ pub(crate) fn requirements(
     list
 }
 
-/// Curves are known between their first and their last point. Rounding must not take their ends away.
+/// Curves are known between their first and their last point.
 fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<Requirement> {
     let mut list: Vec<Requirement> = Vec::new();
     for CurveArgument { curve, argument } in &mechanism.curve_arguments {
         let argument = values.scalar(g, argument);
         let [first, last] = curve.range();
-        let slack = FLATNESS * (last - first);
         let (name, unit) = (curve.spline.name(), curve.argument.si_symbol());
-        let (low, high) = (g.constant(first - slack), g.constant(last + slack));
+        let [low, high] = curve.range_with_ends().map(|end| g.constant(end));
         let ends = [
             (
                 format!("argument of {name} less {first} {unit}, where this curve begins,"),

@@ -9,6 +9,7 @@ use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::spline::Spline;
 use crate::model::expression::{Expr, Function};
 use crate::model::mechanism::{Curve, CurveArgument};
+use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
 
@@ -126,23 +127,20 @@ impl Resolver<'_> {
         let (argument, quantity) = self.scalar(given, place)?;
         let what = format!("the argument of `{name}`");
         self.expect(quantity, curve.argument, &what, given)?;
-        let [first, last] = curve.range();
-        if let Expr::Number(number) = argument
-            && !(first..=last).contains(&number)
-        {
-            let unit = curve.argument.si_symbol();
-            let message = format!(
-                "the curve `{name}` goes from {first} to {last} {unit}, this is {number} {unit}"
-            );
-            self.diagnostics.error(given.extent, message);
-            return None;
-        }
-        let checked = CurveArgument {
-            curve,
-            argument: argument.clone(),
-        };
-        if is_known_before_the_motion(&argument) && !self.curve_arguments.contains(&checked) {
-            self.curve_arguments.push(checked);
+        if is_known_before_the_motion(&argument) {
+            self.requirements.push(Requirement {
+                what,
+                values: vec![argument.clone()],
+                demand: Demand::OnCurve(curve),
+                extent: given.extent,
+            });
+            let asked = CurveArgument {
+                curve,
+                argument: argument.clone(),
+            };
+            if !self.curve_arguments.contains(&asked) {
+                self.curve_arguments.push(asked);
+            }
         }
         let value = match argument {
             Expr::Number(number) => Expr::Number(curve.spline.at(number, 0)),
@@ -160,11 +158,13 @@ fn elements(list: &Value) -> Option<&[Value]> {
     }
 }
 
-/// It is made of inputs, design variables and constants, not of numbers alone.
+/// It is made of numbers, inputs, design variables and constants.
 fn is_known_before_the_motion(argument: &Expr) -> bool {
-    let leaves = argument.leaves();
-    let is_parameter =
-        |leaf: &&Expr| matches!(leaf, Expr::Input(_) | Expr::Design(_) | Expr::Constant(_));
-    let is_known = |leaf: &Expr| matches!(leaf, Expr::Number(_)) || is_parameter(&leaf);
-    leaves.iter().any(is_parameter) && leaves.into_iter().all(is_known)
+    let is_known = |leaf: &Expr| {
+        matches!(
+            leaf,
+            Expr::Number(_) | Expr::Input(_) | Expr::Design(_) | Expr::Constant(_)
+        )
+    };
+    argument.leaves().into_iter().all(is_known)
 }

@@ -9,7 +9,7 @@ use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::evaluate::{Dependence, Values};
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Constant, Part};
+use crate::model::mechanism::{Constant, Curve, Part};
 
 /// Something that values must satisfy.
 #[derive(Clone, Debug)]
@@ -45,6 +45,8 @@ pub(crate) enum Demand {
     Distinct,
     /// Three unit vectors that are not in one plane.
     Spanning,
+    /// An argument between the ends of a curve.
+    OnCurve(Curve),
     /// No values: a body that its holes leave something of.
     Holes(Rc<[Part]>),
 }
@@ -174,6 +176,13 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
             .then(|| "are parallel: the second motion would repeat the first".to_string()),
         (Demand::Spanning, axes) => in_one_plane(axes)
             .then(|| "lie in one plane: together they do not reach every place".to_string()),
+        (Demand::OnCurve(curve), &[argument]) if !curve.reaches(argument) => {
+            let ([first, last], unit) = (curve.range().map(rounded), curve.argument.si_symbol());
+            let argument = rounded(argument);
+            Some(format!(
+                "is {argument} {unit}; this curve goes from {first} to {last} {unit}"
+            ))
+        }
         (Demand::Holes(parts), _) => composite::holes(parts, at),
         _ => None,
     }
