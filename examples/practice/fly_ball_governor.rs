@@ -22,7 +22,6 @@ mechanism! {
         design half_sleeve = 4 kg +/- 1%;
 
         gravity 9.81 m/s^2 along -z;
-
         body spindle: massless;
         body upper: massless;
         body flyball: point(mass: ball);
@@ -56,33 +55,25 @@ pub fn study() -> Study<FlyBallGovernor> {
 
 /// The critical speed at which hanging becomes unstable, and the place of the sleeve at the speed that is held.
 pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
-    let hanging = Study::new(FlyBallGovernor);
-    let begins = hanging.critical_tolerance(FlyBallGovernor::speed, 100.0 * RPM, 300.0 * RPM)?;
-    let value = begins.value / RPM;
-    let sigma = begins.spread?.sigma / RPM;
-    writeln!(
-        out,
-        "FLY-BALL GOVERNOR: the sleeve begins to rise at {value:.2} rpm, sigma {sigma:.2} rpm."
-    )?;
+    let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
+    let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;
+    let (rise, sigma) = (begins.value / RPM, begins.spread?.sigma / RPM);
+    writeln!(out, "FLY-BALL GOVERNOR: the sleeve begins to rise at")?;
+    writeln!(out, "{rise:.2} rpm, sigma {sigma:.2} rpm.")?;
     let study = study();
     let solved = study.solve()?;
-    let spreads = solved.output_tolerances()?;
-    let lift = spreads.spreads[FlyBallGovernor::lift.index()]
-        .as_ref()
-        .ok_or("the lift varies")?;
-    let outputs = solved.outputs()?;
-    let slope = outputs.by_input[FlyBallGovernor::lift.index()]
-        .as_ref()
-        .ok_or("the lift has a slope")?[0];
-    let (at, scatter) = (1e3 * lift.mean, lift.sigma / slope / RPM);
+    let spreads = solved.output_tolerances()?.spreads;
+    let own = spreads[lift].as_ref().ok_or("the lift varies")?;
+    let slopes = solved.outputs()?.by_input;
+    let slope = slopes[lift].as_ref().ok_or("the lift has a slope")?[0];
+    let (at, sigma, scatter) = (1e3 * own.mean, 1e3 * own.sigma, own.sigma / slope / RPM);
     writeln!(
         out,
-        "At {HELD} rpm it stands {at:.1} mm up, sigma {:.2} mm.",
-        1e3 * lift.sigma
+        "At {HELD} rpm it stands {at:.1} mm up, sigma {sigma:.2} mm:"
     )?;
     writeln!(
         out,
-        "A valve set to that place holds the engine with a sigma of {scatter:.2} rpm.\n"
+        "a valve set to that place holds the engine within {scatter:.2} rpm (sigma).\n"
     )?;
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! A grinding wheel sits askew on its spindle: does the face run true at speed, and is a stiffer bearing worth its price?
 //!
 //! A disk that is clamped at an angle `s` straightens itself when it turns: it is left at `s / (1 + (C - A) Omega^2 / k)`
-//! (J. P. Den Hartog, Mechanical Vibrations, 1956, section 6.4, on the gyroscopic moment of a bent shaft).
+//! (J. P. Den Hartog, Mechanical Vibrations, 1956, on gyroscopic moments of disks).
 
 use std::error::Error;
 use std::io::Write;

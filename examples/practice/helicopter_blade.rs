@@ -40,7 +40,7 @@ mechanism! {
 /// Speed in flight, rad/s.
 pub const FLIGHT: f64 = 40.0;
 /// Frequencies at which the body rocks on its gear, Hz.
-const ROCKING: (f64, f64) = (3.6, 3.95);
+const ROCKING: [f64; 2] = [3.6, 3.95];
 
 /// The blade in flight.
 pub fn study() -> Study<HelicopterBlade> {
@@ -55,31 +55,22 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let [Some(lag), Some(flap)] = frequencies[..] else {
         return Err("both motions oscillate".into());
     };
-    let margin = solved.margin(
-        0,
-        Band::Between {
-            low: FLIGHT - TAU * ROCKING.1,
-            high: FLIGHT - TAU * ROCKING.0,
-        },
+    let [high, low] = ROCKING.map(|rocking| FLIGHT - TAU * rocking);
+    let margin = solved.margin(0, Band::Between { low, high })?.margin;
+    let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
+    let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
+    let one_in = 1.0 / margin.corrected.value;
+    writeln!(
+        out,
+        "HELICOPTER BLADE: lag {lag_ratio:.3}, flap {flap_ratio:.3} per revolution."
     )?;
     writeln!(
         out,
-        "HELICOPTER BLADE: lag {:.3} per revolution, flap {:.3}.",
-        lag / FLIGHT,
-        flap / FLIGHT
+        "The lag motion beats at {beat:.2} Hz, sigma {sigma:.3} Hz; the body rocks at {ROCKING:?} Hz."
     )?;
     writeln!(
         out,
-        "The regressing lag motion beats at {:.2} Hz, sigma {:.3} Hz; the body rocks at {} to {} Hz.",
-        (FLIGHT - lag) / TAU,
-        margin.margin.sigma / TAU,
-        ROCKING.0,
-        ROCKING.1
-    )?;
-    writeln!(
-        out,
-        "One helicopter in {:.0} is at risk on the ground: stiffen the lag bearing, or sort the elastomers.\n",
-        1.0 / margin.margin.corrected.value
+        "One helicopter in {one_in:.0} is at risk on the ground: sort the elastomers.\n"
     )?;
     Ok(())
 }

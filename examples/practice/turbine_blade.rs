@@ -1,7 +1,7 @@
 //! Does the flapping of a turbine blade meet three times the speed of the rotor, and does pitching the blade help?
 //!
 //! Centrifugal forces stiffen the blade by the part of its flapping that is out of the plane of the rotor:
-//! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell, 1921; hinge offset `e`).
+//! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell and B. S. Gough, 1921; hinge offset `e`).
 
 use std::error::Error;
 use std::io::Write;

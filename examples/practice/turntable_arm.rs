@@ -20,7 +20,6 @@ mechanism! {
         design fore = 600 mm +/- 0.2 mm;
 
         gravity 9.81 m/s^2 along -z;
-
         body base: massless;
         body upper_arm: rod(mass: 12 kg, length: upper, along: x);
         body forearm: rod(mass: 7 kg, length: fore, along: x) + point(mass: payload) at [fore, 0, 0];
@@ -60,8 +59,8 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         1e3 * own.sigma
     )?;
     let names = working.description().design.iter().map(|info| &*info.name);
-    let mut causes: Vec<(f64, &str)> = own.variance_shares.iter().copied().zip(names).collect();
-    causes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut causes: Vec<_> = own.variance_shares.iter().zip(names).collect();
+    causes.sort_by(|a, b| b.0.total_cmp(a.0));
     let first: Vec<String> = (causes.iter().take(3))
         .map(|(share, name)| format!("{name} {:.0} %", 100.0 * share))
         .collect();
