@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::margin::MarginTable;
 use super::numbers::{number, rough, unit_of};
-use super::relevance::unless_rounding;
+use super::relevance::{CHANCE, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
 use crate::second_order::{ModeMargin, SecondOrder};
@@ -64,7 +64,8 @@ impl fmt::Display for ModeMargin {
             description: &self.description,
         };
         write!(f, "{table}")?;
-        let Some(by_input) = &self.by_input else {
+        let told = self.by_input.as_ref();
+        let Some(by_input) = told.filter(|_| self.margin.first_order >= CHANCE) else {
             return Ok(());
         };
         for (info, slope) in self.description.inputs.iter().zip(by_input) {

@@ -127,7 +127,7 @@ impl fmt::Display for Summary {
         let d = &self.description;
         let title = title(d, &self.inputs);
         writeln!(f, "{title}: what tolerances do to the frequencies")?;
-        if self.first.modes.iter().all(unmoved) {
+        if self.unmoved() {
             writeln!(f, "  No tolerance moves a mode.")?;
         } else {
             self.frequencies(f)?;
@@ -163,6 +163,11 @@ fn verdict(doubts: &[Doubt]) -> String {
 }
 
 impl Summary {
+    /// Whether no tolerance moves a mode, or mixes it with others.
+    fn unmoved(&self) -> bool {
+        self.clusters.is_empty() && self.first.modes.iter().all(unmoved)
+    }
+
     /// The spread of each frequency by every method, what it comes from, and whether first order is right.
     fn frequencies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut head = cells([
@@ -267,7 +272,7 @@ impl Summary {
                 }
                 _ => "use Monte Carlo.".to_owned(),
             };
-            if !modes.is_empty() && !self.first.modes.iter().all(unmoved) {
+            if !modes.is_empty() && !self.unmoved() {
                 writeln!(f, "  {}: {text}", capital(named(&modes)))?;
             }
         }

@@ -41,23 +41,31 @@ impl Table {
         column == 0 || cells.all(|cell| cell.starts_with(char::is_alphabetic) && cell != "inf")
     }
 
-    /// Ranges of columns that fit side by side, beside the first.
-    fn blocks(&self, widths: &[usize]) -> Vec<Vec<usize>> {
-        let first = widths.first().map_or(0, |width| width + 2);
-        let mut blocks = vec![vec![0]];
-        let mut used = first;
-        for (column, width) in widths.iter().enumerate().skip(1) {
-            if used + width + 2 > WIDTH && used > first {
-                blocks.push(vec![0]);
-                used = first;
-            }
-            used += width + 2;
-            if let Some(block) = blocks.last_mut() {
-                block.push(column);
-            }
-        }
-        blocks
+    /// Columns that fit side by side, beside the first: as few blocks as possible, and all of about the same width.
+    fn blocks(widths: &[usize]) -> Vec<Vec<usize>> {
+        let fewest = within(widths, WIDTH);
+        let mut limits = (1..WIDTH).rev();
+        let wider = limits.find(|&limit| within(widths, limit).len() > fewest.len());
+        within(widths, wider.map_or(WIDTH, |limit| limit + 1))
     }
+}
+
+/// As many columns as the limit allows in each block, and one at least.
+fn within(widths: &[usize], limit: usize) -> Vec<Vec<usize>> {
+    let first = widths.first().map_or(0, |width| width + 2);
+    let mut blocks = vec![vec![0]];
+    let mut used = first;
+    for (column, width) in widths.iter().enumerate().skip(1) {
+        if used + width + 2 > limit && used > first {
+            blocks.push(vec![0]);
+            used = first;
+        }
+        used += width + 2;
+        if let Some(block) = blocks.last_mut() {
+            block.push(column);
+        }
+    }
+    blocks
 }
 
 impl fmt::Display for Table {
@@ -65,7 +73,7 @@ impl fmt::Display for Table {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let widths: Vec<usize> = (0..columns).map(|column| self.width(column)).collect();
         let words: Vec<bool> = (0..columns).map(|column| self.is_words(column)).collect();
-        for block in self.blocks(&widths) {
+        for block in Self::blocks(&widths) {
             for row in &self.rows {
                 let mut line = String::new();
                 for &column in &block {

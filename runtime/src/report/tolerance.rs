@@ -64,10 +64,11 @@ pub(super) fn far(distance: f64) -> String {
     )
 }
 
-/// Whether no tolerance moves the mode.
+/// Whether no tolerance moves the mode, alone or beside others.
 pub(super) fn unmoved(mode: &ModeTolerance) -> bool {
     let moved = |spread: &Option<Spread>| spread.as_ref().is_some_and(|own| spread_of(own) != 0.0);
     !mode.clustered
+        && mode.distance_to_neighbour == f64::INFINITY
         && mode.lambda.sigma == 0.0
         && !moved(&mode.growth)
         && !moved(&mode.damping_ratio)

@@ -79,6 +79,10 @@ fn an_imported_robot_can_be_studied() {
     let modes = run_with_input(&["modes", "-"], &out);
     assert_eq!(modes.code, 0, "{}", modes.err);
     assert!(modes.out.contains("panda_joint7") && modes.out.contains("equilibrium, stable"));
+    // A robot is read on one page: no column for each joint, no fingers that tremble by 1e-18 m.
+    assert!(modes.out.contains("largest components are shown"));
+    assert!(modes.out.lines().all(|line| line.len() <= 150) && modes.out.lines().count() < 40);
+    assert!(!modes.out.contains("e-1"), "{}", modes.out);
 }
 
 #[test]

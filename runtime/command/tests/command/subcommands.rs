@@ -123,6 +123,20 @@ fn campbell() {
     }
 }
 
+/// Straight ahead the bicycle's coordinates are zero up to 1e-186: nobody reads that.
+#[test]
+fn branches_of_a_bicycle_are_free_of_noise() {
+    let sweep = ["--sweep", "v=4..8m/s"];
+    let text = answer(&[&["branches", "whipple_bicycle.mechanism"], &sweep[..]].concat());
+    assert!(text.contains("subcritical pitchfork"), "{text}");
+    let noise = |word: &str| {
+        word.split_once("e-")
+            .is_some_and(|(_, power)| power.len() > 1)
+    };
+    assert!(!text.split_whitespace().any(noise), "{text}");
+    assert!(text.lines().all(|line| line.len() <= 150), "{text}");
+}
+
 #[test]
 fn branches() {
     let text = answer(&["branches", PENDULUM, "--sweep", "omega=0..8 rad/s"]);

@@ -1,0 +1,76 @@
+//! Ground resonance: how likely is it that the lagging blades beat at the rate at which the helicopter rocks on its wheels?
+//!
+//! In the frame of the body the regressing lag motion has the frequency `Omega - omega_lag`. Where it meets that of the body on its
+//! landing gear, both grow (R. P. Coleman and A. M. Feingold, NACA report 1351, 1958).
+
+use std::error::Error;
+use std::f64::consts::TAU;
+use std::io::Write;
+
+use eigentol::second_order::Band;
+use eigentol::{Study, mechanism};
+
+mechanism! {
+    /// One blade of a light helicopter with flap and lag hinges in one place and an elastomeric lag bearing; typical data.
+    pub mechanism HelicopterBlade {
+        /// Speed of the rotor.
+        input rotor: rad/s;
+
+        design mass = 40 kg +/- 1%;
+        design length = 5.7 m +/- 5 mm;
+        design hinge = 300 mm +/- 1 mm;
+        /// Elastomers scatter, and soften when warm.
+        design elastomer = 40 kN*m/rad +/- 15%;
+        /// Moment of the lift about the flap hinge.
+        design lift = 26 kN*m +/- 5%;
+
+        body hub: massless;
+        body blade: rod(mass: mass, length: length, along: x);
+
+        joint spin: revolute(z) from ground to hub, driven at rotor;
+        joint root: universal(flap: -y, lag: z) from hub to blade at [hinge, 0, 0];
+
+        force bearing: spring(on: lag, stiffness: elastomer);
+        force air: generalized(on: flap, value: lift - 6 kN*m*s/rad * rate(flap));
+
+        output coning = flap;
+    }
+}
+
+/// Speed in flight, rad/s.
+pub const FLIGHT: f64 = 40.0;
+/// Frequencies at which the body rocks on its gear, Hz.
+const ROCKING: [f64; 2] = [3.6, 3.95];
+
+/// The blade in flight.
+pub fn study() -> Study<HelicopterBlade> {
+    Study::new(HelicopterBlade).input(HelicopterBlade::rotor, FLIGHT)
+}
+
+/// Frequencies per revolution, and the probability of the band.
+pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    let study = study();
+    let solved = study.solve()?;
+    let frequencies = solved.modes.frequencies();
+    let [Some(lag), Some(flap)] = frequencies[..] else {
+        return Err("both motions oscillate".into());
+    };
+    let [high, low] = ROCKING.map(|rocking| FLIGHT - TAU * rocking);
+    let margin = solved.margin(0, Band::Between { low, high })?.margin;
+    let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
+    let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
+    let one_in = 1.0 / margin.corrected.value;
+    writeln!(
+        out,
+        "HELICOPTER BLADE: lag {lag_ratio:.3}, flap {flap_ratio:.3} per revolution."
+    )?;
+    writeln!(
+        out,
+        "The lag motion beats at {beat:.2} Hz, sigma {sigma:.3} Hz; the body rocks at {ROCKING:?} Hz."
+    )?;
+    writeln!(
+        out,
+        "One helicopter in {one_in:.0} is at risk on the ground: sort the elastomers.\n"
+    )?;
+    Ok(())
+}

@@ -1,0 +1,67 @@
+//! Does the flapping of a turbine blade meet three times the speed of the rotor, and does pitching the blade help?
+//!
+//! Centrifugal forces stiffen the blade by the part of its flapping that is out of the plane of the rotor:
+//! `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` (R. V. Southwell and B. S. Gough, 1921; hinge offset `e`).
+
+use std::error::Error;
+use std::io::Write;
+
+use eigentol::sweep::EventTolerance;
+use eigentol::{Study, mechanism};
+
+use super::RPM;
+
+mechanism! {
+    /// A rigid blade of 30 m on a spring at its root that has the first flap frequency of the real one; typical data.
+    pub mechanism TurbineBlade {
+        /// Speed of the rotor.
+        input rotor: rpm;
+        /// Pitch angle of the blade.
+        input pitch: deg;
+
+        design mass = 5 t +/- 2%;
+        design length = 30 m +/- 20 mm;
+        design hub = 1.5 m +/- 5 mm;
+        design root = 70 MN*m/rad +/- 8%;
+
+        body nacelle: massless;
+        body pitched: massless;
+        body blade: rod(mass: mass, length: length, along: x);
+
+        joint turn: revolute(z) from ground to nacelle, driven at rotor;
+        joint bearing: fixed from nacelle to pitched at [hub, 0, 0] rotated(x, pitch);
+        joint flap: revolute(-y) from pitched to blade;
+
+        force stiffness: spring(on: flap, stiffness: root);
+    }
+}
+
+/// Rated speed, rpm.
+pub const RATED: f64 = 21.5;
+
+/// Where the flapping meets three times the speed, with a pitch angle in degrees.
+pub fn meeting(pitch: f64) -> Result<EventTolerance, Box<dyn Error>> {
+    let study = Study::new(TurbineBlade).input(TurbineBlade::pitch, pitch.to_radians());
+    let found = study.crossing_tolerances(TurbineBlade::rotor, 5.0 * RPM, 40.0 * RPM, 3.0)?;
+    Ok(found.into_iter().next().ok_or("no crossing")?)
+}
+
+/// The speed of resonance at two pitch angles beside the rated one.
+pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
+    write!(out, "TURBINE BLADE: ")?;
+    for pitch in [0.0, 25.0] {
+        let at = meeting(pitch)?;
+        let speed = at.value / RPM;
+        let sigma = at.spread?.sigma / RPM;
+        let away = (speed - RATED) / sigma;
+        writeln!(
+            out,
+            "pitched by {pitch} deg it meets 3P at {speed:.2} rpm, sigma {sigma:.2} rpm: {away:.1} sigma above the rated speed."
+        )?;
+    }
+    writeln!(
+        out,
+        "Pitching does not help; the margin is a matter of the root's stiffness.\n"
+    )?;
+    Ok(())
+}

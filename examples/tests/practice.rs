@@ -1,0 +1,209 @@
+//! The examples from practice against closed forms.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::f64::consts::PI;
+
+use eigentol::Study;
+
+#[path = "../practice/main.rs"]
+mod practice;
+
+use practice::{
+    QUESTIONS, RPM, centrifuge, fly_ball_governor, gear_train, grinding_spindle, helicopter_blade,
+    slider_crank_press, turbine_blade, turntable_arm,
+};
+
+const G: f64 = 9.81;
+
+fn close(found: f64, expected: f64, tolerance: f64) {
+    let error = (found - expected).abs();
+    assert!(error <= tolerance * expected.abs(), "{found} {expected}");
+}
+
+#[test]
+fn every_question_has_an_answer() {
+    for (name, answer) in QUESTIONS {
+        let mut printed = Vec::new();
+        answer(&mut printed).unwrap();
+        let text = String::from_utf8(printed).unwrap();
+        assert!((2..=4).contains(&text.trim().lines().count()), "{text}");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        let title = name
+            .replace('_', " ")
+            .to_uppercase()
+            .replace("FLY BALL", "FLY-BALL");
+        assert!(
+            text.starts_with(&title.replace("SLIDER CRANK", "SLIDER-CRANK")),
+            "{text}"
+        );
+    }
+}
+
+/// `nu^2 = 1 + 3 e / (2 (1 - e))` per revolution, `e` the hinge offset as a fraction of the radius (W. Johnson, Helicopter Theory,
+/// 1980); in lag without the 1 of the plane, and with the elastomer. Without lift the two are apart.
+#[test]
+fn a_blade_without_lift_flaps_and_lags_as_in_the_textbook() {
+    use helicopter_blade::{FLIGHT, HelicopterBlade, study};
+    let modes = study().design(HelicopterBlade::lift, 0.0).modes().unwrap();
+    let e = 0.3 / 6.0;
+    let hinge = 1.5 * e / (1.0 - e);
+    let elastic = 40e3 / (40.0 * 5.7 * 5.7 / 3.0) / (FLIGHT * FLIGHT);
+    let found = |r: usize| modes.modes[r].s.norm() / FLIGHT;
+    close(found(0), (hinge + elastic).sqrt(), 1e-9);
+    close(found(1), (1.0 + hinge).sqrt(), 1e-9);
+}
+
+/// The height of a Porter governor, and the speed at which it is the length of the arm.
+#[test]
+fn a_governor_stands_at_the_height_of_porter() {
+    use fly_ball_governor::{FlyBallGovernor, HELD, study};
+    let outputs = study().outputs().unwrap();
+    let speed = HELD * RPM;
+    let height = (1.0 + 4.0) * G / (speed * speed);
+    close(outputs.values[0], height, 1e-9);
+    close(outputs.values[1], 2.0 * (0.2 - height), 1e-9);
+    let begins = Study::new(FlyBallGovernor)
+        .critical_tolerance(FlyBallGovernor::speed, 100.0 * RPM, 300.0 * RPM)
+        .unwrap();
+    let expected = (5.0 * G / 0.2_f64).sqrt();
+    close(begins.value, expected, 1e-9);
+    // d ln Omega = (d ln (1 + M / m) - d ln l) / 2, where M / m is four fifths of 1 + M / m.
+    let masses = 0.8 * 0.01 / 3.0 * 2f64.sqrt();
+    let sigma = 0.5 * expected * masses.hypot(0.001 / 3.0);
+    close(begins.spread.unwrap().sigma, sigma, 1e-7);
+}
+
+/// Virtual work: the blow moves by `dx/dphi` of the slider-crank while the crank turns.
+#[test]
+fn a_press_strikes_as_virtual_work_says() {
+    use slider_crank_press::{TORQUE, study};
+    let outputs = study().outputs().unwrap();
+    let [angle, blow, on_pin] = outputs.values[..] else {
+        panic!("three outputs")
+    };
+    let (r, l) = (0.06, 0.3);
+    let across = r * angle.sin();
+    let along = (l * l - across * across).sqrt();
+    let slope = -across * (1.0 + r * angle.cos() / along);
+    close(blow, TORQUE / slope, 1e-8);
+    close(on_pin, blow * l / along, 1e-8);
+    close(r * angle.cos() + along, 0.248 + blow / 20e6, 1e-10);
+}
+
+/// Jeffcott's rotor in its own frame.
+#[test]
+fn a_centrifuge_runs_out_as_jeffcott_says() {
+    use centrifuge::{WORKING, study};
+    let study = study();
+    let (k, mass, unbalance, speed) = (3e6, 6.002, 0.002 * 0.15, WORKING * RPM);
+    let square = speed * speed;
+    let run_out = study.outputs().unwrap().values[0];
+    close(run_out, unbalance * square / (k - mass * square), 1e-8);
+    let beat = study.modes().unwrap().frequencies()[0].unwrap();
+    close(beat, (k / mass).sqrt() - speed, 1e-8);
+}
+
+/// A disk straightens itself by the difference of its moments of inertia.
+#[test]
+fn a_skew_wheel_straightens_itself() {
+    use grinding_spindle::{WORKING, study};
+    let (radius, width, skew) = (0.2_f64, 0.04_f64, 0.02_f64.to_radians());
+    let mass = 2400.0 * PI * radius * radius * width;
+    let difference = mass * (radius * radius / 4.0 - width * width / 12.0);
+    for speed in [1.0, WORKING, 2.0 * WORKING] {
+        let face = study(speed).outputs().unwrap().values[0];
+        let stiffening = difference * (speed * RPM).powi(2) / 60e3;
+        close(face, 2.0 * radius * skew / (1.0 + stiffening), 1e-6);
+    }
+}
+
+/// At rest on its table the potential energy of the arm, centrifugal included, does not change with either angle.
+#[test]
+fn an_arm_is_where_its_energy_is_least() {
+    use turntable_arm::{WORKING, study};
+    let study = study(WORKING);
+    let state = study.equilibrium().unwrap();
+    let speed = WORKING * RPM;
+    let points = |q: [f64; 2]| {
+        let first = 40f64.to_radians() + q[0];
+        let second = first - 60f64.to_radians() + q[1];
+        let elbow = [0.2 + 0.7 * first.cos(), 0.8 + 0.7 * first.sin()];
+        let tip = [elbow[0] + 0.6 * second.cos(), elbow[1] + 0.6 * second.sin()];
+        [[0.2, 0.8], elbow, tip]
+    };
+    let energy = |q: [f64; 2]| {
+        let [base, elbow, tip] = points(q);
+        let of_point = |mass: f64, [x, z]: [f64; 2]| mass * (G * z - 0.5 * speed * speed * x * x);
+        // Simpson's rule is exact for a uniform rod.
+        let of_rod = |mass: f64, a: [f64; 2], b: [f64; 2]| {
+            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+            of_point(mass / 6.0, a) + of_point(4.0 * mass / 6.0, middle) + of_point(mass / 6.0, b)
+        };
+        let springs = 0.5 * (40e3 * q[0] * q[0] + 20e3 * q[1] * q[1]);
+        springs + of_rod(12.0, base, elbow) + of_rod(7.0, elbow, tip) + of_point(5.0, tip)
+    };
+    let q = [state.coordinates[0], state.coordinates[1]];
+    let step = 1e-4;
+    for (k, stiffness) in [(0, 40e3), (1, 20e3)] {
+        let moved = |by: f64| {
+            let mut at = q;
+            at[k] += by;
+            energy(at)
+        };
+        let slope = (moved(step) - moved(-step)) / (2.0 * step);
+        assert!(slope.abs() < 1e-6 * stiffness * q[k].abs(), "{slope}");
+    }
+    let height = study.outputs().unwrap().values[0];
+    close(height, points(q)[2][1], 1e-12);
+}
+
+/// The lower frequency of two inertias behind two shafts.
+fn drive(motor_shaft: f64, load_shaft: f64, drum: f64) -> f64 {
+    let stiffness = |diameter: f64, length: f64| 80e9 * PI * diameter.powi(4) / 32.0 / length;
+    // As if all turned with the wheel: four times the angle at the motor.
+    let (k1, k2) = (
+        16.0 * stiffness(motor_shaft, 0.4),
+        stiffness(load_shaft, 0.6),
+    );
+    let wheel = 0.06 + 16.0 * 2e-3;
+    // wheel drum x^2 - (k2 wheel + (k1 + k2) drum) x + k1 k2 = 0
+    let (a, b, c) = (wheel * drum, k2 * wheel + (k1 + k2) * drum, k1 * k2);
+    let square = 2.0 * c / (b + (b * b - 4.0 * a * c).sqrt());
+    square.sqrt()
+}
+
+#[test]
+fn a_drive_gets_the_tolerances_that_its_closed_form_allows() {
+    use gear_train::{GearTrain, RIPPLE, cheapest};
+    let nominal = [0.02, 0.035, 0.9];
+    let of = |x: [f64; 3]| drive(x[0], x[1], x[2]);
+    let modes = Study::new(GearTrain).modes().unwrap();
+    close(modes.frequencies()[0].unwrap(), of(nominal), 1e-9);
+    let found = cheapest().unwrap();
+    let half_widths = &found.half_widths;
+    let effects = (0..3).map(|k| {
+        let moved = |sign: f64| {
+            let mut x = nominal;
+            x[k] += sign * half_widths[k] / 3.0;
+            of(x)
+        };
+        0.5 * (moved(1.0) - moved(-1.0))
+    });
+    let sigma = effects.map(|effect| effect * effect).sum::<f64>().sqrt();
+    // One in a thousand lies below 3.09 sigma.
+    let beta = (of(nominal) - 2.0 * PI * RIPPLE) / sigma;
+    assert!((3.06..3.12).contains(&beta), "{beta}");
+    assert!(found.cost < found.cost_before);
+}
+
+/// `omega^2 = omega_0^2 + (cos^2 pitch + 3 e / (2 L)) Omega^2` meets `9 Omega^2`.
+#[test]
+fn a_pitched_blade_meets_three_times_the_speed_as_southwell_says() {
+    use turbine_blade::meeting;
+    let still = 70e6 / (5000.0 * 30.0 * 30.0 / 3.0);
+    for pitch in [0.0_f64, 25.0, 60.0] {
+        let stiffening = pitch.to_radians().cos().powi(2) + 1.5 * 1.5 / 30.0;
+        let expected = (still / (9.0 - stiffening)).sqrt();
+        close(meeting(pitch).unwrap().value, expected, 1e-9);
+    }
+}
