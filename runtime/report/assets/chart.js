@@ -75,8 +75,14 @@ class Chart {
     const wide = Math.max(340, Math.min(WIDEST, parent.clientWidth || WIDEST));
     this.size = [wide, Math.round(Math.max(250, 0.46 * wide))];
     this.id = `clip${(Chart.count += 1)}`;
-    const longest = Math.max(0, ...panel.y.categories.map((name) => name.length));
-    this.inner = { left: longest ? Math.min(210, 34 + 7.2 * longest) : 78, right: wide - 18, top: 12, bottom: this.size[1] - 48 };
+    const letters = (axis) => Math.max(0, ...axis.categories.map((name) => name.length));
+    const longest = letters(panel.y);
+    const left = longest ? Math.min(210, 34 + 7.2 * longest) : 78;
+    // Names that do not fit beside each other stand aslant.
+    this.slant = 7.4 * letters(panel.x) > (wide - 18 - left) / Math.max(1, panel.x.categories.length);
+    const under = this.slant ? 44 + 4.6 * Math.min(18, letters(panel.x)) : 48;
+    if (this.slant) this.size[1] += under - 48;
+    this.inner = { left, right: wide - 18, top: 12, bottom: this.size[1] - under };
     this.box = htmlElement("div", { class: "panel" }, parent);
     this.legend();
     this.plot = htmlElement("div", { class: "plot" }, this.box);
@@ -142,7 +148,8 @@ class Chart {
     for (const [value, text] of marksOf(x, this.view[0], 8)) {
       const place = this.x(value);
       if (x.categories.length === 0) svgElement("line", { x1: place, x2: place, y1: top, y2: bottom, class: "grid" }, axes);
-      svgText(shortened(text, 18), { x: place, y: bottom + 17, "text-anchor": "middle" }, axes);
+      const aslant = this.slant && { "text-anchor": "end", transform: `rotate(-35 ${place} ${bottom + 14})` };
+      svgText(shortened(text, 18), { x: place, y: this.slant ? bottom + 14 : bottom + 17, "text-anchor": "middle", ...aslant }, axes);
     }
     for (const [value, text] of marksOf(y, this.view[1], 6)) {
       const place = this.y(value);

@@ -20,12 +20,14 @@ class Model {
     this.middle = times(0.5, plus(low, high));
     this.size = length(minus(high, low)) || 1;
     this.rest = scene.bodies.map((body) => body.pose);
+    // An ellipsoid stands for masses and moments of inertia: the joints within it are what one knows of the body.
+    this.vague = scene.bodies.map(({ solids }) => solids.every(({ shape }) => "Ellipsoid" in shape));
     this.faces = scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size)));
     this.sticks = scene.bodies.map((_, number) => this.stick(number));
     this.colours = this.colourBodies();
   }
 
-  // Bodies without a solid are seen as lines between what is fixed in them.
+  // Bodies without a shape of their own are seen as lines to what is fixed in them.
   stick(number) {
     const seats = this.scene.joints.flatMap(({ from, to }) => [from, to]).filter(({ body }) => body === number);
     const places = [...seats, ...this.scene.points.filter(({ body }) => body === number)].map(({ place }) => place);
@@ -107,13 +109,15 @@ class Painter {
         const seen = corners.map((corner) => this.see(placed(pose, corner)));
         if (turns(seen) >= 0) continue;
         const depth = seen.reduce((sum, own) => sum + own[2], 0) / seen.length;
+        const veiled = this.model.vague[body] && !ghost;
         const colour = ghost ? "#ececec" : this.shade(this.model.colours[body], pose, corners);
-        jobs.push({ depth, paint: () => this.polygon(seen, colour, ghost ? "#d8d8d8" : smooth ? colour : "rgba(0,0,0,0.35)") });
+        jobs.push({ depth, paint: () => this.polygon(seen, colour, ghost ? "#d8d8d8" : smooth ? colour : "rgba(0,0,0,0.35)", veiled ? 0.45 : 1) });
       }
-      if (faces.length > 0) return;
+      if (!this.model.vague[body]) return;
       for (const ends of this.model.sticks[body]) {
         const [a, b] = ends.map((end) => this.see(placed(pose, end)));
-        jobs.push({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], ghost ? "#dddddd" : REST, 2) });
+        const colour = ghost ? "#dddddd" : faces.length > 0 ? "#444444" : REST;
+        jobs.push({ depth: (a[2] + b[2]) / 2, paint: () => this.line([a, b], colour, 2) });
       }
     });
     return jobs;
@@ -196,16 +200,20 @@ class Painter {
     return `rgb(${part(1)},${part(3)},${part(5)})`;
   }
 
-  polygon(points, fill, stroke) {
+  polygon(points, fill, stroke, opacity) {
     const { context } = this;
+    context.globalAlpha = opacity;
     context.beginPath();
     for (const [x, y] of points) context.lineTo(x, y);
     context.closePath();
     context.fillStyle = fill;
     context.fill();
-    context.lineWidth = 0.6;
-    context.strokeStyle = stroke;
-    context.stroke();
+    if (opacity === 1) {
+      context.lineWidth = 0.6;
+      context.strokeStyle = stroke;
+      context.stroke();
+    }
+    context.globalAlpha = 1;
   }
 
   line(points, colour, wide) {

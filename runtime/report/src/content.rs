@@ -6,8 +6,8 @@ use eigentol::picture::{ModePictures, Scene};
 use eigentol::summary::Summary;
 use eigentol::tolerance::OutputTolerances;
 use eigentol::{
-    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Tolerances,
-    Value,
+    Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Text,
+    Tolerances, Value,
 };
 
 use eigentol_figures::Style;
@@ -160,9 +160,17 @@ impl Along {
         values: &[Value],
         orders: &[f64],
     ) -> Result<Self, Error> {
-        let campbell = answer(study.campbell(input, values, orders))?;
         let si = |value: &Value| Ok(study.continuation(input, *value, *value)?.low);
         let values = values.iter().map(si).collect::<Result<Vec<f64>, Error>>()?;
+        if let Some(value) = values.iter().copied().find(|value| !value.is_finite()) {
+            let info = study.description().inputs.get(input.index());
+            return Err(Error::NotFinite {
+                kind: "input",
+                name: info.map_or(Text::Static("?"), |info| info.name.clone()),
+                value,
+            });
+        }
+        let campbell = answer(study.campbell(input, &values, orders))?;
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Ok(Self {

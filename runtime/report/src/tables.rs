@@ -4,7 +4,7 @@ use eigentol_tables::{Column, Table, Values};
 
 use crate::Error;
 use crate::html::Html;
-use crate::words::number;
+use crate::words::{is_rounding, number};
 
 /// Rows that are shown; the others are only copied.
 const ROWS: usize = 24;
@@ -25,6 +25,9 @@ pub(crate) fn table(
     let columns: Vec<&Column> = (table.columns.iter().filter(named))
         .filter(filled)
         .collect();
+    let mixed = table.column("unit").is_some();
+    let size = |column: &&Column| if mixed { 0.0 } else { largest(&column.values) };
+    let largest: Vec<f64> = columns.iter().map(size).collect();
     let json = serde_json::to_string(table)?;
     let rows = table.rows();
     let hidden = (table.columns.iter()).filter(filled).count() - columns.len();
@@ -36,8 +39,8 @@ pub(crate) fn table(
                 html.element("tbody", &[], |html| {
                     for row in 0..rows.min(ROWS) {
                         html.element("tr", &[], |html| {
-                            for column in &columns {
-                                cell(html, &column.values, row);
+                            for (column, largest) in columns.iter().zip(&largest) {
+                                cell(html, &column.values, row, *largest);
                             }
                         });
                     }
@@ -90,9 +93,13 @@ fn head(html: &mut Html, columns: &[&Column]) {
     });
 }
 
-fn cell(html: &mut Html, values: &Values, row: usize) {
+/// A number that is rounding beside `largest` is shown as zero.
+fn cell(html: &mut Html, values: &Values, row: usize, largest: f64) {
     let text = match values {
-        Values::Numbers(all) => all[row].map(number),
+        Values::Numbers(all) => all[row].map(|own| match is_rounding(own, largest) {
+            true => number(0.0),
+            false => number(own),
+        }),
         Values::Whole(all) => all[row].map(|own| own.to_string()),
         Values::Texts(all) => all[row].clone(),
         Values::Flags(all) => all[row].map(|own| if own { "yes" } else { "no" }.to_owned()),
@@ -105,6 +112,13 @@ fn class_of(values: &Values) -> &'static str {
     match values {
         Values::Numbers(_) | Values::Whole(_) => "number",
         Values::Texts(_) | Values::Flags(_) => "words",
+    }
+}
+
+fn largest(values: &Values) -> f64 {
+    match values {
+        Values::Numbers(all) => (all.iter().flatten()).fold(0.0, |most, own| own.abs().max(most)),
+        _ => 0.0,
     }
 }
 

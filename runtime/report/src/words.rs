@@ -7,18 +7,29 @@ pub(crate) fn number(value: f64) -> String {
     digits(value, 6)
 }
 
-/// A number with so many significant digits.
+/// A number with so many significant digits, at least one.
 pub(crate) fn digits(value: f64, count: usize) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".to_owned();
     }
+    let scientific = format!("{value:.*e}", count.saturating_sub(1));
     if !(1e-3..1e6).contains(&size) {
-        return trimmed(&format!("{value:.*e}", count.saturating_sub(1)));
+        return trimmed(&scientific);
     }
-    let before = size.log10().floor() as i32 + 1;
-    let decimals = (count as i32 - before).clamp(0, 9) as usize;
+    // Of the rounded number: 0.99999 has one digit before the point.
+    let exponent = scientific.rsplit('e').next();
+    let exponent: i32 = exponent.and_then(|own| own.parse().ok()).unwrap_or(0);
+    let decimals = (count as i32 - 1 - exponent).clamp(0, 9) as usize;
     trimmed(&format!("{value:.decimals$}"))
+}
+
+/// What is below this part of the largest beside it is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a number is nothing but rounding beside the largest of its kind.
+pub(crate) fn is_rounding(value: f64, largest: f64) -> bool {
+    value.abs() <= ROUNDING * largest.abs()
 }
 
 /// Without the zeros that end a fraction.
@@ -83,6 +94,7 @@ mod tests {
             (1e-9, "1e-9"),
             (1.234_567_8e12, "1.23457e12"),
             (999_999.7, "1000000"),
+            (0.999_999_96, "1"),
         ] {
             assert_eq!(number(value), text);
         }

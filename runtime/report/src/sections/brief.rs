@@ -8,7 +8,7 @@ use super::verdicts::{NOTHING_VARIES, named};
 use crate::Error;
 use crate::content::{Along, Content, Spreads};
 use crate::html::Html;
-use crate::words::{digits, number, sentence, with_unit};
+use crate::words::{digits, is_rounding, number, sentence, with_unit};
 
 /// Modes that are described one by one.
 const MODES: usize = 6;
@@ -101,7 +101,11 @@ fn spread_of(first: &FirstOrder, mode: usize) -> String {
     let Some(own) = first.modes.get(mode).filter(|own| !own.clustered) else {
         return String::new();
     };
-    let Some(spread) = own.frequency.as_ref().filter(|own| own.sigma > 0.0) else {
+    let Some(spread) = own
+        .frequency
+        .as_ref()
+        .filter(|own| !is_rounding(own.sigma, own.mean))
+    else {
         return String::new();
     };
     let shares = spread

@@ -203,7 +203,11 @@ impl Chrome {
 
     pub(crate) fn key(&mut self, key: &str) {
         for kind in ["keyDown", "keyUp"] {
-            let text = if key.chars().count() == 1 { key } else { "" };
+            let text = match key {
+                "Enter" => "\r",
+                key if key.chars().count() == 1 => key,
+                _ => "",
+            };
             let event = json!({ "type": kind, "key": key, "code": key, "text": if kind == "keyDown" { text } else { "" } });
             self.ask("Input.dispatchKeyEvent", event);
         }
@@ -219,8 +223,17 @@ fn bytes(data: &Value) -> Vec<u8> {
 
 impl Drop for Chrome {
     fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
+        // Asked to, it ends its other processes as well, which write to the profile.
+        let close = json!({ "id": 0, "method": "Browser.close" });
+        let _ = self.socket.send(Message::text(close.to_string()));
+        let ended = (0..100).any(|_| {
+            std::thread::sleep(std::time::Duration::from_millis(30));
+            matches!(self.process.try_wait(), Ok(Some(_)))
+        });
+        if !ended {
+            let _ = self.process.kill();
+            let _ = self.process.wait();
+        }
         let _ = std::fs::remove_dir_all(&self.profile);
     }
 }

@@ -235,7 +235,13 @@ fn the_mechanism_is_seen_turned_and_moved() {
         chrome.evaluate(PIXELS) != start
     });
     assert!(moved);
-    assert_eq!(chrome.complaints, Vec::<String>::new());
+    // That pixels are read often is this test's doing.
+    let own = |complaint: &String| !complaint.contains("willReadFrequently");
+    assert!(
+        !chrome.complaints.iter().any(own),
+        "{:?}",
+        chrome.complaints
+    );
 }
 
 #[test]
