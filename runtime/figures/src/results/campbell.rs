@@ -72,6 +72,10 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let times = bands(&mut panel, result, (style, top - bottom), scale, |own| {
         own.frequency.as_ref()
     });
+    let seen = |point: &Point| (bottom..=top).contains(&point[1]);
+    panel
+        .curves
+        .retain(|own| own.pieces.iter().flatten().any(seen));
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
     let lines = events::draw(&mut panel, result, style, |event| {
