@@ -52,6 +52,8 @@ pub fn frequencies(sweeps: &Sweeps<'_>, name: &'static str, title: &str) -> Name
         sweeps.points(|row| Some(row.speed)),
     );
     panel.curve(drive.stroke(Stroke::Dashed));
+    panel.fit();
+    panel.y.range[0] = 0.0;
     (name, sweeps.figure(title, "", vec![panel]))
 }
 
@@ -98,7 +100,7 @@ pub fn deviations(
         let points = sweeps.points(|row| row.spreads[k].first_order[mode].sigma);
         let curve = Curve::new(format!("first order {level} %"), colour, points);
         panel.curve(curve.stroke(Stroke::of(k)));
-        let colour = Colour::Series(if levels == 1 { 4 } else { k });
+        let colour = Colour::Series(if levels == 1 { 5 } else { k });
         let points = sweeps.sampled(|row| row.spreads[k].sampled[mode].sigma);
         panel.markers(
             format!("Monte Carlo {level} %"),

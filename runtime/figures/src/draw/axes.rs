@@ -159,5 +159,9 @@ mod tests {
                 .all(|own| own == "0" || own.contains("e-"))
         );
         assert!(words(1.0, 1.0).is_empty());
+        let mut turn = Axis::new("phase", "deg");
+        turn.range = [-195.0, 195.0];
+        let words: Vec<String> = ticks(&turn, 5.0).into_iter().map(|own| own.1).collect();
+        assert_eq!(words, ["-180", "-90", "0", "90", "180"]);
     }
 }

@@ -33,6 +33,18 @@ impl Labels {
         self.taken.push([x - half, x + half, y - half, y + half]);
     }
 
+    /// Words do not cross this line if they find another place.
+    pub(super) fn keep_line_free(&mut self, line: &[(i32, i32)]) {
+        for pair in line.windows(2) {
+            let [(x, y), (to_x, to_y)] = [pair[0], pair[1]];
+            let steps = ((to_x - x).abs().max((to_y - y).abs()) / px(5)).max(1);
+            for k in 0..steps {
+                let at = (x + (to_x - x) * k / steps, y + (to_y - y) * k / steps);
+                self.keep_free(at, px(2));
+            }
+        }
+    }
+
     /// Writes words to the right of a point and above, or elsewhere near it where that is taken.
     pub(super) fn write<B: DrawingBackend>(
         &mut self,

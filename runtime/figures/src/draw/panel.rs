@@ -43,15 +43,16 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
         let ends = [low, high].map(|y| place.pixel([mark.at, y]));
         pen.hair(ends, 0.6)?;
     }
+    let mut labels = Labels::within(frame);
     for curve in &panel.curves {
         for piece in &curve.pieces {
             for part in clip(piece, panel.x.range, panel.y.range) {
-                let line = part.into_iter().map(|own| place.pixel(own));
-                pen.curve(line.collect(), curve.colour, curve.stroke)?;
+                let line: Vec<_> = part.into_iter().map(|own| place.pixel(own)).collect();
+                labels.keep_line_free(&line);
+                pen.curve(line, curve.colour, curve.stroke)?;
             }
         }
     }
-    let mut labels = Labels::within(frame);
     for errors in &panel.error_bars {
         for bar in errors.bars.iter().filter(|bar| place.holds(bar.at)) {
             let ends = [place.pixel(bar.low), place.pixel(bar.high)];

@@ -108,8 +108,22 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         let strength = if own == Colour::Grey { 0.35 } else { 0.75 };
         let fill = Rectangle::new(corners, colour(own).mix(strength).filled());
         self.area.draw(&fill).map_err(words)?;
-        let outline = Rectangle::new(corners, BLACK.mix(0.7).stroke_width(SCALE as u32));
-        self.area.draw(&outline).map_err(words)
+        self.outline(corners, BLACK.mix(0.7).stroke_width(SCALE as u32))
+    }
+
+    /// The four sides of a rectangle: plotters writes no width of theirs into SVG.
+    fn outline(&self, [(left, top), (right, bottom)]: [Pixel; 2], style: ShapeStyle) -> Outcome {
+        let half = style.stroke_width as i32 / 2;
+        for ends in [
+            [(left - half, top), (right + half, top)],
+            [(left - half, bottom), (right + half, bottom)],
+            [(left, top), (left, bottom)],
+            [(right, top), (right, bottom)],
+        ] {
+            let side = PathElement::new(ends, style);
+            self.area.draw(&side).map_err(words)?;
+        }
+        Ok(())
     }
 
     /// A marker.
@@ -126,7 +140,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
             Shape::Cross => self.area.draw(&Cross::new((x, y), size, thin)),
             Shape::Square => {
                 let corners = [(x - size, y - size), (x + size, y + size)];
-                self.area.draw(&Rectangle::new(corners, thin))
+                return self.outline(corners, thin);
             }
             Shape::Diamond => {
                 let size = px(5);

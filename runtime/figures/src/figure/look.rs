@@ -19,8 +19,8 @@ const SERIES: [[u8; 3]; 6] = [
     [230, 159, 0],
     [120, 40, 100],
     [0, 158, 115],
-    [213, 94, 0],
     [86, 180, 233],
+    [213, 94, 0],
 ];
 
 impl Colour {
@@ -96,5 +96,37 @@ impl Shape {
             Self::Disc,
         ];
         all[series % all.len()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// CIE 1976 lightness, 0 to 100.
+    fn lightness(colour: Colour) -> f64 {
+        let linear = |channel: u8| {
+            let own = f64::from(channel) / 255.0;
+            match own <= 0.04045 {
+                true => own / 12.92,
+                false => ((own + 0.055) / 1.055).powf(2.4),
+            }
+        };
+        let [red, green, blue] = colour.rgb().map(linear);
+        116.0 * (0.2126 * red + 0.7152 * green + 0.0722 * blue).cbrt() - 16.0
+    }
+
+    #[test]
+    fn neighbours_differ_in_grey() {
+        for series in 0..SERIES.len() - 1 {
+            let [own, next] = [series, series + 1].map(|k| lightness(Colour::Series(k)));
+            assert!((own - next).abs() > 11.0, "{series}: {own} {next}");
+        }
+    }
+
+    #[test]
+    fn colours_are_written_as_in_style_sheets() {
+        let text = serde_json::to_string(&[Colour::Series(0), Colour::Black]);
+        assert_eq!(text.ok().as_deref(), Some("[\"#0072b2\",\"#000000\"]"));
     }
 }

@@ -85,7 +85,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let unit = input_unit(d, first.input);
     caption.extend(special.iter().enumerate().map(|(k, own)| {
         let at = with_unit(own.value, &unit);
-        format!("{}  {} at {at}", k + 1, kind(own).1)
+        format!("({}) {} at {at}", k + 1, kind(own).1)
     }));
     if result.truncated {
         caption.push("There are more branches than were followed.".to_owned());

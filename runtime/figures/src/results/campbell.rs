@@ -7,6 +7,7 @@ use eigentol::sweep::{Condition, Event};
 use eigentol::tolerance::Spread;
 
 use super::along::{Course, input_unit};
+use super::ends::Ends;
 use super::events;
 use super::scale::{factor, words};
 use super::tracks::{Motion, Track, tracks};
@@ -47,9 +48,12 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let (scale, symbol) = style.frequency(course.info());
     let mut panel = Panel::new(course.axis(), Axis::new("frequency", symbol));
+    let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
-            panel.curve(oscillation(&track, style, |own| scale * own.s.im));
+            let curve = oscillation(&track, style, |own| scale * own.s.im);
+            ends.add(&track, &curve);
+            panel.curve(curve);
         }
     }
     let curves = panel
@@ -72,8 +76,13 @@ pub fn campbell(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let times = bands(&mut panel, result, (style, top - bottom), scale, |own| {
         own.frequency.as_ref()
     });
+    let seen = |point: &Point| (bottom..=top).contains(&point[1]);
+    panel
+        .curves
+        .retain(|own| own.pieces.iter().flatten().any(seen));
     orders(&mut panel, result, scale);
     panel.marks.extend(style.marks());
+    ends.write(&mut panel, style);
     let lines = events::draw(&mut panel, result, style, |event| {
         let height = match event {
             Event::Crossing { s, .. } => scale * s.im,

@@ -4,6 +4,7 @@ use eigentol::Campbell;
 
 use super::along::Course;
 use super::campbell::{bands, changes_stability, oscillation};
+use super::ends::Ends;
 use super::events;
 use super::scale::words;
 use super::tracks::{State, tracks};
@@ -18,9 +19,12 @@ use crate::style::Style;
 pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let mut panel = Panel::new(course.axis(), Axis::new("damping ratio", "%"));
+    let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
-            panel.curve(oscillation(&track, style, percent));
+            let curve = oscillation(&track, style, percent);
+            ends.add(&track, &curve);
+            panel.curve(curve);
         }
     }
     if panel.is_empty() {
@@ -43,6 +47,7 @@ pub fn damping_ratios(result: &Campbell, style: &Style) -> Result<Figure, Error>
     let [low, high] = panel.y.range;
     panel.y.range = [low.min(0.0), high.max(0.0)];
     panel.level_line(0.0);
+    ends.write(&mut panel, style);
     let mut caption = course.caption(style);
     if !panel.bands.is_empty() {
         caption.push(words(result.sigma_level, times));

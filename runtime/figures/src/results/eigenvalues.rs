@@ -4,6 +4,7 @@ use eigentol::Campbell;
 
 use super::along::{Along, Course};
 use super::campbell::changes_stability;
+use super::ends::Ends;
 use super::events;
 use super::tracks::{Track, tracks};
 use crate::Error;
@@ -19,17 +20,20 @@ use crate::style::Style;
 pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let course = Course::of(result);
     let mut panel = Panel::new(course.axis(), Axis::new("eigenvalue", "1/s"));
+    let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         let real = match track.oscillates() {
             true => format!("{}, real part", style.mode(track.label)),
             false => format!("{}, real", style.mode(track.label)),
         };
-        panel.curve(Curve {
+        let curve = Curve {
             label: real,
             colour: Colour::Series(track.label),
             stroke: Stroke::Solid,
             pieces: track.points(|own| [own.value, own.s.re]),
-        });
+        };
+        ends.add(&track, &curve);
+        panel.curve(curve);
         if track.oscillates() {
             panel.curve(Curve {
                 label: format!("{}, imaginary part", style.mode(track.label)),
@@ -49,7 +53,9 @@ pub fn eigenvalues(result: &Campbell, style: &Style) -> Result<Figure, Error> {
     let lines = events::draw(&mut panel, result, style, |event| {
         changes_stability(event).then_some(0.0)
     });
+    panel.fit();
     panel.level_line(0.0);
+    ends.write(&mut panel, style);
     let mut caption = course.caption(style);
     caption.extend(lines);
     let title = style.titled(format!("{}: eigenvalues", result.description.name));

@@ -98,9 +98,9 @@ fn line(place: usize, event: &EventTolerance, style: &Style, unit: &Unit) -> Str
     let value = with_unit(event.value, unit);
     match event.sigma() {
         Some(sigma) => format!(
-            "{place}  {what} at {value}, sigma {}",
+            "({place}) {what} at {value}, sigma {}",
             with_unit(sigma, unit)
         ),
-        None => format!("{place}  {what} at {value}, without a derivative"),
+        None => format!("({place}) {what} at {value}, without a derivative"),
     }
 }

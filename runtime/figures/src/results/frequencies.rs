@@ -3,6 +3,7 @@
 use super::along::{Along, Course};
 use super::campbell::oscillation;
 use super::damping::percent;
+use super::ends::Ends;
 use super::tracks::tracks;
 use crate::Error;
 use crate::figure::{Axis, Figure, Panel};
@@ -18,9 +19,12 @@ pub fn frequencies<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figur
     let mut upper = Panel::new(course.axis(), Axis::new("frequency", symbol));
     let mut lower = Panel::new(course.axis(), Axis::new("damping ratio", "%"));
     let mut damped = false;
+    let mut ends = Ends::default();
     for track in tracks(&course.stations, &course.critical) {
         if track.oscillates() {
-            upper.curve(oscillation(&track, style, |own| scale * own.s.im));
+            let curve = oscillation(&track, style, |own| scale * own.s.im);
+            ends.add(&track, &curve);
+            upper.curve(curve);
             lower.curve(oscillation(&track, style, percent));
             let states = track.pieces.iter().flatten();
             damped |= states.into_iter().any(|own| own.s.re != 0.0);
@@ -31,6 +35,7 @@ pub fn frequencies<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figur
     }
     upper.fit();
     upper.y.range = [0.0, style.top().unwrap_or(upper.y.range[1])];
+    ends.write(&mut upper, style);
     let mut panels = vec![upper];
     if damped {
         lower.fit();

@@ -122,7 +122,7 @@ impl<'a> Histogram<'a> {
         if let Some((Some(Ok(own)), tolerances)) = second {
             let (model, moments) = (&own.frequency.model, &own.frequency.moments);
             let points = quadratic(model, tolerances, (moments.mean, moments.sigma), scale)?;
-            let curve = Curve::new("second-order model", Colour::Series(4), points);
+            let curve = Curve::new("second-order model", Colour::Series(5), points);
             panel.curve(curve.stroke(Stroke::Dashed));
         }
         let mut lines = vec![operating_point(d, &self.sampled.inputs, None), {
@@ -200,7 +200,7 @@ pub fn margin(result: &ModeMargin, style: &Style) -> Result<Figure, Error> {
     let top = panel.y.range[1];
     panel.band(
         "forbidden band",
-        Colour::Series(4),
+        Colour::Series(5),
         edges.map(|end| [end, 0.0, top]),
     );
     panel.marks.push(Mark {

@@ -5,6 +5,7 @@ mod branches;
 mod campbell;
 mod damping;
 mod eigenvalues;
+mod ends;
 mod equilibria;
 mod events;
 mod frequencies;

@@ -112,6 +112,40 @@ fn thin_bands_are_widened_and_the_caption_says_how_much() {
 }
 
 #[test]
+fn a_part_of_a_diagram_shows_what_lies_in_it_at_true_width() {
+    let result = rotor_diagram(31);
+    let style = Style::default().lowest(15.0).highest(30.0).true_width();
+    let figure = campbell(&result, &style).unwrap();
+    let panel = &figure.panels[0];
+    assert_eq!(panel.y.range, [15.0, 30.0]);
+    let inside = |point: &Point| (15.0..=30.0).contains(&point[1]);
+    let modes = panel
+        .curves
+        .iter()
+        .filter(|own| own.label.starts_with("mode"));
+    for curve in modes {
+        assert!(curve.pieces.iter().flatten().any(inside), "{}", curve.label);
+    }
+    let mode = &result.points[10].modes.as_ref().unwrap()[2];
+    let half = mode.frequency.as_ref().unwrap().band / TAU;
+    let edges = panel.bands.iter().flat_map(|band| &band.edges);
+    let mut halves = edges.map(|[_, low, high]| 0.5 * (high - low));
+    assert!(halves.any(|own| (own / half - 1.0).abs() < 1e-9));
+    assert!(
+        !figure
+            .caption
+            .iter()
+            .any(|line| line.contains("times as wide"))
+    );
+    // Modes are named where their curves end, too.
+    let names: Vec<&str> = panel.labels.iter().map(|own| &*own.text).collect();
+    assert!(
+        names.contains(&"mode 3") && names.contains(&"mode 4"),
+        "{names:?}"
+    );
+}
+
+#[test]
 fn damping_ratios_cross_zero_at_the_limit_of_stability() {
     let result = rotor_diagram(61);
     let figure = damping_ratios(&result, &Style::default().mark(3000.0, "running speed")).unwrap();
