@@ -82,6 +82,9 @@ impl Real for Counted {
     fn powi(self, exponent: i32) -> Self {
         counted(self.0.powi(exponent))
     }
+    fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+        counted(self.0.spline(pieces, derivative))
+    }
     fn powf(self, exponent: Self) -> Self {
         counted(self.0.powf(exponent.0))
     }

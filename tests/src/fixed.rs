@@ -9,8 +9,8 @@ use eigentol_compiler::model::expression::{Expr as Written, Function, Matrix, Ve
 use eigentol_compiler::model::mechanism as declared;
 
 use eigentol_oracle::model::{
-    Amount, Body, Coordinate, Drive, Expr, Force, ForceLaw, Frame, Input, Joint, Model, Motion,
-    Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
+    Amount, Body, Coordinate, Curve, Drive, Expr, Force, ForceLaw, Frame, Input, Joint, Model,
+    Motion, Part, Placement, Point, Shape, Step, Unit, Value, Values, Word,
 };
 
 /// The model of `mechanism` at inputs `u` and design variables `b`, and the speeds of its drives: the inputs of that model.
@@ -353,6 +353,15 @@ impl Fixing<'_> {
             Written::PowerInteger(a, n) => Expr::Power(Box::new(part(a)), *n),
             Written::Call(Function::Sin, a) => Expr::Sine(Box::new(part(a))),
             Written::Call(Function::Cos, a) => Expr::Cosine(Box::new(part(a))),
+            Written::Call(Function::Spline(spline, 0), a) => {
+                let pieces = spline.pieces()[1..].iter();
+                let curve = Curve {
+                    name: spline.name().to_owned(),
+                    points: pieces.map(|&[x, y, ..]| [x, y]).collect(),
+                    units: [Unit::Of([0; 3]); 2],
+                };
+                Expr::Curve(curve, Box::new(part(a)))
+            }
             constant => Expr::number(self.number(constant)),
         }
     }

@@ -64,6 +64,9 @@ pub fn operating_points(name: &str) -> Vec<Operation> {
         "sliding_pair" => vec![point(&[], &[0.0; 2])],
         "spherical_pendulum" => vec![point(&[1.0], &[0.0; 2]), nearest(&[5.0])],
         "ziegler_column" => vec![point(&[100.0], &[0.0; 2])],
+        "film_rotor" => [3000.0, 9000.0]
+            .map(|speed| point(&[speed * rpm], &[0.0; 2]))
+            .to_vec(),
         "robot_arm" => vec![point(&[], &[0.1; 7])],
         _ => panic!("nobody has said how {name} is run"),
     }

@@ -2,6 +2,8 @@
 
 #[path = "spectra/common.rs"]
 mod common;
+#[path = "spectra/film.rs"]
+mod film;
 #[path = "spectra/follower.rs"]
 mod follower;
 #[path = "spectra/following.rs"]

@@ -106,6 +106,15 @@ impl Tape {
                     #[inline(always)]
                     |a| a.powi(exponent),
                 ),
+                Code::Unary(Unary::Spline(spline, derivative)) => {
+                    let (pieces, order) = (spline.pieces(), usize::from(derivative));
+                    unary(
+                        registers,
+                        steps,
+                        #[inline(always)]
+                        |a| a.spline(pieces, order),
+                    );
+                }
             }
         }
     }

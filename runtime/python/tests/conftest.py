@@ -26,3 +26,9 @@ def rotor():
     gravity = "gravity 9.81 m/s^2 along -y;"
     assert gravity in text
     return eigentol.Mechanism.from_text(text.replace(gravity, ""))
+
+
+@pytest.fixture
+def oil_rotor():
+    """A stiff rotor on two oil films."""
+    return eigentol.Mechanism.from_file(EXAMPLES / "rotor_bearings.mechanism")

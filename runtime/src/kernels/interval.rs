@@ -137,6 +137,9 @@ impl Real for Interval {
     fn powf(self, _: Self) -> Self {
         ALL
     }
+    fn spline(self, _: &[[f64; 5]], _: usize) -> Self {
+        ALL
+    }
 }
 
 #[cfg(test)]

@@ -174,6 +174,11 @@ impl<T: Real> Real for Dual<T> {
         self.through(self.value.powi(exponent), slope)
     }
     #[inline]
+    fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+        let slope = self.value.spline(pieces, derivative + 1);
+        self.through(self.value.spline(pieces, derivative), slope)
+    }
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
         let by_base = exponent.value * self.value.powf(exponent.value - T::constant(1.0));

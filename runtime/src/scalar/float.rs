@@ -1,6 +1,7 @@
 //! [`Real`] for the two floating-point types.
 
 use super::real::{Real, integer_power};
+use super::spline::spline;
 use super::trigonometry::sin_cos;
 
 /// [`sin_cos`] of several angles, in vectors where the target has them.
@@ -91,6 +92,10 @@ macro_rules! float {
         #[inline]
         fn powi(self, exponent: i32) -> Self {
             integer_power(self, exponent)
+        }
+        #[inline]
+        fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+            spline(self.into(), pieces, derivative) as $float
         }
         #[inline]
         fn powf(self, exponent: Self) -> Self {

@@ -10,6 +10,7 @@ mod instructions;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;
 mod real;
+mod spline;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod trigonometry;
 #[cfg(all(target_arch = "x86_64", any(feature = "std", feature = "libm")))]
@@ -25,5 +26,6 @@ pub use lanes::{Lanes, Task};
 pub use real::Real;
 #[cfg(feature = "std")]
 pub(crate) use real::integer_power;
+pub use spline::spline;
 #[cfg(feature = "std")]
 pub(crate) use trigonometry::sin_cos_of_turns;

@@ -35,6 +35,8 @@ pub trait Real:
     fn powi(self, exponent: i32) -> Self;
     /// Power with a real exponent; the base is positive.
     fn powf(self, exponent: Self) -> Self;
+    /// A cubic spline in pieces, or its derivative of some order: see [`spline`](crate::scalar::spline).
+    fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self;
     /// Sine alone.
     fn sin(self) -> Self {
         self.sin_cos().0

@@ -136,6 +136,23 @@ impl Real for Bounded {
         self.through(self.value.powi(exponent), slope)
     }
 
+    /// The terms may be greater than their sum, and the start of a piece is a rounded number.
+    fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+        let value = self.value.spline(pieces, derivative);
+        let slope = self.value.spline(pieces, derivative + 1).abs();
+        let started = pieces.iter().rev().find(|piece| self.value >= piece[0]);
+        let [start, coefficients @ ..] = *started.unwrap_or(&pieces[0]);
+        let t = (self.value - start).abs();
+        let mut power = 1.0;
+        let mut terms = 0.0;
+        for coefficient in &coefficients[derivative.min(4)..] {
+            terms += 6.0 * coefficient.abs() * power;
+            power *= t;
+        }
+        let inherited = slope * (self.error + UNIT * self.value.abs()) + 4.0 * UNIT * terms;
+        Self::rounded(value, inherited)
+    }
+
     fn powf(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
         let by_base = exponent.value * self.value.powf(exponent.value - 1.0);

@@ -58,6 +58,7 @@ fn unary<T: Real>(operator: Unary, a: T) -> T {
         Unary::Exp => a.exp(),
         Unary::Ln => a.ln(),
         Unary::PowerInteger(exponent) => a.powi(exponent),
+        Unary::Spline(spline, derivative) => a.spline(spline.pieces(), usize::from(derivative)),
     }
 }
 

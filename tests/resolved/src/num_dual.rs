@@ -36,6 +36,22 @@ macro_rules! scalar {
             fn powi(self, exponent: i32) -> Self {
                 Self(num_dual::DualNum::powi(&self.0, exponent))
             }
+            /// By the terms of the piece, which are differentiated like everything else.
+            fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+                let started = pieces.iter().rev().find(|piece| self.0.re >= piece[0]);
+                let [start, coefficients @ ..] = *started.unwrap_or(&pieces[0]);
+                let t = self - Self::constant(start);
+                let mut sum = Self::constant(0.0);
+                for (power, coefficient) in coefficients.into_iter().enumerate().skip(derivative) {
+                    let factor: usize = (power + 1 - derivative..=power).product();
+                    let mut term = Self::constant(coefficient * factor as f64);
+                    for _ in derivative..power {
+                        term = term * t;
+                    }
+                    sum = sum + term;
+                }
+                sum
+            }
             fn powf(self, exponent: Self) -> Self {
                 Self(num_dual::DualNum::powd(&self.0, exponent.0))
             }

@@ -122,6 +122,10 @@ impl<T: Real> Real for Dual<T> {
         let value = self.value.exp();
         self.chain(value, value)
     }
+    fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+        let slope = self.value.spline(pieces, derivative + 1);
+        self.chain(self.value.spline(pieces, derivative), slope)
+    }
     fn ln(self) -> Self {
         self.chain(self.value.ln(), T::constant(1.0) / self.value)
     }

@@ -61,4 +61,5 @@ corpus! {
     steady_top: SteadyTop,
     screw_press: ScrewPress,
     robot_arm: RobotArm,
+    film_rotor: FilmRotor,
 }

@@ -1,6 +1,6 @@
 //! Two machines whose places are known, and one of every shape.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use eigentol::picture::{Scene, Shape, scene};
 use eigentol::{Study, equilibrium::assemble};
@@ -65,7 +65,7 @@ fn universal_joint_on_a_screw() {
             gravity 9.81 m/s^2 along -z;
             body nut: rigid(mass: 2 kg, inertia: [1, 1, 1, 0, 0, 0] kg*m^2);
             body arm: rod(mass: 1 kg, length: 1 m, along: x);
-            joint twist: screw(z, lead: 0.5 m/rad) from ground to nut at [0, 0, 1] m;
+            joint twist: screw(z, lead: 1 m) from ground to nut at [0, 0, 1] m;
             joint hook: universal(flap: y, lag: z) from nut to arm at [0.2, 0, 0] m;
             every angle: spring(stiffness: 100 N*m/rad);
         }",
@@ -73,15 +73,11 @@ fn universal_joint_on_a_screw() {
     let (twist, flap, lag) = (0.3_f64, 0.4_f64, -0.7_f64);
     let seen = scene(&machine, &[twist, flap, lag], &[], &[]).expect("a picture");
     let (s, c) = twist.sin_cos();
+    let height = 1.0 + twist / TAU;
     let nut = seen.bodies[0].pose;
-    assert!(norm(subtract(nut.position, [0.0, 0.0, 1.0 + 0.5 * twist])) < 1e-15);
+    assert!(norm(subtract(nut.position, [0.0, 0.0, height])) < 1e-15);
     let arm = seen.bodies[1].pose;
-    assert!(
-        norm(subtract(
-            arm.position,
-            [0.2 * c, 0.2 * s, 1.0 + 0.5 * twist]
-        )) < 1e-15
-    );
+    assert!(norm(subtract(arm.position, [0.2 * c, 0.2 * s, height])) < 1e-15);
     // x of the arm: Rz(twist) Ry(flap) Rz(lag) e_x
     let (sf, cf) = flap.sin_cos();
     let (sl, cl) = lag.sin_cos();

@@ -66,12 +66,22 @@ pub(super) fn unary(operator: Unary, a: Evaluation) -> Evaluation {
         Unary::Exp => value,
         Unary::Ln => 1.0 / a.value,
         Unary::PowerInteger(n) => f64::from(n) * a.value.powi(n - 1),
+        Unary::Spline(spline, derivative) => spline.at(a.value, derivative + 1),
     };
     let inherited = if a.error == 0.0 {
         0.0
     } else {
         slope.abs() * a.error
     };
+    if let Unary::Spline(spline, derivative) = operator {
+        // Seven operations, the difference from the start of the piece among them.
+        let terms = spline.magnitude(a.value, derivative);
+        let shift = slope.abs() * a.value.abs();
+        return Evaluation {
+            value,
+            error: inherited + 8.0 * UNIT_ROUNDOFF * (terms + shift),
+        };
+    }
     Evaluation::rounded(value, inherited)
 }
 

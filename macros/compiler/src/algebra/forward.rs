@@ -118,6 +118,8 @@ pub(super) fn slope(g: &mut Graph, operator: Unary, id: ExprId, a: ExprId) -> Ex
             let power = g.unary(Unary::PowerInteger(n - 1), a);
             g.scale(f64::from(n), power)
         }
+        Unary::Spline(spline, derivative) if spline.vanishes(derivative + 1) => g.zero(),
+        Unary::Spline(spline, derivative) => g.unary(Unary::Spline(spline, derivative + 1), a),
     }
 }
 

@@ -7,4 +7,5 @@ pub mod ids;
 pub mod nearest;
 pub mod operators;
 pub mod span;
+pub mod spline;
 pub mod units;

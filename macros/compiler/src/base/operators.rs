@@ -1,5 +1,7 @@
 //! The operators of expressions: their names and their values.
 
+use super::spline::Spline;
+
 /// Operators of two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operator {
@@ -40,6 +42,8 @@ pub enum Unary {
     Ln,
     /// `a ^ n`.
     PowerInteger(i32),
+    /// A curve, or the derivative of it of this order.
+    Spline(Spline, u8),
 }
 
 /// Functions of one argument that have a name in the language.
@@ -87,6 +91,7 @@ impl Unary {
             Self::Exp => "exp",
             Self::Ln => "ln",
             Self::PowerInteger(_) => "power",
+            Self::Spline(spline, derivative) => spline.name_of(derivative),
         }
     }
 
@@ -103,6 +108,7 @@ impl Unary {
             Self::Exp => a.exp(),
             Self::Ln => a.ln(),
             Self::PowerInteger(n) => a.powi(n),
+            Self::Spline(spline, derivative) => spline.at(a, derivative),
         }
     }
 }

@@ -1,6 +1,12 @@
 //! Single expressions as Rust text.
 
 use crate::algebra::{Operator, Unary};
+use crate::base::spline::Spline;
+
+/// The constant that holds the pieces of a curve. Local variables end in an underscore; it does not.
+pub(super) fn pieces_of(spline: Spline) -> String {
+    format!("PIECES_OF_{}", spline.name().trim_start_matches("r#"))
+}
 
 /// How tightly a piece of text holds together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,6 +54,11 @@ impl Text {
                 binding: Binding::Sign,
             },
             Unary::PowerInteger(n) => Self::atom(format!("{}.powi({n})", a.within(Binding::Atom))),
+            Unary::Spline(spline, derivative) => {
+                let pieces = pieces_of(spline);
+                let a = a.within(Binding::Atom);
+                Self::atom(format!("{a}.spline(&{pieces}, {derivative})"))
+            }
             function => {
                 let function = function.name();
                 Self::atom(format!("{}.{function}()", a.within(Binding::Atom)))

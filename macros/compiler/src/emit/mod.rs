@@ -22,6 +22,7 @@
 
 mod body;
 mod contract;
+mod curves;
 mod description;
 mod expression;
 mod form;
@@ -63,6 +64,7 @@ pub fn emit<E: Debug>(
         let _ = writeln!(methods, "{method}");
     }
     let methods = lexer(&methods).expect("the emitter writes well-formed tokens");
+    let curves = lexer(&curves::constants(program)).expect("the emitter writes well-formed tokens");
 
     let Mechanism {
         name,
@@ -98,6 +100,7 @@ pub fn emit<E: Debug>(
         const _: () = {
             #[allow(dead_code, non_snake_case)]
             fn #name() {}
+            #curves
 
             #[allow(unused_variables, unused_parens, non_snake_case, clippy::all, clippy::pedantic)]
             impl ::eigentol::Mechanism for #name {

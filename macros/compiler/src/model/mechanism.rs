@@ -7,7 +7,9 @@ use super::expression::{Expr, Matrix, Vector};
 pub use super::shape::Shape;
 pub use super::tolerance::{Law, Tolerance};
 pub use super::unit::Unit;
+use crate::base::dimension::Dimension;
 use crate::base::ids::{BodyId, CoordinateId, JointId, PointId};
+use crate::base::spline::{Piece, Spline};
 
 /// A declared mechanism. Every `Ident` keeps the span of its declaration.
 #[derive(Clone, Debug)]
@@ -24,6 +26,10 @@ pub struct Mechanism {
     pub design: Vec<DesignVariable>,
     /// Named constants, each using only earlier ones.
     pub constants: Vec<Constant>,
+    /// Curves through points.
+    pub curves: Vec<Curve>,
+    /// What curves are asked for and can be checked before the motion is known.
+    pub curve_arguments: Vec<CurveArgument>,
     /// Acceleration of gravity in the ground frame, m/s^2; zero when not declared.
     pub gravity: Vector,
     /// Only the equations are wanted: that they determine a steady motion is not demanded.
@@ -102,6 +108,35 @@ pub struct Constant {
     pub name: Ident,
     /// Its value.
     pub value: Expr,
+}
+
+/// A curve through points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    /// Its pieces, arguments and values in SI; it has the name that was declared.
+    pub spline: Spline,
+    /// Dimension of its arguments.
+    pub argument: Dimension,
+    /// Dimension of its values.
+    pub value: Dimension,
+}
+
+impl Curve {
+    /// The arguments of its first and its last point, SI.
+    pub fn range(&self) -> [f64; 2] {
+        let start = |piece: Option<&Piece>| piece.map_or(f64::NAN, |piece| piece[0]);
+        let pieces = self.spline.pieces();
+        [start(pieces.first()), start(pieces.last())]
+    }
+}
+
+/// An argument of a curve that depends on inputs and design variables only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveArgument {
+    /// The curve.
+    pub curve: Curve,
+    /// What it is asked for, SI.
+    pub argument: Expr,
 }
 
 /// What a body frame can belong to.

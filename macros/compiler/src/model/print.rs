@@ -42,6 +42,11 @@ impl Display for Mechanism {
                 unit(&variable.unit)
             )?;
         }
+        for curve in &self.curves {
+            let points = curve.spline.pieces()[1..].iter();
+            let points: Vec<String> = points.map(|[x, y, ..]| format!("({x}, {y})")).collect();
+            writeln!(f, "curve {}: {}", curve.spline.name(), points.join(", "))?;
+        }
         for constant in &self.constants {
             writeln!(
                 f,

@@ -6,6 +6,7 @@ mod bodies;
 mod constants;
 mod constraints;
 mod coordinates;
+mod curves;
 mod directions;
 mod every;
 mod exerted;
@@ -65,6 +66,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     let mut resolver = Resolver::new(ast, coordinates, scope, diagnostics);
     let inputs = resolver.inputs();
     let mut design = resolver.design_variables();
+    resolver.curves();
     resolver.named_constants();
     let gravity = resolver.gravity();
     let kernels_only = resolver.kernels_only();
@@ -95,6 +97,8 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
         inputs,
         design,
         constants: resolver.constants,
+        curves: resolver.curves.into_iter().flatten().collect(),
+        curve_arguments: resolver.curve_arguments,
         gravity,
         kernels_only,
         bodies,
@@ -125,6 +129,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
 fn is_complete(ast: &Ast, mechanism: &Mechanism) -> bool {
     mechanism.inputs.len() == count(ast, |kind| matches!(kind, ItemKind::Input(_)))
         && mechanism.design.len() == count(ast, |kind| matches!(kind, ItemKind::Design(_)))
+        && mechanism.curves.len() == count(ast, |kind| matches!(kind, ItemKind::Curve(_)))
         && mechanism.constants.len() >= count(ast, |kind| matches!(kind, ItemKind::Let(_)))
         && mechanism.points.len() == count(ast, |kind| matches!(kind, ItemKind::Point(_)))
         && mechanism

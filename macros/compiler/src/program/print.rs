@@ -39,6 +39,9 @@ impl fmt::Display for Kernel {
             let value = match instruction.operation {
                 Operation::Unary(Unary::Negate, a) => format!("-{}", text(a)),
                 Operation::Unary(Unary::PowerInteger(n), a) => format!("{}^{n}", text(a)),
+                Operation::Unary(operator @ Unary::Spline(..), a) => {
+                    format!("{}({})", operator.name(), text(a))
+                }
                 Operation::Unary(operator, a) => {
                     format!("{}({})", format!("{operator:?}").to_lowercase(), text(a))
                 }

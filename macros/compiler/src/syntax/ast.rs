@@ -34,8 +34,9 @@ pub struct Unread {
 impl Unread {
     /// Unless its keyword says otherwise, it may be a body, a joint or a constraint.
     pub fn may_connect(&self) -> bool {
-        const OTHERS: [&str; 9] = [
-            "input", "design", "let", "gravity", "kernels", "point", "force", "every", "output",
+        const OTHERS: [&str; 10] = [
+            "input", "design", "let", "curve", "gravity", "kernels", "point", "force", "every",
+            "output",
         ];
         !self.starts_with(&OTHERS)
     }
@@ -69,6 +70,8 @@ pub enum ItemKind {
     Design(Design),
     /// `let NAME = VALUE;`
     Let(Named),
+    /// `curve NAME: ARGUMENTS -> VALUES;`
+    Curve(Curve),
     /// `gravity ...;`
     Gravity(Gravity),
     /// `kernels only;`
@@ -96,6 +99,7 @@ impl ItemKind {
             ItemKind::Input(input) => Some(&input.name),
             ItemKind::Design(design) => Some(&design.name),
             ItemKind::Let(named) | ItemKind::Output(named) => Some(&named.name),
+            ItemKind::Curve(curve) => Some(&curve.name),
             ItemKind::Gravity(_) | ItemKind::KernelsOnly(_) | ItemKind::Every(_) => None,
             ItemKind::Body(body) => Some(&body.name),
             ItemKind::Joint(joint) => Some(&joint.name),
@@ -232,6 +236,17 @@ pub struct Named {
     pub name: Ident,
     /// Value.
     pub value: Value,
+}
+
+/// A curve through points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name.
+    pub name: Ident,
+    /// Arguments, growing.
+    pub arguments: Value,
+    /// The value at each.
+    pub values: Value,
 }
 
 /// The acceleration of gravity.

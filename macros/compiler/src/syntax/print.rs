@@ -77,6 +77,12 @@ fn item(kind: &ItemKind) -> String {
             tolerance(design.tolerance.as_ref())
         ),
         ItemKind::Let(named) => format!("let {} = {}", named.name, value(&named.value)),
+        ItemKind::Curve(curve) => format!(
+            "curve {}: {} -> {}",
+            curve.name,
+            value(&curve.arguments),
+            value(&curve.values)
+        ),
         ItemKind::Output(named) => format!("output {} = {}", named.name, value(&named.value)),
         ItemKind::Gravity(gravity) => match &gravity.along {
             Some(along) => format!("gravity {} along {}", value(&gravity.value), value(along)),

@@ -101,6 +101,12 @@ impl<'a> Tokens<'a> {
             .all(|sign| copy.sign(sign).is_some())
     }
 
+    /// `->` is next.
+    pub(super) fn peek_arrow(&self) -> bool {
+        let mut copy = *self;
+        copy.sign('-').is_some() && copy.sign('>').is_some()
+    }
+
     /// A name and a colon are next.
     pub(super) fn peek_named(&self) -> bool {
         let mut ahead = *self;

@@ -91,6 +91,10 @@ macro_rules! real {
                 crate::scalar::real::integer_power(self, exponent)
             }
             #[inline(always)]
+            fn spline(self, pieces: &[[f64; 5]], derivative: usize) -> Self {
+                self.each(|x| crate::scalar::spline(x, pieces, derivative))
+            }
+            #[inline(always)]
             fn powf(self, exponent: Self) -> Self {
                 self.with(exponent, |x, y| Real::powf(x, y))
             }

@@ -1,9 +1,48 @@
 //! Force elements and their expressions.
 
-use super::quantities::Printer;
-use crate::model::{Coordinate, Expr, Force, ForceLaw, Motion, Unit};
+use super::quantities::{Printer, symbol};
+use crate::model::{Coordinate, Curve, Expr, Force, ForceLaw, Motion, Unit};
+
+/// The curves of a law.
+fn curves(law: &ForceLaw) -> Vec<&Curve> {
+    match law {
+        ForceLaw::Tension { tension: of, .. }
+        | ForceLaw::Generalized { value: of, .. }
+        | ForceLaw::Potential { energy: of } => of.curves(),
+        _ => Vec::new(),
+    }
+}
 
 impl Printer<'_> {
+    /// The declarations of all curves, each once.
+    pub(super) fn curves(&self) -> Vec<String> {
+        let forces = self.model.forces.iter();
+        let mut known: Vec<&Curve> = Vec::new();
+        for curve in forces.flat_map(|force| curves(&force.law)) {
+            if !known.contains(&curve) {
+                known.push(curve);
+            }
+        }
+        let list = |curve: &Curve, axis: usize| {
+            let numbers = curve
+                .points
+                .iter()
+                .map(|point| format!("{:?}", point[axis]));
+            let numbers: Vec<String> = numbers.collect();
+            let unit = symbol(curve.units[axis]);
+            format!("[{}] {unit}", numbers.join(", "))
+        };
+        let declared = |curve: &&Curve| {
+            format!(
+                "curve {}: {} -> {};",
+                curve.name,
+                list(curve, 0),
+                list(curve, 1)
+            )
+        };
+        known.iter().map(declared).collect()
+    }
+
     fn motion(&self, coordinate: Coordinate) -> Motion {
         self.model.step(coordinate).motion
     }
@@ -147,6 +186,9 @@ impl Printer<'_> {
             Expr::Power(base, exponent) => format!("({})^{exponent}", self.expression(base)),
             Expr::Sine(angle) => format!("sin({})", self.expression(angle)),
             Expr::Cosine(angle) => format!("cos({})", self.expression(angle)),
+            Expr::Curve(curve, argument) => {
+                format!("{}({})", curve.name, self.expression(argument))
+            }
         }
     }
 }

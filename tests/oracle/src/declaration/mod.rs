@@ -19,6 +19,7 @@ pub fn declaration(model: &Model) -> String {
         let nominal = quantity(variable.nominal, variable.unit);
         lines.push(format!("design {} = {nominal};", variable.name));
     }
+    lines.extend(print.curves());
     let gravity = print.vector(&model.gravity, Unit::MetrePerSquareSecond);
     lines.push(format!("gravity {gravity};"));
     lines.extend(model.bodies.iter().map(|body| print.body(body)));

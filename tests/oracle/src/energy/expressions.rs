@@ -43,5 +43,6 @@ pub(super) fn evaluate_with<D: Scalar>(
         Expr::Power(base, exponent) => of(base).powi(*exponent),
         Expr::Sine(angle) => of(angle).sin(),
         Expr::Cosine(angle) => of(angle).cos(),
+        Expr::Curve(curve, argument) => curve.at(of(argument)),
     }
 }

@@ -1,5 +1,6 @@
 //! Force elements and the expressions in them.
 
+use super::curves::Curve;
 use super::joints::Coordinate;
 use super::values::{Matrix, Unit, Value, Values};
 
@@ -41,6 +42,8 @@ pub enum Expr {
     Sine(Box<Expr>),
     /// Cosine.
     Cosine(Box<Expr>),
+    /// A curve, and what it is asked for.
+    Curve(Curve, Box<Expr>),
 }
 
 impl Expr {
@@ -59,13 +62,31 @@ impl Expr {
         Self::Sum(vec![self, other.times(-1.0)])
     }
 
+    /// The curves in it, in order.
+    pub fn curves(&self) -> Vec<&Curve> {
+        match self {
+            Self::Sum(parts) | Self::Product(parts) => {
+                parts.iter().flat_map(Self::curves).collect()
+            }
+            Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) => part.curves(),
+            Self::Curve(curve, part) => {
+                let mut curves = part.curves();
+                curves.push(curve);
+                curves
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// Calls `visit` on every part that has no parts.
     pub fn leaves(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {
             Self::Sum(parts) | Self::Product(parts) => {
                 parts.iter().for_each(|part| part.leaves(visit));
             }
-            Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) => part.leaves(visit),
+            Self::Power(part, _) | Self::Sine(part) | Self::Cosine(part) | Self::Curve(_, part) => {
+                part.leaves(visit)
+            }
             leaf => visit(leaf),
         }
     }

@@ -3,11 +3,13 @@
 //! All values are SI. The meaning of every field is that of the language; see [`crate::declaration`] for its spelling.
 
 mod bodies;
+mod curves;
 mod forces;
 mod joints;
 mod values;
 
 pub use bodies::{Amount, Body, Part, Shape};
+pub use curves::Curve;
 pub use forces::{Expr, Force, ForceLaw};
 pub use joints::{Coordinate, Drive, Joint, Motion, Step, Word};
 pub use values::{DesignVariable, Input, Matrix, ORIGIN, Unit, Value, Values, ZERO, diagonal};

@@ -2,7 +2,7 @@
 
 use super::tree::Builder;
 use super::values::Source;
-use crate::model::{Coordinate, Expr, Unit};
+use crate::model::{Coordinate, Curve, Expr, Unit, Value};
 
 impl Source {
     /// A factor in an interval, with either sign, that turns a product of such units into `whole`.
@@ -16,6 +16,33 @@ impl Source {
     fn positive(&mut self, (low, high): (f64, f64), whole: Unit, others: &[Unit]) -> Expr {
         let unit = whole.over(others);
         Expr::Value(self.between(low, high, unit), unit)
+    }
+
+    /// A curve around values of about this size, of two to six points: any, or on a line, or all zero.
+    fn curve(&mut self, (size, unit): (f64, Unit), argument: Expr) -> Expr {
+        self.curves += 1;
+        let count = 2 + self.random.below(5);
+        let kind = if self.special {
+            self.random.below(4)
+        } else {
+            3
+        };
+        let mut x = -1.5 * size;
+        let points = (0..count).map(|_| {
+            x += size * self.random.between(0.2, 1.4);
+            let y = match kind {
+                0 => 0.0,
+                1 => 0.5 * x / size,
+                _ => self.random.between(-1.0, 1.0),
+            };
+            [x, y]
+        });
+        let curve = Curve {
+            points: points.collect(),
+            name: format!("curve{}", self.curves),
+            units: [unit, Unit::Of([0; 3])],
+        };
+        Expr::Curve(curve, Box::new(argument))
     }
 
     /// `k (length - L) + k3 (length - L)^3 + c rate + c2 rate length`.
@@ -41,6 +68,10 @@ impl Source {
                 self.factor((0.1, 1.0), Unit::Newton, &[speed, metre]),
                 Expr::LengthRate,
                 Expr::Length,
+            ]),
+            Expr::Product(vec![
+                self.factor((1.0, 10.0), Unit::Newton, &[]),
+                self.curve((0.7, metre), Expr::Length),
             ]),
         ])
     }
@@ -95,7 +126,31 @@ impl Builder {
             let input = (Expr::Input(input), self.inputs[input].unit);
             terms.push(self.term((0.1, 1.0), force, vec![input, (q, unit)]));
         }
+        if self.source.random.chance(0.4) {
+            let argument = self.argument_of_a_curve((Expr::Coordinate(other), other_unit));
+            let curve = self.source.curve((1.0, argument.1), argument.0);
+            let factor = (Expr::Coordinate(coordinate), unit);
+            terms.push(self.term((0.1, 4.0), force, vec![(curve, Unit::Radian), factor]));
+        }
         Expr::Sum(terms)
+    }
+
+    /// A coordinate, an input or a design variable.
+    fn argument_of_a_curve(&mut self, coordinate: (Expr, Unit)) -> (Expr, Unit) {
+        let source = &mut self.source;
+        match source.random.below(3) {
+            0 if !self.inputs.is_empty() => {
+                let input = source.random.below(self.inputs.len());
+                (Expr::Input(input), self.inputs[input].unit)
+            }
+            1 if !source.design.is_empty() => {
+                let variable = source.random.below(source.design.len());
+                let unit = source.design[variable].unit;
+                let factor = 1.0 / source.design[variable].nominal;
+                (Expr::Value(Value::Design { variable, factor }, unit), unit)
+            }
+            _ => coordinate,
+        }
     }
 
     /// `1/2 k (q1 - q2)^2` of like coordinates, `1/2 k q^2 + g q1 q2` of unlike ones, `-m cos q` of angles.
@@ -126,6 +181,10 @@ impl Builder {
         if unit == Unit::Radian {
             let wave = Expr::Cosine(Box::new(q.times(2.0)));
             terms.push(self.term((0.5, 5.0), energy, vec![(wave, Unit::Radian)]));
+        }
+        if self.source.random.chance(0.3) {
+            let curve = self.source.curve((1.0, unit), Expr::Coordinate(coordinate));
+            terms.push(self.term((0.5, 5.0), energy, vec![(curve, Unit::Radian)]));
         }
         Expr::Sum(terms)
     }

@@ -17,6 +17,8 @@ pub(super) struct Source {
     pub(super) frames: Frames,
     /// The axis of the last joint.
     pub(super) hinge: [f64; 3],
+    /// So many curves were drawn.
+    pub(super) curves: usize,
 }
 
 /// How frames lie against each other.
@@ -63,6 +65,7 @@ impl Source {
             special,
             frames,
             hinge: [0.0, 1.0, 0.0],
+            curves: 0,
         }
     }
 

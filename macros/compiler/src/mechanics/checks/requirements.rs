@@ -7,7 +7,7 @@ use crate::mechanics::functions::Requirement;
 use crate::mechanics::inertia::MassDistribution;
 use crate::mechanics::setup::Values;
 use crate::model::inertia::is_inertia_of_a_body;
-use crate::model::mechanism::{Body, ConstraintLaw, Mechanism};
+use crate::model::mechanism::{Body, ConstraintLaw, CurveArgument, Mechanism};
 use crate::model::shape::{Reduced, Spread};
 use crate::model::welded::{Member, groups};
 
@@ -65,7 +65,41 @@ pub(crate) fn requirements(
             value: values.scalar(g, value),
         });
     }
+    list.extend(inside_curves(g, mechanism, values));
     list.retain(|requirement| g.constant_value(requirement.value).is_none());
+    list
+}
+
+/// Curves are known between their first and their last point. Rounding must not take their ends away.
+fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<Requirement> {
+    let mut list: Vec<Requirement> = Vec::new();
+    for CurveArgument { curve, argument } in &mechanism.curve_arguments {
+        let argument = values.scalar(g, argument);
+        let [first, last] = curve.range();
+        let slack = FLATNESS * (last - first);
+        let (name, unit) = (curve.spline.name(), curve.argument.si_symbol());
+        let (low, high) = (g.constant(first - slack), g.constant(last + slack));
+        let ends = [
+            (
+                format!("argument of {name} less {first} {unit}, where this curve begins,"),
+                g.sub(argument, low),
+            ),
+            (
+                format!("{last} {unit}, where the curve {name} ends, less its argument"),
+                g.sub(high, argument),
+            ),
+        ];
+        for (quantity, value) in ends {
+            // Several curves over one range are asked once.
+            if list.iter().all(|known| known.value != value) {
+                list.push(Requirement {
+                    quantity,
+                    requirement: "not negative",
+                    value,
+                });
+            }
+        }
+    }
     list
 }
 

@@ -6,6 +6,7 @@ mod reactions;
 use proc_macro2::Ident;
 
 use super::resolver::Resolver;
+use super::scope::Meaning;
 use super::typed::{Place, Quantity, Typed};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::dimension::Dimension;
@@ -86,11 +87,16 @@ impl Resolver<'_> {
         place: Place,
     ) -> Option<Typed> {
         let name = function.to_string();
+        if let Some(Meaning::Curve(index)) = self.scope.find(&name) {
+            return self.curve_at(index, function, arguments, place);
+        }
         let known = SIGNATURES.iter().find(|(known, ..)| *known == name);
         let Some(&(name, parameters, needs)) = known else {
             let words = SIGNATURES.iter().map(|(known, ..)| *known);
-            let help =
-                suggestion(&name, words, &SYNONYMS).map(|near| format!("did you mean `{near}`?"));
+            let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
+            let near =
+                suggestion(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve));
+            let help = near.map(|near| format!("did you mean `{near}`?"));
             self.report(function, format!("unknown function `{name}`"), help);
             return None;
         };
@@ -225,7 +231,12 @@ fn plain() -> Quantity {
     Quantity::Of(Dimension::NONE)
 }
 
-fn count(parameters: usize) -> String {
+/// A function has this name.
+pub(super) fn is_function(name: &str) -> bool {
+    SIGNATURES.iter().any(|(known, ..)| *known == name)
+}
+
+pub(super) fn count(parameters: usize) -> String {
     match parameters {
         0 => "no arguments".to_string(),
         1 => "1 argument".to_string(),

@@ -10,7 +10,7 @@ use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::expression::Expr;
-use crate::model::mechanism::{Constant, Coordinate, Part};
+use crate::model::mechanism::{Constant, Coordinate, Curve, CurveArgument, Part};
 use crate::model::rules::composite::GivenInertia;
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::syntax::ast::{Ast, Joint, Unread};
@@ -23,6 +23,9 @@ pub(super) struct Resolver<'a> {
     pub(super) inputs: Vec<Option<Dimension>>,
     pub(super) design: Vec<Option<Nominal>>,
     pub(super) used_design: Vec<bool>,
+    /// Nothing where a curve is wrong.
+    pub(super) curves: Vec<Option<Curve>>,
+    pub(super) curve_arguments: Vec<CurveArgument>,
     pub(super) lets: Vec<Option<Typed>>,
     pub(super) constants: Vec<Constant>,
     pub(super) coordinates: Vec<Declared<'a>>,
@@ -47,6 +50,8 @@ impl<'a> Resolver<'a> {
             inputs: Vec::new(),
             design: Vec::new(),
             used_design: Vec::new(),
+            curves: Vec::new(),
+            curve_arguments: Vec::new(),
             lets: Vec::new(),
             constants: Vec::new(),
             coordinates,

@@ -17,6 +17,8 @@ pub(super) enum Meaning {
     Design(DesignId),
     /// The index of the `let` among the lets.
     Let(usize),
+    /// The index of the curve among the curves.
+    Curve(usize),
     Body(BodyId),
     /// A joint that has no coordinate of its name: none at all, or several with names of their own.
     Joint(JointId),
@@ -44,6 +46,7 @@ impl Meaning {
             Meaning::Input(_) => "an input",
             Meaning::Design(_) => "a design variable",
             Meaning::Let(_) => "a constant",
+            Meaning::Curve(_) => "a curve",
             Meaning::Body(_) => "a body",
             Meaning::Joint(_) | Meaning::OnlyCoordinate(_) => "a joint",
             Meaning::Coordinate(_) => "a coordinate",
@@ -75,7 +78,7 @@ impl Scope {
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let mut scope = Self::default();
-        let mut counts = [0; 7];
+        let mut counts = [0; 8];
         let mut next = |table: usize| {
             counts[table] += 1;
             counts[table] - 1
@@ -85,6 +88,7 @@ impl Scope {
                 ItemKind::Input(_) => Meaning::Input(InputId::new(next(0))),
                 ItemKind::Design(_) => Meaning::Design(DesignId::new(next(1))),
                 ItemKind::Let(_) => Meaning::Let(next(2)),
+                ItemKind::Curve(_) => Meaning::Curve(next(7)),
                 ItemKind::Body(_) => Meaning::Body(BodyId::new(next(3))),
                 ItemKind::Joint(_) => {
                     let id = JointId::new(next(4));

@@ -96,6 +96,8 @@ impl Typed {
 pub(super) enum Place {
     /// A nominal value or a tolerance: numbers only.
     Nominal,
+    /// The points of a curve: numbers only.
+    Points,
     /// Anything about the mechanism itself: numbers, design variables, inputs and constants.
     Parameter,
     /// The law of a tension: also the distance of its ends and the rate of that.

@@ -74,15 +74,14 @@ impl Resolver<'_> {
             self.unknown_value(name, place);
             return None;
         };
-        if place == Place::Nominal && meaning != Meaning::Unclear {
-            self.diagnostics.error_with_help(
-                name,
-                format!(
-                    "`{text}` is {}; a nominal value is made of numbers only",
-                    meaning.describe()
-                ),
-                "use `let` for a value computed from others",
+        if let Some((what, help)) = of_numbers_only(place)
+            && meaning != Meaning::Unclear
+        {
+            let message = format!(
+                "`{text}` is {}; {what} made of numbers only",
+                meaning.describe()
             );
+            self.diagnostics.error_with_help(name, message, help);
             return None;
         }
         match meaning {
@@ -117,6 +116,14 @@ impl Resolver<'_> {
                     name,
                     format!("`{text}` is an output; a value cannot use outputs"),
                     "repeat its expression, or name the shared part with `let`",
+                );
+                None
+            }
+            Meaning::Curve(_) => {
+                self.diagnostics.error_with_help(
+                    name,
+                    format!("`{text}` is a curve, not a value"),
+                    format!("write `{text}(...)` with what it depends on in the parentheses"),
                 );
                 None
             }
@@ -182,7 +189,9 @@ impl Resolver<'_> {
     fn unknown_value(&mut self, name: &Ident, place: Place) {
         let text = name.to_string();
         let usable = |meaning| match meaning {
-            Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => place != Place::Nominal,
+            Meaning::Input(_) | Meaning::Design(_) | Meaning::Let(_) => {
+                of_numbers_only(place).is_none()
+            }
             meaning => place.knows_places() && meaning.is_coordinate(),
         };
         let near = self.scope.nearest(&text, usable);
@@ -438,6 +447,21 @@ impl Resolver<'_> {
             })?;
             Some((name.to_string(), bare_number(declared)?))
         })
+    }
+}
+
+/// What a place that admits no names holds, and what to do there instead.
+fn of_numbers_only(place: Place) -> Option<(&'static str, &'static str)> {
+    match place {
+        Place::Nominal => Some((
+            "a nominal value is",
+            "use `let` for a value computed from others",
+        )),
+        Place::Points => Some((
+            "the points of a curve are",
+            "multiply the curve where it is used: `factor * stiffness(speed)`",
+        )),
+        _ => None,
     }
 }
 

@@ -2,7 +2,9 @@
 
 use proc_macro2::Ident;
 
-use super::super::ast::{Constraint, Design, Every, Force, Gravity, Input, ItemKind, Named, Point};
+use super::super::ast::{
+    Constraint, Curve, Design, Every, Force, Gravity, Input, ItemKind, Named, Point,
+};
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
 use super::body::{body, named_call};
@@ -11,7 +13,7 @@ use super::names::{colon, declared_name};
 use super::placement::placement;
 use super::tolerance::{nominal, tolerance};
 use super::unit;
-use super::value::value;
+use super::value::{value, value_before};
 use super::words::instead_of;
 use crate::base::diagnostics::Diagnostic;
 
@@ -24,6 +26,7 @@ pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
         "input" => input,
         "design" => design,
         "let" => |tokens| named(tokens).map(ItemKind::Let),
+        "curve" => curve,
         "gravity" => return gravity(tokens),
         "kernels" => return kernels_only(tokens),
         "body" => body,
@@ -85,6 +88,26 @@ fn named(tokens: &mut Tokens) -> Parsed<Named> {
     tokens.expect_sign('=', "`=`")?;
     let value = value(tokens)?;
     Ok(Named { name, value })
+}
+
+const CURVE: &str = "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`";
+
+fn curve(tokens: &mut Tokens) -> Parsed<ItemKind> {
+    let help = |error: Box<Diagnostic>| Box::new(error.with_help(CURVE));
+    let name = declared_name(tokens)?;
+    colon(tokens).map_err(help)?;
+    let arguments = value_before(tokens, |tokens| tokens.peek_arrow())?;
+    if !tokens.peek_arrow() {
+        return tokens.expected("`->`").map_err(help);
+    }
+    tokens.expect_sign('-', "`->`")?;
+    tokens.expect_sign('>', "`->`")?;
+    let values = value(tokens)?;
+    Ok(ItemKind::Curve(Curve {
+        name,
+        arguments,
+        values,
+    }))
 }
 
 const GRAVITY: &str = "write `gravity 9.81 m/s^2 along -z;`";

@@ -3,10 +3,11 @@
 use crate::base::nearest::suggestion;
 
 /// The words that start an item.
-pub(super) const KEYWORDS: [&str; 12] = [
+pub(super) const KEYWORDS: [&str; 13] = [
     "input",
     "design",
     "let",
+    "curve",
     "gravity",
     "kernels",
     "body",
@@ -19,7 +20,12 @@ pub(super) const KEYWORDS: [&str; 12] = [
 ];
 
 /// What other tools and languages call an item.
-const SYNONYMS: [(&str, &str); 20] = [
+const SYNONYMS: [(&str, &str); 25] = [
+    ("table", "curve"),
+    ("lookup", "curve"),
+    ("spline", "curve"),
+    ("map", "curve"),
+    ("characteristic", "curve"),
     ("motor", "force"),
     ("param", "design"),
     ("parameter", "design"),

@@ -40,6 +40,7 @@ impl<D: Scalar> Leaves<'_, D> {
             Expr::Power(base, exponent) => self.of(base).powi(*exponent),
             Expr::Sine(angle) => self.of(angle).sin(),
             Expr::Cosine(angle) => self.of(angle).cos(),
+            Expr::Curve(curve, argument) => curve.at(self.of(argument)),
         }
     }
 }

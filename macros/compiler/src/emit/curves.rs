@@ -1,0 +1,42 @@
+//! The pieces of curves, as constants beside the methods.
+//!
+//! ```text
+//! const PIECES_OF_kxx: [[f64; 5]; 4] = [[..], ..];
+//! ```
+
+use std::fmt::Write;
+
+use crate::algebra::Unary;
+use crate::base::spline::Spline;
+use crate::program::{Operation, Program};
+
+use super::expression::pieces_of;
+
+/// A constant for each curve that some kernel uses.
+pub(super) fn constants(program: &Program) -> String {
+    let mut text = String::new();
+    for spline in used(program) {
+        let (name, pieces) = (pieces_of(spline), spline.pieces());
+        let _ = writeln!(
+            text,
+            "const {name}: [[f64; 5]; {}] = {pieces:?};",
+            pieces.len()
+        );
+    }
+    text
+}
+
+/// In the order of their names.
+fn used(program: &Program) -> Vec<Spline> {
+    let kernels = program.kernels.iter();
+    let mut used: Vec<Spline> = kernels
+        .flat_map(|kernel| &kernel.instructions)
+        .filter_map(|instruction| match instruction.operation {
+            Operation::Unary(Unary::Spline(spline, _), _) => Some(spline),
+            _ => None,
+        })
+        .collect();
+    used.sort_unstable();
+    used.dedup();
+    used
+}

@@ -1,0 +1,170 @@
+//! Curves through points: their points, and what they are asked for.
+
+use proc_macro2::Ident;
+
+use super::functions::{count, is_function};
+use super::resolver::Resolver;
+use super::typed::{Place, Quantity, Typed};
+use super::values::{DECIMAL_POINT, decimal_commas};
+use crate::base::spline::Spline;
+use crate::model::expression::{Expr, Function};
+use crate::model::mechanism::{Curve, CurveArgument};
+use crate::model::simplify;
+use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
+
+impl Resolver<'_> {
+    pub(super) fn curves(&mut self) {
+        for item in &self.ast.items {
+            if let ItemKind::Curve(declared) = &item.kind {
+                let curve = self.curve(declared);
+                self.curves.push(curve);
+            }
+        }
+    }
+
+    fn curve(&mut self, declared: &ast::Curve) -> Option<Curve> {
+        let ast::Curve {
+            name,
+            arguments,
+            values,
+        } = declared;
+        let text = name.to_string();
+        if is_function(&text) {
+            let message = format!("`{text}` is a function already; a curve needs another name");
+            self.diagnostics.error(name, message);
+        }
+        let (x, y) = (self.points_along(arguments), self.points_along(values));
+        let ((x, argument), (y, value)) = (x?, y?);
+        if x.len() != y.len() {
+            let message = format!(
+                "each argument has a value: there are {} arguments and {} values",
+                x.len(),
+                y.len()
+            );
+            let lists = [arguments, values].map(|list| elements(list).unwrap_or_default());
+            let commas = lists.into_iter().any(decimal_commas);
+            self.report(values.extent, message, commas.then(|| DECIMAL_POINT.into()));
+            return None;
+        }
+        if x.len() < 2 {
+            let message = "a curve goes through at least two points";
+            self.diagnostics.error(arguments.extent, message);
+            return None;
+        }
+        if let Some(k) = (1..x.len()).find(|&k| x[k] <= x[k - 1]) {
+            let at = elements(arguments)?[k].extent;
+            let message =
+                "the arguments of a curve grow: this one is not greater than the one before";
+            self.diagnostics.error(at, message);
+            return None;
+        }
+        let spline = Spline::through(&text, &x, &y);
+        if !spline.pieces().as_flattened().iter().all(|c| c.is_finite()) {
+            let message = "this curve is outside the range of a 64-bit number";
+            self.diagnostics.error(values.extent, message);
+            return None;
+        }
+        Some(Curve {
+            spline,
+            argument: argument.dimension(),
+            value: value.dimension(),
+        })
+    }
+
+    /// Numbers in brackets, SI, with their common quantity.
+    fn points_along(&mut self, list: &Value) -> Option<(Vec<f64>, Quantity)> {
+        let ValueKind::Vector(elements, unit) = &list.bare().kind else {
+            self.diagnostics.error_with_help(
+                list.extent,
+                "the points of a curve are listed in brackets",
+                "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`",
+            );
+            return None;
+        };
+        let unit = self.optional_unit(unit.as_ref());
+        let numbers: Vec<_> = elements
+            .iter()
+            .map(|element| self.number_among_points(element))
+            .collect();
+        let numbers: Vec<(f64, Quantity)> = numbers.into_iter().collect::<Option<_>>()?;
+        let (numbers, quantities): (Vec<f64>, Vec<Quantity>) = numbers.into_iter().unzip();
+        let common = self.common_quantity(&quantities, elements, "points of a curve")?;
+        let (quantity, scale) = match unit? {
+            None => (common, 1.0),
+            Some((dimension, scale)) => {
+                let product = common.dimension().times(dimension);
+                (self.in_range(product, list.extent)?, scale)
+            }
+        };
+        Some((numbers.into_iter().map(|x| x * scale).collect(), quantity))
+    }
+
+    fn number_among_points(&mut self, element: &Value) -> Option<(f64, Quantity)> {
+        match self.scalar(element, Place::Points)? {
+            (Expr::Number(number), quantity) => Some((number, quantity)),
+            // Names are refused, and numbers are combined at once.
+            _ => None,
+        }
+    }
+
+    /// The value of a curve. Where the argument does not depend on the motion it has to lie between the first and the last point.
+    pub(super) fn curve_at(
+        &mut self,
+        index: usize,
+        name: &Ident,
+        arguments: &[Value],
+        place: Place,
+    ) -> Option<Typed> {
+        let curve = (*self.curves.get(index)?)?;
+        let [given] = arguments else {
+            let message = format!("`{name}` takes {}, not {}", count(1), arguments.len());
+            let help =
+                (arguments.len() > 1 && decimal_commas(arguments)).then(|| DECIMAL_POINT.into());
+            self.report(name, message, help);
+            return None;
+        };
+        let (argument, quantity) = self.scalar(given, place)?;
+        let what = format!("the argument of `{name}`");
+        self.expect(quantity, curve.argument, &what, given)?;
+        let [first, last] = curve.range();
+        if let Expr::Number(number) = argument
+            && !(first..=last).contains(&number)
+        {
+            let unit = curve.argument.si_symbol();
+            let message = format!(
+                "the curve `{name}` goes from {first} to {last} {unit}, this is {number} {unit}"
+            );
+            self.diagnostics.error(given.extent, message);
+            return None;
+        }
+        let checked = CurveArgument {
+            curve,
+            argument: argument.clone(),
+        };
+        if is_known_before_the_motion(&argument) && !self.curve_arguments.contains(&checked) {
+            self.curve_arguments.push(checked);
+        }
+        let value = match argument {
+            Expr::Number(number) => Expr::Number(curve.spline.at(number, 0)),
+            argument => simplify::call(Function::Spline(curve.spline, 0), argument),
+        };
+        Some(Typed::Scalar(value, Quantity::Of(curve.value)))
+    }
+}
+
+/// The values of a list in brackets.
+fn elements(list: &Value) -> Option<&[Value]> {
+    match &list.bare().kind {
+        ValueKind::Vector(elements, _) => Some(elements),
+        _ => None,
+    }
+}
+
+/// It is made of inputs, design variables and constants, not of numbers alone.
+fn is_known_before_the_motion(argument: &Expr) -> bool {
+    let leaves = argument.leaves();
+    let is_parameter =
+        |leaf: &&Expr| matches!(leaf, Expr::Input(_) | Expr::Design(_) | Expr::Constant(_));
+    let is_known = |leaf: &Expr| matches!(leaf, Expr::Number(_)) || is_parameter(&leaf);
+    leaves.iter().any(is_parameter) && leaves.into_iter().all(is_known)
+}
