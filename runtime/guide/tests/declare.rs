@@ -65,7 +65,7 @@ fn declaration(snippet: &str) -> String {
         "constraint" if snippet.contains("cam:") => format!("{CAM} {snippet}"),
         "constraint" if !snippet.contains("coupling") => format!("{all} {snippet}"),
         "force" if snippet.contains("spin") => format!("{GEARS} {snippet}"),
-        "constraint" | "force" | "every" => format!("{HINGES} {snippet}"),
+        "constraint" | "force" | "every" | "curve" => format!("{HINGES} {snippet}"),
         _ if snippet.contains("on: ") => format!("{HINGES} force own: {snippet};"),
         _ => format!("{all} force own: {snippet};"),
     };
@@ -77,8 +77,9 @@ fn snippets() -> Vec<&'static str> {
     let tables = CHAPTER.split("# Names of quantities").next().unwrap();
     let rows = tables.lines().filter(|line| line.starts_with("| "));
     let codes = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
+    let piece = |code: &&str| code.contains('(') || code.starts_with("curve ");
     codes
-        .filter(|code| code.contains('(') && !code.contains(".."))
+        .filter(|code| piece(code) && !code.contains(".."))
         .collect()
 }
 
