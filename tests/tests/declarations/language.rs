@@ -215,7 +215,7 @@ fn forces_keep_what_was_given_and_are_zero_otherwise() {
         [[1e3, 0.0, 0.0], [0.0, 2e3, 0.0], [0.0, 0.0, 3e3]]
     );
     let none = [(); 3].map(|()| zero.clone());
-    assert_eq!((damping, turning_stiffness), (&none, &none));
+    assert_eq!((&**damping, &**turning_stiffness), (&none, &none));
     assert_eq!(turning_damping[2][2], Expr::Number(0.1));
     let ForceLaw::Load {
         force: load,

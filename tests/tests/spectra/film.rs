@@ -6,7 +6,7 @@ use eigentol_interpreter::Interpreted;
 use eigentol_oracle::model::{Curve, Unit};
 use eigentol_tests::corpus::film_rotor::FilmRotor;
 
-use super::common::{close, design, event};
+use super::common::{design, event};
 
 const RPM: f64 = std::f64::consts::TAU / 60.0;
 const BEGIN: f64 = 2000.0 * RPM;
@@ -129,7 +129,7 @@ fn a_curve_ends() {
             panic!("{speed}")
         };
         let text = error.to_string();
-        assert!(text.contains(words) && text.contains("kxx"), "{text}");
+        assert!(text.contains(words) && text.contains("cxy"), "{text}");
     }
     let warm = Study::new(FilmRotor)
         .input(FilmRotor::speed, 6000.0 * RPM)

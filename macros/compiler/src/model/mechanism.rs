@@ -136,6 +136,14 @@ impl Curve {
         [first - slack, last + slack]
     }
 
+    /// An argument, SI, with its unit where it has one.
+    pub fn with_unit(&self, argument: f64) -> String {
+        match self.argument.is_none() {
+            true => format!("{argument}"),
+            false => format!("{argument} {}", self.argument.si_symbol()),
+        }
+    }
+
     /// Whether an argument, SI, is on the curve.
     pub fn reaches(&self, argument: f64) -> bool {
         let [low, high] = self.range_with_ends();
@@ -397,13 +405,13 @@ pub enum ForceLaw {
         /// The other.
         to: PointId,
         /// N/m, rows and columns along x, y, z.
-        stiffness: Matrix,
+        stiffness: Box<Matrix>,
         /// N s/m, rows and columns along x, y, z.
-        damping: Matrix,
+        damping: Box<Matrix>,
         /// N m/rad, rows and columns about x, y, z.
-        turning_stiffness: Matrix,
+        turning_stiffness: Box<Matrix>,
         /// N m s/rad, rows and columns about x, y, z.
-        turning_damping: Matrix,
+        turning_damping: Box<Matrix>,
     },
     /// A force and a moment on a body at a point.
     Load {

@@ -93,6 +93,10 @@ impl Expr {
 }
 
 /// Force laws.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a model has a handful of them, and numbers are copied"
+)]
 #[derive(Clone, Debug, PartialEq)]
 pub enum ForceLaw {
     /// `-stiffness (q - rest)` on a coordinate.

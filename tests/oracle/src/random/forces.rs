@@ -175,11 +175,11 @@ impl Builder {
                 };
             }
             2 => {
-                for i in 0..3 {
-                    for j in 0..3 {
+                for (i, row) in matrix.iter_mut().enumerate() {
+                    for (j, entry) in row.iter_mut().enumerate() {
                         if i != j {
                             let value = self.source.random.between(-beside, beside);
-                            matrix[i][j] = self.source.value(value, unit);
+                            *entry = self.source.value(value, unit);
                         }
                     }
                 }

@@ -75,16 +75,16 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
     let mut list: Vec<Requirement> = Vec::new();
     for CurveArgument { curve, argument } in &mechanism.curve_arguments {
         let argument = values.scalar(g, argument);
-        let [first, last] = curve.range();
-        let (name, unit) = (curve.spline.name(), curve.argument.si_symbol());
+        let [first, last] = curve.range().map(|end| curve.with_unit(end));
         let [low, high] = curve.range_with_ends().map(|end| g.constant(end));
+        let name = curve.spline.name();
         let ends = [
             (
-                format!("argument of {name} less {first} {unit}, where this curve begins,"),
+                format!("argument of {name} less {first}, where this curve begins,"),
                 g.sub(argument, low),
             ),
             (
-                format!("{last} {unit}, where the curve {name} ends, less its argument"),
+                format!("{last}, where the curve {name} ends, less its argument"),
                 g.sub(high, argument),
             ),
         ];
@@ -93,7 +93,7 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
             if list.iter().all(|known| known.value != value) {
                 list.push(Requirement {
                     quantity,
-                    requirement: "not negative",
+                    requirement: "positive",
                     value,
                 });
             }

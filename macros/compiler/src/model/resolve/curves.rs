@@ -42,8 +42,7 @@ impl Resolver<'_> {
                 x.len(),
                 y.len()
             );
-            let lists = [arguments, values].map(|list| elements(list).unwrap_or_default());
-            let commas = lists.into_iter().any(decimal_commas);
+            let commas = y.len() > x.len() && elements(values).is_some_and(decimal_commas);
             self.report(values.extent, message, commas.then(|| DECIMAL_POINT.into()));
             return None;
         }

@@ -205,10 +205,11 @@ impl Resolver<'_> {
         arguments: &Arguments,
         name: &str,
         expected: impl Into<Expected>,
-    ) -> Option<Matrix> {
-        match arguments.get(name) {
-            Some(value) => self.matrix_of(value, expected, &format!("`{name}`")),
-            None => Some([zero(), zero(), zero()]),
-        }
+    ) -> Option<Box<Matrix>> {
+        let matrix = match arguments.get(name) {
+            Some(value) => self.matrix_of(value, expected, &format!("`{name}`"))?,
+            None => [zero(), zero(), zero()],
+        };
+        Some(Box::new(matrix))
     }
 }

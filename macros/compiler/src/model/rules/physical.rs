@@ -177,10 +177,10 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
         (Demand::Spanning, axes) => in_one_plane(axes)
             .then(|| "lie in one plane: together they do not reach every place".to_string()),
         (Demand::OnCurve(curve), &[argument]) if !curve.reaches(argument) => {
-            let ([first, last], unit) = (curve.range().map(rounded), curve.argument.si_symbol());
-            let argument = rounded(argument);
+            let [first, last] = curve.range().map(rounded);
+            let (argument, last) = (curve.with_unit(rounded(argument)), curve.with_unit(last));
             Some(format!(
-                "is {argument} {unit}; this curve goes from {first} to {last} {unit}"
+                "is {argument}; this curve goes from {first} to {last}"
             ))
         }
         (Demand::Holes(parts), _) => composite::holes(parts, at),
