@@ -58,8 +58,10 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
     let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;
     let (rise, sigma) = (begins.value / RPM, begins.spread?.sigma / RPM);
-    writeln!(out, "FLY-BALL GOVERNOR: the sleeve begins to rise at")?;
-    writeln!(out, "{rise:.2} rpm, sigma {sigma:.2} rpm.")?;
+    writeln!(
+        out,
+        "FLY-BALL GOVERNOR: the sleeve rises from {rise:.2} rpm, sigma {sigma:.2} rpm."
+    )?;
     let study = study();
     let solved = study.solve()?;
     let spreads = solved.output_tolerances()?.spreads;
