@@ -14,13 +14,10 @@ mechanism! {
     /// One side of a Porter governor: a ball of 1 kg between two arms and half of a sleeve of 8 kg. All joints are on the axis of the
     /// spindle; typical data.
     pub mechanism FlyBallGovernor {
-        /// Speed of the spindle.
         input speed: rpm;
-
         design arm = 200 mm +/- 0.2 mm;
         design ball = 1 kg +/- 1%;
         design half_sleeve = 4 kg +/- 1%;
-
         gravity 9.81 m/s^2 along -z;
         body spindle: massless;
         body upper: massless;
