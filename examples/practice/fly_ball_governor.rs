@@ -14,13 +14,10 @@ mechanism! {
     /// One side of a Porter governor: a ball of 1 kg between two arms and half of a sleeve of 8 kg. All joints are on the axis of the
     /// spindle; typical data.
     pub mechanism FlyBallGovernor {
-        /// Speed of the spindle.
         input speed: rpm;
-
         design arm = 200 mm +/- 0.2 mm;
         design ball = 1 kg +/- 1%;
         design half_sleeve = 4 kg +/- 1%;
-
         gravity 9.81 m/s^2 along -z;
         body spindle: massless;
         body upper: massless;
@@ -58,8 +55,10 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (speed, lift) = (FlyBallGovernor::speed, FlyBallGovernor::lift.index());
     let begins = Study::new(FlyBallGovernor).critical_tolerance(speed, 100.0 * RPM, 300.0 * RPM)?;
     let (rise, sigma) = (begins.value / RPM, begins.spread?.sigma / RPM);
-    writeln!(out, "FLY-BALL GOVERNOR: the sleeve begins to rise at")?;
-    writeln!(out, "{rise:.2} rpm, sigma {sigma:.2} rpm.")?;
+    writeln!(
+        out,
+        "FLY-BALL GOVERNOR: the sleeve rises from {rise:.2} rpm, sigma {sigma:.2} rpm."
+    )?;
     let study = study();
     let solved = study.solve()?;
     let spreads = solved.output_tolerances()?.spreads;

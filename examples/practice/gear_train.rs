@@ -18,7 +18,6 @@ mechanism! {
         design motor_shaft = 20 mm +/- 0.1 mm;
         design load_shaft = 35 mm +/- 0.1 mm;
         design drum = 0.9 kg*m^2 +/- 5%;
-        let ratio = 1 / 4;
         let first = 80 GPa * pi * motor_shaft^4 / 32 / 400 mm;
         let second = 80 GPa * pi * load_shaft^4 / 32 / 600 mm;
         body motor: massless;
@@ -27,17 +26,17 @@ mechanism! {
         body large_gear: rigid(mass: 8 kg, inertia: [0.06, 0.06, 0.06] kg*m^2);
         body load: rigid(mass: 40 kg, inertia: [drum, drum, drum]);
         joint servo: revolute(z) from ground to motor, driven at speed;
-        joint shifted: revolute(z) from ground to output_side at [200 mm, 0, 0], driven at -ratio * speed;
+        joint shifted: revolute(z) from ground to output_side at [200 mm, 0, 0], driven at -speed / 4;
         joint a: revolute(z) from motor to small_gear;
         joint b: revolute(z) from output_side to large_gear;
         joint c: revolute(z) from large_gear to load;
-        constraint mesh: coupling(of: b, with: a, ratio: -ratio);
+        constraint mesh: coupling(of: b, with: a, ratio: -1 / 4);
         force twist1: spring(on: a, stiffness: first);
         force twist2: spring(on: c, stiffness: second);
     }
 }
 
-/// The highest ripple of the motor, Hz.
+/// Highest ripple of the motor, Hz.
 pub const RIPPLE: f64 = 19.5;
 
 /// The cheapest half-widths of both shafts and of the drum.

@@ -59,6 +59,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let margin = solved.margin(0, Band::Between { low, high })?.margin;
     let [lag_ratio, flap_ratio] = [lag / FLIGHT, flap / FLIGHT];
     let [beat, sigma] = [(FLIGHT - lag) / TAU, margin.sigma / TAU];
+    let [slow, fast] = ROCKING;
     let one_in = 1.0 / margin.corrected.value;
     writeln!(
         out,
@@ -66,7 +67,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     )?;
     writeln!(
         out,
-        "The lag motion beats at {beat:.2} Hz, sigma {sigma:.3} Hz; the body rocks at {ROCKING:?} Hz."
+        "The lag motion beats at {beat:.2} Hz, sigma {sigma:.3} Hz; the body rocks at {slow} to {fast} Hz."
     )?;
     writeln!(
         out,

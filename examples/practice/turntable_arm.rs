@@ -1,4 +1,4 @@
-//! A robot arm welds on a turning table: how far does its tip rise when the table turns, and what makes arms of a series differ?
+//! A robot arm welds on a turning table: how far does its tip move when the table turns, and what makes arms of a series differ?
 
 use std::error::Error;
 use std::io::Write;
@@ -52,10 +52,10 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let own = spreads.spreads[TurntableArm::height.index()]
         .as_ref()
         .ok_or("the height varies")?;
-    let rise = 1e3 * (own.mean - still);
+    let moved = 1e3 * (own.mean - still);
     writeln!(
         out,
-        "TURNTABLE ARM: at {WORKING} rpm the tip is {rise:.2} mm higher than at rest, sigma over a series {:.2} mm.",
+        "TURNTABLE ARM: {WORKING} rpm move the height of the tip by {moved:.2} mm, sigma over a series {:.2} mm.",
         1e3 * own.sigma
     )?;
     let names = working.description().design.iter().map(|info| &*info.name);
