@@ -76,8 +76,7 @@ class Chart {
     this.size = [wide, Math.round(Math.max(250, 0.46 * wide))];
     this.id = `clip${(Chart.count += 1)}`;
     const letters = (axis) => Math.max(0, ...axis.categories.map((name) => name.length));
-    const longest = letters(panel.y);
-    const left = longest ? Math.min(210, 34 + 7.2 * longest) : 78;
+    const left = leftMargin(panel.y, this.whole[1]);
     // Names that do not fit beside each other stand aslant.
     this.slant = 7.4 * letters(panel.x) > (wide - 18 - left) / Math.max(1, panel.x.categories.length);
     const under = this.slant ? 44 + 4.6 * Math.min(18, letters(panel.x)) : 48;
@@ -117,6 +116,7 @@ class Chart {
   }
 
   draw() {
+    this.inner.left = leftMargin(this.panel.y, this.view[1]);
     const { left, right, top, bottom } = this.inner;
     this.x = scale(this.view[0], [left, right]);
     this.y = scale(this.view[1], [bottom, top]);
@@ -324,6 +324,12 @@ class Chart {
     else return;
     event.preventDefault();
   }
+}
+
+// Room for what stands along the vertical axis, and for its name.
+function leftMargin(axis, range) {
+  const letters = Math.max(...marksOf(axis, range, 6).map(([, text]) => Math.min(26, text.length)), 0);
+  return Math.max(62, Math.min(220, 36 + 7.4 * letters));
 }
 
 function swatch({ kind, own }, picture) {

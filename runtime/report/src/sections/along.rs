@@ -1,7 +1,7 @@
 //! What happens along an input: branches of equilibria, frequencies, damping, critical values.
 
 use eigentol_figures::{branches, campbell, damping_ratios, root_locus};
-use eigentol_tables::tables;
+use eigentol_tables::{Table, tables};
 
 use super::refused;
 use crate::Error;
@@ -88,13 +88,21 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
         )?;
     }
     for own in tables(found) {
-        let (caption, columns): (&str, &[&str]) = match &*own.name {
-            "crossings" => ("Where a frequency is a multiple of the input", &[]),
-            "critical states" => ("Where the equilibrium loses its stiffness", &[]),
-            "flutter onsets" => ("Where an oscillation begins or ceases to grow", &[]),
-            _ => ("All modes along the input", &[]),
+        let caption = match &*own.name {
+            "crossings" => "Where a frequency is a multiple of the input",
+            "critical states" => "Where the equilibrium loses its stiffness",
+            "flutter onsets" => "Where an oscillation begins or ceases to grow",
+            _ => "All modes along the input",
         };
-        table(html, caption, &own, columns)?;
+        table(html, caption, &own, &without_shares(&own))?;
     }
     Ok(())
+}
+
+/// The columns that fit on a page: shares of variables are copied.
+fn without_shares(table: &Table) -> Vec<&str> {
+    let names = table.columns.iter().map(|own| &*own.name);
+    names
+        .filter(|name| !name.starts_with("variance share of ") && *name != "sigma level")
+        .collect()
 }
