@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use eigentol::{Array, Description, Dual, Gradient, Real};
+use eigentol::{Array, Description, Dual, Gradient, PictureInfo, Real};
 
 use crate::work::{Closures, INPUTS, Random, Work};
 
@@ -12,8 +12,10 @@ pub(crate) trait Kernels: Copy + 'static {
     type Inputs<T: Copy>: Array<T>;
     type Design<T: Copy>: Array<T>;
     type Outputs<T: Copy>: Array<T>;
+    type Picture<T: Copy>: Array<T>;
 
     const DESCRIPTION: Description;
+    const PICTURE: PictureInfo;
 
     fn residual<T: Real>(
         &self,
