@@ -20,7 +20,8 @@ const MOST_TURN: f64 = 0.5;
 ///
 /// The factor `a` is such that what moves most goes to either side by the share `amplitude` of the size of the mechanism
 /// ([`Scene::size`]; of one without size, of a metre), to first order, and no body turns by more than half a radian. Growth and decay
-/// are not shown. Loops are closed: coordinates go from there to the nearest place that meets the constraints on positions.
+/// are not shown. Loops are closed: coordinates go from there to the nearest place that meets the constraints on positions, and stay
+/// where none is found.
 ///
 /// # Errors
 /// [`Error::NoSuchMode`], [`Error::WrongLength`], [`Error::OutsideDomain`]; [`Error::Setting`] for an amplitude that is negative or not

@@ -32,6 +32,7 @@ fn all<M: Mechanism>(m: M) {
     black_box(m.pencil_gradient_along(q, u, b, q, q, q, q, q, u, b, q, q, q, q));
     black_box(m.residual_gradient_along(q, u, b, q, q, u, b, q));
     black_box(m.whirl(q, u, b, q, q));
+    black_box(m.picture(q, u, b));
     black_box(m.violation(u, b));
     black_box(m.pose_margin(q, u, b));
     black_box(m.outputs(q, u, b));

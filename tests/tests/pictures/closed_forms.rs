@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
+use eigentol::kernels::DeviatingInputs;
 use eigentol::picture::{Scene, Shape, scene};
-use eigentol::{Study, equilibrium::assemble};
+use eigentol::{Input, Study, equilibrium::assemble};
 use eigentol_interpreter::Interpreted;
 use eigentol_tests::loops::SliderCrank;
 
@@ -194,6 +195,24 @@ fn points_and_links_are_what_was_declared() {
         "{low:?} {box_y}"
     );
     assert!(high[2] == 3.0, "{high:?}");
+}
+
+/// What is placed by an input moves with the deviation of that input.
+#[test]
+fn inputs_that_deviate_move_what_they_place() {
+    let machine = read(
+        "mechanism Ladder {
+            input reach: m;
+            body arm: rod(mass: 1 kg, length: 1 m, along: x);
+            joint lift: revolute(y) from ground to arm at [0, 0, reach];
+            force hold: spring(on: lift, stiffness: 3 N*m/rad);
+        }",
+    );
+    let wide = DeviatingInputs::new(&machine, &[Input::new(0)]).expect("an input");
+    let seen = scene(&wide, &[0.3], &[2.0], &[0.25]).expect("a picture");
+    assert_eq!(seen.bodies[0].pose.position, [0.0, 0.0, 2.25]);
+    let expected = scene(&machine, &[0.3], &[2.25], &[]).expect("a picture");
+    assert_eq!(seen, expected);
 }
 
 #[test]
