@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 
 use eigentol::{Complex, Mechanism, Study};
 use eigentol_examples::RotorQuestion;
+use eigentol_examples::rotor::margin::margin;
 use eigentol_examples::rotor::{HZ, RPM, Risk};
+use eigentol_figures::Style;
 
 use super::jeffcott_rotor::JeffcottRotor;
 use super::{columns, run};
@@ -360,6 +362,31 @@ fn monte_carlo_confirms_the_risks_whatever_the_threads() {
     }
     let out = [0, 1, 3].map(|mode| risk.modes[mode].in_band.hits);
     assert_eq!(out, [0, 0, 0]);
+
+    // In the figure each mode has one bar of the samples, and the one mode that can be in the band its probability.
+    let study = Study::new(JeffcottRotor);
+    let close = question.campbell(&study, (2400.0 * RPM, 3600.0 * RPM), 5);
+    let figure = margin(&question, &close.unwrap(), &risk, Style::default()).unwrap();
+    let panel = &figure.panels[0];
+    let sampled = panel
+        .error_bars
+        .iter()
+        .find(|own| own.label.starts_with("Monte Carlo"));
+    let bars = &sampled.unwrap().bars;
+    assert_eq!(bars.len(), 4);
+    for (bar, mode) in bars.iter().zip(&risk.modes) {
+        let own = &mode.sampled_frequency;
+        let (mean, sigma) = (own.mean().unwrap() / HZ, own.sigma().unwrap() / HZ);
+        near("mean", bar.at[1], mean, 1e-12);
+        near("three sigma", bar.high[1] - bar.low[1], 6.0 * sigma, 1e-9);
+    }
+    let words: Vec<&str> = panel.labels.iter().map(|own| &*own.text).collect();
+    let chances: Vec<_> = words
+        .iter()
+        .filter(|own| own.ends_with("% in the band"))
+        .collect();
+    let percent = 100.0 * risk.modes[2].in_band.second_order.unwrap();
+    assert_eq!(chances, [&&*format!("{percent:.3} % in the band")]);
 }
 
 #[test]

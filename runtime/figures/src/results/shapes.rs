@@ -14,6 +14,8 @@ const MOST: usize = 6;
 const VISIBLE: f64 = 1e-3;
 /// Half of the width of the bars of one coordinate.
 const HALF: f64 = 0.38;
+/// Width of a bar where there is room.
+const WIDEST: f64 = 0.25;
 
 /// Shapes of the modes as bars by coordinate, in SI units, relative to the largest component. Those of undamped modes have signs; of general
 /// modes magnitudes are drawn, and below them phases against the largest component.
@@ -153,9 +155,9 @@ fn columns(
     r: usize,
     modes: usize,
 ) -> impl Iterator<Item = [f64; 4]> {
-    let width = 2.0 * HALF / modes as f64;
+    let width = (2.0 * HALF / modes as f64).min(WIDEST);
     heights.enumerate().map(move |(k, height)| {
-        let left = k as f64 - HALF + width * r as f64;
+        let left = k as f64 + width * (r as f64 - 0.5 * modes as f64);
         [left, left + 0.9 * width, height.min(0.0), height.max(0.0)]
     })
 }
