@@ -94,15 +94,16 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
             "flutter onsets" => "Where an oscillation begins or ceases to grow",
             _ => "All modes along the input",
         };
-        table(html, caption, &own, &without_shares(&own))?;
+        table(html, caption, &own, &on_a_page(&own))?;
     }
     Ok(())
 }
 
-/// The columns that fit on a page: shares of variables are copied.
-fn without_shares(table: &Table) -> Vec<&str> {
+/// What fits on a page; the rest is copied.
+fn on_a_page(table: &Table) -> Vec<&str> {
+    let left_out = ["sigma level", "Re s", "Im s", "whirl ratio"];
     let names = table.columns.iter().map(|own| &*own.name);
     names
-        .filter(|name| !name.starts_with("variance share of ") && *name != "sigma level")
+        .filter(|name| !name.starts_with("variance share of ") && !left_out.contains(name))
         .collect()
 }

@@ -1,4 +1,5 @@
 //! Reports in a real browser, headless. Where there is none the tests say so.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod chrome;
 
