@@ -62,7 +62,7 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let mut causes: Vec<_> = own.variance_shares.iter().zip(names).collect();
     causes.sort_by(|a, b| b.0.total_cmp(a.0));
     let first: Vec<String> = (causes.iter().take(3))
-        .map(|(share, name)| format!("{name} {:.0} %", 100.0 * share))
+        .map(|(share, name)| format!("{name} {:.0} %", 100.0 * **share))
         .collect();
     writeln!(
         out,
