@@ -8,7 +8,7 @@
 use crate::algebra::{Graph, gradient, substitute};
 use crate::base::census::taken;
 use crate::base::ids::{ConstraintId, ExprId};
-use crate::mechanics::motion::{Kinematics, Wrench, in_common_frame_at_zero};
+use crate::mechanics::motion::{Kinematics, Wrench, in_common_frame, in_common_frame_at_zero};
 use crate::mechanics::setup::{Context, Row, Source, State, vanish};
 use crate::model::expression::Expr;
 use crate::model::mechanism::{Constraint, ConstraintLaw, Unit};
@@ -25,7 +25,8 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     if sources.is_empty() {
         return Vec::new();
     }
-    let kinematics = in_common_frame_at_zero(g, context);
+    let running = anywhere(g, context);
+    let kinematics = in_common_frame(g, context, &running);
     let force_context = ForceContext::new(context, &kinematics);
     let mut rows = Vec::new();
     for source in sources {
@@ -62,6 +63,20 @@ pub(crate) fn constraint_rows(g: &mut Graph, context: &Context) -> Vec<Row> {
     }
     rows.sort_by_key(|row| row.of_velocities);
     rows
+}
+
+/// Positions of the running coordinates: any, but zero where one is driven at a speed of zero. An equation that holds at zero
+/// only is none that holds whatever moves.
+fn anywhere(g: &mut Graph, context: &Context) -> Vec<ExprId> {
+    let at_zero = in_common_frame_at_zero(g, context);
+    let running = context.topology.running();
+    running
+        .zip(&context.symbols.running.values)
+        .map(|(id, &value)| {
+            let locked = g.is(at_zero.coordinates[id.index()].velocity, 0.0);
+            if locked { g.zero() } else { value }
+        })
+        .collect()
 }
 
 /// The expression of a constraint that is no geometric one, and its unit.
