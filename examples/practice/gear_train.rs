@@ -39,6 +39,11 @@ mechanism! {
 /// Highest ripple of the motor, Hz.
 pub const RIPPLE: f64 = 19.5;
 
+/// The drive as it is drawn.
+pub fn study() -> Study<GearTrain> {
+    Study::new(GearTrain)
+}
+
 /// The cheapest half-widths of both shafts and of the drum.
 pub fn cheapest() -> Result<Allocation, eigentol::Error> {
     let half_width = |(variable, least): (DesignVariable<GearTrain>, f64)| HalfWidth {
@@ -55,9 +60,7 @@ pub fn cheapest() -> Result<Allocation, eigentol::Error> {
     };
     let (mode, quantity) = (0, Quantity::Frequency);
     let clear = Requirement::at_least(Response::Mode { mode, quantity }, RIPPLE * TAU);
-    Study::new(GearTrain)
-        .solve()?
-        .allocation(&[clear], &choices)
+    study().solve()?.allocation(&[clear], &choices)
 }
 
 /// What the drive could have instead of its tolerances.
@@ -68,12 +71,8 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
     let (before, after) = (found.cost_before, found.cost);
     writeln!(
         out,
-        "GEAR TRAIN: 999 of 1000 drives keep {RIPPLE} Hz with +/- {motor:.2} mm on the"
+        "GEAR TRAIN: 999 of 1000 drives keep {RIPPLE} Hz with +/- {motor:.2} mm on the motor's shaft,
+{load:.2} mm on the load's and {drum:.1} % on the drum: a cost of {after:.2} instead of {before:.2}.\n"
     )?;
-    writeln!(
-        out,
-        "motor's shaft, {load:.2} mm on the load's and {drum:.1} % on the drum:"
-    )?;
-    writeln!(out, "a cost of {after:.2} instead of {before:.2}.\n")?;
     Ok(())
 }

@@ -1,49 +1,124 @@
 //! Questions that engineers ask, each with its mechanism, its method and its answer in a file of its own.
 //!
-//! `cargo run --release --example practice` answers all, `-- gear_train` one. They are one program because each would link the
-//! solvers anew.
+//! `cargo run --release --example practice` answers all, `-- gear_train` one; with `--reports DIRECTORY` each writes its report there as
+//! well. They are one program because each would link the solvers anew.
 
 use std::error::Error;
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use eigentol::Study;
+use eigentol::kernels::{PictureKernels, SummaryKernels};
+use eigentol_report::Report;
 
 pub mod centrifuge;
 pub mod fly_ball_governor;
 pub mod gear_train;
 pub mod grinding_spindle;
 pub mod helicopter_blade;
+pub mod rotor_bearings;
 pub mod slider_crank_press;
 pub mod turbine_blade;
 pub mod turntable_arm;
 
-/// Writes the answer to a question.
-pub type Answer = fn(&mut dyn Write) -> Result<(), Box<dyn Error>>;
+/// A question by the name of its file.
+pub struct Question {
+    /// Name of the file, without the ending.
+    pub name: &'static str,
+    /// Writes the answer.
+    pub answer: fn(&mut dyn Write) -> Result<(), Box<dyn Error>>,
+    /// Writes a report of the mechanism to a file.
+    pub report: fn(&Path) -> Result<(), eigentol_report::Error>,
+}
 
-/// All of them, by the names of their files.
-pub const QUESTIONS: [(&str, Answer); 8] = [
-    ("helicopter_blade", helicopter_blade::answer),
-    ("fly_ball_governor", fly_ball_governor::answer),
-    ("slider_crank_press", slider_crank_press::answer),
-    ("centrifuge", centrifuge::answer),
-    ("grinding_spindle", grinding_spindle::answer),
-    ("turntable_arm", turntable_arm::answer),
-    ("gear_train", gear_train::answer),
-    ("turbine_blade", turbine_blade::answer),
+/// All of them.
+pub const QUESTIONS: [Question; 9] = [
+    Question {
+        name: "helicopter_blade",
+        answer: helicopter_blade::answer,
+        report: |path| save(&helicopter_blade::study(), path),
+    },
+    Question {
+        name: "fly_ball_governor",
+        answer: fly_ball_governor::answer,
+        report: |path| save(&fly_ball_governor::study(), path),
+    },
+    Question {
+        name: "slider_crank_press",
+        answer: slider_crank_press::answer,
+        report: |path| save(&slider_crank_press::study(), path),
+    },
+    Question {
+        name: "centrifuge",
+        answer: centrifuge::answer,
+        report: |path| save(&centrifuge::study(), path),
+    },
+    Question {
+        name: "grinding_spindle",
+        answer: grinding_spindle::answer,
+        report: |path| save(&grinding_spindle::study(grinding_spindle::WORKING), path),
+    },
+    Question {
+        name: "turntable_arm",
+        answer: turntable_arm::answer,
+        report: |path| save(&turntable_arm::study(turntable_arm::WORKING), path),
+    },
+    Question {
+        name: "gear_train",
+        answer: gear_train::answer,
+        report: |path| save(&gear_train::study(), path),
+    },
+    Question {
+        name: "turbine_blade",
+        answer: turbine_blade::answer,
+        report: |path| save(&turbine_blade::study(), path),
+    },
+    Question {
+        name: "rotor_bearings",
+        answer: rotor_bearings::answer,
+        report: |path| save(&rotor_bearings::study(), path),
+    },
 ];
 
 /// One revolution per minute, rad/s.
 pub const RPM: f64 = std::f64::consts::TAU / 60.0;
 
+fn save<M>(study: &Study<M>, path: &Path) -> Result<(), eigentol_report::Error>
+where
+    M: SummaryKernels + PictureKernels + Clone,
+{
+    Report::new(study).samples(1000).save(path)
+}
+
 #[allow(dead_code, reason = "the tests take this file as a module")]
 fn main() -> Result<(), Box<dyn Error>> {
-    let wanted: Vec<String> = std::env::args().skip(1).collect();
-    let unknown = |name: &&String| QUESTIONS.iter().all(|(known, _)| known != name);
+    let mut arguments = std::env::args().skip(1);
+    let (mut wanted, mut reports) = (Vec::new(), None);
+    while let Some(argument) = arguments.next() {
+        if argument == "--reports" {
+            let directory = arguments.next().ok_or("--reports needs a directory")?;
+            reports = Some(PathBuf::from(directory));
+        } else {
+            wanted.push(argument);
+        }
+    }
+    let unknown = |name: &&String| QUESTIONS.iter().all(|own| own.name != **name);
     if let Some(name) = wanted.iter().find(unknown) {
-        let names = QUESTIONS.map(|(name, _)| name).join(", ");
+        let names = QUESTIONS.map(|own| own.name).join(", ");
         return Err(format!("there is no question `{name}`, there are {names}").into());
     }
-    for (name, answer) in QUESTIONS {
-        if wanted.is_empty() || wanted.iter().any(|own| own == name) {
-            answer(&mut io::stdout())?;
+    if let Some(directory) = &reports {
+        std::fs::create_dir_all(directory)?;
+    }
+    for question in QUESTIONS {
+        if !wanted.is_empty() && wanted.iter().all(|own| own != question.name) {
+            continue;
+        }
+        (question.answer)(&mut io::stdout())?;
+        if let Some(directory) = &reports {
+            let path = directory.join(question.name).with_extension("html");
+            (question.report)(&path)?;
+            println!("{}\n", path.display());
         }
     }
     Ok(())

@@ -1,14 +1,11 @@
 //! At which speed do its oil films make this rotor unstable, and how sure is that?
-//!
-//! `cargo run --release --example rotor_bearings`
 
 use std::error::Error;
-use std::io::{self, Write};
+use std::io::Write;
 
 use eigentol::{Study, mechanism};
 
-/// One revolution per minute, rad/s.
-const RPM: f64 = std::f64::consts::TAU / 60.0;
+use super::RPM;
 
 mechanism! {
     /// A stiff rotor in two plain journal bearings.
@@ -69,11 +66,9 @@ pub fn answer(out: &mut dyn Write) -> Result<(), Box<dyn Error>> {
         "ROTOR BEARINGS: stable up to {speed:.0} rpm, sigma {sigma:.0} rpm."
     )?;
     let film = 100.0 * (spread.variance_shares[4] + spread.variance_shares[5]);
-    writeln!(out, "{film:.1} % of the variance are due to the film.")?;
+    writeln!(
+        out,
+        "{film:.1} % of the variance is in the film: measure that before tightening anything else.\n"
+    )?;
     Ok(())
-}
-
-#[allow(dead_code, reason = "others take this file as a module")]
-fn main() -> Result<(), Box<dyn Error>> {
-    answer(&mut io::stdout())
 }

@@ -39,10 +39,16 @@ mechanism! {
 /// Rated speed, rpm.
 pub const RATED: f64 = 21.5;
 
+/// The blade at rated speed.
+pub fn study() -> Study<TurbineBlade> {
+    Study::new(TurbineBlade).input(TurbineBlade::rotor, RATED * RPM)
+}
+
 /// Where the flapping meets three times the speed, with a pitch angle in degrees.
 pub fn meeting(pitch: f64) -> Result<EventTolerance, Box<dyn Error>> {
-    let study = Study::new(TurbineBlade).input(TurbineBlade::pitch, pitch.to_radians());
-    let found = study.crossing_tolerances(TurbineBlade::rotor, 5.0 * RPM, 40.0 * RPM, 3.0)?;
+    let found = study()
+        .input(TurbineBlade::pitch, pitch.to_radians())
+        .crossing_tolerances(TurbineBlade::rotor, 5.0 * RPM, 40.0 * RPM, 3.0)?;
     Ok(found.into_iter().next().ok_or("no crossing")?)
 }
 

@@ -10,8 +10,8 @@ use eigentol::Study;
 mod practice;
 
 use practice::{
-    QUESTIONS, RPM, centrifuge, fly_ball_governor, gear_train, grinding_spindle, helicopter_blade,
-    slider_crank_press, turbine_blade, turntable_arm,
+    QUESTIONS, Question, RPM, centrifuge, fly_ball_governor, gear_train, grinding_spindle,
+    helicopter_blade, slider_crank_press, turbine_blade, turntable_arm,
 };
 
 const G: f64 = 9.81;
@@ -23,7 +23,7 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn every_question_has_an_answer() {
-    for (name, answer) in QUESTIONS {
+    for Question { name, answer, .. } in QUESTIONS {
         let mut printed = Vec::new();
         answer(&mut printed).unwrap();
         let text = String::from_utf8(printed).unwrap();
