@@ -21,12 +21,15 @@ pub mod slider_crank_press;
 pub mod turbine_blade;
 pub mod turntable_arm;
 
+/// Writes the answer to a question.
+pub type Answer = fn(&mut dyn Write) -> Result<(), Box<dyn Error>>;
+
 /// A question by the name of its file.
 pub struct Question {
     /// Name of the file, without the ending.
     pub name: &'static str,
     /// Writes the answer.
-    pub answer: fn(&mut dyn Write) -> Result<(), Box<dyn Error>>,
+    pub answer: Answer,
     /// Writes a report of the mechanism to a file.
     pub report: fn(&Path) -> Result<(), eigentol_report::Error>,
 }

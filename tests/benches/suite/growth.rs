@@ -15,6 +15,7 @@ pub(crate) trait Kernels: Copy + 'static {
     type Picture<T: Copy>: Array<T>;
 
     const DESCRIPTION: Description;
+    #[allow(dead_code, reason = "emitted with the kernels")]
     const PICTURE: PictureInfo;
 
     fn residual<T: Real>(
