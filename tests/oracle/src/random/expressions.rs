@@ -18,7 +18,8 @@ impl Source {
         Expr::Value(self.between(low, high, unit), unit)
     }
 
-    /// A curve around values of about this size, of two to six points: any, or on a line, or all zero.
+    /// A curve around values of about this size, of two to six points: any, or on a line, or all zero. It goes on beyond the size
+    /// itself, where arguments that do not move are.
     fn curve(&mut self, (size, unit): (f64, Unit), argument: Expr) -> Expr {
         self.curves += 1;
         let count = 2 + self.random.below(5);
@@ -28,8 +29,11 @@ impl Source {
             3
         };
         let mut x = -1.5 * size;
-        let points = (0..count).map(|_| {
+        let points = (1..=count).map(|k| {
             x += size * self.random.between(0.2, 1.4);
+            if k == count {
+                x = x.max(1.3 * size);
+            }
             let y = match kind {
                 0 => 0.0,
                 1 => 0.5 * x / size,
