@@ -350,7 +350,7 @@ fn every_result_prints() {
         "Campbell",
         "second order",
         "margin of frequency 1",
-        "probability by",
+        "What changes so small a probability is in the tables",
         "No variable changes the probability",
     ] {
         assert!(text.contains(word), "{word} is missing from\n{text}");

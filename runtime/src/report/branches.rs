@@ -2,9 +2,8 @@
 
 use core::fmt;
 
-use super::equilibrium::of_its_kind;
 use super::numbers::{heading, in_unit, number, rough};
-use super::relevance::{EVERYTHING, largest, names, shown, unless_rounding};
+use super::relevance::{EVERYTHING, largest, names, of_its_kind, shown, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title_along;
 use crate::branches::{Branch, BranchEnd, BranchPoint, Branches, SpecialKind, SpecialPoint};

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::branches::critical_vectors;
 use super::numbers::{given, heading, in_unit, rough_in};
-use super::relevance::{largest, unless_rounding};
+use super::relevance::of_its_kind;
 use super::table::{Table, cells};
 use super::title::{title, title_along};
 use crate::equilibrium::{Assembly, AssemblyMode, ConstraintState};
@@ -131,14 +131,6 @@ fn unknowns(
 
 /// Unknowns of which all are listed.
 const LISTED: usize = 12;
-
-/// The value of an unknown, or zero where it is rounding beside others of its unit.
-pub(super) fn of_its_kind(description: &Description, values: &[f64], i: usize) -> f64 {
-    let infos = description.coordinates.iter().zip(values);
-    let own = &description.coordinates[i].unit.symbol;
-    let kind = infos.filter(|(info, _)| info.unit.symbol == *own);
-    unless_rounding(values[i], largest(kind.map(|(_, value)| *value)))
-}
 
 fn redundancy(
     f: &mut fmt::Formatter<'_>,

@@ -1,6 +1,8 @@
 //! What is worth reading, decided here for every report. What is left out of a text is counted in it, and is in the tables that CSV,
 //! JSON and Parquet are written from.
 
+use crate::Description;
+
 /// What is below this part of the largest beside it is left out.
 pub(super) const RELEVANT: f64 = 1e-3;
 /// [`RELEVANT`] in words.
@@ -40,6 +42,14 @@ pub(super) fn unless_rounding(value: f64, largest: f64) -> f64 {
 /// The largest size; zero of nothing.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     (values.into_iter()).fold(0.0, |most, value| value.abs().max(most))
+}
+
+/// The value of an unknown, or zero where it is rounding beside others of its unit.
+pub(super) fn of_its_kind(description: &Description, values: &[f64], i: usize) -> f64 {
+    let infos = description.coordinates.iter().zip(values);
+    let own = &description.coordinates[i].unit.symbol;
+    let kind = infos.filter(|(info, _)| info.unit.symbol == *own);
+    unless_rounding(values[i], largest(kind.map(|(_, value)| *value)))
 }
 
 /// Which of so many rows are shown: all of a short table, else some at equal distances, both ends among them.

@@ -2,9 +2,8 @@
 
 use core::fmt;
 
-use super::equilibrium::of_its_kind;
 use super::numbers::{given_in, heading, in_unit, optional};
-use super::relevance::{EVERYTHING, names, shown};
+use super::relevance::{EVERYTHING, names, of_its_kind, shown};
 use super::table::{Table, undamped};
 use super::title::title_along;
 use crate::Mode;

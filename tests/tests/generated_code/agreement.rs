@@ -133,7 +133,9 @@ impl Requirements {
         let program = interpreted(name, declaration);
         let kernel = program.kernel("violation").expect("a check");
         let description = machine.description();
-        let inputs = vec![1.0; description.inputs.len()];
+        // The curves of one begin at a higher speed.
+        let input = if name == "film_rotor" { 500.0 } else { 1.0 };
+        let inputs = vec![input; description.inputs.len()];
         let nominal: Vec<f64> = description.design.iter().map(|info| info.nominal).collect();
         assert_eq!(machine.violation(&inputs, &nominal), None, "{name}");
         for j in 0..nominal.len() {
