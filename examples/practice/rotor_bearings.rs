@@ -15,6 +15,7 @@ mechanism! {
     /// to carry (formulas: M. I. Friswell et al., Dynamics of Rotating Machines, 2010, section 5.5). They hold about the place to which the
     /// load has moved the journal: coordinates are counted from there, and weight is not declared again.
     pub mechanism RotorBearings {
+        /// Speed of the rotor.
         input speed: rpm;
         design radius = 70 mm +/- 0.1 mm;
         design length = 800 mm +/- 0.5 mm;

@@ -43,6 +43,7 @@ fn files_declare_what_the_examples_declare() {
         ),
         ("jeffcott_rotor", &["jeffcott_rotor"]),
         ("whipple_bicycle", &["whipple_bicycle"]),
+        ("practice/rotor_bearings", &["rotor_bearings"]),
     ] {
         let files: Vec<String> = files.iter().map(|file| of_file(file)).collect();
         assert_eq!(of_example(example), files, "{example}");
