@@ -30,32 +30,34 @@ pub fn assurance(from: &Modes, to: &Modes, linear: &Linear) -> Matrix {
     let measured = |mode: &Mode| {
         let weighted = weighted(mode);
         let size = product(&mode.shape, &weighted).norm();
-        (weighted, size)
+        (weighted, size, mode.s.norm())
     };
-    let own_sizes: Vec<_> = from.modes.iter().map(|mode| measured(mode).1).collect();
+    let own_sizes = from.modes.iter().map(measured);
+    let own_sizes: Vec<_> = own_sizes.map(|(_, size, rate)| (size, rate)).collect();
     let others: Vec<_> = to.modes.iter().map(measured).collect();
     Matrix::from_fn(from.modes.len(), to.modes.len(), |i, j| {
-        let (own, (weighted, size)) = (&from.modes[i], &others[j]);
-        let scale = own_sizes[i] * size;
+        let (own, (own_size, own_rate)) = (&from.modes[i], own_sizes[i]);
+        let (weighted, size, rate) = &others[j];
+        let scale = own_size * size;
         let cosine = product(&own.shape, weighted).norm_sqr();
         let shapes = if scale > 0.0 { cosine / scale } else { 0.0 };
         if general {
-            shapes * same_eigenvalue(own.s, to.modes[j].s)
+            shapes * same_eigenvalue(own.s, to.modes[j].s, own_rate, *rate)
         } else {
             shapes
         }
     })
 }
 
-/// `(1 + cos of the phase difference) / 2`, less a little for the distance.
-fn same_eigenvalue(a: Complex, b: Complex) -> f64 {
-    let sizes = a.norm() * b.norm();
+/// `(1 + cos of the phase difference) / 2`, less a little for the distance; the eigenvalues with their sizes.
+fn same_eigenvalue(a: Complex, b: Complex, size_a: f64, size_b: f64) -> f64 {
+    let sizes = size_a * size_b;
     let phase = if sizes > 0.0 {
         0.5 + 0.5 * (a.conj() * b).re / sizes
     } else {
         1.0
     };
-    let sum = a.norm() + b.norm();
+    let sum = size_a + size_b;
     let distance = if sum > 0.0 { (a - b).norm() / sum } else { 0.0 };
     phase * (1.0 - EIGENVALUE_SHARE * distance)
 }

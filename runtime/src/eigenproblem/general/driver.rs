@@ -95,19 +95,26 @@ pub(crate) fn solve_near(problem: Eigenproblem, near: &[Near]) -> Result<Vec<Roo
     };
     let predicted = predict(problem, near, rate, values);
     let mut troubles = match predicted {
-        true => find(&mut solver, &mut found, values, label),
+        true => {
+            for (i, near) in near.iter().enumerate() {
+                let place = i * n..(i + 1) * n;
+                start(&mut found.right[place.clone()], near.right, right_units);
+                start(&mut found.left[place], near.left, left_units);
+            }
+            find(&mut solver, &mut found, values, true, label)
+        }
         false => usize::MAX,
     };
     if troubles > 0 {
         let (pencil, order) = (&solver.pencil, &mut *solver.order);
         linear_values(pencil, companion, vector, spare, order, open, values);
-        troubles = find(&mut solver, &mut found, values, label);
+        troubles = find(&mut solver, &mut found, values, false, label);
     }
     if troubles > 0 {
         let second = take(&mut complex, count);
         second_values(&mut solver, &found, second, spare, open, marked);
-        if find(&mut solver, &mut found, second, label) >= troubles {
-            find(&mut solver, &mut found, values, label);
+        if find(&mut solver, &mut found, second, false, label) >= troubles {
+            find(&mut solver, &mut found, values, false, label);
         }
     }
     if !accuracy::is_complete(&solver, &found) {
@@ -156,12 +163,20 @@ fn accepted(
     rounding.then_some(ROUNDING)
 }
 
-/// Finds all pairs that start from `values`; returns the number of those that went wrong; one that would be
+/// Writes a vector in the units of the scaled pencil.
+fn start(into: &mut [Complex64], vector: &[Complex64], units: &[f64]) {
+    for ((into, x), unit) in into.iter_mut().zip(vector).zip(units) {
+        *into = x / unit;
+    }
+}
+
+/// Finds all pairs that start from `values`, `near` from the vectors in `found`; returns the number of those that went wrong; one that would be
 /// refused counts more than all others.
 fn find(
     solver: &mut Solver,
     found: &mut Found,
     values: &[Complex64],
+    near: bool,
     label: &mut [usize],
 ) -> usize {
     let n = solver.pencil.n;
@@ -180,6 +195,7 @@ fn find(
         found.pairs[found.count] = solver.pair(
             s,
             gap.sqrt(),
+            near,
             &mut found.right[place.clone()],
             &mut found.left[place],
         );

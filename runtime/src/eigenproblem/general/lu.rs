@@ -4,6 +4,7 @@
 use num_complex::Complex64;
 
 use super::pencil::bound;
+use crate::algebra::for_size;
 
 pub(super) struct Lu<'a> {
     n: usize,
@@ -20,52 +21,11 @@ impl<'a> Lu<'a> {
     /// Factors `matrix` in place; `order` takes `2 n` indices.
     pub(super) fn new(n: usize, matrix: &'a mut [Complex64], order: &'a mut [usize]) -> Self {
         let (rows, columns) = order.split_at_mut(n);
-        for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
-            (*row, *column) = (i, i);
-        }
-        let mut unit = 0.0;
-        for k in 0..n {
-            let (mut most, mut i_most, mut j_most) = (-1.0, k, k);
-            for i in k..n {
-                for j in k..n {
-                    let size = bound(matrix[i * n + j]);
-                    if size > most {
-                        (most, i_most, j_most) = (size, i, j);
-                    }
-                }
-            }
-            if k == 0 {
-                unit = if most > NOTHING { most } else { 1.0 };
-                let inverse = 1.0 / unit;
-                matrix.iter_mut().for_each(|x| *x *= inverse);
-            }
-            if i_most != k {
-                rows.swap(k, i_most);
-                for j in 0..n {
-                    matrix.swap(k * n + j, i_most * n + j);
-                }
-            }
-            if j_most != k {
-                columns.swap(k, j_most);
-                for i in 0..n {
-                    matrix.swap(i * n + k, i * n + j_most);
-                }
-            }
-            if k + 1 == n {
-                break;
-            }
-            let inverse = 1.0 / pivot(matrix[k * n + k]);
-            for i in k + 1..n {
-                let factor = matrix[i * n + k] * inverse;
-                matrix[i * n + k] = factor;
-                if factor != Complex64::ZERO {
-                    for j in k + 1..n {
-                        let product = factor * matrix[k * n + j];
-                        matrix[i * n + j] -= product;
-                    }
-                }
-            }
-        }
+        let unit = for_size(
+            n,
+            #[inline(always)]
+            |n| eliminate(n, &mut matrix[..n * n], &mut rows[..n], &mut columns[..n]),
+        );
         Self {
             n,
             factors: matrix,
@@ -116,7 +76,15 @@ impl<'a> Lu<'a> {
 
     /// Solves `matrix x = b`; pivots that are zero are replaced by something tiny. `work` takes `n` numbers.
     pub(super) fn solve(&self, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
-        let n = self.n;
+        for_size(
+            self.n,
+            #[inline(always)]
+            |n| self.solve_sized(n, b, &mut x[..n], &mut work[..n]),
+        );
+    }
+
+    #[inline(always)]
+    fn solve_sized(&self, n: usize, b: &[Complex64], x: &mut [Complex64], work: &mut [Complex64]) {
         for i in 0..n {
             let mut sum = b[self.rows[i]] / self.unit;
             for j in 0..i {
@@ -140,7 +108,21 @@ impl<'a> Lu<'a> {
         x: &mut [Complex64],
         work: &mut [Complex64],
     ) {
-        let n = self.n;
+        for_size(
+            self.n,
+            #[inline(always)]
+            |n| self.solve_transposed_sized(n, b, &mut x[..n], &mut work[..n]),
+        );
+    }
+
+    #[inline(always)]
+    fn solve_transposed_sized(
+        &self,
+        n: usize,
+        b: &[Complex64],
+        x: &mut [Complex64],
+        work: &mut [Complex64],
+    ) {
         for i in 0..n {
             let mut sum = b[self.columns[i]] / self.unit;
             for j in 0..i {
@@ -156,6 +138,58 @@ impl<'a> Lu<'a> {
             x[self.rows[i]] = sum;
         }
     }
+}
+
+/// Writes the factors of `matrix` over it and the exchanges into `rows` and `columns`; what the matrix was divided by.
+#[inline(always)]
+fn eliminate(n: usize, matrix: &mut [Complex64], rows: &mut [usize], columns: &mut [usize]) -> f64 {
+    for (i, (row, column)) in rows.iter_mut().zip(columns.iter_mut()).enumerate() {
+        (*row, *column) = (i, i);
+    }
+    let mut unit = 0.0;
+    for k in 0..n {
+        let (mut most, mut i_most, mut j_most) = (-1.0, k, k);
+        for i in k..n {
+            for j in k..n {
+                let size = bound(matrix[i * n + j]);
+                if size > most {
+                    (most, i_most, j_most) = (size, i, j);
+                }
+            }
+        }
+        if k == 0 {
+            unit = if most > NOTHING { most } else { 1.0 };
+            let inverse = 1.0 / unit;
+            matrix.iter_mut().for_each(|x| *x *= inverse);
+        }
+        if i_most != k {
+            rows.swap(k, i_most);
+            for j in 0..n {
+                matrix.swap(k * n + j, i_most * n + j);
+            }
+        }
+        if j_most != k {
+            columns.swap(k, j_most);
+            for i in 0..n {
+                matrix.swap(i * n + k, i * n + j_most);
+            }
+        }
+        if k + 1 == n {
+            break;
+        }
+        let inverse = 1.0 / pivot(matrix[k * n + k]);
+        for i in k + 1..n {
+            let factor = matrix[i * n + k] * inverse;
+            matrix[i * n + k] = factor;
+            if factor != Complex64::ZERO {
+                for j in k + 1..n {
+                    let product = factor * matrix[k * n + j];
+                    matrix[i * n + j] -= product;
+                }
+            }
+        }
+    }
+    unit
 }
 
 /// A matrix with nothing greater is zero.

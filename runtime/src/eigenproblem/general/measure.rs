@@ -69,6 +69,11 @@ impl Pair {
         }
     }
 
+    /// Whether the next step would be rounding.
+    pub(super) fn is_settled(&self) -> bool {
+        modulus(self.newton) * self.slope_terms <= 4.0 * self.rounding
+    }
+
     /// What the residuals of both vectors together make of the eigenvalue, where `neighbour` is the least pivot besides the
     /// one that vanishes.
     pub(super) fn second_order(&self, neighbour: f64) -> f64 {

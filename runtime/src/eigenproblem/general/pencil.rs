@@ -2,6 +2,8 @@
 
 use num_complex::Complex64;
 
+use crate::algebra::for_size;
+
 /// `Q(s) = s^2 M + s C + K`, matrices row by row; of first order `M = 0`, `C = I`.
 pub(super) struct Pencil<'a> {
     pub(super) n: usize,
@@ -9,6 +11,8 @@ pub(super) struct Pencil<'a> {
     pub(super) mass: &'a [f64],
     pub(super) damping: &'a [f64],
     pub(super) stiffness: &'a [f64],
+    /// All three once more, column by column.
+    pub(super) transposed: [&'a [f64]; 3],
     /// Greatest element of each.
     pub(super) largest: [f64; 3],
 }
@@ -65,27 +69,15 @@ impl Pencil<'_> {
 
     /// Products with `x` from the right, or with `x^T` from the left.
     pub(super) fn multiply(&self, x: &[Complex64], transposed: bool, into: &mut Products) {
-        let n = self.n;
-        let (across, along) = if transposed { (1, n) } else { (n, 1) };
-        for i in 0..n {
-            let mut sums = [Complex64::ZERO; 3];
-            let mut terms = [0.0; 3];
-            for (j, &x) in x.iter().enumerate() {
-                let at = i * across + j * along;
-                let size = bound(x);
-                let elements = [self.mass[at], self.damping[at], self.stiffness[at]];
-                for (k, element) in elements.into_iter().enumerate() {
-                    sums[k] += x * element;
-                    terms[k] += size * element.abs();
-                }
-            }
-            [into.mass[i], into.damping[i], into.stiffness[i]] = sums;
-            [
-                into.mass_terms[i],
-                into.damping_terms[i],
-                into.stiffness_terms[i],
-            ] = terms;
-        }
+        let matrices = match transposed {
+            false => [self.mass, self.damping, self.stiffness],
+            true => self.transposed,
+        };
+        for_size(
+            self.n,
+            #[inline(always)]
+            |n| products(n, matrices, x, into),
+        );
     }
 
     /// The size of what `2 s M + C` is summed from.
@@ -113,6 +105,27 @@ impl Pencil<'_> {
     pub(super) fn size(&self, s: Complex64) -> f64 {
         let size = bound(s);
         size * size * self.largest[0] + size * self.largest[1] + self.largest[2]
+    }
+}
+
+#[inline(always)]
+fn products(n: usize, matrices: [&[f64]; 3], x: &[Complex64], into: &mut Products) {
+    let (x, [mass, damping, stiffness]) = (&x[..n], matrices);
+    for (matrix, sums, terms) in [
+        (mass, &mut *into.mass, &mut *into.mass_terms),
+        (damping, into.damping, into.damping_terms),
+        (stiffness, into.stiffness, into.stiffness_terms),
+    ] {
+        let (matrix, sums, terms) = (&matrix[..n * n], &mut sums[..n], &mut terms[..n]);
+        for i in 0..n {
+            let (mut sum, mut size) = (Complex64::ZERO, 0.0);
+            for j in 0..n {
+                let element = matrix[i * n + j];
+                sum += x[j] * element;
+                size += bound(x[j]) * element.abs();
+            }
+            (sums[i], terms[i]) = (sum, size);
+        }
     }
 }
 
@@ -154,6 +167,13 @@ impl<'a> Products<'a> {
     /// Component `i` of `(2 s M + C) x`.
     pub(super) fn slope(&self, s: Complex64, i: usize) -> Complex64 {
         s * self.mass[i] * 2.0 + self.damping[i]
+    }
+
+    /// `(2 s M + C) x`.
+    pub(super) fn slopes(&self, s: Complex64, into: &mut [Complex64]) {
+        for (i, slope) in into.iter_mut().enumerate() {
+            *slope = self.slope(s, i);
+        }
     }
 
     /// Sum of the absolute terms in component `i` of `Q(s) x`.

@@ -52,8 +52,14 @@ fn improved(linear: &Linear, pair: &Near) -> Option<Complex64> {
     }
     let (mut value, mut slope) = (Complex64::ZERO, Complex64::ZERO);
     for (i, left) in pair.left.iter().enumerate() {
-        let [m, c, k] = [&linear.mass, &linear.damping, &linear.stiffness]
-            .map(|matrix| along(&matrix[i], pair.right));
+        let rows = linear.mass[i].iter().zip(&linear.damping[i]);
+        let rows = rows.zip(&linear.stiffness[i]).zip(pair.right);
+        let (mut m, mut c, mut k) = (Complex64::ZERO, Complex64::ZERO, Complex64::ZERO);
+        for (((mass, damping), stiffness), x) in rows {
+            m += x * mass;
+            c += x * damping;
+            k += x * stiffness;
+        }
         value += left * (s * (s * m + c) + k);
         slope += left * (2.0 * s * m + c);
     }
@@ -66,8 +72,4 @@ fn improved(linear: &Linear, pair: &Near) -> Option<Complex64> {
     };
     let stays = (s.im > 0.0) == (next.im > 0.0);
     (stays && step.norm() <= NEAR * s.norm()).then_some(next)
-}
-
-fn along(row: &[f64], x: &[Complex64]) -> Complex64 {
-    row.iter().zip(x).map(|(value, x)| x * value).sum()
 }

@@ -74,9 +74,19 @@ pub(crate) fn scaled<'a>(
     {
         return Err(not_found());
     }
+    let transposed = [&*mass, damping, stiffness].map(|matrix| {
+        let columns = take(store, n * n);
+        for (j, column) in columns.chunks_exact_mut(n).enumerate() {
+            for (i, element) in column.iter_mut().enumerate() {
+                *element = matrix[i * n + j];
+            }
+        }
+        &*columns
+    });
     let pencil = Pencil {
         n,
         degree,
+        transposed,
         largest: [&*mass, damping, stiffness].map(largest),
         mass,
         damping,

@@ -17,7 +17,7 @@ impl Work {
     /// The room that `n` coordinates need.
     pub(super) fn new(n: usize) -> Self {
         Self {
-            real: vec![0.0; (10 * n + 12) * n],
+            real: vec![0.0; (13 * n + 12) * n],
             complex: vec![Complex64::ZERO; (12 * n + 10) * n],
             indices: vec![0; 6 * n],
             flags: vec![false; 4 * n],

@@ -17,16 +17,32 @@ pub struct Evaluations {
 }
 
 /// Only finite values and gradients of the right length come through.
-pub(super) struct Counted<'a, L> {
-    limit: &'a L,
+pub(super) struct Counted<'a> {
+    limit: &'a dyn Asked,
     dimension: usize,
     total: Cell<usize>,
     without_value: Cell<usize>,
     reason: RefCell<String>,
 }
 
-impl<'a, L: LimitState> Counted<'a, L> {
-    pub(super) fn new(limit: &'a L) -> Result<Self, Error> {
+/// A limit state whatever its error: what searches it is compiled once.
+trait Asked {
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String>;
+    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, String>>;
+}
+
+impl<L: LimitState> Asked for L {
+    fn evaluate(&self, z: &[f64]) -> Result<LimitValue, String> {
+        LimitState::evaluate(self, z).map_err(|error| error.to_string())
+    }
+
+    fn hessian(&self, z: &[f64]) -> Option<Result<Vec<Vec<f64>>, String>> {
+        Some(LimitState::hessian(self, z)?.map_err(|error| error.to_string()))
+    }
+}
+
+impl<'a> Counted<'a> {
+    pub(super) fn new<L: LimitState>(limit: &'a L) -> Result<Self, Error> {
         let dimension = limit.dimension();
         if dimension == 0 {
             return Err(Error::Setting {
@@ -51,7 +67,7 @@ impl<'a, L: LimitState> Counted<'a, L> {
     pub(super) fn evaluate(&self, z: &[f64]) -> Option<LimitValue> {
         self.total.set(self.total.get() + 1);
         let found = match self.limit.evaluate(z) {
-            Err(error) => Err(error.to_string()),
+            Err(reason) => Err(reason),
             Ok(found) if found.gradient.len() != self.dimension => Err(format!(
                 "its gradient has {} entries, expected {}",
                 found.gradient.len(),
@@ -77,7 +93,7 @@ impl<'a, L: LimitState> Counted<'a, L> {
         let Some(hessian) = self.limit.hessian(z) else {
             return Ok(None);
         };
-        let hessian = hessian.map_err(|error| reason(error.to_string()))?;
+        let hessian = hessian.map_err(reason)?;
         for found in [hessian.len()]
             .into_iter()
             .chain(hessian.iter().map(Vec::len))

@@ -84,6 +84,7 @@ fn both_methods_agree() {
         mass: &mass,
         damping: &damping,
         stiffness: &stiffness,
+        transposed: [&mass, &[0.3, 1.7, -2.0, 0.1], &[0.9, -0.4, 0.2, 0.5]],
         largest: [1.0, 2.0, 0.9],
     };
     let mut values: [Complex64; 4] =

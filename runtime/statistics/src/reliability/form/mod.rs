@@ -12,7 +12,7 @@ pub use design_point::{Closest, DesignPoint, FormSensitivity, Residuals};
 pub use regions::FailureRegions;
 pub use settings::FormSettings;
 
-use super::counted::Evaluations;
+use super::counted::{Counted, Evaluations};
 use super::limit_state::LimitState;
 use crate::Error;
 
@@ -53,7 +53,7 @@ pub fn form<L: LimitState>(limit: &L, settings: &FormSettings) -> Result<FormRes
         mut design_points,
         evaluations,
         ..
-    } = regions::by_restarts(limit, settings)?;
+    } = regions::by_restarts(&Counted::new(limit)?, settings)?;
     Ok(FormResult {
         design_point: design_points.swap_remove(0),
         evaluations,
@@ -70,5 +70,5 @@ pub fn failure_regions<L: LimitState>(
     limit: &L,
     settings: &FormSettings,
 ) -> Result<FailureRegions, Error> {
-    regions::by_bulges(limit, settings)
+    regions::by_bulges(&Counted::new(limit)?, settings)
 }

@@ -6,7 +6,6 @@ use slsqp::{Func, StopTols, minimize};
 
 use super::design_point::Iterate;
 use super::search::Search;
-use crate::reliability::limit_state::LimitState;
 use crate::reliability::vector::norm;
 
 /// The library counts in 32 bits.
@@ -15,7 +14,7 @@ const EVALUATIONS: usize = i32::MAX as usize;
 /// The best point on the way of minimising `|z|^2 / 2` on the far side of the limit (Kraft 1988, *A software package for
 /// sequential quadratic programming*), from a start on. Points without a value have an infinite objective; the line search
 /// then halves its step.
-pub(super) fn minimise<L: LimitState>(search: &Search<'_, L>, start: Iterate) -> Iterate {
+pub(super) fn minimise(search: &Search, start: Iterate) -> Iterate {
     let Some(slope) = start.slope() else {
         return start;
     };
@@ -82,7 +81,7 @@ struct Progress {
 }
 
 impl Progress {
-    fn at<L: LimitState>(&mut self, search: &Search<'_, L>, z: &[f64]) -> Option<&Iterate> {
+    fn at(&mut self, search: &Search, z: &[f64]) -> Option<&Iterate> {
         if self.last_point != z {
             self.last_point = z.to_vec();
             let finite = z.iter().all(|z| z.is_finite());

@@ -6,7 +6,6 @@ use super::search::Search;
 use super::settings::FormSettings;
 use crate::Error;
 use crate::reliability::counted::{Counted, Evaluations};
-use crate::reliability::limit_state::LimitState;
 use crate::reliability::random::NormalSamples;
 use crate::reliability::vector::{add_scaled, distance, dot, norm, scaled, unit};
 
@@ -26,38 +25,33 @@ pub struct FailureRegions {
 /// that is nearest along some directions only (Rackwitz: `1 + beta kappa < 0`) is left by that.
 const NUDGE: f64 = 0.05;
 
-pub(super) fn by_restarts<L: LimitState>(
-    limit: &L,
+pub(super) fn by_restarts(
+    limit: &Counted,
     settings: &FormSettings,
 ) -> Result<FailureRegions, Error> {
-    let counted = Counted::new(limit)?;
-    let mut regions = Regions::start(&counted, settings)?;
+    let mut regions = Regions::start(limit, settings)?;
     regions.restart();
     regions.finish()
 }
 
-pub(super) fn by_bulges<L: LimitState>(
-    limit: &L,
-    settings: &FormSettings,
-) -> Result<FailureRegions, Error> {
-    let counted = Counted::new(limit)?;
-    let mut regions = Regions::start(&counted, settings)?;
+pub(super) fn by_bulges(limit: &Counted, settings: &FormSettings) -> Result<FailureRegions, Error> {
+    let mut regions = Regions::start(limit, settings)?;
     regions.restart();
     while !regions.is_full() && regions.search_behind_bulges() {}
     regions.finish()
 }
 
-struct Regions<'a, L> {
-    search: Search<'a, L>,
+struct Regions<'a> {
+    search: Search<'a>,
     random: NormalSamples,
     found: Vec<DesignPoint>,
     /// The best of the points that are no design points.
     best: Iterate,
 }
 
-impl<'a, L: LimitState> Regions<'a, L> {
+impl<'a> Regions<'a> {
     /// Searches from the origin.
-    fn start(limit: &'a Counted<'a, L>, settings: &'a FormSettings) -> Result<Self, Error> {
+    fn start(limit: &'a Counted<'a>, settings: &'a FormSettings) -> Result<Self, Error> {
         settings.check()?;
         let dimension = limit.dimension();
         let origin = vec![0.0; dimension];

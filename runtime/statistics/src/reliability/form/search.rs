@@ -5,22 +5,21 @@ use super::design_point::Iterate;
 use super::optimiser;
 use super::settings::FormSettings;
 use crate::reliability::counted::Counted;
-use crate::reliability::limit_state::LimitState;
 use crate::reliability::vector::{add_scaled, dot, norm};
 
 /// The optimiser stores dense matrices; beyond this many variables only the iteration is tried.
 const OPTIMISER_VARIABLES: usize = 1000;
 
 /// The limit state of a search, with bulges where no further design points are wanted.
-pub(super) struct Search<'a, L> {
-    pub(super) limit: &'a Counted<'a, L>,
+pub(super) struct Search<'a> {
+    pub(super) limit: &'a Counted<'a>,
     pub(super) settings: &'a FormSettings,
     /// +1 if the origin is safe, -1 if it fails.
     pub(super) sign: f64,
     pub(super) bulges: Vec<Bulge>,
 }
 
-impl<L: LimitState> Search<'_, L> {
+impl Search<'_> {
     pub(super) fn at(&self, z: &[f64]) -> Option<Iterate> {
         let mut limit = self.limit.evaluate(z)?;
         for bulge in &self.bulges {

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use crate::Error;
 use crate::reliability::counted::Counted;
 use crate::reliability::form::DesignPoint;
-use crate::reliability::limit_state::LimitState;
 use crate::reliability::vector::{add_scaled, dot};
 
 /// Cube root of the rounding unit: the step of central differences at which rounding and truncation are of one size.
@@ -14,10 +13,7 @@ const STEP: f64 = 6e-6;
 /// The principal curvatures, ascending, one less than there are variables; positive where the limit bends away from the
 /// origin of a safe one. They are eigenvalues of `T^T H T / |grad g|`, the columns of `T` being an orthonormal basis of the
 /// tangent plane.
-pub(super) fn principal_curvatures<L: LimitState>(
-    limit: &Counted<'_, L>,
-    at: &DesignPoint,
-) -> Result<Vec<f64>, Error> {
+pub(super) fn principal_curvatures(limit: &Counted, at: &DesignPoint) -> Result<Vec<f64>, Error> {
     let tangents = tangent_basis(&at.direction);
     let products = match limit.hessian(&at.point)? {
         Some(hessian) => tangents.iter().map(|t| multiply(&hessian, t)).collect(),
@@ -44,8 +40,8 @@ pub(super) fn principal_curvatures<L: LimitState>(
 }
 
 /// `H t` of each tangent by central differences of the gradient; a step that leaves the domain is halved.
-fn differences<L: LimitState>(
-    limit: &Counted<'_, L>,
+fn differences(
+    limit: &Counted,
     at: &DesignPoint,
     tangents: &[Vec<f64>],
 ) -> Result<Vec<Vec<f64>>, Error> {
