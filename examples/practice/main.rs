@@ -21,6 +21,10 @@ pub mod slider_crank_press;
 pub mod turbine_blade;
 pub mod turntable_arm;
 
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests;
+
 /// Writes the answer to a question.
 pub type Answer = fn(&mut dyn Write) -> Result<(), Box<dyn Error>>;
 

@@ -49,19 +49,3 @@ pub fn imbalance(theta: f64, omega: f64, design: &[f64; 3]) -> f64 {
 pub fn imbalance_f32(theta: f32, omega: f32, design: &[f32; 3]) -> f32 {
     SprungPendulum.residual(&[theta], &[omega], design)[0]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `g = k theta + m g l / 2 sin(theta) - m l^2 / 3 omega^2 sin(theta) cos(theta)`.
-    #[test]
-    fn it_is_the_closed_form() {
-        let (theta, omega) = (0.4_f64, 3.0);
-        let (sin, cos) = eigentol::Real::sin_cos(theta);
-        let expected = 20.0 * theta + 3.0 * 9.81 / 2.0 * sin - omega * omega * sin * cos;
-        assert!((imbalance(theta, omega, &[3.0, 1.0, 20.0]) - expected).abs() < 1e-13);
-        let single = imbalance_f32(theta as f32, omega as f32, &[3.0, 1.0, 20.0]);
-        assert!((f64::from(single) - expected).abs() < 1e-5);
-    }
-}

@@ -4,6 +4,7 @@ use num_complex::Complex64;
 
 use super::pencil::{Pencil, Products, bound, modulus};
 use super::solver::Solver;
+use crate::algebra::for_size;
 
 /// Terms that are less than this are zero in a scaled pencil.
 const NOTHING: f64 = 1e-60;
@@ -114,21 +115,19 @@ impl Solver<'_> {
     /// Measures `s` with vectors whose products are known.
     pub(super) fn measure(&self, s: Complex64, left: &[Complex64]) -> Pair {
         let n = self.pencil.n;
-        let (of_right, of_left) = (&self.of_right, &self.of_left);
-        let (mut value, mut slope) = (Complex64::ZERO, Complex64::ZERO);
-        let (mut terms, mut slope_terms, mut mass_terms) = (0.0, 0.0, 0.0);
-        let (mut by_right, mut by_left) = (Residual::NONE, Residual::NONE);
-        for (i, &x) in left.iter().enumerate() {
-            let (part, part_terms) = (of_right.value(s, i), of_right.terms(s, i));
-            value += x * part;
-            slope += x * of_right.slope(s, i);
-            let size = bound(x);
-            terms += size * part_terms;
-            slope_terms += size * of_right.slope_terms(s, i);
-            mass_terms += size * of_right.mass_terms(i);
-            by_right.add(part, part_terms);
-            by_left.add(of_left.value(s, i), of_left.terms(s, i));
-        }
+        let Sums {
+            value,
+            slope,
+            terms,
+            slope_terms,
+            mass_terms,
+            by_right,
+            by_left,
+        } = for_size(
+            n,
+            #[inline(always)]
+            |n| Sums::of(n, s, left, &self.of_right, &self.of_left),
+        );
         let residual = by_right.relative().max(by_left.relative());
         let rounding = self.relative() * (terms + NOTHING);
         let overall = 16.0 * n as f64 * f64::EPSILON * self.pencil.size(s);
@@ -180,6 +179,53 @@ impl Solver<'_> {
         let largest = |x: &[Complex64]| x.iter().fold(0.0_f64, |most, x| most.max(bound(*x)));
         most(&self.of_right) <= allowed * largest(right)
             && most(&self.of_left) <= allowed * largest(left)
+    }
+}
+
+/// What the products with both vectors add up to.
+struct Sums {
+    /// `psi^T Q(s) phi` and `psi^T (2 s M + C) phi`.
+    value: Complex64,
+    slope: Complex64,
+    /// Sums of the absolute terms in both, and in `psi^T M phi`.
+    terms: f64,
+    slope_terms: f64,
+    mass_terms: f64,
+    /// Of `Q(s) phi` and of `psi^T Q(s)`.
+    by_right: Residual,
+    by_left: Residual,
+}
+
+impl Sums {
+    #[inline(always)]
+    fn of(
+        n: usize,
+        s: Complex64,
+        left: &[Complex64],
+        of_right: &Products,
+        of_left: &Products,
+    ) -> Self {
+        let mut sums = Self {
+            value: Complex64::ZERO,
+            slope: Complex64::ZERO,
+            terms: 0.0,
+            slope_terms: 0.0,
+            mass_terms: 0.0,
+            by_right: Residual::NONE,
+            by_left: Residual::NONE,
+        };
+        for (i, &x) in left[..n].iter().enumerate() {
+            let (part, part_terms) = (of_right.value(s, i), of_right.terms(s, i));
+            sums.value += x * part;
+            sums.slope += x * of_right.slope(s, i);
+            let size = bound(x);
+            sums.terms += size * part_terms;
+            sums.slope_terms += size * of_right.slope_terms(s, i);
+            sums.mass_terms += size * of_right.mass_terms(i);
+            sums.by_right.add(part, part_terms);
+            sums.by_left.add(of_left.value(s, i), of_left.terms(s, i));
+        }
+        sums
     }
 }
 

@@ -42,10 +42,6 @@ impl Solver<'_> {
         let mut s = start;
         let mut pair = Pair::NONE;
         let (mut moved, mut last) = (0.0, f64::INFINITY);
-        if near {
-            self.pencil.multiply(right, false, &mut self.of_right);
-            self.pencil.multiply(left, true, &mut self.of_left);
-        }
         for count in 0..=STEPS {
             let neighbour = self.vectors(s, near, right, left);
             pair = self.examine(s, right, left);
@@ -106,9 +102,9 @@ impl Solver<'_> {
     }
 
     /// Vectors of the eigenvalue next to `s`, and the least pivot besides the one that vanishes. Those that are near it
-    /// already, their products known, are improved by inverse iteration, which multiplies their error by the distance of
-    /// `s`: `s` converges in third order, where it does so in second with null vectors (Schreiber, "Nonlinear eigenvalue
-    /// problems: Newton-type methods and nonlinear Rayleigh functionals", 2008).
+    /// already are improved by inverse iteration, which multiplies their error by the distance of `s`: `s` converges in
+    /// third order, where it does so in second with null vectors (Schreiber, "Nonlinear eigenvalue problems: Newton-type
+    /// methods and nonlinear Rayleigh functionals", 2008).
     fn vectors(
         &mut self,
         s: Complex64,
@@ -121,9 +117,9 @@ impl Solver<'_> {
         let lu = Lu::new(n, self.q, self.order);
         if near {
             let (slope, work) = (&mut self.basis_right[..n], &mut self.cross[..n]);
-            self.of_right.slopes(s, slope);
+            self.pencil.slope_times(s, right, false, slope);
             lu.solve(slope, right, work);
-            self.of_left.slopes(s, slope);
+            self.pencil.slope_times(s, left, true, slope);
             lu.solve_transposed(slope, left, work);
         } else {
             lu.null_right(1, 0, right);

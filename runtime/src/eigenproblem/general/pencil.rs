@@ -45,11 +45,13 @@ pub(super) struct Products<'a> {
 }
 
 /// A cheap bound on `|z|`, exact for real numbers and at most `sqrt(2) |z|`.
+#[inline]
 pub(super) fn bound(z: Complex64) -> f64 {
     z.re.abs() + z.im.abs()
 }
 
 /// `|z|` for numbers of a scaled pencil, whose squares are within range.
+#[inline]
 pub(super) fn modulus(z: Complex64) -> f64 {
     z.norm_sqr().sqrt()
 }
@@ -67,12 +69,43 @@ impl Pencil<'_> {
         }
     }
 
-    /// Products with `x` from the right, or with `x^T` from the left.
-    pub(super) fn multiply(&self, x: &[Complex64], transposed: bool, into: &mut Products) {
-        let matrices = match transposed {
+    /// `(2 s M + C) x`, or `(2 s M + C)^T x`.
+    pub(super) fn slope_times(
+        &self,
+        s: Complex64,
+        x: &[Complex64],
+        transposed: bool,
+        into: &mut [Complex64],
+    ) {
+        let [mass, damping, _] = self.matrices(transposed);
+        for_size(
+            self.n,
+            #[inline(always)]
+            |n| {
+                let (x, into) = (&x[..n], &mut into[..n]);
+                let (mass, damping) = (&mass[..n * n], &damping[..n * n]);
+                for i in 0..n {
+                    let (mut m, mut c) = (Complex64::ZERO, Complex64::ZERO);
+                    for j in 0..n {
+                        m += x[j] * mass[i * n + j];
+                        c += x[j] * damping[i * n + j];
+                    }
+                    into[i] = s * m * 2.0 + c;
+                }
+            },
+        );
+    }
+
+    fn matrices(&self, transposed: bool) -> [&[f64]; 3] {
+        match transposed {
             false => [self.mass, self.damping, self.stiffness],
             true => self.transposed,
-        };
+        }
+    }
+
+    /// Products with `x` from the right, or with `x^T` from the left.
+    pub(super) fn multiply(&self, x: &[Complex64], transposed: bool, into: &mut Products) {
+        let matrices = self.matrices(transposed);
         for_size(
             self.n,
             #[inline(always)]
@@ -160,34 +193,32 @@ impl<'a> Products<'a> {
     }
 
     /// Component `i` of `Q(s) x`.
+    #[inline]
     pub(super) fn value(&self, s: Complex64, i: usize) -> Complex64 {
         s * (s * self.mass[i] + self.damping[i]) + self.stiffness[i]
     }
 
     /// Component `i` of `(2 s M + C) x`.
+    #[inline]
     pub(super) fn slope(&self, s: Complex64, i: usize) -> Complex64 {
         s * self.mass[i] * 2.0 + self.damping[i]
     }
 
-    /// `(2 s M + C) x`.
-    pub(super) fn slopes(&self, s: Complex64, into: &mut [Complex64]) {
-        for (i, slope) in into.iter_mut().enumerate() {
-            *slope = self.slope(s, i);
-        }
-    }
-
     /// Sum of the absolute terms in component `i` of `Q(s) x`.
+    #[inline]
     pub(super) fn terms(&self, s: Complex64, i: usize) -> f64 {
         let size = bound(s);
         size * (size * self.mass_terms[i] + self.damping_terms[i]) + self.stiffness_terms[i]
     }
 
     /// Sum of the absolute terms in component `i` of `(2 s M + C) x`.
+    #[inline]
     pub(super) fn slope_terms(&self, s: Complex64, i: usize) -> f64 {
         2.0 * bound(s) * self.mass_terms[i] + self.damping_terms[i]
     }
 
     /// Sum of the absolute terms in component `i` of `M x`.
+    #[inline]
     pub(super) fn mass_terms(&self, i: usize) -> f64 {
         self.mass_terms[i]
     }

@@ -1,15 +1,9 @@
 //! The examples from practice against closed forms.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::f64::consts::PI;
 
 use eigentol::Study;
 
-#[path = "../practice/main.rs"]
-#[allow(unreachable_pub)]
-mod practice;
-
-use practice::{
+use super::{
     QUESTIONS, Question, RPM, centrifuge, fly_ball_governor, gear_train, grinding_spindle,
     helicopter_blade, slider_crank_press, turbine_blade, turntable_arm,
 };
