@@ -132,7 +132,12 @@ mod tests {
 
     #[test]
     fn names_as_the_library_writes_them() {
-        let all = ["first-order tolerances", "summary", "output tolerances", "output shares"];
+        let all = [
+            "first-order tolerances",
+            "summary",
+            "output tolerances",
+            "output shares",
+        ];
         for (name, expected) in [
             ("first-order tolerances", Some(all[0])),
             ("first_order", Some(all[0])),

@@ -33,7 +33,10 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     let names: Vec<String> = (files(folder).iter())
         .filter_map(|own| Some(own.file_name()?.to_str()?.to_owned()))
         .collect();
-    let near = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    let near = nearest(
+        path.file_name()?.to_str()?,
+        names.iter().map(String::as_str),
+    )?;
     Some(format!("did you mean `{}`?", folder.join(near).display()))
 }
 

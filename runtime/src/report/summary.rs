@@ -316,12 +316,7 @@ fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
 }
 
 /// By how much first and second order miss the samples; where the series does not converge, second order has no sigma.
-fn row_of(
-    f: &mut fmt::Formatter<'_>,
-    mode: usize,
-    check: &Check,
-    converges: bool,
-) -> fmt::Result {
+fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check, converges: bool) -> fmt::Result {
     let percent = |error: Measured| {
         let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);
         format!("{value:+.1} % (+- {uncertain:.1})")

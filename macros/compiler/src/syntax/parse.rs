@@ -46,8 +46,7 @@ pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics
     }
 }
 
-const ALONE: &str =
-    "a file of its own has the declaration alone, without `use` and without `mechanism! { }` around it";
+const ALONE: &str = "a file of its own has the declaration alone, without `use` and without `mechanism! { }` around it";
 
 fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast> {
     let mut head = TokenStream::new();

@@ -114,7 +114,7 @@ impl Resolver<'_> {
             let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
             let near =
                 suggestion(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve));
-            let help = match place == Place::Output && ABOUT_MODES.contains(&name.as_str()) {
+            let help = match ABOUT_MODES.contains(&name.as_str()) {
                 true => Some(MODES.to_string()),
                 false => near.map(|near| format!("did you mean `{near}`?")),
             };
