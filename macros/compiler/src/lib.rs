@@ -27,7 +27,7 @@ mod tests;
 pub mod topology;
 
 #[cfg(feature = "locations")]
-pub use mistakes::{Mistake, Mistakes};
+pub use mistakes::{Mistake, Mistakes, tokens};
 pub use pipeline::{Compilation, compile};
 
 use std::fmt::Debug;
@@ -64,7 +64,7 @@ pub fn program(declaration: TokenStream) -> Result<program::Program, Diagnostics
 /// Every mistake that could be found.
 #[cfg(feature = "locations")]
 pub fn compile_text(text: &str, limits: Limits) -> Result<Compilation, Mistakes> {
-    Ok(compile(text.parse()?, limits)?)
+    Ok(compile(tokens(text)?, limits)?)
 }
 
 /// The generated items, formatted for reading.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use proc_macro2::{LexError, Span};
+use proc_macro2::{LexError, Span, TokenStream};
 
 use crate::base::diagnostics::Diagnostics;
 
@@ -69,15 +69,59 @@ impl fmt::Display for Mistakes {
 
 impl std::error::Error for Mistakes {}
 
-impl From<LexError> for Mistakes {
-    fn from(error: LexError) -> Self {
+/// The tokens of a text.
+///
+/// ```
+/// use eigentol_compiler::tokens;
+///
+/// assert!(tokens("3 kg +/- 5%").is_ok());
+/// let error = tokens("3 kg ± 5%").unwrap_err().to_string();
+/// assert_eq!(error, "1:6: `±` has no meaning here\nhelp: write `+/-`");
+/// ```
+///
+/// # Errors
+/// A sign that no declaration has, or a bracket or a quote without its other half.
+pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
+    text.parse().map_err(|error: LexError| {
         let span = error.span();
-        let help = "brackets and quotes come in pairs".to_owned();
-        Self(vec![mistake(
-            (span, span),
-            "this is not a sequence of words, numbers and brackets".to_owned(),
-            Some(help),
-        )])
+        let start = span.start();
+        let line = text.trim_start_matches(BYTE_ORDER_MARK).lines();
+        let line = line.skip(start.line.saturating_sub(1)).next();
+        let sign = line.and_then(|line| line.chars().nth(start.column));
+        let (message, help) = unreadable(sign);
+        Mistakes(vec![mistake((span, span), message, Some(help))])
+    })
+}
+
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// Signs of drawings and word processors, and what is written for them.
+const SIGNS: [(&str, &str); 8] = [
+    ("±", "+/-"),
+    ("°", "deg"),
+    ("–—−‒", "-"),
+    ("×⋅∙•", "*"),
+    ("÷", "/"),
+    ("²", "^2"),
+    ("³", "^3"),
+    ("⁻¹", "^-1"),
+];
+
+/// What is wrong with a text that has no tokens from this sign on, and what to do.
+fn unreadable(sign: Option<char>) -> (String, String) {
+    let pairs = "brackets and quotes come in pairs".to_owned();
+    let Some(sign) = sign else {
+        return ("this text ends too early".to_owned(), pairs);
+    };
+    let instead = SIGNS.iter().find(|(signs, _)| signs.contains(sign));
+    match (sign, instead) {
+        (_, Some((_, instead))) => (
+            format!("`{sign}` has no meaning here"),
+            format!("write `{instead}`"),
+        ),
+        ('(' | '[' | '{', _) => (format!("this `{sign}` is never closed"), pairs),
+        (')' | ']' | '}', _) => (format!("this `{sign}` closes nothing"), pairs),
+        _ => (format!("`{sign}` has no meaning here"), pairs),
     }
 }
 

@@ -98,16 +98,58 @@ fn named<'a, T>(
     name_of: impl Fn(&'a T) -> &'a str,
 ) -> Result<&'a T, Failure> {
     let found = match name {
-        Some(name) => all.iter().find(|own| name_of(own) == name),
+        Some(name) => meant(name, all, &name_of),
         None => all.first(),
     };
     found.ok_or_else(|| {
         let name = name.unwrap_or_default();
         let names: Vec<&str> = all.iter().map(name_of).collect();
+        let listed = format!("there are `{}`", names.join("`, `"));
         let help = match nearest(name, names.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are `{}`", names.join("`, `")),
+            Some(near) => format!("did you mean `{near}`? {listed}"),
+            None => listed,
         };
         Failure::usage(format!("the answer has no {what} `{name}`"), help)
     })
+}
+
+/// The one that is called so, or the only one whose name begins so; letters of either case, and `_`, `-` and spaces are one: the
+/// library's `first_order` is the first of the words `first-order tolerances`.
+fn meant<'a, T>(name: &str, all: &'a [T], name_of: impl Fn(&'a T) -> &'a str) -> Option<&'a T> {
+    let plain = |text: &str| text.to_lowercase().replace(['-', '_'], " ");
+    let name = plain(name);
+    if let Some(found) = all.iter().find(|own| plain(name_of(own)) == name) {
+        return Some(found);
+    }
+    let begins = |own: &&'a T| plain(name_of(own)).starts_with(&format!("{name} "));
+    let mut found = all.iter().filter(begins);
+    found.next().filter(|_| found.next().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::meant;
+
+    #[test]
+    fn names_as_the_library_writes_them() {
+        let all = [
+            "first-order tolerances",
+            "summary",
+            "output tolerances",
+            "output shares",
+        ];
+        for (name, expected) in [
+            ("first-order tolerances", Some(all[0])),
+            ("first_order", Some(all[0])),
+            ("First Order", Some(all[0])),
+            ("output_tolerances", Some(all[2])),
+            ("SUMMARY", Some(all[1])),
+            ("output", None),
+            ("first_ord", None),
+            ("", None),
+        ] {
+            let found = meant(name, &all, |own| own).copied();
+            assert_eq!(found, expected, "{name}");
+        }
+    }
 }

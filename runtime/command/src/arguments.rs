@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::commands::{
@@ -69,6 +70,32 @@ impl Color {
             Self::Auto => wanted && terminal,
         }
     }
+}
+
+/// Adds to what is wrong with a command line the option that a value was meant for.
+pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
+    let given = match error.get(ContextKind::InvalidArg) {
+        Some(ContextValue::String(given)) if error.kind() == ErrorKind::UnknownArgument => given,
+        _ => return error,
+    };
+    let is_near = error.get(ContextKind::SuggestedArg).is_some();
+    let hint = match given.split_once('=') {
+        Some((name, value)) if !name.starts_with('-') => {
+            let option = if value.contains("..") {
+                "--sweep"
+            } else if value.contains('%') || value.starts_with('+') {
+                "--tol"
+            } else {
+                "--set"
+            };
+            format!("a value stands behind its option: '{option} {given}'")
+        }
+        _ if is_near || !given.starts_with("--") => return error,
+        _ => "values of inputs and design variables are given as '--set NAME=VALUE'".to_owned(),
+    };
+    let hint = ContextValue::StyledStrs(vec![hint.into()]);
+    error.insert(ContextKind::Suggested, hint);
+    error
 }
 
 /// Prints what is wrong with a command line, or the help that was asked for.

@@ -9,6 +9,7 @@ use eigentol_interpreter::Mistakes;
 use thiserror::Error as ThisError;
 
 use crate::mistake::Mistake;
+use crate::nearby::nearby;
 
 #[derive(Debug, ThisError)]
 pub(crate) enum Failure {
@@ -99,6 +100,7 @@ impl Failure {
         match self {
             Self::Usage(_, help) | Self::Value { help, .. } => help.clone(),
             Self::UnknownName { help, .. } => Some(help.clone()),
+            Self::Read { path, source } => nearby(path, source.kind()),
             Self::Exists { .. } => Some("choose another name, or remove it".to_owned()),
             _ => None,
         }

@@ -8,6 +8,7 @@ mod diagnostics;
 mod failure;
 mod interrupt;
 mod mistake;
+mod nearby;
 mod output;
 mod parts;
 mod picture;
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
     match Arguments::try_parse() {
         Ok(arguments) => arguments.run(),
         Err(error) => {
+            let error = arguments::with_hint(error);
             arguments::explain(&error);
             ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
         }

@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use eigentol_figures::{Figure, Form};
+use eigentol_figures::{Figure, Form, Style};
 
 use crate::failure::Failure;
 use crate::place::Target;
+use crate::point::Question;
+use crate::study_file::FrequencyUnit;
 
 /// Where a figure goes.
 #[derive(Args, Debug)]
@@ -14,6 +16,12 @@ pub(crate) struct Picture {
     /// Draw a figure of the answer into a file, `.svg` or `.png`; a file that exists is replaced
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
+    /// What the figure calls the modes, the first one first: `bounce,pitch` [default: their numbers]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
+    mode_names: Vec<String>,
+    /// Unit of frequencies in the figure [default: Hz along an input in rpm or Hz, otherwise rad/s]
+    #[arg(long, value_name = "UNIT", value_enum, requires = "figure")]
+    frequency_unit: Option<FrequencyUnit>,
 }
 
 impl Picture {
@@ -25,6 +33,20 @@ impl Picture {
             writable.map_err(|source| Failure::write(path, source))?;
         }
         Ok(())
+    }
+
+    /// How the figure is drawn: as the study file says, and what the command line says wins.
+    pub(crate) fn style(&self, question: &Question) -> Style {
+        let names = match self.mode_names.is_empty() {
+            true => &question.file.mode_names,
+            false => &self.mode_names,
+        };
+        let style = Style::of(&question.study).name_modes(names.iter().map(|name| name.trim()));
+        match self.frequency_unit.or(question.file.frequency_unit) {
+            None => style,
+            Some(FrequencyUnit::Hertz) => style.hertz(),
+            Some(FrequencyUnit::RadiansPerSecond) => style.radians_per_second(),
+        }
     }
 
     /// Draws the figure that is asked for, if it is.

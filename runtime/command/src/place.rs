@@ -1,7 +1,7 @@
 //! Where text goes: standard output, or a file that is replaced when all of it is written.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write as _};
+use std::io::{self, IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::process;
 
@@ -24,6 +24,11 @@ impl Place {
             Some(path) => (Target::of(path).check()).map_err(|source| Failure::write(path, source)),
             None => Ok(()),
         }
+    }
+
+    /// Whether the answer appears in front of somebody.
+    pub(crate) fn is_terminal(&self) -> bool {
+        self.output.is_none() && io::stdout().is_terminal()
     }
 
     /// Writes a text.

@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use serde::Deserialize;
 
 use crate::failure::Failure;
@@ -35,6 +36,10 @@ pub(crate) struct StudyFile {
     pub(crate) sweep: Option<String>,
     pub(crate) points: Option<usize>,
     pub(crate) orders: Option<Vec<f64>>,
+    /// As after `--mode-names`.
+    #[serde(default)]
+    pub(crate) mode_names: Vec<String>,
+    pub(crate) frequency_unit: Option<FrequencyUnit>,
     pub(crate) samples: Option<usize>,
     pub(crate) seed: Option<u64>,
     pub(crate) stream: Option<u64>,
@@ -61,6 +66,17 @@ impl Display for Written {
             Self::Number(number) => number.fmt(f),
         }
     }
+}
+
+/// The unit of frequencies in figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+pub(crate) enum FrequencyUnit {
+    #[value(name = "Hz", alias = "hz")]
+    #[serde(rename = "Hz")]
+    Hertz,
+    #[value(name = "rad/s")]
+    #[serde(rename = "rad/s")]
+    RadiansPerSecond,
 }
 
 /// A requirement: a quantity of a mode or an output within limits, or outside of a band.

@@ -2,6 +2,7 @@
 
 use eigentol::{ToleranceInfo, Unit};
 use eigentol_compiler::model::resolve::given;
+use eigentol_compiler::tokens;
 use proc_macro2::TokenStream;
 
 use crate::description;
@@ -17,15 +18,14 @@ use crate::mistakes::Mistakes;
 /// assert!((value("50 Hz", &rpm, "`speed`")? - 314.159_265_358_979_3).abs() < 1e-12);
 ///
 /// let error = value("3000", &rpm, "`speed`").unwrap_err().to_string();
-/// assert_eq!(error, "1:1: `3000` has no unit; an angular speed is expected, for example `3000 rad/s`");
+/// assert_eq!(error, "1:1: `3000` has no unit; an angular speed is expected, for example `3000 rpm`");
 /// # Ok::<(), eigentol_interpreter::Mistakes>(())
 /// ```
 ///
 /// # Errors
 /// What is wrong with the text; lines and columns count within it.
 pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
-    let (text, unit): (TokenStream, TokenStream) = (text.parse()?, unit.symbol.parse()?);
-    Ok(given::value(text, unit, what)?)
+    Ok(given::value(tokens(text)?, declared(unit)?, what)?)
 }
 
 /// The tolerance of a quantity of this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the sign `+/-` of a
@@ -44,6 +44,14 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
 /// # Errors
 /// What is wrong with the text; lines and columns count within it.
 pub fn tolerance(text: &str, unit: &Unit) -> Result<ToleranceInfo, Mistakes> {
-    let (text, unit): (TokenStream, TokenStream) = (text.parse()?, unit.symbol.parse()?);
-    Ok(description::tolerance(&given::tolerance(text, unit)?))
+    let found = given::tolerance(tokens(text)?, declared(unit)?)?;
+    Ok(description::tolerance(&found))
+}
+
+/// A unit as a declaration writes it.
+fn declared(unit: &Unit) -> Result<TokenStream, Mistakes> {
+    match &*unit.symbol {
+        "" => tokens("1"),
+        symbol => tokens(symbol),
+    }
 }

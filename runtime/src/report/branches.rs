@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::numbers::{heading, in_unit, number, rough};
+use super::numbers::{heading, in_unit, number, rough, with_unit};
 use super::relevance::{EVERYTHING, largest, names, of_its_kind, shown, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title_along;
@@ -152,9 +152,12 @@ impl fmt::Display for SpecialPoint {
         let d = &self.equilibrium.description;
         let value = input_value(d, self.input, self.value);
         let info = d.inputs.get(self.input.index());
-        let (name, unit) = info.map_or(("?", ""), |info| (&*info.name, &*info.unit.symbol));
+        let (name, value) = match info {
+            Some(info) => (&*info.name, with_unit(value, &info.unit)),
+            None => ("?", value),
+        };
         let title = title_along(d, &self.equilibrium.inputs, self.input);
-        writeln!(f, "{title}: {} at {name} = {value} {unit}", self.kind)?;
+        writeln!(f, "{title}: {} at {name} = {value}", self.kind)?;
         write!(f, "{}", self.equilibrium)?;
         critical_vectors(f, d, &self.v, &self.w)
     }

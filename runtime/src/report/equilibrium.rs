@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::branches::critical_vectors;
-use super::numbers::{given, heading, in_unit, rough_in};
+use super::numbers::{given, heading, in_unit, rough_in, with_unit};
 use super::relevance::of_its_kind;
 use super::table::{Table, cells};
 use super::title::{title, title_along};
@@ -190,13 +190,12 @@ impl fmt::Display for CriticalState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.equilibrium.description;
         if let Some(info) = d.inputs.get(self.input.index()) {
-            let value = in_unit(self.value, &info.unit);
+            let value = with_unit(in_unit(self.value, &info.unit), &info.unit);
             writeln!(
                 f,
-                "{}: critical at {} = {value} {}, {}",
+                "{}: critical at {} = {value}, {}",
                 title_along(d, &self.equilibrium.inputs, self.input),
                 info.name,
-                info.unit.symbol,
                 self.kind
             )?;
         }
@@ -209,11 +208,10 @@ impl fmt::Display for Crossing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let d = &self.equilibrium.description;
         if let Some(info) = d.inputs.get(self.input.index()) {
-            let value = in_unit(self.value, &info.unit);
+            let value = with_unit(in_unit(self.value, &info.unit), &info.unit);
             let what = meeting(self.mode, self.condition, &info.name);
-            let symbol = &info.unit.symbol;
             let title = title_along(d, &self.equilibrium.inputs, self.input);
-            writeln!(f, "{title}: {what} at {} = {value} {symbol}", info.name)?;
+            writeln!(f, "{title}: {what} at {} = {value}", info.name)?;
         }
         write!(f, "{}{}", self.equilibrium, self.modes)
     }

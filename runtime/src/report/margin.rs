@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::numbers::{given_in, heading, in_unit, per, rough, rough_in, short};
+use super::numbers::{given_in, heading, in_unit, per, rough, rough_in, short, with_unit};
 use super::relevance::{BELOW, CHANCE, largest, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
@@ -66,12 +66,11 @@ impl fmt::Display for MarginTable<'_> {
         let (low, high) = margin.band;
         writeln!(
             f,
-            "{}: margin of {} against the band {} to {} {}",
+            "{}: margin of {} against the band {} to {}",
             title(d, self.inputs),
             self.quantity,
             given_in(low, unit),
-            given_in(high, unit),
-            unit.symbol
+            with_unit(given_in(high, unit), unit)
         )?;
         let mut table = Table::new(vec![
             heading("nominal", unit),

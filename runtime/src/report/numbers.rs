@@ -127,6 +127,14 @@ pub(super) fn heading(name: &str, unit: &Unit) -> String {
     }
 }
 
+/// A number with its unit, where it has one: `3000 rpm`.
+pub(super) fn with_unit(number: String, unit: &Unit) -> String {
+    match unit.symbol.is_empty() {
+        true => number,
+        false => format!("{number} {}", unit.symbol),
+    }
+}
+
 /// `top per unit`, for derivatives.
 pub(super) fn per(name: &str, unit: &Unit) -> String {
     if unit.symbol.is_empty() {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::margin::chance;
-use super::numbers::{given, given_in, heading, in_unit, or_dash, rough, short};
+use super::numbers::{given, given_in, heading, in_unit, or_dash, rough, short, with_unit};
 use super::relevance::{BELOW, names, relevant};
 use super::table::{Table, cells};
 use super::title::title;
@@ -158,11 +158,11 @@ fn text(limit: &Limit, d: &Description) -> String {
             _ => format!("{} rad/s", given(end)),
         },
         Response::Output(output) => match d.outputs.get(output.index()) {
-            Some(info) => format!("{} {}", given_in(end, &info.unit), info.unit.symbol),
+            Some(info) => with_unit(given_in(end, &info.unit), &info.unit),
             None => given(end),
         },
         Response::Critical(range) => match d.inputs.get(range.input.index()) {
-            Some(info) => format!("{} {}", given_in(end, &info.unit), info.unit.symbol),
+            Some(info) => with_unit(given_in(end, &info.unit), &info.unit),
             None => given(end),
         },
     };

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::margin::MarginTable;
-use super::numbers::{number, rough, unit_of};
+use super::numbers::{heading, number, rough, unit_of};
 use super::relevance::{CHANCE, unless_rounding};
 use super::table::{Table, cells};
 use super::title::title;
@@ -70,8 +70,8 @@ impl fmt::Display for ModeMargin {
         };
         for (info, slope) in self.description.inputs.iter().zip(by_input) {
             let slope = rough(slope * info.unit.scale);
-            let symbol = &info.unit.symbol;
-            writeln!(f, "  probability by {} [{symbol}]: {slope}", info.name)?;
+            let by = heading(&info.name, &info.unit);
+            writeln!(f, "  probability by {by}: {slope}")?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::numbers::{heading, number, of_mode, per, rough};
+use super::numbers::{heading, number, of_mode, per, rough, with_unit};
 use super::relevance::{BELOW, largest, names, relevant, unless_rounding};
 use super::table::{Table, cells, undamped};
 use super::title::title;
@@ -213,8 +213,8 @@ impl fmt::Display for OutputSensitivities {
         let d = &self.description;
         writeln!(f, "{}: outputs", title(d, &self.inputs))?;
         for (info, &value) in d.outputs.iter().zip(&self.values) {
-            let value = number(value / info.unit.scale);
-            writeln!(f, "  {} = {value} {}", info.name, info.unit.symbol)?;
+            let value = with_unit(number(value / info.unit.scale), &info.unit);
+            writeln!(f, "  {} = {value}", info.name)?;
         }
         let columns = d
             .outputs

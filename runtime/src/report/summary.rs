@@ -254,10 +254,8 @@ impl Summary {
             writeln!(f, "  {}: {doubt}", capital(named(&modes)))?;
         }
         for trust in self.trust.iter().filter(|own| !own.trusted()) {
-            trust
-                .checks
-                .iter()
-                .try_for_each(|check| row_of(f, trust.mode, check))?;
+            let converges = self.second_order_sigma(trust.mode).is_some();
+            (trust.checks.iter()).try_for_each(|check| row_of(f, trust.mode, check, converges))?;
         }
         for advice in [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling] {
             let own = || self.trust.iter().filter(|own| own.advice == advice);
@@ -317,8 +315,8 @@ fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
     }
 }
 
-/// By how much first and second order miss the samples.
-fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check) -> fmt::Result {
+/// By how much first and second order miss the samples; where the series does not converge, second order has no sigma.
+fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check, converges: bool) -> fmt::Result {
     let percent = |error: Measured| {
         let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);
         format!("{value:+.1} % (+- {uncertain:.1})")
@@ -337,8 +335,10 @@ fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check) -> fmt::Result
     if let Some(error) = check.first_order_error {
         write!(f, "; first order is off by {}", percent(error))?;
     }
-    if let Some(error) = check.second_order_error {
-        write!(f, ", second order by {}", percent(error))?;
+    match check.second_order_error {
+        Some(error) if converges => write!(f, ", second order by {}", percent(error))?,
+        Some(_) => write!(f, "; the second-order series does not converge")?,
+        None => {}
     }
     writeln!(f, ".")
 }

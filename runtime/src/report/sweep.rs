@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::numbers::{given_in, heading, in_unit, optional};
+use super::numbers::{given_in, heading, in_unit, optional, with_unit};
 use super::relevance::{EVERYTHING, names, of_its_kind, shown};
 use super::table::{Table, undamped};
 use super::title::title_along;
@@ -75,13 +75,9 @@ impl fmt::Display for Sweep {
         }
         for critical in &self.critical {
             if let Some(info) = input {
-                let value = in_unit(critical.value, &info.unit);
-                let symbol = &info.unit.symbol;
-                writeln!(
-                    f,
-                    "  critical at {} = {value} {symbol} ({})",
-                    info.name, critical.kind
-                )?;
+                let value = with_unit(in_unit(critical.value, &info.unit), &info.unit);
+                let (name, kind) = (&info.name, critical.kind);
+                writeln!(f, "  critical at {name} = {value} ({kind})")?;
             }
         }
         match found().next() {

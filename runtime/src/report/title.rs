@@ -1,6 +1,6 @@
 //! What a report is about: a mechanism at an operating point.
 
-use super::numbers::given_in;
+use super::numbers::{given_in, with_unit};
 use crate::{Description, Input};
 
 /// `Rotor at speed = 3000 rpm, load = 2 N`.
@@ -17,9 +17,8 @@ fn named(d: &Description, inputs: &[f64], varied: Option<usize>) -> String {
     let each = d.inputs.iter().zip(inputs).enumerate();
     let fixed = each.filter(|(k, _)| Some(*k) != varied);
     let values = fixed.map(|(_, (info, &value))| {
-        let (value, symbol) = (given_in(value, &info.unit), &*info.unit.symbol);
-        let space = if symbol.is_empty() { "" } else { " " };
-        format!("{} = {value}{space}{symbol}", info.name)
+        let value = with_unit(given_in(value, &info.unit), &info.unit);
+        format!("{} = {value}", info.name)
     });
     let values: Vec<String> = values.collect();
     match values.is_empty() {

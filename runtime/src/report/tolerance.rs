@@ -5,7 +5,7 @@ use core::fmt;
 use super::equilibrium::meeting;
 use super::numbers::{
     CLUSTER, given, heading, in_unit, number, of_mode, optional, or_dash, per, percent, rough,
-    rough_in, short,
+    rough_in, short, with_unit,
 };
 use super::relevance::{BELOW, names, relevant, unless_rounding};
 use super::shares::Shares;
@@ -375,15 +375,18 @@ impl fmt::Display for EventTolerance {
         let (name, unit) = (&info.name, &info.unit);
         let title = title_along(d, &self.inputs, self.input);
         write!(f, "{title}: {} at {name}", what_happens(&self.event, name))?;
-        let (value, symbol) = (in_unit(self.value, unit), &unit.symbol);
+        let value = in_unit(self.value, unit);
         let spread = match &self.spread {
             Ok(spread) => spread,
-            Err(error) => return writeln!(f, " = {value} {symbol}, without a spread: {error}"),
+            Err(error) => {
+                let value = with_unit(value, unit);
+                return writeln!(f, " = {value}, without a spread: {error}");
+            }
         };
         writeln!(
             f,
-            " = {value} +/- {} {symbol} ({} sigma)",
-            rough_in(spread.band, unit),
+            " = {value} +/- {} ({} sigma)",
+            with_unit(rough_in(spread.band, unit), unit),
             self.sigma_level
         )?;
         let mut order: Vec<usize> = (0..d.design.len()).collect();

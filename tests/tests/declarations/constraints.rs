@@ -176,7 +176,7 @@ fn an_equation_may_have_any_dimension() {
     for (name, unit) in [
         ("slot", "m"),
         ("area", "m^2"),
-        ("pure", "1"),
+        ("pure", ""),
         ("sum", "rad"),
     ] {
         let ConstraintLaw::Equation { unit: own, .. } = law(&mechanism, name) else {

@@ -131,6 +131,31 @@ const WORDS: [(&str, &str); 50] = [
     ("mm2", "mm^2"),
 ];
 
+/// What to write for words of a hundredth, which is no unit.
+pub fn per_cent(name: &str) -> Option<String> {
+    let words = ["percent", "per", "pct", "procent", "percentage"];
+    let is_one = words.iter().any(|word| word.eq_ignore_ascii_case(name));
+    is_one.then(|| {
+        "a tolerance in per cent is written `+/- 3%`; elsewhere write the number, `0.03`"
+            .to_string()
+    })
+}
+
+/// What is meant by a unit with a power or a sign that the language writes otherwise: `m3`, `µm`, `N·m`.
+pub fn respelt(name: &str) -> Option<String> {
+    let plain = name.replace(['µ', 'μ'], "u").replace('·', "*");
+    let parts = plain.split('*').map(|part| {
+        let base = part.trim_end_matches(|sign: char| sign.is_ascii_digit());
+        find(base)?;
+        Some(match &part[base.len()..] {
+            "" => base.to_string(),
+            power => format!("{base}^{power}"),
+        })
+    });
+    let text = parts.collect::<Option<Vec<_>>>()?.join("*");
+    (text != name).then_some(text)
+}
+
 /// What is probably meant by an unknown unit: the symbol for a word, in singular or plural, else the nearest symbol.
 pub fn suggestion(name: &str) -> Option<&'static str> {
     let singular = name.strip_suffix('s').unwrap_or(name);

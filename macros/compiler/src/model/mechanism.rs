@@ -111,12 +111,14 @@ pub struct Constant {
 }
 
 /// A curve through points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Its pieces, arguments and values in SI; it has the name that was declared.
     pub spline: Spline,
     /// Dimension of its arguments.
     pub argument: Dimension,
+    /// Unit in which its arguments are declared.
+    pub unit: Unit,
     /// Dimension of its values.
     pub value: Dimension,
 }
@@ -136,12 +138,20 @@ impl Curve {
         [first - slack, last + slack]
     }
 
-    /// An argument, SI, with its unit where it has one.
+    /// An argument, SI, in the declared unit.
     pub fn with_unit(&self, argument: f64) -> String {
-        match self.argument.is_none() {
-            true => format!("{argument}"),
-            false => format!("{argument} {}", self.argument.si_symbol()),
+        let number = self.in_unit(argument);
+        match self.unit.symbol.as_str() {
+            "" => number,
+            symbol => format!("{number} {symbol}"),
         }
+    }
+
+    /// The number before the declared unit, with nine digits: rounding leaves these of what was declared.
+    pub fn in_unit(&self, argument: f64) -> String {
+        let number = argument / self.unit.scale;
+        let rounded = format!("{number:.8e}").parse::<f64>();
+        rounded.unwrap_or(number).to_string()
     }
 
     /// Whether an argument, SI, is on the curve.

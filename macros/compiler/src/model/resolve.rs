@@ -2,6 +2,7 @@
 //! is silent where it is used, so that each mistake is reported once.
 
 mod arguments;
+mod bare;
 mod bodies;
 mod constants;
 mod constraints;
@@ -78,6 +79,7 @@ pub fn resolve_what_is_right(ast: &Ast) -> Resolution {
     forces.extend(resolver.forces_of_every(&forces));
     let constraints = resolver.constraints();
     let outputs = resolver.outputs();
+    resolver.refuse_unclear_units();
     attributes::check(ast, &mut resolver.diagnostics);
     presence::check(ast, resolver.can_move(), &mut resolver.diagnostics);
     physical::check(

@@ -1,10 +1,30 @@
 //! Declared units.
 
+use crate::base::dimension::Dimension;
+
 /// A unit as declared: a value in SI is the value in this unit times `scale`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unit {
-    /// As declared, without spaces.
+    /// As declared, without spaces; empty for a plain number.
     pub symbol: String,
     /// SI value of one unit.
     pub scale: f64,
+}
+
+impl Unit {
+    /// A unit whose value in SI is one.
+    pub fn one(symbol: &str) -> Self {
+        Self {
+            symbol: symbol.to_string(),
+            scale: 1.0,
+        }
+    }
+
+    /// The SI unit of a dimension.
+    pub fn si(dimension: Dimension) -> Self {
+        match dimension.is_none() {
+            true => Self::one(""),
+            false => Self::one(&dimension.si_symbol()),
+        }
+    }
 }

@@ -524,12 +524,31 @@ impl Value {
 
     /// Every name in it that stands for a value, in order.
     pub fn names(&self) -> Vec<&Ident> {
-        let mut names = Vec::new();
+        let names = self.parts().into_iter().map(|part| match &part.kind {
+            ValueKind::Name(name) => Some(name),
+            _ => None,
+        });
+        names.flatten().collect()
+    }
+
+    /// Every unit in it with the number before it, none before that of a vector, in order.
+    pub fn units(&self) -> Vec<(Option<f64>, &Unit)> {
+        let units = self.parts().into_iter().map(|part| match &part.kind {
+            ValueKind::Number(number, Some(unit)) => Some((Some(*number), unit)),
+            ValueKind::Vector(_, Some(unit)) => Some((None, unit)),
+            _ => None,
+        });
+        units.flatten().collect()
+    }
+
+    /// It and every value in it, in order.
+    fn parts(&self) -> Vec<&Value> {
+        let mut parts = Vec::new();
         let mut rest = vec![self];
         while let Some(value) = rest.pop() {
+            parts.push(value);
             match &value.kind {
-                ValueKind::Number(..) => {}
-                ValueKind::Name(name) => names.push(name),
+                ValueKind::Number(..) | ValueKind::Name(_) => {}
                 ValueKind::Vector(values, _) | ValueKind::Call(_, values) => {
                     rest.extend(values.iter().rev());
                 }
@@ -538,7 +557,7 @@ impl Value {
                 ValueKind::Binary(binary) => rest.extend([&binary.right, &binary.left]),
             }
         }
-        names
+        parts
     }
 
     /// The value inside any number of parentheses.

@@ -18,7 +18,7 @@ use proc_macro2::{Delimiter, Ident, TokenStream};
 use syn::buffer::TokenBuffer;
 use syn::parse::Parser as _;
 
-use self::words::{DECIMAL_POINT, KEYWORDS};
+use self::words::{COMMENT, DECIMAL_POINT, KEYWORDS};
 use super::ast::{Ast, Item, ItemKind, Unread};
 use super::tokens::{Parsed, Tokens};
 use crate::base::diagnostics::Diagnostics;
@@ -46,6 +46,8 @@ pub fn parse_what_can_be_read(tokens: TokenStream, diagnostics: &mut Diagnostics
     }
 }
 
+const ALONE: &str = "a file of its own has the declaration alone, without `use` and without `mechanism! { }` around it";
+
 fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast> {
     let mut head = TokenStream::new();
     while !tokens.is_empty() && !tokens.peek_word("mechanism") {
@@ -58,12 +60,12 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
         tokens.skip();
     }
     if tokens.word("mechanism").is_none() {
-        return match tokens.expected::<Ast>("`mechanism NAME { ... }`") {
-            Err(diagnostic) => Err(Box::new(
-                diagnostic.with_help("declare it as `pub mechanism Pendulum { ... }`"),
-            )),
-            ok => ok,
+        let help = match tokens.peek_word("use") {
+            true => ALONE,
+            false => "declare it as `pub mechanism Pendulum { ... }`",
         };
+        let expected = tokens.expected::<Ast>("`mechanism NAME { ... }`");
+        return expected.map_err(|diagnostic| Box::new(diagnostic.with_help(help)));
     }
     let (attributes, visibility) = match attributes_and_visibility.parse2(head) {
         Ok(read) => read,
@@ -75,6 +77,9 @@ fn declaration(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Parsed<Ast
     let keyword = tokens.last;
     let name = match tokens.name("the mechanism's name") {
         Ok(name) => name,
+        Err(diagnostic) if tokens.peek_sign('!') => {
+            return Err(Box::new(diagnostic.with_help(ALONE)));
+        }
         // What stands in braces can be read all the same.
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
@@ -159,7 +164,10 @@ fn docs(tokens: &mut Tokens, diagnostics: &mut Diagnostics) -> Vec<String> {
     while let Some(sign) = tokens.sign('#') {
         let Some((_, mut content, close)) = tokens.group(Delimiter::Bracket) else {
             let error = tokens.expected::<()>("a doc comment");
-            diagnostics.extend(error.err().map(|diagnostic| *diagnostic));
+            diagnostics.extend(error.err().map(|diagnostic| diagnostic.with_help(COMMENT)));
+            if !starts_item(tokens) {
+                skip_item(tokens);
+            }
             continue;
         };
         let text = content

@@ -1,7 +1,7 @@
 //! Branches of equilibria.
 
 use clap::Args;
-use eigentol_figures::{self as figures, Style};
+use eigentol_figures as figures;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -34,7 +34,7 @@ impl Branches {
             .branches(range.input, range.low, range.high)?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
-        let style = Style::of(&question.study);
+        let style = self.picture.style(&question);
         self.picture.draw(|| figures::branches(&found, &style))?;
         self.output.write(&answer)?;
         if found.stable().next().is_some() {

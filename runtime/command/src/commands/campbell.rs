@@ -1,7 +1,7 @@
 //! Campbell diagrams.
 
 use clap::Args;
-use eigentol_figures::{self as figures, Style};
+use eigentol_figures as figures;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -19,8 +19,8 @@ pub(crate) struct Campbell {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine order whose crossings are located; may be given several times [default: none]
-    #[arg(long = "order", value_name = "NUMBER")]
+    /// Engine orders whose crossings are located: `1,2`; may be given several times [default: none]
+    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
     orders: Vec<f64>,
     #[command(flatten)]
     output: Output,
@@ -44,7 +44,7 @@ impl Campbell {
         let found = question.study.campbell(range.input, &values, orders)?;
         let mut answer = self.output.answer();
         answer.add(&found)?;
-        let style = Style::of(&question.study);
+        let style = self.picture.style(&question);
         self.picture.draw(|| figures::campbell(&found, &style))?;
         self.output.write(&answer)?;
         let mut states = found.points.iter().map(|point| point.modes.is_ok());

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use eigentol_compiler::mechanics::Limits;
-use eigentol_compiler::{Compilation, compile, formatted};
-use proc_macro2::TokenStream;
+use eigentol_compiler::{Compilation, compile_text, formatted};
 
 use crate::declaration::Declaration;
 use crate::failure::Failure;
@@ -67,10 +66,8 @@ impl Expand {
 }
 
 fn compiled(declaration: &Declaration) -> Result<Compilation, Failure> {
-    let tokens = declaration.text.parse::<TokenStream>();
-    let tokens = tokens.map_err(|error| declaration.not_compiled(&error.into()))?;
-    compile(tokens, Limits::default())
-        .map_err(|mistakes| declaration.not_compiled(&mistakes.into()))
+    compile_text(&declaration.text, Limits::default())
+        .map_err(|mistakes| declaration.not_compiled(&mistakes))
 }
 
 fn dump(compilation: &Compilation, stage: &str) -> String {

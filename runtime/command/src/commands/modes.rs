@@ -1,7 +1,7 @@
 //! Equilibrium and natural modes.
 
 use clap::Args;
-use eigentol_figures::{Style, mode_shapes};
+use eigentol_figures::mode_shapes;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -29,7 +29,7 @@ impl Modes {
         let mut answer = self.output.answer();
         answer.add(&solved.modes)?;
         answer.add(&solved.equilibrium)?;
-        let style = Style::of(&question.study);
+        let style = self.picture.style(&question);
         self.picture.draw(|| mode_shapes(&solved.modes, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

@@ -17,8 +17,8 @@ pub(crate) struct Report {
     sweep: Sweep,
     #[command(flatten)]
     points: Points,
-    /// Engine order whose crossings are located; may be given several times [default: none]
-    #[arg(long = "order", value_name = "NUMBER")]
+    /// Engine orders whose crossings are located: `1,2`; may be given several times [default: none]
+    #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
     orders: Vec<f64>,
     /// Number of Monte Carlo samples [default: 3000]
     #[arg(long, value_name = "COUNT")]
@@ -35,6 +35,13 @@ pub(crate) struct Report {
 
 impl Report {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
+        if self.place.is_terminal() {
+            let message = "a report is a file for a browser, and standard output is a terminal";
+            return Err(Failure::usage(
+                message,
+                "write it to a file: `-o report.html`",
+            ));
+        }
         self.place.check()?;
         let question = self.point.question()?;
         let range = self.sweep.range_if_any(&question)?;

@@ -1,7 +1,7 @@
 //! What tolerances do at one operating point.
 
 use clap::Args;
-use eigentol_figures::{Style, shares_of_all};
+use eigentol_figures::shares_of_all;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -33,7 +33,7 @@ impl Tolerance {
         if !question.study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
         }
-        let style = Style::of(&question.study);
+        let style = self.picture.style(&question);
         self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

@@ -67,3 +67,39 @@ fn nothing_to_draw_is_said() {
     assert!(none.err.contains("nothing to draw"), "{}", none.err);
     assert!(!path.exists());
 }
+
+#[test]
+fn figures_call_modes_and_units_what_the_user_calls_them() {
+    let folder = folder("figure_words");
+    let draw = |name: &str, more: &[&str]| {
+        let path = folder.join(name);
+        let place = path.display().to_string();
+        let sweep = ["--sweep", "speed=2000..4000rpm", "--points", "3"];
+        let figure = ["--figure", &place];
+        answer(
+            &[
+                &["campbell", "jeffcott_rotor.mechanism"],
+                &sweep[..],
+                &figure,
+                more,
+            ]
+            .concat(),
+        );
+        fs::read_to_string(path).unwrap()
+    };
+    let plain = draw("plain.svg", &[]);
+    assert!(plain.contains("Hz") && !plain.contains("bounce"));
+    let names = ["--mode-names", "bounce, pitch", "--frequency-unit", "rad/s"];
+    let named = draw("named.svg", &names);
+    for word in ["bounce", "pitch", "mode 3", "rad/s"] {
+        assert!(named.contains(word), "{word}");
+    }
+    assert!(!named.contains("[Hz]"));
+    let study = folder.join("study.toml");
+    let text = "mode_names = [\"bounce\", \"pitch\"]\nfrequency_unit = \"rad/s\"\n";
+    fs::write(&study, text).unwrap();
+    let study = study.display().to_string();
+    assert_eq!(draw("study.svg", &["--study", &study]), named);
+    let modes = pendulum("modes", &["--mode-names", "swing"]);
+    assert!(run(&modes).err.contains("--figure"));
+}

@@ -3,6 +3,7 @@
 
 mod declarations;
 mod figures;
+mod first_minutes;
 mod import;
 #[cfg(target_os = "linux")]
 mod interrupt;

@@ -15,10 +15,9 @@ fn the_starter_project_builds() {
     let created = run(&["new", &project.display().to_string(), "--path", &library]);
     assert_eq!(created.code, 0, "{}", created.err);
 
-    // The folder may lie in that of this workspace, to which the project does not belong.
-    let manifest = project.join("Cargo.toml");
-    let text = fs::read_to_string(&manifest).unwrap();
-    fs::write(&manifest, format!("{text}\n[workspace]\n")).unwrap();
+    // It lies in the folder of a workspace to which it does not belong.
+    let around = "[workspace]\nmembers = []\n";
+    fs::write(folder.join("Cargo.toml"), around).unwrap();
     // The versions that this workspace was built with are here; no others need to be.
     fs::copy(root.join("Cargo.lock"), project.join("Cargo.lock")).unwrap();
     let output = Command::new(env!("CARGO"))

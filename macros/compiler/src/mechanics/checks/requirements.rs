@@ -89,6 +89,8 @@ fn inside_curves(g: &mut Graph, mechanism: &Mechanism, values: &Values) -> Vec<R
             ),
         ];
         for (quantity, value) in ends {
+            // The message shows it beside the end in the declared unit.
+            let value = g.scale(1.0 / curve.unit.scale, value);
             // Several curves over one range are asked once.
             if list.iter().all(|known| known.value != value) {
                 list.push(Requirement {

@@ -8,10 +8,20 @@ use super::typed::{Place, Quantity, Typed};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::spline::Spline;
 use crate::model::expression::{Expr, Function};
-use crate::model::mechanism::{Curve, CurveArgument};
+use crate::model::mechanism::{Curve, CurveArgument, Unit};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
+use crate::syntax::print;
+
+/// One coordinate of all points of a curve.
+struct Points {
+    /// SI.
+    numbers: Vec<f64>,
+    quantity: Quantity,
+    /// As declared.
+    unit: Unit,
+}
 
 impl Resolver<'_> {
     pub(super) fn curves(&mut self) {
@@ -35,7 +45,18 @@ impl Resolver<'_> {
             self.diagnostics.error(name, message);
         }
         let (x, y) = (self.points_along(arguments), self.points_along(values));
-        let ((x, argument), (y, value)) = (x?, y?);
+        let (
+            Points {
+                numbers: x,
+                quantity: argument,
+                unit,
+            },
+            Points {
+                numbers: y,
+                quantity: value,
+                ..
+            },
+        ) = (x?, y?);
         if x.len() != y.len() {
             let message = format!(
                 "each argument has a value: there are {} arguments and {} values",
@@ -67,12 +88,13 @@ impl Resolver<'_> {
         Some(Curve {
             spline,
             argument: argument.dimension(),
+            unit,
             value: value.dimension(),
         })
     }
 
-    /// Numbers in brackets, SI, with their common quantity.
-    fn points_along(&mut self, list: &Value) -> Option<(Vec<f64>, Quantity)> {
+    /// Numbers in brackets.
+    fn points_along(&mut self, list: &Value) -> Option<Points> {
         let ValueKind::Vector(elements, unit) = &list.bare().kind else {
             self.diagnostics.error_with_help(
                 list.extent,
@@ -81,7 +103,7 @@ impl Resolver<'_> {
             );
             return None;
         };
-        let unit = self.optional_unit(unit.as_ref());
+        let scale = self.optional_unit(unit.as_ref());
         let numbers: Vec<_> = elements
             .iter()
             .map(|element| self.number_among_points(element))
@@ -89,14 +111,26 @@ impl Resolver<'_> {
         let numbers: Vec<(f64, Quantity)> = numbers.into_iter().collect::<Option<_>>()?;
         let (numbers, quantities): (Vec<f64>, Vec<Quantity>) = numbers.into_iter().unzip();
         let common = self.common_quantity(&quantities, elements, "points of a curve")?;
-        let (quantity, scale) = match unit? {
+        let (quantity, scale) = match scale? {
             None => (common, 1.0),
             Some((dimension, scale)) => {
                 let product = common.dimension().times(dimension);
                 (self.in_range(product, list.extent)?, scale)
             }
         };
-        Some((numbers.into_iter().map(|x| x * scale).collect(), quantity))
+        let unit = match unit {
+            Some(unit) if common.dimension().is_none() => Unit {
+                symbol: print::unit(unit),
+                scale,
+            },
+            None if !elements.is_empty() => self.display_unit(&elements[0], quantity.dimension()),
+            _ => Unit::si(quantity.dimension()),
+        };
+        Some(Points {
+            numbers: numbers.into_iter().map(|x| x * scale).collect(),
+            quantity,
+            unit,
+        })
     }
 
     fn number_among_points(&mut self, element: &Value) -> Option<(f64, Quantity)> {
@@ -115,7 +149,7 @@ impl Resolver<'_> {
         arguments: &[Value],
         place: Place,
     ) -> Option<Typed> {
-        let curve = (*self.curves.get(index)?)?;
+        let curve = self.curves.get(index)?.clone()?;
         let [given] = arguments else {
             let message = format!("`{name}` takes {}, not {}", count(1), arguments.len());
             let help =
@@ -130,11 +164,11 @@ impl Resolver<'_> {
             self.requirements.push(Requirement {
                 what,
                 values: vec![argument.clone()],
-                demand: Demand::OnCurve(curve),
+                demand: Demand::OnCurve(curve.clone()),
                 extent: given.extent,
             });
             let asked = CurveArgument {
-                curve,
+                curve: curve.clone(),
                 argument: argument.clone(),
             };
             if !self.curve_arguments.contains(&asked) {

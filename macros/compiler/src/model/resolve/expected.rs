@@ -1,7 +1,10 @@
 //! What a place in a declaration expects, in the words of that place: a stiffness about an axis is a moment by
 //! dimension, but nobody calls it one.
 
+use super::bare::bare_number;
+use super::typed::Quantity;
 use crate::base::dimension::Dimension;
+use crate::syntax::ast::Value;
 
 /// A dimension with the words for it.
 #[derive(Clone, Debug)]
@@ -46,6 +49,22 @@ impl Expected {
         Self::named(per_length, "an angle per travel", "rad/m")
     }
 
+    /// A quantity in the unit in which it is declared.
+    pub(super) fn in_unit(dimension: Dimension, unit: &str) -> Self {
+        match unit {
+            "" | "1" => Self::ratio(),
+            _ if dimension.is_none() => Self::named(dimension, "an angle", unit),
+            _ => Self::named(dimension, &dimension.name(), unit),
+        }
+    }
+
+    /// A quantity fits, but for a number without a unit where degrees are declared: it would count radians.
+    pub(super) fn admits(&self, found: Quantity, value: &Value) -> bool {
+        let is_number = matches!(self.unit.as_str(), "" | "1" | "rad");
+        found.fits(self.dimension)
+            && (is_number || found == Quantity::Zero || bare_number(value).is_none())
+    }
+
     fn named(dimension: Dimension, name: &str, unit: &str) -> Self {
         Self {
             dimension,
@@ -54,10 +73,16 @@ impl Expected {
         }
     }
 
+    /// What is wrong with a number without a unit where this is expected.
+    pub(super) fn needs_unit(&self, written: &str) -> String {
+        let Self { name, unit, .. } = self;
+        format!("`{written}` has no unit; {name} is expected, for example `{written} {unit}`")
+    }
+
     /// The name and the unit: `a length (m)`.
     pub(super) fn describe(&self) -> String {
         match self.unit.as_str() {
-            "1" => self.name.clone(),
+            "" | "1" => self.name.clone(),
             unit => format!("{} ({unit})", self.name),
         }
     }

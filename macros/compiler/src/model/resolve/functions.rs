@@ -79,6 +79,24 @@ const SYNONYMS: [(&str, &str); 18] = [
     ("energy", "potential_energy"),
 ];
 
+/// What is asked of a study, not declared.
+const ABOUT_MODES: [&str; 12] = [
+    "frequency",
+    "frequencies",
+    "freq",
+    "natural_frequency",
+    "omega",
+    "eigenvalue",
+    "eigenfrequency",
+    "mode",
+    "modes",
+    "damping",
+    "damping_ratio",
+    "growth",
+];
+const MODES: &str = "frequencies and damping of modes are in every answer without being declared: `eigentol modes`, `study.modes()`; \
+    an output is a value of the equilibrium, such as `theta` or `distance(p, q)`";
+
 impl Resolver<'_> {
     pub(super) fn call(
         &mut self,
@@ -96,7 +114,10 @@ impl Resolver<'_> {
             let is_curve = |meaning| matches!(meaning, Meaning::Curve(_));
             let near =
                 suggestion(&name, words, &SYNONYMS).or_else(|| self.scope.nearest(&name, is_curve));
-            let help = near.map(|near| format!("did you mean `{near}`?"));
+            let help = match ABOUT_MODES.contains(&name.as_str()) {
+                true => Some(MODES.to_string()),
+                false => near.map(|near| format!("did you mean `{near}`?")),
+            };
             self.report(function, format!("unknown function `{name}`"), help);
             return None;
         };

@@ -4,13 +4,14 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::expected::Expected;
 use super::resolver::Resolver;
 use super::scope::Scope;
 use crate::base::diagnostics::Diagnostics;
-use crate::base::dimension::Dimension;
 use crate::model::mechanism::Tolerance;
-use crate::syntax::ast::{Ast, Item, ItemKind, Unit, Value};
+use crate::syntax::ast::{Ast, Item, ItemKind, Unit};
 use crate::syntax::parse::parse;
+use crate::syntax::print;
 
 /// The value, SI, of a quantity of this unit that is written as `text`: `3000 rpm`, `-2 * pi / 3`.
 ///
@@ -24,7 +25,7 @@ use crate::syntax::parse::parse;
 /// assert!((speed - 2.0 * std::f64::consts::PI).abs() < 1e-12);
 ///
 /// let error = given::value(tokens("3 m"), tokens("rpm"), "`speed`").unwrap_err();
-/// assert!(error.to_string().contains("`speed` must be an angular speed (rad/s), this is a length (m)"), "{error}");
+/// assert!(error.to_string().contains("`speed` must be an angular speed (rpm), this is a length (m)"), "{error}");
 /// ```
 ///
 /// # Errors
@@ -46,8 +47,10 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
         return Err(mistakes);
     }
     resolved(&ast, |resolver| {
-        let dimension = resolver.dimension(&input.unit)?;
-        resolver.of_dimension(&design.nominal, dimension, what)
+        let expected = resolver.expected_in(&input.unit)?;
+        let (number, quantity) = resolver.plain_number(&design.nominal)?;
+        resolver.expect(quantity, expected, what, &design.nominal)?;
+        Some(number)
     })
 }
 
@@ -62,7 +65,7 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 /// assert_eq!((tolerance.lower, tolerance.upper, tolerance.relative), (-0.03, 0.03, true));
 /// assert_eq!(given::tolerance(tokens("+0.2 0 mm"), tokens("m")).unwrap().upper, 2e-4);
 /// let error = given::tolerance(tokens("3 kg"), tokens("mm")).unwrap_err();
-/// assert!(error.to_string().contains("must be a length (m), this is a mass (kg)"), "{error}");
+/// assert!(error.to_string().contains("must be a length (mm), this is a mass (kg)"), "{error}");
 /// ```
 ///
 /// # Errors
@@ -81,8 +84,8 @@ pub fn tolerance(text: TokenStream, unit: TokenStream) -> Result<Tolerance, Diag
         return not_one(&ast);
     };
     resolved(&ast, |resolver| {
-        let dimension = resolver.dimension(&input.unit)?;
-        resolver.input_tolerance(input.tolerance.as_ref(), Some(dimension))
+        let expected = resolver.expected_in(&input.unit)?;
+        resolver.input_tolerance(input.tolerance.as_ref(), Some(expected))
     })
 }
 
@@ -115,14 +118,10 @@ fn resolved<T>(
 }
 
 impl Resolver<'_> {
-    fn dimension(&mut self, unit: &Unit) -> Option<Dimension> {
-        self.unit(unit).map(|(dimension, _)| dimension)
-    }
-
-    fn of_dimension(&mut self, value: &Value, dimension: Dimension, what: &str) -> Option<f64> {
-        let (number, quantity) = self.plain_number(value)?;
-        self.expect(quantity, dimension, what, value)?;
-        Some(number)
+    /// What a quantity of this unit has to be, in the words of whoever declared it.
+    fn expected_in(&mut self, unit: &Unit) -> Option<Expected> {
+        let (dimension, _) = self.unit(unit)?;
+        Some(Expected::in_unit(dimension, &print::unit(unit)))
     }
 }
 
@@ -157,7 +156,10 @@ mod tests {
     #[test]
     fn what_is_no_value_is_refused() {
         for (text, expected) in [
-            ("3000", "`3000` has no unit"),
+            (
+                "3000",
+                "`3000` has no unit; an angular speed is expected, for example `3000 rpm`",
+            ),
             ("3 rmp", "unknown unit `rmp`\nhelp: did you mean `rpm`?"),
             ("3 m", "`speed` must be"),
             ("3 rpm; design other = 4 rpm", "one value"),
@@ -192,8 +194,12 @@ mod tests {
     #[test]
     fn what_is_no_tolerance_is_refused() {
         for (text, expected) in [
-            ("3 kg", "this tolerance must be a length (m)"),
-            ("3", "`3` has no unit"),
+            ("3 kg", "this tolerance must be a length (mm)"),
+            (
+                "3",
+                "`3` has no unit; a length is expected, for example `3 mm`\nhelp: or in per cent: `3%`",
+            ),
+            ("+3 -2", "for example `-2 mm`\nhelp: or in per cent: `-2%`"),
             ("-3%", "expected"),
             ("3% unifrom", "did you mean `uniform`?"),
             ("", "expected a value"),

@@ -1,8 +1,8 @@
 //! Operators: what each does to dimensions, and which operands it refuses.
 
+use super::bare::bare_number;
 use super::resolver::Resolver;
 use super::typed::{Place, Quantity, Typed};
-use super::values::bare_number;
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::expression::Expr;

@@ -48,12 +48,11 @@ impl Resolver<'_> {
 
     /// The SI unit of a value.
     pub(super) fn unit_of(&self, value: &Expr, dimension: Dimension) -> Unit {
-        let symbol = match self.measure(value) {
-            Some(Measure::Angle) => "rad".to_string(),
-            Some(Measure::Energy) => "J".to_string(),
-            None => dimension.si_symbol(),
-        };
-        Unit { symbol, scale: 1.0 }
+        match self.measure(value) {
+            Some(Measure::Angle) => Unit::one("rad"),
+            Some(Measure::Energy) => Unit::one("J"),
+            None => Unit::si(dimension),
+        }
     }
 
     /// What the dimension does not tell. Only terms of a sum and what is scaled by a number keep their measure.

@@ -1,5 +1,6 @@
 //! Inputs and design variables: units as the user gives them, nominal values and tolerances in SI.
 
+use super::expected::Expected;
 use super::nominal::Nominal;
 use super::resolver::Resolver;
 use super::typed::{Place, Quantity};
@@ -19,13 +20,18 @@ impl Resolver<'_> {
             };
             let resolved = self.unit(&input.unit);
             let dimension = resolved.map(|(dimension, _)| dimension);
-            let tolerance = self.input_tolerance(input.tolerance.as_ref(), dimension);
+            let symbol = match &input.unit.factors[..] {
+                [] => String::new(),
+                _ => print::unit(&input.unit),
+            };
+            let expected = dimension.map(|own| Expected::in_unit(own, &symbol));
+            let tolerance = self.input_tolerance(input.tolerance.as_ref(), expected);
             self.inputs.push(dimension);
             inputs.push(Input {
                 name: input.name.clone(),
                 docs: item.docs.clone(),
                 unit: Unit {
-                    symbol: print::unit(&input.unit),
+                    symbol,
                     scale: resolved.map_or(1.0, |(_, scale)| scale),
                 },
                 tolerance: tolerance.unwrap_or(Tolerance::NONE),
@@ -87,7 +93,11 @@ impl Resolver<'_> {
     fn nominal(&mut self, design: &ast::Design) -> Option<Nominal> {
         let nominal = self.plain_number(&design.nominal);
         let nominal = nominal.map(|(value, quantity)| (value, quantity.dimension()));
-        let tolerance = self.design_tolerance(design.tolerance.as_ref(), nominal);
+        let expected = nominal.map(|(value, dimension)| {
+            let unit = self.display_unit(&design.nominal, dimension);
+            (value, Expected::in_unit(dimension, &unit.symbol))
+        });
+        let tolerance = self.design_tolerance(design.tolerance.as_ref(), expected);
         let (value, dimension) = nominal?;
         Some(Nominal {
             dimension,
@@ -108,7 +118,7 @@ impl Resolver<'_> {
     }
 
     /// The unit of the number as written, SI for a computed one.
-    fn display_unit(&mut self, value: &Value, dimension: Dimension) -> Unit {
+    pub(super) fn display_unit(&mut self, value: &Value, dimension: Dimension) -> Unit {
         let mut number = value.bare();
         while let ValueKind::Negate(operand) = &number.kind {
             number = operand.bare();
@@ -118,10 +128,7 @@ impl Resolver<'_> {
                 symbol: print::unit(unit),
                 scale: self.unit(unit).map_or(1.0, |(_, scale)| scale),
             },
-            _ => Unit {
-                symbol: dimension.si_symbol(),
-                scale: 1.0,
-            },
+            _ => Unit::si(dimension),
         }
     }
 }

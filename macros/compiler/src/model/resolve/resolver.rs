@@ -5,7 +5,7 @@ use super::exerted::Exerted;
 use super::joints::kinds::Kind;
 use super::nominal::Nominal;
 use super::scope::Scope;
-use super::typed::Typed;
+use super::typed::{Place, Typed};
 use crate::base::diagnostics::{Diagnostic, Diagnostics};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
@@ -13,7 +13,7 @@ use crate::model::expression::Expr;
 use crate::model::mechanism::{Constant, Coordinate, Curve, CurveArgument, Part};
 use crate::model::rules::composite::GivenInertia;
 use crate::model::rules::physical::{Demand, Requirement};
-use crate::syntax::ast::{Ast, Joint, Unread};
+use crate::syntax::ast::{Ast, Joint, Unit, Unread};
 
 /// What is known while resolving. Tables of facts are indexed by id and hold nothing where the item is wrong.
 pub(super) struct Resolver<'a> {
@@ -34,6 +34,8 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: Vec<Option<Vec<Part>>>,
     pub(super) given_inertias: Vec<GivenInertia>,
     pub(super) requirements: Vec<Requirement>,
+    /// Units after numbers, and after vectors, where declared names could stand as well.
+    pub(super) units: Vec<(Option<f64>, Unit, Place)>,
 }
 
 impl<'a> Resolver<'a> {
@@ -60,6 +62,7 @@ impl<'a> Resolver<'a> {
             parts: Vec::new(),
             given_inertias: Vec::new(),
             requirements: Vec::new(),
+            units: Vec::new(),
         }
     }
 

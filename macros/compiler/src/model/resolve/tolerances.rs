@@ -1,6 +1,9 @@
 //! Tolerances: limits checked and in SI, laws with their shapes.
 
+use super::bare::bare_number;
+use super::expected::Expected;
 use super::resolver::Resolver;
+use super::typed::Quantity;
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::mechanism::{Law, Tolerance};
@@ -42,16 +45,16 @@ impl Resolver<'_> {
     pub(super) fn design_tolerance(
         &mut self,
         tolerance: Option<&ast::Tolerance>,
-        nominal: Option<(f64, Dimension)>,
+        nominal: Option<(f64, Expected)>,
     ) -> Option<Tolerance> {
         let Some(declared) = tolerance else {
             return Some(Tolerance::NONE);
         };
-        let dimension = nominal.map(|(_, dimension)| dimension);
+        let expected = nominal.as_ref().map(|(_, expected)| expected);
         let help = "; a sum as the nominal value needs parentheses";
-        let limits = self.limits(declared, dimension, help);
+        let limits = self.limits(declared, expected, help);
         let law = self.distribution(declared.law.as_ref());
-        let (value, dimension) = nominal?;
+        let (value, Expected { dimension, .. }) = nominal?;
         let limits = self.at(value, limits?, declared.extent)?;
         let tolerance = limits.with(law?);
         let mean = value + tolerance.middle();
@@ -63,12 +66,12 @@ impl Resolver<'_> {
     pub(super) fn input_tolerance(
         &mut self,
         tolerance: Option<&ast::Tolerance>,
-        dimension: Option<Dimension>,
+        expected: Option<Expected>,
     ) -> Option<Tolerance> {
         let Some(declared) = tolerance else {
             return Some(Tolerance::NONE);
         };
-        let limits = self.limits(declared, dimension, "");
+        let limits = self.limits(declared, expected.as_ref(), "");
         let law = self.distribution(declared.law.as_ref());
         let tolerance = limits?.with(law?);
         self.representable(&[tolerance.upper - tolerance.lower], declared.extent)?;
@@ -83,7 +86,7 @@ impl Resolver<'_> {
     fn limits(
         &mut self,
         tolerance: &ast::Tolerance,
-        dimension: Option<Dimension>,
+        expected: Option<&Expected>,
         more_help: &str,
     ) -> Option<Limits> {
         match &tolerance.limits {
@@ -93,12 +96,12 @@ impl Resolver<'_> {
             }
             ast::Limits::HalfWidth(width) => {
                 let (half_width, quantity) = self.plain_number(width)?;
-                self.expect(quantity, dimension?, "this tolerance", width)?;
+                self.expect_deviation(quantity, expected?, "this tolerance", width)?;
                 self.not_negative(half_width, width.extent)?;
                 Some(Limits::half_width(half_width, false))
             }
             ast::Limits::Deviations(deviations) => {
-                let limits = self.deviations(deviations, tolerance.extent, dimension)?;
+                let limits = self.deviations(deviations, tolerance.extent, expected)?;
                 if limits.upper < limits.lower {
                     let right = print::deviations(&exchanged(deviations));
                     self.diagnostics.error_with_help(
@@ -110,6 +113,26 @@ impl Resolver<'_> {
                 }
                 Some(limits)
             }
+        }
+    }
+
+    /// A deviation has the dimension of what deviates; a bare number may also be meant in percent.
+    fn expect_deviation(
+        &mut self,
+        found: Quantity,
+        expected: &Expected,
+        what: &str,
+        value: &Value,
+    ) -> Option<()> {
+        match bare_number(value) {
+            Some(written) if !expected.admits(found, value) => {
+                let message = expected.needs_unit(&written);
+                let help = format!("or in per cent: `{written}%`");
+                self.diagnostics
+                    .error_with_help(value.extent, message, help);
+                None
+            }
+            _ => self.expect(found, expected.clone(), what, value),
         }
     }
 
@@ -127,15 +150,15 @@ impl Resolver<'_> {
         &mut self,
         deviations: &Deviations,
         extent: Extent,
-        dimension: Option<Dimension>,
+        expected: Option<&Expected>,
     ) -> Option<Limits> {
         let Deviations { upper, lower } = deviations;
-        let low = self.deviation(lower, &lower.measure, dimension);
+        let low = self.deviation(lower, &lower.measure, expected);
         // A wrong unit that both share is reported once.
         if low.is_none() && deviations.shares_measure() {
             return None;
         }
-        let high = self.deviation(upper, deviations.upper_measure(), dimension);
+        let high = self.deviation(upper, deviations.upper_measure(), expected);
         let ((low, low_kind), (high, high_kind)) = (low?, high?);
         let relative = match (low_kind, high_kind) {
             (DeviationKind::Zero, kind) | (kind, DeviationKind::Zero) => {
@@ -162,7 +185,7 @@ impl Resolver<'_> {
         &mut self,
         deviation: &Deviation,
         measure: &Measure,
-        dimension: Option<Dimension>,
+        expected: Option<&Expected>,
     ) -> Option<(f64, DeviationKind)> {
         let Deviation { number, extent, .. } = *deviation;
         let unit = match measure {
@@ -173,7 +196,7 @@ impl Resolver<'_> {
         };
         let value = Value::new(ValueKind::Number(number, unit), extent);
         let (number, quantity) = self.plain_number(&value)?;
-        self.expect(quantity, dimension?, "this limit", &value)?;
+        self.expect_deviation(quantity, expected?, "this limit", &value)?;
         Some((number, DeviationKind::Quantity))
     }
 

@@ -113,6 +113,11 @@ pub(super) enum Place {
 }
 
 impl Place {
+    /// Names of values may be used here.
+    pub(super) fn knows_names(self) -> bool {
+        !matches!(self, Place::Nominal | Place::Points)
+    }
+
     /// Coordinates and points may be used here.
     pub(super) fn knows_places(self) -> bool {
         matches!(

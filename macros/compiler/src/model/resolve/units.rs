@@ -1,11 +1,14 @@
 //! Units as written to dimension and scale, and the names that a unit has swallowed.
 
+use proc_macro2::Ident;
+
+use super::coordinates;
 use super::resolver::Resolver;
 use super::scope::Meaning;
-use super::typed::Typed;
+use super::typed::{Place, Typed};
 use crate::base::dimension::Dimension;
 use crate::base::units;
-use crate::syntax::ast::{Unit, UnitFactor, Value, ValueKind};
+use crate::syntax::ast::{ItemKind, Unit, UnitFactor, Value};
 use crate::syntax::print;
 
 impl Resolver<'_> {
@@ -21,7 +24,10 @@ impl Resolver<'_> {
                         "a word after a number is a unit; to multiply by the declared `{name}` write `*`"
                     ))
                 } else {
-                    units::suggestion(name).map(|near| format!("did you mean `{near}`?"))
+                    let respelt = units::respelt(name).map(|text| format!("write `{text}`"));
+                    units::per_cent(name).or(respelt).or_else(|| {
+                        units::suggestion(name).map(|near| format!("did you mean `{near}`?"))
+                    })
                 };
                 self.report(factor.extent, format!("unknown unit `{name}`"), help);
                 known = false;
@@ -47,39 +53,76 @@ impl Resolver<'_> {
     }
 
     /// In `3 kg * m` the `m` is the metre even when a design variable is called `m`. Help, when reading the name as
-    /// declared would turn the dimension found into the one expected.
+    /// declared would turn the dimension found into the one expected; also where a `let` that is named here was read so.
     pub(super) fn swallowed(
         &self,
         value: &Value,
         found: Dimension,
         expected: Dimension,
     ) -> Option<String> {
-        let search = |value: &Value| self.swallowed(value, found, expected);
-        match &value.kind {
-            ValueKind::Number(number, Some(unit)) => {
-                let (first, others) = unit.factors.split_first()?;
-                let meant = |factor: &&UnitFactor| {
-                    let declared = self.declared_dimension(&factor.name)?;
-                    let read = units::find(&factor.name)?.dimension;
-                    let change = declared.over(read)?.power(factor.exponent, 1)?;
-                    (found.times(change)? == expected).then_some(())
-                };
-                let name = &others.iter().find(|factor| meant(factor).is_some())?.name;
-                let first = print::unit(&Unit {
-                    factors: vec![first.clone()],
-                    extent: unit.extent,
-                });
+        let meant = |unit: &Unit, index: usize| {
+            let factor = &unit.factors[index];
+            let declared = self.declared_dimension(&factor.name)?;
+            let read = units::find(&factor.name)?.dimension;
+            let change = declared.over(read)?.power(factor.exponent, 1)?;
+            (found.times(change)? == expected).then_some(())
+        };
+        let help = |value: &Value| {
+            value.units().into_iter().find_map(|(number, unit)| {
+                let mut others = 1..unit.factors.len();
+                let index = others.find(|&index| meant(unit, index).is_some())?;
+                let name = &unit.factors[index].name;
+                let apart = apart(number, unit, index);
                 Some(format!(
-                    "`{name}` after a number is read as a unit; for the declared `{name}` write `({number} {first}) * {name}`"
+                    "`{name}` after a number is read as a unit; for the declared `{name}` write `{apart}`"
                 ))
+            })
+        };
+        let in_let = |name: &Ident| {
+            let mut items = self.ast.items.iter();
+            let value = items.find_map(|item| match &item.kind {
+                ItemKind::Let(named) if named.name == *name => Some(&named.value),
+                _ => None,
+            })?;
+            Some(format!("in `{name}` {}", help(value)?))
+        };
+        help(value).or_else(|| value.names().into_iter().find_map(in_let))
+    }
+
+    /// Keeps a unit behind which declared names could stand.
+    pub(super) fn may_be_unclear(&mut self, number: Option<f64>, unit: &Unit, place: Place) {
+        if place.knows_names() && unit.factors.len() > 1 {
+            self.units.push((number, unit.clone(), place));
+        }
+    }
+
+    /// Refuses a name after a number that a unit and a declared number share, where no dimension tells one from the other.
+    pub(super) fn refuse_unclear_units(&mut self) {
+        for (number, unit, place) in std::mem::take(&mut self.units) {
+            for index in 1..unit.factors.len() {
+                let UnitFactor { name, extent, .. } = &unit.factors[index];
+                let is_coordinate = self.scope.find(name).is_some_and(Meaning::is_coordinate);
+                if is_coordinate && !place.knows_places() {
+                    continue;
+                }
+                let declared = self.declared_dimension(name);
+                let (Some(read), Some(declared)) = (units::find(name), declared) else {
+                    continue;
+                };
+                let reason = if declared == read.dimension {
+                    "has the dimension of the declared one"
+                } else if place == Place::Output {
+                    "would make an output of another dimension"
+                } else {
+                    continue;
+                };
+                let message = format!("`{name}` is declared, and the unit `{name}` {reason}");
+                let help = format!(
+                    "for the declared one write `{}`; if the unit is meant, give the declared one another name",
+                    apart(number, &unit, index)
+                );
+                self.diagnostics.error_with_help(*extent, message, help);
             }
-            ValueKind::Number(_, None) | ValueKind::Name(_) => None,
-            ValueKind::Vector(values, _) | ValueKind::Call(_, values) => {
-                values.iter().find_map(search)
-            }
-            ValueKind::Negate(of) | ValueKind::Component(of, _) => search(of),
-            ValueKind::Parenthesised(of) => search(of),
-            ValueKind::Binary(binary) => search(&binary.left).or_else(|| search(&binary.right)),
         }
     }
 
@@ -92,7 +135,36 @@ impl Resolver<'_> {
                 Typed::Scalar(_, quantity) => Some(quantity.dimension()),
                 Typed::Vector(..) | Typed::Matrix(..) => None,
             },
+            Meaning::OnlyCoordinate(id) | Meaning::Coordinate(id) => {
+                let quantity = self.coordinates.get(id.index())?.quantity?;
+                Some(coordinates::dimension(quantity))
+            }
             _ => None,
         }
     }
+}
+
+/// A value whose unit ends before one of its factors, which is the name of something declared.
+fn apart(number: Option<f64>, unit: &Unit, index: usize) -> String {
+    let part = |factors: &[UnitFactor]| {
+        print::unit(&Unit {
+            factors: factors.to_vec(),
+            extent: unit.extent,
+        })
+    };
+    let number = number.map_or_else(|| "[...]".to_string(), |number| number.to_string());
+    let mut text = format!("({number} {})", part(&unit.factors[..index]));
+    for (k, factor) in unit.factors.iter().enumerate().skip(index) {
+        let sign = if factor.exponent < 0 { '/' } else { '*' };
+        let above = UnitFactor {
+            exponent: factor.exponent.abs(),
+            ..factor.clone()
+        };
+        let own = part(&[above]);
+        text += &match k == index {
+            true => format!(" {sign} {own}"),
+            false => format!(" {sign} (1 {own})"),
+        };
+    }
+    text
 }

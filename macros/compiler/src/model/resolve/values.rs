@@ -2,6 +2,7 @@
 
 use proc_macro2::Ident;
 
+use super::bare::bare_number;
 use super::coordinates::{self, DeclaredMotion};
 use super::expected::Expected;
 use super::matrices::is_matrix;
@@ -13,6 +14,7 @@ use crate::base::dimension::Dimension;
 use crate::base::ids::CoordinateId;
 use crate::base::nearest::nearest;
 use crate::base::span::Extent;
+use crate::base::units;
 use crate::model::expression::{Expr, Vector};
 use crate::model::simplify;
 use crate::syntax::ast::{ItemKind, Unit, Value, ValueKind};
@@ -22,7 +24,7 @@ impl Resolver<'_> {
     /// A value of any kind and dimension.
     pub(super) fn value(&mut self, value: &Value, place: Place) -> Option<Typed> {
         match &value.kind {
-            ValueKind::Number(number, unit) => self.number(*number, unit.as_ref()),
+            ValueKind::Number(number, unit) => self.number(*number, unit.as_ref(), place),
             ValueKind::Name(name) => self.named_value(name, place),
             ValueKind::Vector(components, unit) => {
                 self.vector_literal(components, unit.as_ref(), value.extent, place)
@@ -39,7 +41,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn number(&mut self, number: f64, unit: Option<&Unit>) -> Option<Typed> {
+    fn number(&mut self, number: f64, unit: Option<&Unit>, place: Place) -> Option<Typed> {
         let Some(unit) = unit else {
             let quantity = if number == 0.0 {
                 Quantity::Zero
@@ -49,6 +51,7 @@ impl Resolver<'_> {
             return Some(Typed::Scalar(Expr::Number(number), quantity));
         };
         let (dimension, scale) = self.unit(unit)?;
+        self.may_be_unclear(Some(number), unit, place);
         let value = number * scale;
         if !value.is_finite() {
             self.diagnostics.error(
@@ -205,6 +208,9 @@ impl Resolver<'_> {
                     .to_string(),
             ),
             Some(near) => Some(format!("did you mean `{near}`?")),
+            None if units::respelt(&text).is_some() => {
+                units::respelt(&text).map(|unit| format!("the unit is written `{unit}`"))
+            }
             None if ["x", "y", "z"].contains(&text.as_str()) => Some(format!(
                 "an axis can only stand where a direction is expected; as a vector write `{}`",
                 match text.as_str() {
@@ -225,6 +231,9 @@ impl Resolver<'_> {
         extent: Extent,
         place: Place,
     ) -> Option<Typed> {
+        if let Some(unit) = unit {
+            self.may_be_unclear(None, unit, place);
+        }
         if is_matrix(components) {
             return self.matrix_literal(components, unit, extent, place);
         }
@@ -402,17 +411,12 @@ impl Resolver<'_> {
         value: &Value,
     ) -> Option<()> {
         let expected = expected.into();
-        if found.fits(expected.dimension) {
+        if expected.admits(found, value) {
             return Some(());
         }
         if let Some(written) = bare_number(value) {
-            let Expected { name, unit, .. } = expected;
-            self.diagnostics.error(
-                value.extent,
-                format!(
-                    "`{written}` has no unit; {name} is expected, for example `{written} {unit}`"
-                ),
-            );
+            self.diagnostics
+                .error(value.extent, expected.needs_unit(&written));
             return None;
         }
         let message = format!(
@@ -478,17 +482,4 @@ pub(super) fn decimal_commas(values: &[Value]) -> bool {
     values
         .windows(2)
         .any(|pair| is_whole(&pair[0]) && is_number(&pair[1]))
-}
-
-/// The text of a number without a unit, or of a vector of such.
-pub(super) fn bare_number(value: &Value) -> Option<String> {
-    match &value.bare().kind {
-        ValueKind::Number(number, None) => Some(format!("{number}")),
-        ValueKind::Negate(operand) => bare_number(operand).map(|text| format!("-{text}")),
-        ValueKind::Vector(components, None) => {
-            let texts: Option<Vec<String>> = components.iter().map(bare_number).collect();
-            Some(format!("[{}]", texts?.join(", ")))
-        }
-        _ => None,
-    }
 }

@@ -177,8 +177,9 @@ fn problem(requirement: &Requirement, at: &Values) -> Option<String> {
         (Demand::Spanning, axes) => in_one_plane(axes)
             .then(|| "lie in one plane: together they do not reach every place".to_string()),
         (Demand::OnCurve(curve), &[argument]) if !curve.reaches(argument) => {
-            let [first, last] = curve.range().map(rounded);
-            let (argument, last) = (curve.with_unit(rounded(argument)), curve.with_unit(last));
+            let [first, last] = curve.range();
+            let (first, last) = (curve.in_unit(first), curve.with_unit(last));
+            let argument = curve.with_unit(argument);
             Some(format!(
                 "is {argument}; this curve goes from {first} to {last}"
             ))

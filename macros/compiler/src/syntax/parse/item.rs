@@ -14,13 +14,21 @@ use super::placement::placement;
 use super::tolerance::{nominal, tolerance};
 use super::unit;
 use super::value::{value, value_before};
-use super::words::instead_of;
+use super::words::{COMMENT, instead_of};
 use crate::base::diagnostics::Diagnostic;
 
 /// Reads an item up to its semicolon.
 pub(super) fn item(tokens: &mut Tokens) -> Parsed<ItemKind> {
     let Some(keyword) = tokens.peek_ident() else {
-        return tokens.expected("an item such as `body` or `joint`");
+        let is_comment = ['%', '!', '/', '\'']
+            .iter()
+            .any(|&sign| tokens.peek_sign(sign));
+        return tokens
+            .expected("an item such as `body` or `joint`")
+            .map_err(|error| match is_comment {
+                true => Box::new(error.with_help(COMMENT)),
+                false => error,
+            });
     };
     let read: fn(&mut Tokens) -> Parsed<ItemKind> = match keyword.to_string().as_str() {
         "input" => input,

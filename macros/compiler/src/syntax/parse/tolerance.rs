@@ -224,7 +224,9 @@ fn beta(word: &Ident, tokens: &mut Tokens) -> Parsed<LawKind> {
 }
 
 fn unknown_law(name: &str, extent: Extent) -> Box<Diagnostic> {
+    let per_cent = ["cent", "percent"].contains(&name);
     let help = match suggested_law(name) {
+        _ if per_cent => "per cent are written `%`: `+/- 3%`".to_string(),
         Some(law) => format!("did you mean `{law}`?"),
         None => "a law is normal, truncated normal, uniform, triangular, lognormal, weibull or beta(2, 3)".to_string(),
     };
