@@ -14,8 +14,12 @@ const UPRIGHT = {
 };
 
 class Model {
-  constructor(scene) {
+  constructor(scene, up) {
     this.scene = scene;
+    this.upright = { ...UPRIGHT };
+    const along = Object.keys(UPRIGHT).find((name) => dot(UPRIGHT[name][2], up) > 1 - 1e-9);
+    if (!along) this.upright.oblique = [...across(up), up];
+    this.up = along ?? "oblique";
     const [low, high] = scene.bounds;
     this.middle = times(0.5, plus(low, high));
     this.size = length(minus(high, low)) || 1;
@@ -62,7 +66,7 @@ class Painter {
     this.azimuth = -0.9;
     this.elevation = 0.42;
     this.zoom = 1;
-    this.up = "z";
+    this.up = model.up;
   }
 
   paint(poses, { ghost = false, names = false, triad = true } = {}) {
@@ -98,7 +102,7 @@ class Painter {
 
   // Right, up and towards the viewer, of a direction of the common frame.
   seen(direction) {
-    return turned(this.view, turned(UPRIGHT[this.up], direction));
+    return turned(this.view, turned(this.model.upright[this.up], direction));
   }
 
   bodies(poses, ghost) {
