@@ -2,6 +2,9 @@
 // the arrow keys, and a rectangle to zoom into.
 
 const WIDEST = 760;
+// Of labels: pixels of a letter at most, and how far they stand below their points, most wanted first.
+const LETTER = 7;
+const LABEL_RISES = [-6, 14, 4, -20, 28, -34, 42, -48, 56];
 const DASHES = { solid: "", dashed: "8 5", dotted: "2 4", dash_dotted: "9 4 2 4" };
 
 function drawFigure(figure, parent) {
@@ -130,15 +133,31 @@ class Chart {
       const group = svgElement("g", { "data-series": number, class: one.kind }, inside);
       this.drawSeries(one, group);
     });
-    for (const { at, text } of this.panel.labels) {
-      if (!this.inView(at)) continue;
-      const [x, y] = this.pixel(at);
-      const end = x > right - 7 * text.length;
-      svgText(text, { x: end ? x - 6 : x + 6, y: this.panel.y.categories.length > 0 ? y + 4 : Math.max(top + 12, y - 6), class: "label", "text-anchor": end ? "end" : "start" }, this.svg);
-    }
+    this.drawLabels();
     this.frame = svgElement("rect", { class: "drag", width: 0, height: 0 }, this.svg);
     this.cursor = svgElement("circle", { class: "cursor", r: 5, visibility: "hidden" }, this.svg);
     if (this.view !== this.whole) this.resetButton();
+  }
+
+  // Each beside its point where no other label stands, if there is such a place.
+  drawLabels() {
+    const taken = [];
+    const { left, right, top, bottom } = this.inner;
+    const rises = this.panel.y.categories.length > 0 ? [4] : LABEL_RISES;
+    for (const { at, text } of this.panel.labels) {
+      if (!this.inView(at)) continue;
+      const [x, y] = this.pixel(at);
+      const wide = LETTER * text.length;
+      const inside = (from) => Math.max(left + 2, Math.min(right - wide, from));
+      const places = rises.flatMap((rise) => [x + 6, x - 6 - wide].map((from) => [from, y + rise]));
+      const box = ([from, base]) => [from, base - 10, from + wide, base + 3];
+      const fits = ([from, high, to, low]) => from >= left && to <= right && high >= top && low <= bottom;
+      const free = (own) => !taken.some((other) => own[0] < other[2] && other[0] < own[2] && own[1] < other[3] && other[1] < own[3]);
+      const boxes = places.map(box);
+      const [from, , , low] = boxes.find((own) => fits(own) && free(own)) ?? boxes.find(fits) ?? box([inside(x + 6), Math.max(top + 12, y - 6)]);
+      taken.push([from, low - 13, from + wide, low]);
+      svgText(text, { x: from, y: low - 3, class: "label" }, this.svg);
+    }
   }
 
   drawAxes() {

@@ -170,6 +170,6 @@ pub struct ElementInfo {
     pub name: Text,
     /// The word it is declared with, for example `bushing`; `drive` of a driven coordinate.
     pub kind: Text,
-    /// What it acts on and its law, with numbers in SI: `on theta stiffness k rest 0`.
+    /// What it acts on and its law, without arguments that are zero, with numbers in SI: `on theta stiffness k rest 0.1`.
     pub law: Text,
 }

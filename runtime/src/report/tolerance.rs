@@ -326,9 +326,11 @@ impl MonteCarlo {
         }
         if self.samples < self.planned {
             let ranges = self.ranges.iter();
-            let ranges: Vec<String> = ranges
-                .map(|own| format!("{} to {}", own.start, own.end.saturating_sub(1)))
-                .collect();
+            let ranges = ranges.map(|own| match own.end.saturating_sub(1) {
+                last if last == own.start => last.to_string(),
+                last => format!("{} to {last}", own.start),
+            });
+            let ranges: Vec<String> = ranges.collect();
             if !ranges.is_empty() {
                 text += &format!(", numbers {}", ranges.join(" and "));
             }

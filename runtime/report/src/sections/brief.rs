@@ -135,8 +135,9 @@ fn tolerances(spread: &Spreads) -> Vec<Line> {
         Ok(summary) => {
             let doubted = summary.trust.iter().filter(|own| !own.trusted());
             let doubted: Vec<String> = doubted.map(|own| (own.mode + 1).to_string()).collect();
+            let plural = if doubted.len() > 1 { "s" } else { "" };
             let text = format!(
-                "The first-order spread is not to be trusted of mode {}. See Tolerances.",
+                "The first-order spread of mode{plural} {} is not to be trusted. See Tolerances.",
                 doubted.join(", ")
             );
             lines.push((Some(false), text));

@@ -36,7 +36,7 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
         }
     });
     html.paragraph(&format!(
-        "Densities: the line stands at the value that was set, the shade reaches {sigma_level} standard deviations to either side of the mean."
+        "Law, mean and {sigma_level} standard deviations. Drawn is the density: the line stands at the value that was set, the shade is as wide as the band."
     ));
     if varying.len() > MOST {
         let more = varying.len() - MOST;
@@ -46,20 +46,12 @@ pub(super) fn drawings(html: &mut Html, all: &[Variable<'_>], sigma_level: f64) 
     }
 }
 
-/// `normal, mean 1 m, sigma 0.01 m, ± 0.03 m (3 sigma)`.
+/// `normal, 1 ± 0.03 m`: mean and band.
 fn words(own: &Variable<'_>, law: &Distribution, sigma_level: f64) -> String {
-    let unit = match own.unit.symbol.is_empty() {
-        true => String::new(),
-        false => format!(" {}", own.unit.symbol),
-    };
-    let of = |value: f64, count: usize| format!("{}{unit}", digits(own.unit.from_si(value), count));
-    format!(
-        "{}, mean {}{unit}, sigma {}, \u{b1} {} ({sigma_level} sigma)",
-        law.name(),
-        number(own.unit.from_si(law.mean())),
-        of(law.sigma(), 3),
-        of(sigma_level * law.sigma(), 3)
-    )
+    let mean = number(own.unit.from_si(law.mean()));
+    let band = digits(own.unit.from_si(sigma_level * law.sigma()), 3);
+    let text = format!("{}, {mean} \u{b1} {band} {}", law.name(), own.unit.symbol);
+    text.trim_end().to_owned()
 }
 
 fn drawing(html: &mut Html, own: &Variable<'_>, law: &Distribution) {

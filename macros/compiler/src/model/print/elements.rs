@@ -47,12 +47,34 @@ impl Mechanism {
     }
 }
 
+/// Arguments that need not be declared: without them they are zero.
+const OPTIONAL: [&str; 7] = [
+    "stiffness",
+    "damping",
+    "turning_stiffness",
+    "turning_damping",
+    "rest",
+    "force",
+    "moment",
+];
+
+/// A law without the arguments that are zero.
+fn quiet(law: &str) -> String {
+    let mut text = format!("{law} ");
+    for name in OPTIONAL {
+        for zero in ["0", "[0, 0, 0]"] {
+            text = text.replace(&format!(" {name} {zero} "), " ");
+        }
+    }
+    text.trim_end().to_owned()
+}
+
 /// A law as text begins with the word it is declared with.
 fn element(name: &impl ToString, text: &str) -> Element {
     let (kind, law) = text.split_once(' ').unwrap_or((text, ""));
     Element {
         name: name.to_string(),
         kind: kind.to_owned(),
-        law: law.to_owned(),
+        law: quiet(law),
     }
 }
