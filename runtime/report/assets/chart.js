@@ -2,8 +2,12 @@
 // the arrow keys, and a rectangle to zoom into.
 
 const WIDEST = 760;
+
 // Of labels: pixels of a letter at most, and how far they stand below their points, most wanted first.
 const LETTER = 7;
+// What only compares, and is paler than what it is compared with.
+const GREY = "#6e6e6e";
+const strength = (colour) => (colour === GREY ? 0.35 : 0.75);
 const LABEL_RISES = [-6, 14, 4, -20, 28, -34, 42, -48, 56];
 const DASHES = { solid: "", dashed: "8 5", dotted: "2 4", dash_dotted: "9 4 2 4" };
 
@@ -198,7 +202,7 @@ class Chart {
       for (const [a, b, low, high] of own.bars) {
         const [x, y] = this.pixel([a, high]);
         const [right, under] = this.pixel([b, low]);
-        svgElement("rect", { x, y, width: Math.max(0, right - x), height: Math.max(0, under - y), fill: own.colour, "fill-opacity": 0.75, stroke: "#fff", "stroke-width": 0.6 }, group);
+        svgElement("rect", { x, y, width: Math.max(0, right - x), height: Math.max(0, under - y), fill: own.colour, "fill-opacity": strength(own.colour), stroke: "#fff", "stroke-width": 0.6 }, group);
       }
     } else if (kind === "mark") {
       const x = this.x(own.at);
@@ -355,7 +359,7 @@ function swatch({ kind, own }, picture) {
   if (kind === "curve") {
     svgElement("line", { x1: 1, x2: 33, y1: 7, y2: 7, stroke: own.colour, "stroke-width": 2.4, "stroke-dasharray": DASHES[own.stroke] }, picture);
   } else if (kind === "band" || kind === "bars") {
-    svgElement("rect", { x: 3, y: 2, width: 28, height: 10, fill: own.colour, "fill-opacity": kind === "band" ? 0.25 : 0.75 }, picture);
+    svgElement("rect", { x: 3, y: 2, width: 28, height: 10, fill: own.colour, "fill-opacity": kind === "band" ? 0.25 : strength(own.colour) }, picture);
   } else if (kind === "mark") {
     svgElement("line", { x1: 17, x2: 17, y1: 0, y2: 14, class: "marked" }, picture);
   } else {

@@ -70,7 +70,7 @@ class Player {
       const canvas = htmlElement("canvas", { class: "small", "aria-hidden": "true" }, button);
       htmlElement("span", {}, button, state.title);
       button.addEventListener("click", () => this.choose(number));
-      return { button, painter: new Painter(canvas, this.model) };
+      return { button, painter: new Painter(canvas, this.model, this.model.coarse) };
     });
   }
 

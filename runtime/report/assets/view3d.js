@@ -26,7 +26,9 @@ class Model {
     this.rest = scene.bodies.map((body) => body.pose);
     // An ellipsoid stands for masses and moments of inertia: the joints within it are what one knows of the body.
     this.vague = scene.bodies.map(({ solids }) => solids.every(({ shape }) => "Ellipsoid" in shape));
-    this.faces = scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size)));
+    const faces = (sides) => scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size, sides)));
+    this.faces = faces(FINE);
+    this.coarse = faces(COARSE);
     this.sticks = scene.bodies.map((_, number) => this.stick(number));
     this.colours = this.colourBodies();
   }
@@ -59,9 +61,10 @@ class Model {
 
 // One picture of a model: projects, sorts, paints.
 class Painter {
-  constructor(canvas, model) {
+  constructor(canvas, model, faces = model.faces) {
     this.canvas = canvas;
     this.model = model;
+    this.faces = faces;
     this.context = canvas.getContext("2d");
     this.azimuth = -0.9;
     this.elevation = 0.42;
@@ -107,7 +110,7 @@ class Painter {
 
   bodies(poses, ghost) {
     const jobs = [];
-    this.model.faces.forEach((faces, body) => {
+    this.faces.forEach((faces, body) => {
       const pose = poses[body];
       for (const { corners, smooth } of faces) {
         const seen = corners.map((corner) => this.see(placed(pose, corner)));

@@ -53,7 +53,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                 let points = stretch.iter().map(|own| place(own.value, &own.equilibrium));
                 let points = before.map(middle).into_iter().chain(points);
                 let points = points.chain(after.map(middle)).collect();
-                open_ends |= after.is_some();
+                open_ends |= after.is_some_and(|[a, b]| holds(a) != holds(b));
                 add(&mut panel, label, Colour::Series(number), stroke, points);
             }
         }
@@ -99,6 +99,10 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     }
     let title = style.titled(format!("{}: branches of equilibria", d.name));
     Ok(Figure::new(title, caption, panels))
+}
+
+fn holds(point: &BranchPoint) -> bool {
+    point.equilibrium.stability.holds()
 }
 
 /// A stretch of a branch with, where it begins or ends between two points, those two.

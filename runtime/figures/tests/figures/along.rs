@@ -3,10 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use eigentol::Study;
+use eigentol::branches::BranchPoint;
 use eigentol_figures::figure::{Panel, Point, Stroke};
 use eigentol_figures::{
-    Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria, frequencies,
-    root_locus,
+    Figure, Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria,
+    frequencies, root_locus,
 };
 
 use crate::machines::{Bars, Door, Pendulum, Rotor, bars, pendulum, rotor_diagram, save, values};
@@ -268,35 +269,39 @@ fn stretches_of_a_branch_meet_where_flutter_begins() {
     let [branch] = &found.branches[..] else {
         panic!("{} branches", found.branches.len())
     };
-    let changes = branch
-        .points
-        .windows(2)
-        .find(|pair| pair[0].equilibrium.stability != pair[1].equilibrium.stability);
-    let [before, after] = changes.expect("flutter begins") else {
+    let holds = |point: &BranchPoint| point.equilibrium.stability.holds();
+    let mut pairs = branch.points.windows(2);
+    let onset = pairs.find(|pair| holds(&pair[0]) != holds(&pair[1]));
+    let [before, after] = onset.expect("flutter begins") else {
         unreachable!()
     };
-    let middle = 0.5 * (before.value + after.value) * 30.0 / PI;
+    let onset = 0.5 * (before.value + after.value) * 30.0 / PI;
     let figure = branches(&found, &Style::default()).unwrap();
     for panel in &figure.panels {
         let pieces = panel.curves.iter().flat_map(|own| &own.pieces);
         let ends: Vec<&Point> = pieces
             .flat_map(|own| [&own[0], &own[own.len() - 1]])
             .collect();
-        let outer = ends
-            .iter()
-            .filter(|own| own[0] == panel.x.range[0] || own[0] == panel.x.range[1]);
-        assert_eq!(outer.count(), 2);
-        let inner = ends.iter().filter(|own| (own[0] - middle).abs() < 1e-9);
-        assert_eq!((inner.count(), ends.len()), (2, 4), "{ends:?}");
+        for end in &ends {
+            let here = ends.iter().filter(|own| own == &end).count();
+            let outer = panel.x.range.contains(&end[0]);
+            assert_eq!(here, if outer { 1 } else { 2 }, "{end:?} of {ends:?}");
+        }
+        let solid = panel.curves.iter().find(|own| own.stroke == Stroke::Solid);
+        let last = solid.and_then(|own| own.pieces.last()?.last());
+        assert!((last.unwrap()[0] - onset).abs() < 1e-9, "{last:?} {onset}");
     }
-    assert!(
+    let said = |figure: &Figure| {
         figure
             .caption
             .iter()
-            .any(|line| line.contains("drawn half way")),
-        "{:?}",
-        figure.caption
-    );
+            .any(|line| line.contains("drawn half way"))
+    };
+    assert!(said(&figure), "{:?}", figure.caption);
+    let whole = Study::new(Rotor)
+        .branches(Rotor::speed, low, 0.2 * high)
+        .unwrap();
+    assert!(!said(&branches(&whole, &Style::default()).unwrap()));
     save(&figure, "branches_to_flutter");
 }
 

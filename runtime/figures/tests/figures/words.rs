@@ -104,17 +104,23 @@ fn long_words_are_made_to_fit() {
         curves.curve(Curve::new(label, Colour::Series(k as usize), line));
         curves.label([1.0, 1.0 + f64::from(k)], long(&format!("end {k} "), 40));
     }
-    curves.label([0.5, 4.0], long("wider than the panel ", 300));
     curves.markers("here", Colour::Black, Shape::Ring, [[0.5, 0.5]]);
     curves.marks.push(Mark {
         label: long("mark ", 90),
         at: 0.2,
     });
+    let mut alone = Panel::new(Axis::new("time", "s"), Axis::new("angle", "rad"));
+    alone.markers("", Colour::Black, Shape::Ring, [[0.0, 0.0], [1.0, 1.0]]);
+    alone.label([0.9, 0.5], long("wider than the panel ", 300));
     let caption = vec![
         long("unbroken", 500),
         long("one word after the other ", 400),
     ];
-    let figure = Figure::new(long("a title ", 300), caption, vec![curves, shapes, shares]);
+    let figure = Figure::new(
+        long("a title ", 300),
+        caption,
+        vec![curves, shapes, shares, alone],
+    );
     save(&figure, "long_words");
 }
 
