@@ -183,6 +183,7 @@ class Chart {
       svgElement("line", { x1: low[0], y1: low[1], x2: high[0], y2: high[1], class: "axis" }, axes);
     }
     svgText(heading(x), { x: (left + right) / 2, y: this.size[1] - 9, "text-anchor": "middle", class: "name" }, axes);
+    if (!heading(y)) return;
     const middle = (top + bottom) / 2;
     svgText(heading(y), { x: 16, y: middle, "text-anchor": "middle", class: "name", transform: `rotate(-90 16 ${middle})` }, axes);
   }

@@ -340,7 +340,7 @@ const CARRIAGE: &str = "mechanism Carriage {
     curve motor: [0, 10, 20] rad/s -> [3, 2, 0] N*m;
     gravity 9.81 m/s^2 along x;
     body turntable: massless;
-    body cart: box(mass: m, size: [0.2, 0.1, 0.1]);
+    body cart: box(mass: m, size: [0.2, 0.1, 0.1] m);
     body arm: rod(mass: 1 kg, length: 1 m, along: x);
     joint turn: revolute(x) from ground to turntable, driven at speed;
     joint slide: prismatic(x) from turntable to cart;
@@ -353,7 +353,7 @@ const CARRIAGE: &str = "mechanism Carriage {
     force rubbing: damper(on: theta, damping: 0.1 N*m*s/rad);
     force drive: generalized(on: theta, value: torque + 0.1 * motor(speed));
     force push: load(at: hand, force: [1, 0, 0] N);
-    output reach = hand.x;
+    output tilt = theta;
 }";
 
 fn carriage() -> Study<Interpreted> {
