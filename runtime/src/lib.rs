@@ -144,7 +144,8 @@ pub use mechanism::{
     Text, ToleranceInfo, Unit, Violation,
 };
 pub use mechanism::{
-    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
+    BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
+    WheelInfo,
 };
 pub use mechanism::{GradientOf, PartialsOf, ResidualPartialsOf, Square};
 pub use scalar::{Dual, Real};

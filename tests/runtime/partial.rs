@@ -163,6 +163,45 @@ fn a_run_that_is_stopped_can_be_resumed() {
     }
 }
 
+/// A result says what to ask for to draw its samples again, whether it was drawn at once, merged from parts, or written and read.
+#[test]
+fn a_result_says_how_its_samples_were_drawn() {
+    let study = bar().seed(7).stream(3);
+    let whole = study.monte_carlo().unwrap();
+    assert_eq!(whole.drawn(), "3000 samples, seed 7, stream 3");
+    assert_eq!(whole.ranges, [0..3000]);
+    assert!(
+        whole
+            .to_string()
+            .contains(": Monte Carlo with re-solved equilibria, 3000 samples, seed 7, stream 3: ")
+    );
+    let mut part = study.samples_between(100..300).unwrap();
+    part.merge(study.samples_between(1000..1001).unwrap())
+        .unwrap();
+    let text = serde_json::to_string(&part).expect("numbers and lists");
+    let read: PartialMonteCarlo = serde_json::from_str(&text).expect("what was written");
+    let result = read.result();
+    assert_eq!(
+        result.drawn(),
+        "201 samples, seed 7, stream 3, numbers 100 to 299 and 1000"
+    );
+    let again = bar().seed(result.seed).stream(result.stream);
+    assert!(merged(&again, result.ranges.clone()).result() == result);
+    assert_eq!(
+        bar().seed(u64::MAX).samples(2).monte_carlo().unwrap().seed,
+        u64::MAX
+    );
+    // A file that does not say it is none of ours.
+    for fact in ["seed", "stream"] {
+        let without = text.replacen(&format!("[\"{fact}\","), "[\"other\",", 1);
+        assert_ne!(without, text);
+        assert!(
+            serde_json::from_str::<PartialMonteCarlo>(&without).is_err(),
+            "{fact}"
+        );
+    }
+}
+
 #[test]
 fn gaps_and_overlaps_are_named() {
     let study = bar();

@@ -26,7 +26,6 @@ pub struct Style {
     true_width: bool,
     marks: Vec<(f64, String)>,
     notes: Vec<String>,
-    seed: Option<u64>,
 }
 
 /// The unit of frequencies.
@@ -37,17 +36,14 @@ enum Frequency {
 }
 
 impl Style {
-    /// A style whose captions have the design variables of a study with their tolerances and, where samples are shown, its seed.
+    /// A style whose captions have the design variables of a study with their tolerances.
     #[must_use]
     pub fn of<M: Kernels>(study: &Study<M>) -> Self {
         let description = study.description();
         let tolerances = study.tolerances();
         let half_widths = tolerances.as_ref().map(|own| own.half_widths());
         let half_widths = half_widths.unwrap_or_default();
-        Self {
-            seed: Some(study.sampling().seed),
-            ..Self::default().note(design(description, study.design_values(), half_widths))
-        }
+        Self::default().note(design(description, study.design_values(), half_widths))
     }
 
     /// The title.
@@ -121,14 +117,6 @@ impl Style {
         self.notes.push(line.into());
         self.notes.retain(|line| !line.is_empty());
         self
-    }
-
-    /// `4000 samples, seed 7`.
-    pub(crate) fn sampled(&self, samples: usize) -> String {
-        match self.seed {
-            Some(seed) => format!("{samples} samples, seed {seed}"),
-            None => format!("{samples} samples"),
-        }
     }
 
     pub(crate) fn titled(&self, otherwise: String) -> String {

@@ -1,8 +1,8 @@
 //! How the numbers of a picture are read, in the runtime's words.
 
 use eigentol::{
-    BodyInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo, SolidKind, Text,
-    WheelInfo,
+    BodyInfo, ElementInfo, JointInfo, LinkInfo, List, PictureInfo, PointInfo, SolidInfo, SolidKind,
+    Text, WheelInfo,
 };
 use eigentol_compiler::mechanics::{self, Picture};
 use eigentol_compiler::model::mechanism::Frame;
@@ -24,6 +24,7 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
                 from,
                 to,
                 cut: joint.cut,
+                driven: joint.driven,
             }
         }),
         points: list(&picture.points, |(name, frame)| PointInfo {
@@ -42,6 +43,11 @@ pub(crate) fn picture(picture: &Picture) -> PictureInfo {
                 center,
                 on,
             }
+        }),
+        elements: list(&picture.elements, |element| ElementInfo {
+            name: text(&element.name),
+            kind: text(&element.kind),
+            law: text(&element.law),
         }),
         numbers: picture.numbers.clone().into(),
         computed: picture.computed.clone().into(),

@@ -242,6 +242,18 @@ impl MonteCarlo {
         self.0.samples
     }
 
+    /// Seed of the random numbers.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.0.seed
+    }
+
+    /// Which of the seed's independent sequences.
+    #[getter]
+    fn stream(&self) -> u64 {
+        self.0.stream
+    }
+
     /// Means of "frequency" (rad/s) or "damping_ratio" over the stable samples, shape (m,).
     #[pyo3(signature = (quantity="frequency"))]
     fn mean<'py>(&self, py: Python<'py>, quantity: &str) -> PyResult<Array1<'py>> {

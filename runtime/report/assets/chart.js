@@ -2,6 +2,13 @@
 // the arrow keys, and a rectangle to zoom into.
 
 const WIDEST = 760;
+
+// Of labels: pixels of a letter at most, and how far they stand below their points, most wanted first.
+const LETTER = 7;
+// What only compares, and is paler than what it is compared with.
+const GREY = "#6e6e6e";
+const strength = (colour) => (colour === GREY ? 0.35 : 0.75);
+const LABEL_RISES = [-6, 14, 4, -20, 28, -34, 42, -48, 56];
 const DASHES = { solid: "", dashed: "8 5", dotted: "2 4", dash_dotted: "9 4 2 4" };
 
 function drawFigure(figure, parent) {
@@ -130,15 +137,31 @@ class Chart {
       const group = svgElement("g", { "data-series": number, class: one.kind }, inside);
       this.drawSeries(one, group);
     });
-    for (const { at, text } of this.panel.labels) {
-      if (!this.inView(at)) continue;
-      const [x, y] = this.pixel(at);
-      const end = x > right - 7 * text.length;
-      svgText(text, { x: end ? x - 6 : x + 6, y: this.panel.y.categories.length > 0 ? y + 4 : Math.max(top + 12, y - 6), class: "label", "text-anchor": end ? "end" : "start" }, this.svg);
-    }
+    this.drawLabels();
     this.frame = svgElement("rect", { class: "drag", width: 0, height: 0 }, this.svg);
     this.cursor = svgElement("circle", { class: "cursor", r: 5, visibility: "hidden" }, this.svg);
     if (this.view !== this.whole) this.resetButton();
+  }
+
+  // Each beside its point where no other label stands, if there is such a place.
+  drawLabels() {
+    const taken = [];
+    const { left, right, top, bottom } = this.inner;
+    const rises = this.panel.y.categories.length > 0 ? [4] : LABEL_RISES;
+    for (const { at, text } of this.panel.labels) {
+      if (!this.inView(at)) continue;
+      const [x, y] = this.pixel(at);
+      const wide = LETTER * text.length;
+      const inside = (from) => Math.max(left + 2, Math.min(right - wide, from));
+      const places = rises.flatMap((rise) => [x + 6, x - 6 - wide].map((from) => [from, y + rise]));
+      const box = ([from, base]) => [from, base - 10, from + wide, base + 3];
+      const fits = ([from, high, to, low]) => from >= left && to <= right && high >= top && low <= bottom;
+      const free = (own) => !taken.some((other) => own[0] < other[2] && other[0] < own[2] && own[1] < other[3] && other[1] < own[3]);
+      const boxes = places.map(box);
+      const [from, , , low] = boxes.find((own) => fits(own) && free(own)) ?? boxes.find(fits) ?? box([inside(x + 6), Math.max(top + 12, y - 6)]);
+      taken.push([from, low - 13, from + wide, low]);
+      svgText(text, { x: from, y: low - 3, class: "label" }, this.svg);
+    }
   }
 
   drawAxes() {
@@ -160,6 +183,7 @@ class Chart {
       svgElement("line", { x1: low[0], y1: low[1], x2: high[0], y2: high[1], class: "axis" }, axes);
     }
     svgText(heading(x), { x: (left + right) / 2, y: this.size[1] - 9, "text-anchor": "middle", class: "name" }, axes);
+    if (!heading(y)) return;
     const middle = (top + bottom) / 2;
     svgText(heading(y), { x: 16, y: middle, "text-anchor": "middle", class: "name", transform: `rotate(-90 16 ${middle})` }, axes);
   }
@@ -179,7 +203,7 @@ class Chart {
       for (const [a, b, low, high] of own.bars) {
         const [x, y] = this.pixel([a, high]);
         const [right, under] = this.pixel([b, low]);
-        svgElement("rect", { x, y, width: Math.max(0, right - x), height: Math.max(0, under - y), fill: own.colour, "fill-opacity": 0.75, stroke: "#fff", "stroke-width": 0.6 }, group);
+        svgElement("rect", { x, y, width: Math.max(0, right - x), height: Math.max(0, under - y), fill: own.colour, "fill-opacity": strength(own.colour), stroke: "#fff", "stroke-width": 0.6 }, group);
       }
     } else if (kind === "mark") {
       const x = this.x(own.at);
@@ -336,7 +360,7 @@ function swatch({ kind, own }, picture) {
   if (kind === "curve") {
     svgElement("line", { x1: 1, x2: 33, y1: 7, y2: 7, stroke: own.colour, "stroke-width": 2.4, "stroke-dasharray": DASHES[own.stroke] }, picture);
   } else if (kind === "band" || kind === "bars") {
-    svgElement("rect", { x: 3, y: 2, width: 28, height: 10, fill: own.colour, "fill-opacity": kind === "band" ? 0.25 : 0.75 }, picture);
+    svgElement("rect", { x: 3, y: 2, width: 28, height: 10, fill: own.colour, "fill-opacity": kind === "band" ? 0.25 : strength(own.colour) }, picture);
   } else if (kind === "mark") {
     svgElement("line", { x1: 17, x2: 17, y1: 0, y2: 14, class: "marked" }, picture);
   } else {

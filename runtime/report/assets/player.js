@@ -3,8 +3,8 @@
 const SECONDS = 2;
 const VIEWS = [["oblique", -0.9, 0.42], ["from the front", -Math.PI / 2, 0], ["from the side", 0, 0], ["from above", -Math.PI / 2, Math.PI / 2]];
 
-function showMechanism({ scene, modes }, parent) {
-  const model = new Model(scene);
+function showMechanism({ scene, up, modes }, parent) {
+  const model = new Model(scene, up);
   const states = [{ title: "Equilibrium", about: "", frames: [model.rest] }, ...modes.map((mode) => stateOf(mode, scene.bodies.length))];
   new Player(model, states, parent);
 }
@@ -49,7 +49,8 @@ class Player {
     for (const [name, azimuth, elevation] of VIEWS) button(name[0].toUpperCase() + name.slice(1), () => this.look(azimuth, elevation));
     const up = htmlElement("label", {}, bar, "Up ");
     this.upwards = htmlElement("select", {}, up);
-    for (const name of Object.keys(UPRIGHT)) htmlElement("option", { value: name }, this.upwards, name);
+    for (const name of Object.keys(this.model.upright)) htmlElement("option", { value: name }, this.upwards, name);
+    this.upwards.value = this.model.up;
     this.upwards.addEventListener("change", () => {
       this.painter.up = this.upwards.value;
       this.paint();
@@ -69,7 +70,7 @@ class Player {
       const canvas = htmlElement("canvas", { class: "small", "aria-hidden": "true" }, button);
       htmlElement("span", {}, button, state.title);
       button.addEventListener("click", () => this.choose(number));
-      return { button, painter: new Painter(canvas, this.model) };
+      return { button, painter: new Painter(canvas, this.model, this.model.coarse) };
     });
   }
 

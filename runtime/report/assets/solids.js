@@ -1,19 +1,21 @@
 // Solids as flat faces, in the frame of their body: lists of corners, anticlockwise seen from outside.
 
-const SIDES = 28;
+// Sides of a round thing: of the large view, and of the small pictures.
+const FINE = 28;
+const COARSE = 12;
 
 // The faces of a solid of a scene; what has no thickness of its own gets one that can be seen in a mechanism of this size.
-function facesOf({ center, shape }, size) {
+function facesOf({ center, shape }, size, sides) {
   const [[kind, data]] = Object.entries(shape);
   const thin = 0.007 * size;
   switch (kind) {
-    case "Point": return ball(center, Array(3).fill(0.016 * size), identity());
-    case "Sphere": return ball(center, Array(3).fill(data.radius), identity());
-    case "Ellipsoid": return ball(center, data.semi_axes.map((own) => Math.max(own, 0.3 * thin)), data.axes);
-    case "Rod": return cylinder(center, data.along, thin, data.length);
-    case "Disk": return cylinder(center, data.axis, data.radius, 0.6 * thin);
-    case "Cylinder": return cylinder(center, data.axis, data.radius, data.length);
-    case "Tube": return tube(center, data);
+    case "Point": return ball(center, Array(3).fill(0.016 * size), identity(), sides);
+    case "Sphere": return ball(center, Array(3).fill(data.radius), identity(), sides);
+    case "Ellipsoid": return ball(center, data.semi_axes.map((own) => Math.max(own, 0.3 * thin)), data.axes, sides);
+    case "Rod": return cylinder(center, data.along, thin, data.length, sides);
+    case "Disk": return cylinder(center, data.axis, data.radius, 0.6 * thin, sides);
+    case "Cylinder": return cylinder(center, data.axis, data.radius, data.length, sides);
+    case "Tube": return tube(center, data, sides);
     case "Box": return box(center, data.edges, data.size);
     default: return [];
   }
@@ -23,10 +25,10 @@ function identity() {
   return [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 }
 
-function ring(center, axis, radius, offset) {
+function ring(center, axis, radius, offset, sides = FINE) {
   const [a, b] = across(axis);
-  return Array.from({ length: SIDES }, (_, k) => {
-    const angle = (2 * Math.PI * k) / SIDES;
+  return Array.from({ length: sides }, (_, k) => {
+    const angle = (2 * Math.PI * k) / sides;
     const out = plus(times(radius * Math.cos(angle), a), times(radius * Math.sin(angle), b));
     return plus(plus(center, times(offset, axis)), out);
   });
@@ -40,14 +42,14 @@ function belt(under, over) {
   });
 }
 
-function cylinder(center, axis, radius, long) {
-  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, radius, offset));
+function cylinder(center, axis, radius, long, sides) {
+  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, radius, offset, sides));
   return [...belt(under, over), { corners: over }, { corners: [...under].reverse() }];
 }
 
-function tube(center, { axis, inner, outer, length: long }) {
-  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, outer, offset));
-  const [below, above] = [-long / 2, long / 2].map((offset) => ring(center, axis, inner, offset));
+function tube(center, { axis, inner, outer, length: long }, sides) {
+  const [under, over] = [-long / 2, long / 2].map((offset) => ring(center, axis, outer, offset, sides));
+  const [below, above] = [-long / 2, long / 2].map((offset) => ring(center, axis, inner, offset, sides));
   const flat = (faces) => faces.map(({ corners }) => ({ corners }));
   return [...belt(under, over), ...belt(above, below), ...flat(belt(over, above)), ...flat(belt(below, under))];
 }
@@ -67,9 +69,9 @@ function box(center, edges, size) {
   return faces;
 }
 
-function ball(center, radii, axes) {
-  const rows = 10;
-  const columns = 16;
+function ball(center, radii, axes, sides) {
+  const columns = Math.round(0.58 * sides);
+  const rows = Math.round(0.36 * sides);
   const right = dot(cross(axes[0], axes[1]), axes[2]) > 0;
   const at = (row, column) => {
     const [v, h] = [(Math.PI * row) / rows, (2 * Math.PI * column) / columns];

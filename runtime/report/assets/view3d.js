@@ -14,15 +14,21 @@ const UPRIGHT = {
 };
 
 class Model {
-  constructor(scene) {
+  constructor(scene, up) {
     this.scene = scene;
+    this.upright = { ...UPRIGHT };
+    const along = Object.keys(UPRIGHT).find((name) => dot(UPRIGHT[name][2], up) > 1 - 1e-9);
+    if (!along) this.upright.oblique = [...across(up), up];
+    this.up = along ?? "oblique";
     const [low, high] = scene.bounds;
     this.middle = times(0.5, plus(low, high));
     this.size = length(minus(high, low)) || 1;
     this.rest = scene.bodies.map((body) => body.pose);
     // An ellipsoid stands for masses and moments of inertia: the joints within it are what one knows of the body.
     this.vague = scene.bodies.map(({ solids }) => solids.every(({ shape }) => "Ellipsoid" in shape));
-    this.faces = scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size)));
+    const faces = (sides) => scene.bodies.map(({ solids }) => solids.filter((one) => !one.hole).flatMap((one) => facesOf(one, this.size, sides)));
+    this.faces = faces(FINE);
+    this.coarse = faces(COARSE);
     this.sticks = scene.bodies.map((_, number) => this.stick(number));
     this.colours = this.colourBodies();
   }
@@ -55,14 +61,15 @@ class Model {
 
 // One picture of a model: projects, sorts, paints.
 class Painter {
-  constructor(canvas, model) {
+  constructor(canvas, model, faces = model.faces) {
     this.canvas = canvas;
     this.model = model;
+    this.faces = faces;
     this.context = canvas.getContext("2d");
     this.azimuth = -0.9;
     this.elevation = 0.42;
     this.zoom = 1;
-    this.up = "z";
+    this.up = model.up;
   }
 
   paint(poses, { ghost = false, names = false, triad = true } = {}) {
@@ -98,12 +105,12 @@ class Painter {
 
   // Right, up and towards the viewer, of a direction of the common frame.
   seen(direction) {
-    return turned(this.view, turned(UPRIGHT[this.up], direction));
+    return turned(this.view, turned(this.model.upright[this.up], direction));
   }
 
   bodies(poses, ghost) {
     const jobs = [];
-    this.model.faces.forEach((faces, body) => {
+    this.faces.forEach((faces, body) => {
       const pose = poses[body];
       for (const { corners, smooth } of faces) {
         const seen = corners.map((corner) => this.see(placed(pose, corner)));

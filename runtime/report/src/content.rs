@@ -4,7 +4,7 @@ use eigentol::branches::Branches;
 use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::picture::{ModePictures, Scene};
 use eigentol::summary::Summary;
-use eigentol::tolerance::OutputTolerances;
+use eigentol::tolerance::{Distribution, OutputTolerances};
 use eigentol::{
     Campbell, Description, Equilibrium, Error, Input, Modes, MonteCarlo, Solved, Study, Text,
     Tolerances, Value,
@@ -42,8 +42,8 @@ pub(crate) struct Setup {
     pub(crate) tolerances: Tolerances,
     /// Positions of the inputs whose tolerances follow those of the design variables.
     pub(crate) deviating: Vec<usize>,
-    pub(crate) seed: u64,
-    pub(crate) stream: u64,
+    /// Of each tolerance.
+    pub(crate) distributions: Vec<Distribution>,
 }
 
 /// What there is to see.
@@ -139,16 +139,19 @@ impl Pictures {
 
 impl Setup {
     fn of<M: SummaryKernels>(study: &Study<M>) -> Result<Self, Error> {
-        let sampling = study.sampling();
+        let inputs = study.input_values().to_vec();
+        let design = study.design_values().to_vec();
+        let tolerances = study.tolerances()?;
+        let deviating = study.deviating_inputs();
+        let deviating: Vec<usize> = deviating.iter().map(|input| input.index()).collect();
+        let moved = deviating.iter().filter_map(|&input| inputs.get(input));
+        let nominal: Vec<f64> = design.iter().chain(moved).copied().collect();
         Ok(Self {
-            inputs: study.input_values().to_vec(),
-            design: study.design_values().to_vec(),
-            tolerances: study.tolerances()?,
-            deviating: (study.deviating_inputs().iter())
-                .map(|input| input.index())
-                .collect(),
-            seed: sampling.seed,
-            stream: sampling.stream,
+            distributions: tolerances.distributions(&nominal)?,
+            inputs,
+            design,
+            tolerances,
+            deviating,
         })
     }
 }

@@ -29,6 +29,8 @@ pub(crate) fn frames(bodies: usize, modes: usize) -> (usize, usize) {
 #[derive(Serialize)]
 pub(crate) struct View<'a> {
     scene: &'a Scene,
+    /// Which way is up.
+    up: [f64; 3],
     modes: Vec<Motion>,
 }
 
@@ -55,6 +57,7 @@ impl<'a> View<'a> {
         };
         Self {
             scene,
+            up: scene.up(),
             modes: pictures.modes.iter().flatten().filter_map(motion).collect(),
         }
     }

@@ -308,3 +308,193 @@ fn the_same_study_gives_the_same_report() {
     let html = || Report::new(&swinging()).html().unwrap();
     assert!(html() == html());
 }
+
+/// The words of the verdicts are those of the library, each once, in its order.
+#[test]
+fn verdicts_are_the_sentences_of_the_summary() {
+    let near = swinging().input(Pendulum::omega, 3.9);
+    for study in [swinging(), near] {
+        let text = words(&Report::new(&study).html().unwrap());
+        let sentences = study.summary().unwrap().sentences();
+        assert!(!sentences.is_empty());
+        let mut rest = &*text;
+        for sentence in &sentences {
+            let found = rest.split_once(&*sentence.text);
+            let (_, after) = found.unwrap_or_else(|| panic!("no `{sentence}` in {rest}"));
+            rest = after;
+            assert_eq!(text.matches(&*sentence.text).count(), 1, "{sentence}");
+        }
+        let printed = study.summary().unwrap().to_string();
+        for sentence in &sentences {
+            assert!(printed.contains(&sentence.text), "{printed}");
+        }
+    }
+}
+
+const CARRIAGE: &str = "mechanism Carriage {
+    input torque: N*m;
+    input speed: rad/s;
+    design k = 200 N/m +/- 4 N/m;
+    design m = 2 kg +/- 6% uniform;
+    design c = 1 N*s/m;
+    curve motor: [0, 10, 20] rad/s -> [3, 2, 0] N*m;
+    gravity 9.81 m/s^2 along x;
+    body turntable: massless;
+    body cart: box(mass: m, size: [0.2, 0.1, 0.1] m);
+    body arm: rod(mass: 1 kg, length: 1 m, along: x);
+    joint turn: revolute(x) from ground to turntable, driven at speed;
+    joint slide: prismatic(x) from turntable to cart;
+    joint theta: revolute(y) from cart to arm;
+    point seat: turntable;
+    point tip: cart;
+    point hand: arm at [1 m, 0, 0];
+    force mount: bushing(from: seat, to: tip, stiffness: [k, k, k], damping: [c, c, c]);
+    force coil: spring(on: theta, stiffness: 8 N*m/rad);
+    force rubbing: damper(on: theta, damping: 0.1 N*m*s/rad);
+    force drive: generalized(on: theta, value: torque + 0.1 * motor(speed));
+    force push: load(at: hand, force: [1, 0, 0] N);
+    output tilt = theta;
+}";
+
+fn carriage() -> Study<Interpreted> {
+    Study::new(Interpreted::from_text(CARRIAGE).unwrap_or_else(|mistakes| panic!("{mistakes}")))
+}
+
+fn texts(table: &Value, name: &str) -> Vec<String> {
+    let columns = table["columns"].as_array().expect("columns");
+    let own = columns.iter().find(|own| own["name"] == name);
+    let values = own.and_then(|own| own["values"].as_array());
+    let values = values.unwrap_or_else(|| panic!("no column `{name}` in {table}"));
+    values
+        .iter()
+        .map(|own| own.as_str().unwrap_or_default().to_owned())
+        .collect()
+}
+
+/// Gravity, drives, springs and torques on coordinates, bushings, loads and curves: everything that acts.
+#[test]
+fn everything_that_acts_is_listed() {
+    let elements = table(&Report::new(&carriage()).html().unwrap(), "elements");
+    let columns = ["name", "kind", "law"].map(|name| texts(&elements, name));
+    let found: Vec<String> = (0..columns[0].len())
+        .map(|row| columns.each_ref().map(|own| &*own[row]).join(": "))
+        .collect();
+    let expected = [
+        "gravity: gravity: [9.81, 0, 0]",
+        "turn: drive: at speed",
+        "mount: bushing: from seat to tip stiffness [k, k, k] damping [c, c, c]",
+        "coil: spring: on theta stiffness 8",
+        "rubbing: damper: on theta damping 0.1",
+        "drive: generalized: on theta value (torque + (0.1 * motor(speed)))",
+        "push: load: at hand force [1, 0, 0]",
+        "motor: curve: through 3 points from 0 to 20 rad/s",
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn up_is_against_gravity_or_along_the_first_drive() {
+    let up = |declaration: &str| {
+        let study = Study::new(Interpreted::from_text(declaration).unwrap());
+        let html = Report::new(&study).html().unwrap();
+        let scene = data(&html, "scene").remove(0);
+        let up: Vec<f64> = scene["up"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(Value::as_f64)
+            .collect();
+        (up, words(&html))
+    };
+    let (against, said) = up(CARRIAGE);
+    assert_eq!(against, [-1.0, 0.0, 0.0]);
+    assert!(said.contains("Up is against gravity: [-1, 0, 0]"), "{said}");
+    let oblique = "mechanism Oblique { gravity [0, 3, -4] m/s^2; body bar: rod(mass: 1 kg, length: 1 m, along: -z);
+        joint theta: revolute(x) from ground to bar; }";
+    let (against, _) = up(oblique);
+    assert!(
+        (against[1] + 0.6).abs() < 1e-15 && (against[2] - 0.8).abs() < 1e-15,
+        "{against:?}"
+    );
+    let turning = "mechanism Turning { input speed: rad/s; body hub: massless; body blade: rod(mass: 1 kg, length: 1 m, along: y);
+        joint spin: revolute(-x) from ground to hub, driven at speed;
+        joint flap: revolute(z) from hub to blade; force root: spring(on: flap, stiffness: 5 N*m/rad); }";
+    let (along, said) = up(turning);
+    assert_eq!(along, [1.0, 0.0, 0.0]);
+    assert!(
+        said.contains("No gravity is declared. Up is [1, 0, 0]"),
+        "{said}"
+    );
+    let still = turning.replace(", driven at speed", ", driven at 0");
+    assert_eq!(up(&still).0, [0.0, 0.0, 1.0]);
+}
+
+/// The drawings of the laws: a normal density is the bell of the textbook, a uniform one is level.
+#[test]
+fn each_law_is_drawn_and_said() {
+    let html = Report::new(&carriage()).html().unwrap();
+    let text = words(&html);
+    for said in ["normal, 200 \u{b1} 4 N/m", "uniform, 2 \u{b1} 0.208 kg"] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let laws = texts(&table(&html, "variables"), "law");
+    assert_eq!(laws, ["", "", "normal", "uniform", ""]);
+    let drawn = densities(&html);
+    let [bell, level] = &drawn[..] else {
+        panic!("{} drawings", drawn.len())
+    };
+    // Two ends at zero, 57 quantiles between them.
+    assert_eq!((bell.len(), level.len()), (59, 59));
+    let (base, top, middle) = (bell[0][1], bell[29][1], bell[29][0]);
+    assert!((middle - 80.0).abs() < 0.11, "{middle}");
+    let sigma = (bell[57][0] - bell[1][0]) / 7.0;
+    for [x, y] in &bell[1..58] {
+        let z = (x - middle) / sigma;
+        let height = (base - y) / (base - top);
+        assert!((height - (-0.5 * z * z).exp()).abs() < 0.01, "{x} {y}");
+    }
+    let heights = level[1..58].iter().map(|own| base - own[1]);
+    assert!(
+        heights.clone().all(|own| (own - (base - top)).abs() < 0.11),
+        "{level:?}"
+    );
+}
+
+/// The points of the curves of densities, in pixels.
+fn densities(html: &str) -> Vec<Vec<[f64; 2]>> {
+    let curves = html.split("class=\"density\" d=\"M").skip(1);
+    let curves = curves.map(|rest| rest.split('"').next().expect("an end"));
+    let point = |own: &str| {
+        let (x, y) = own.split_once(' ').expect("two numbers");
+        [x, y].map(|own| own.parse().expect("a number"))
+    };
+    curves
+        .map(|path| path.split('L').map(point).collect())
+        .collect()
+}
+
+#[test]
+fn samples_say_how_they_were_drawn() {
+    let study = swinging().stream(2);
+    let html = Report::new(&study).html().unwrap();
+    let text = words(&html);
+    assert!(
+        text.contains("Monte Carlo (500 samples, seed 3, stream 2)"),
+        "{text}"
+    );
+    assert!(
+        text.contains("Statistics of 500 samples, seed 3, stream 2"),
+        "{text}"
+    );
+    let histogram = data(&html, "figure")
+        .into_iter()
+        .find(|own| own["panels"][0]["y"]["name"] == "density");
+    let caption = histogram.unwrap()["caption"].to_string();
+    assert!(
+        caption.contains("500 samples, seed 3, stream 2"),
+        "{caption}"
+    );
+    let sampled = table(&html, "Monte Carlo");
+    assert_eq!(column(&sampled, "seed"), [Some(3.0)]);
+    assert_eq!(column(&sampled, "stream"), [Some(2.0)]);
+}

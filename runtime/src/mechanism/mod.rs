@@ -17,7 +17,8 @@ pub use description::{
 };
 pub use handles::{Any, Coordinate, DesignVariable, Input, Output};
 pub use picture::{
-    BodyInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind, WheelInfo,
+    BodyInfo, ElementInfo, JointInfo, LinkInfo, PictureInfo, PointInfo, SolidInfo, SolidKind,
+    WheelInfo,
 };
 pub use results::{Gradient, Linear, LinearPartials, PoseMargin, RestParts, Violation};
 pub use shared::{List, Shared, Text};

@@ -4,7 +4,7 @@ use super::shared::{List, Shared, Text};
 
 /// What [`Mechanism::picture`](crate::Mechanism::picture) shows, in the order of its numbers.
 ///
-/// The numbers of a picture, SI, are those of the bodies, then of their solids, of the joints, of the points, of the wheels:
+/// The numbers of a picture, SI, are those of the bodies, then of their solids, of the joints, of the points, of the wheels, of gravity:
 ///
 /// - a body has 12: the place of its origin in the common frame, and the rows of the rotation that takes vectors of the body into
 ///   the common frame. That is the frame of the ground at the instant at which all running coordinates are zero;
@@ -13,7 +13,8 @@ use super::shared::{List, Shared, Text};
 ///   `to` side, each in the frame of that side;
 /// - a point has 3: its place in the frame it is fixed in;
 /// - a wheel has 7: its radius, its axle in the frame that carries it, the normal of the plane in the frame of the plane. Of a
-///   ball the axle is zero.
+///   ball the axle is zero;
+/// - gravity has 3: its acceleration in the common frame, zero where none is declared.
 ///
 /// Most of them are the same for every state and design. These stand in `numbers`; the kernel computes the others.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,8 @@ pub struct PictureInfo {
     pub links: List<LinkInfo>,
     /// What rolls.
     pub wheels: List<WheelInfo>,
+    /// What acts and what binds, in words.
+    pub elements: List<ElementInfo>,
     /// All numbers; zero in the places of those that the kernel computes.
     pub numbers: List<f64>,
     /// The places of the numbers that the kernel computes, in the order of its results.
@@ -43,6 +46,7 @@ impl PictureInfo {
         points: Shared::Static(&[]),
         links: Shared::Static(&[]),
         wheels: Shared::Static(&[]),
+        elements: Shared::Static(&[]),
         numbers: Shared::Static(&[]),
         computed: Shared::Static(&[]),
     };
@@ -120,6 +124,8 @@ pub struct JointInfo {
     pub to: Option<u32>,
     /// It closes a loop.
     pub cut: bool,
+    /// One of its motions runs at a prescribed speed.
+    pub driven: bool,
 }
 
 /// A declared point of a picture.
@@ -154,4 +160,16 @@ pub struct WheelInfo {
     pub center: u32,
     /// The point in the plane.
     pub on: u32,
+}
+
+/// Something that acts on the mechanism or binds it, as it was declared: gravity, a drive, a force, a constraint, a curve.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ElementInfo {
+    /// Declared name.
+    pub name: Text,
+    /// The word it is declared with, for example `bushing`; `drive` of a driven coordinate.
+    pub kind: Text,
+    /// What it acts on and its law, without arguments that are zero, with numbers in SI: `on theta stiffness k rest 0.1`.
+    pub law: Text,
 }

@@ -8,5 +8,7 @@ mod scene;
 mod vibration;
 
 pub use read::scene;
-pub use scene::{Body, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Shape, Solid, Wheel};
+pub use scene::{
+    Body, Element, Joint, Link, ModePictures, Point, Pose, Scene, Seat, Shape, Solid, Wheel,
+};
 pub use vibration::mode_pictures;

@@ -2,7 +2,7 @@
 
 use super::ellipsoid::ellipsoid;
 use super::extent::bounds;
-use super::scene::{Body, Joint, Link, Point, Pose, Scene, Seat, Shape, Solid, Wheel};
+use super::scene::{Body, Element, Joint, Link, Point, Pose, Scene, Seat, Shape, Solid, Wheel};
 use crate::algebra::all_finite;
 use crate::arguments::check_count;
 use crate::kernels::PictureKernels;
@@ -63,6 +63,7 @@ pub fn scene(
             from,
             to,
             closes_loop: joint.cut,
+            driven: joint.driven,
         }
     });
     let joints = joints.collect();
@@ -89,12 +90,20 @@ pub fn scene(
         }
     });
     let wheels = wheels.collect();
+    let gravity = numbers.take();
+    let elements = info.elements.iter().map(|element| Element {
+        name: element.name.clone(),
+        kind: element.kind.clone(),
+        law: element.law.clone(),
+    });
     let mut scene = Scene {
         bodies,
         joints,
         points,
         links: links.collect(),
         wheels,
+        elements: elements.collect(),
+        gravity: direction(gravity),
         bounds: [[0.0; 3]; 2],
     };
     scene.bounds = bounds(&scene);
@@ -231,7 +240,7 @@ fn place(body: Option<u32>) -> Option<usize> {
     body.map(|body| body as usize)
 }
 
-/// A unit vector, or zeros for none.
+/// A vector, or zeros for none.
 fn direction(vector: [f64; 3]) -> Option<[f64; 3]> {
     (vector != [0.0; 3]).then_some(vector)
 }

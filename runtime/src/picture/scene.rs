@@ -22,6 +22,10 @@ pub struct Scene {
     pub links: Vec<Link>,
     /// What rolls.
     pub wheels: Vec<Wheel>,
+    /// What acts and what binds, in words: gravity, drives, forces, constraints, curves.
+    pub elements: Vec<Element>,
+    /// Acceleration of gravity in the common frame, m/s^2; `None` where none is declared, or where it is zero.
+    pub gravity: Option<[f64; 3]>,
     /// The least box along the axes of the common frame that holds everything: its two opposite corners.
     pub bounds: [[f64; 3]; 2],
 }
@@ -33,6 +37,29 @@ impl Scene {
         let [low, high] = self.bounds;
         let squares = low.iter().zip(high).map(|(low, high)| (high - low).powi(2));
         squares.sum::<f64>().sqrt()
+    }
+
+    /// Which way is up, a unit vector in the common frame: against gravity. Without gravity it is the axis of the first driven joint on
+    /// the ground, since most machines turn about their long axis or stand on it, and without such a joint z. An axis has two
+    /// directions: the one whose largest component is positive is taken.
+    #[must_use]
+    pub fn up(&self) -> [f64; 3] {
+        if let Some(gravity) = self.gravity {
+            let size = gravity.iter().fold(0.0_f64, |size, own| size.hypot(*own));
+            return gravity.map(|own| -own / size + 0.0);
+        }
+        let on_ground = |joint: &&Joint| joint.driven && joint.from.body.is_none();
+        let driven = self.joints.iter().find(on_ground);
+        let axis = driven
+            .and_then(|joint| joint.from.axis)
+            .unwrap_or([0.0, 0.0, 1.0]);
+        let largest = axis.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let sign = if largest.is_some_and(|own| own < 0.0) {
+            -1.0
+        } else {
+            1.0
+        };
+        axis.map(|own| sign * own + 0.0)
     }
 
     /// A place of a body, or of the ground, in the common frame.
@@ -173,6 +200,8 @@ pub struct Joint {
     pub to: Seat,
     /// It closes a loop.
     pub closes_loop: bool,
+    /// One of its motions runs at a prescribed speed.
+    pub driven: bool,
 }
 
 /// One side of a joint.
@@ -227,6 +256,18 @@ pub struct Wheel {
     pub on: usize,
     /// Normal of the plane, a unit vector in the frame of the body of `on`.
     pub normal: [f64; 3],
+}
+
+/// Something that acts on the mechanism or binds it, as it was declared: gravity, a drive, a force, a constraint, a curve.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Element {
+    /// Declared name.
+    pub name: Text,
+    /// The word it is declared with, for example `bushing`; `drive` of a driven coordinate.
+    pub kind: Text,
+    /// What it acts on and its law, without arguments that are zero, with numbers in SI: `on theta stiffness k rest 0.1`.
+    pub law: Text,
 }
 
 /// A mode as poses along one period.

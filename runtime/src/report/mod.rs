@@ -16,6 +16,7 @@ mod relevance;
 mod requirement;
 mod second_order;
 mod sensitivity;
+mod sentences;
 mod shares;
 mod summary;
 mod sweep;
@@ -24,3 +25,4 @@ mod title;
 mod tolerance;
 
 pub use margin::MarginTable;
+pub use sentences::{News, Sentence};

@@ -10,11 +10,11 @@ use super::title::title;
 use super::tolerance::{far, spread_of, unmoved};
 use crate::Quantity;
 use crate::clusters::{ClusterSpread, ClusterTolerance, MemberSpread, SortedSpread};
-use crate::summary::{Advice, Chance, Check, Doubt, Measured, Sampled, Sampling, Summary};
-use crate::tolerance::{Outcome, Statistics, TRUSTED_DISTANCE};
+use crate::summary::{Doubt, Summary};
+use crate::tolerance::{Statistics, TRUSTED_DISTANCE};
 
 /// `mode 2`, `modes 2 and 3`, `modes 1 to 4 and 7`, counted from 1.
-fn named(modes: &[usize]) -> String {
+pub(super) fn named(modes: &[usize]) -> String {
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for &mode in modes {
         match runs.last_mut() {
@@ -36,7 +36,7 @@ fn named(modes: &[usize]) -> String {
     }
 }
 
-fn capital(mut text: String) -> String {
+pub(super) fn capital(mut text: String) -> String {
     if let Some(first) = text.get_mut(..1) {
         first.make_ascii_uppercase();
     }
@@ -134,8 +134,9 @@ impl fmt::Display for Summary {
             self.damping_ratios(f)?;
         }
         undamped(f, self.first.family, d)?;
-        self.sentences(f)?;
-        self.about_samples(f)?;
+        for sentence in self.sentences() {
+            writeln!(f, "  {sentence}")?;
+        }
         let mixed = |cluster: &&ClusterTolerance| {
             cluster
                 .modes
@@ -164,7 +165,7 @@ fn verdict(doubts: &[Doubt]) -> String {
 
 impl Summary {
     /// Whether no tolerance moves a mode, or mixes it with others.
-    fn unmoved(&self) -> bool {
+    pub(super) fn unmoved(&self) -> bool {
         self.clusters.is_empty() && self.first.modes.iter().all(unmoved)
     }
 
@@ -240,145 +241,9 @@ impl Summary {
             false => write!(f, "{table}"),
         }
     }
-
-    /// Each doubt once, with all the modes that share it.
-    fn sentences(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut said: Vec<&Doubt> = Vec::new();
-        for doubt in self.trust.iter().flat_map(|own| &own.doubts) {
-            if said.contains(&doubt) {
-                continue;
-            }
-            said.push(doubt);
-            let shares = self.trust.iter().filter(|own| own.doubts.contains(doubt));
-            let modes: Vec<usize> = shares.map(|own| own.mode).collect();
-            writeln!(f, "  {}: {doubt}", capital(named(&modes)))?;
-        }
-        for trust in self.trust.iter().filter(|own| !own.trusted()) {
-            let converges = self.second_order_sigma(trust.mode).is_some();
-            (trust.checks.iter()).try_for_each(|check| row_of(f, trust.mode, check, converges))?;
-        }
-        for advice in [Advice::FirstOrder, Advice::SecondOrder, Advice::Sampling] {
-            let own = || self.trust.iter().filter(|own| own.advice == advice);
-            let modes: Vec<usize> = own().map(|own| own.mode).collect();
-            let text = match advice {
-                Advice::FirstOrder => format!(
-                    "nothing speaks against the first-order sigma{}.",
-                    confirmed(own().flat_map(|own| &own.checks))
-                ),
-                Advice::SecondOrder => {
-                    "use second order, which agrees with the samples.".to_owned()
-                }
-                _ => "use Monte Carlo.".to_owned(),
-            };
-            if !modes.is_empty() && !self.unmoved() {
-                writeln!(f, "  {}: {text}", capital(named(&modes)))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// What became of the samples, or why there are none.
-    fn about_samples(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.sampling {
-            Sampling::NotNeeded => Ok(()),
-            Sampling::TooDear { operations, budget } => writeln!(
-                f,
-                "  Not checked by samples: they would cost {operations:.1e} operations of {budget:.1e}. The verdicts rest on distances \
-                 and second order."
-            ),
-            Sampling::Done(sampled) => {
-                let missing = self.trust.iter().flat_map(|own| &own.checks);
-                if missing.clone().any(|check| check.count < check.samples) {
-                    writeln!(
-                        f,
-                        "  Sampled sigmas are those of the samples that are stable and in which the mode oscillates; in others it has no \
-                         frequency."
-                    )?;
-                }
-                chances(f, sampled)
-            }
-        }
-    }
 }
 
-/// By how much first order misses the samples at most; empty without samples.
-fn confirmed<'a>(checks: impl Iterator<Item = &'a Check>) -> String {
-    let errors = checks.filter_map(|check| Some((check.first_order_error?, check.count)));
-    let most = errors.max_by(|(a, _), (b, _)| a.value.abs().total_cmp(&b.value.abs()));
-    match most {
-        None => String::new(),
-        Some((error, count)) => format!(
-            ", which is off by at most {:.1} % (+- {:.1}) over {count} samples",
-            100.0 * error.value.abs(),
-            200.0 * error.standard_error
-        ),
-    }
-}
-
-/// By how much first and second order miss the samples; where the series does not converge, second order has no sigma.
-fn row_of(f: &mut fmt::Formatter<'_>, mode: usize, check: &Check, converges: bool) -> fmt::Result {
-    let percent = |error: Measured| {
-        let (value, uncertain) = (100.0 * error.value, 200.0 * error.standard_error);
-        format!("{value:+.1} % (+- {uncertain:.1})")
-    };
-    let name = quantity_name(check.quantity);
-    let count = match check.count {
-        all if all == check.samples => format!("{all} samples"),
-        some => format!("{some} of {} samples", check.samples),
-    };
-    write!(
-        f,
-        "  Mode {}: sigma of the {name} over {count} {}",
-        mode + 1,
-        rough(check.sigma.value)
-    )?;
-    if let Some(error) = check.first_order_error {
-        write!(f, "; first order is off by {}", percent(error))?;
-    }
-    match check.second_order_error {
-        Some(error) if converges => write!(f, ", second order by {}", percent(error))?,
-        Some(_) => write!(f, "; the second-order series does not converge")?,
-        None => {}
-    }
-    writeln!(f, ".")
-}
-
-/// What happened to samples that are not stable on the nominal branch.
-fn chances(f: &mut fmt::Formatter<'_>, sampled: &Sampled) -> fmt::Result {
-    let line = |f: &mut fmt::Formatter<'_>, name: &str, chance: Chance| {
-        if chance.count == 0 {
-            return Ok(());
-        }
-        let percent = |share: f64| format!("{:.3}", 100.0 * share);
-        writeln!(
-            f,
-            "  {name}: {} % of {} samples (95 %: {} to {} %).",
-            percent(chance.value()),
-            chance.samples,
-            percent(chance.lower),
-            percent(chance.upper)
-        )
-    };
-    if let Some(chance) = sampled.other_branch {
-        line(f, "Stable on another branch", chance)?;
-    }
-    for (outcome, chance) in &sampled.outcomes {
-        let name = match outcome {
-            Outcome::Stable => continue,
-            Outcome::Divergent => "Unstable without oscillation",
-            Outcome::Flutter => "Unstable in a growing oscillation",
-            Outcome::Undecided => "Stability not decided",
-            Outcome::NoEquilibrium => "No equilibrium",
-            Outcome::NotAssembled => "Loops do not close",
-            Outcome::Unphysical => "Bodies that cannot exist",
-            Outcome::NoModes => "Modes not found",
-        };
-        line(f, name, *chance)?;
-    }
-    Ok(())
-}
-
-fn quantity_name(quantity: Quantity) -> &'static str {
+pub(super) fn quantity_name(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Frequency => "frequency",
         Quantity::NaturalFrequency => "natural frequency",

@@ -212,9 +212,9 @@ impl fmt::Display for MonteCarlo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "{}: Monte Carlo with re-solved equilibria, {} samples: {}",
+            "{}: Monte Carlo with re-solved equilibria, {}: {}",
             title(&self.description, &self.inputs),
-            self.samples,
+            self.drawn(),
             self.counts
         )?;
         let general = self.family == Family::General;
@@ -316,6 +316,28 @@ const SKEWED: f64 = 0.1;
 const QUANTILES: [f64; 5] = [0.00135, 0.15866, 0.5, 0.84134, 0.99865];
 
 impl MonteCarlo {
+    /// What to ask for to draw the same samples again, in words: `4000 samples, seed 7`, with stream and ranges where these are not the
+    /// first and all.
+    #[must_use]
+    pub fn drawn(&self) -> String {
+        let mut text = format!("{} samples, seed {}", self.samples, self.seed);
+        if self.stream > 0 {
+            text += &format!(", stream {}", self.stream);
+        }
+        if self.samples < self.planned {
+            let ranges = self.ranges.iter();
+            let ranges = ranges.map(|own| match own.end.saturating_sub(1) {
+                last if last == own.start => last.to_string(),
+                last => format!("{} to {last}", own.start),
+            });
+            let ranges: Vec<String> = ranges.collect();
+            if !ranges.is_empty() {
+                text += &format!(", numbers {}", ranges.join(" and "));
+            }
+        }
+        text
+    }
+
     /// Quantiles of what is not distributed like a normal variable.
     fn skewed(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut head = cells(["not symmetric", "skewness"]);

@@ -69,6 +69,12 @@ impl Fingerprint {
         self.0.iter().map(|(name, value)| (&**name, &**value))
     }
 
+    /// The value of a fact that is a whole number.
+    pub(crate) fn number(&self, name: &str) -> Option<u64> {
+        let (_, value) = self.facts().find(|(own, _)| *own == name)?;
+        value.parse().ok()
+    }
+
     /// Refuses that of another run.
     pub(crate) fn check(&self, other: &Self) -> Result<(), Error> {
         let value_of = |all: &Self, name: &str| {

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use eigentol_statistics::summary::Partial;
 
 use super::gather::{Part, Work};
+use super::partial::{SEED, STREAM};
 use super::run::{Format, Run};
 use super::solver::{Numbered, Room, Solver};
 use super::{Fingerprint, MonteCarlo, PartialMonteCarlo, Tolerances};
@@ -104,9 +105,9 @@ pub fn monte_carlo(
     sampling: &Sampling<'_>,
 ) -> Result<MonteCarlo, Error> {
     let about = (nominal, modes);
-    // Nothing will be merged with it: that takes no fingerprint.
-    let nobody = |_: &str| Fingerprint::default();
-    let all = gathered(mechanism, about, tolerances, sampling, nobody)?;
+    // Nothing will be merged with it: nobody asks what it was drawn about.
+    let fingerprint = |method: &str| drawn(Fingerprint::default(), method, sampling);
+    let all = gathered(mechanism, about, tolerances, sampling, fingerprint)?;
     Ok(all.into_result())
 }
 
@@ -122,12 +123,8 @@ pub fn partial_monte_carlo(
     sampling: &Sampling<'_>,
 ) -> Result<PartialMonteCarlo, Error> {
     let fingerprint = |method: &str| {
-        Fingerprint::new(mechanism, nominal, modes, tolerances)
-            .with("method", method)
-            .with("samples", sampling.samples)
-            .with("seed", sampling.seed)
-            .with("stream", sampling.stream)
-            .with("samples kept", sampling.keep_samples)
+        let about = Fingerprint::new(mechanism, nominal, modes, tolerances);
+        drawn(about, method, sampling)
     };
     gathered(
         mechanism,
@@ -136,6 +133,16 @@ pub fn partial_monte_carlo(
         sampling,
         fingerprint,
     )
+}
+
+/// How samples are drawn, added to what they are drawn about.
+fn drawn(about: Fingerprint, method: &str, sampling: &Sampling<'_>) -> Fingerprint {
+    about
+        .with("method", method)
+        .with("samples", sampling.samples)
+        .with(SEED, sampling.seed)
+        .with(STREAM, sampling.stream)
+        .with("samples kept", sampling.keep_samples)
 }
 
 fn gathered(

@@ -12,6 +12,10 @@ use crate::algebra::Vector;
 use crate::modes::Family;
 use crate::{Description, Error, Shared};
 
+/// The facts of a fingerprint that say which random numbers were taken.
+pub(super) const SEED: &str = "seed";
+pub(super) const STREAM: &str = "stream";
+
 /// Some samples of a Monte Carlo run. Parts of a run merge to the same bits as the whole, however it was split.
 ///
 /// With the feature `serde` it can be written and read, by the same version of the format only. In JSON, numbers keep their last
@@ -91,7 +95,15 @@ impl PartialMonteCarlo {
         core::slice::from_ref(&self.part)
     }
 
+    /// Seed and stream; `None` where the fingerprint of a file has none.
+    fn sequence(&self) -> Option<(u64, u64)> {
+        let number = |name| self.run.fingerprint.number(name);
+        Some((number(SEED)?, number(STREAM)?))
+    }
+
     pub(super) fn into_result(self) -> MonteCarlo {
+        let (seed, stream) = self.sequence().unwrap_or_default();
+        let ranges = self.ranges();
         let outcomes = self.part.outcomes();
         let counts = Counts::of_all(outcomes);
         let left_nominal_branch = outcomes.get(LEFT_NOMINAL_BRANCH).copied();
@@ -105,6 +117,9 @@ impl PartialMonteCarlo {
         MonteCarlo {
             samples: counts.total(),
             planned: self.run.total() as usize,
+            seed,
+            stream,
+            ranges,
             counts,
             left_nominal_branch: left_nominal_branch.unwrap_or(0) as usize,
             modes,
@@ -161,7 +176,8 @@ impl TryFrom<Unchecked> for PartialMonteCarlo {
         let covered = all.ranges().into_iter().flatten();
         let kept = all.kept.is_none() || numbers.eq(covered);
         let inputs = all.inputs.len() == all.description.inputs.len();
-        if quantities.is_multiple_of(of_each_mode) && kept && inputs {
+        let drawn = all.sequence().is_some();
+        if quantities.is_multiple_of(of_each_mode) && kept && inputs && drawn {
             Ok(all)
         } else {
             Err("the parts of these samples do not fit together")

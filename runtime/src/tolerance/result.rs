@@ -1,5 +1,7 @@
 //! What a Monte Carlo run gives.
 
+use core::ops::Range;
+
 use super::{Counts, Sample, Statistics};
 use crate::algebra::Vector;
 use crate::modes::Family;
@@ -14,6 +16,12 @@ pub struct MonteCarlo {
     pub samples: usize,
     /// Number of samples that were asked for: more where the run was stopped, or where this is a part of one.
     pub planned: usize,
+    /// Seed of the random numbers: with stream and ranges it gives the same samples again.
+    pub seed: u64,
+    /// Which of the seed's independent sequences.
+    pub stream: u64,
+    /// The samples by their numbers, in order and apart; one range from 0 where none is missing.
+    pub ranges: Vec<Range<u64>>,
     /// What became of them.
     pub counts: Counts,
     /// Stable samples for which the nominal position itself is unstable: they settled on another branch.

@@ -172,6 +172,31 @@ impl Tolerances {
         self.joint.is_none()
     }
 
+    /// The distribution of each variable about its nominal value, SI.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] for other than one nominal value for each variable, [`Error::Setting`] for one that is not finite.
+    ///
+    /// ```
+    /// use eigentol::tolerance::Tolerances;
+    ///
+    /// let tolerances = Tolerances::new(&[0.03], 3.0, None)?;
+    /// let [length] = &tolerances.distributions(&[1.0])?[..] else { unreachable!() };
+    /// assert_eq!((length.name(), length.mean(), length.sigma()), ("normal", 1.0, 0.01));
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    pub fn distributions(&self, nominal: &[f64]) -> Result<Vec<Distribution>, Error> {
+        self.check_count(nominal.len())?;
+        if let Some((joint, _)) = &self.joint {
+            return Ok(joint.variables().to_vec());
+        }
+        let means = nominal.iter().zip(&self.shifts);
+        let each = means.zip(&self.sigmas);
+        let each =
+            each.map(|((nominal, shift), sigma)| Distribution::normal(nominal + shift, *sigma));
+        Ok(each.collect::<Result<_, _>>()?)
+    }
+
     /// The values where they are not jointly normal, and the nominal values that these were made for.
     pub(crate) fn joint(&self) -> Option<(&Joint, &[f64])> {
         self.joint

@@ -18,10 +18,13 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
         quote! { ::eigentol::BodyInfo { name: #name, solids: #solids } }
     });
     let joints = picture.joints.iter().map(|joint| {
-        let (name, kind, cut) = (text(&joint.name), text(joint.kind), joint.cut);
+        let (name, kind) = (text(&joint.name), text(joint.kind));
+        let (cut, driven) = (joint.cut, joint.driven);
         let [from, to] = joint.sides.map(body);
         quote! {
-            ::eigentol::JointInfo { name: #name, kind: #kind, from: #from, to: #to, cut: #cut }
+            ::eigentol::JointInfo {
+                name: #name, kind: #kind, from: #from, to: #to, cut: #cut, driven: #driven
+            }
         }
     });
     let points = picture.points.iter().map(|(name, frame)| {
@@ -38,13 +41,17 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
         let [center, on] = points.map(|point| Literal::u32_unsuffixed(point.0));
         quote! { ::eigentol::WheelInfo { name: #name, center: #center, on: #on } }
     });
+    let elements = picture.elements.iter().map(|element| {
+        let (name, kind, law) = (text(&element.name), text(&element.kind), text(&element.law));
+        quote! { ::eigentol::ElementInfo { name: #name, kind: #kind, law: #law } }
+    });
     let numbers = picture.numbers.iter().map(|value| quote!(#value));
     let computed = picture.computed.iter().map(|&place| {
         let place = Literal::u32_unsuffixed(place);
         quote!(#place)
     });
     let (bodies, joints, points) = (list(bodies), list(joints), list(points));
-    let (links, wheels) = (list(links), list(wheels));
+    let (links, wheels, elements) = (list(links), list(wheels), list(elements));
     let (numbers, computed) = (list(numbers), list(computed));
     quote! {
         const PICTURE: ::eigentol::PictureInfo = ::eigentol::PictureInfo {
@@ -53,6 +60,7 @@ pub(super) fn info(picture: &Picture) -> TokenStream {
             points: #points,
             links: #links,
             wheels: #wheels,
+            elements: #elements,
             numbers: #numbers,
             computed: #computed,
         };

@@ -1,6 +1,7 @@
 //! How the numbers of a picture are read; the order of the numbers is that of the runtime's contract.
 
 use crate::base::ids::PointId;
+use crate::model::elements::Element;
 use crate::model::mechanism::Frame;
 
 /// What there is to see of a mechanism.
@@ -16,6 +17,8 @@ pub struct Picture {
     pub links: Vec<PictureLink>,
     /// What rolls: name, centre, point of the plane.
     pub wheels: Vec<(String, [PointId; 2])>,
+    /// What acts and what binds, in words.
+    pub elements: Vec<Element>,
     /// All numbers; zero in the places of those that are computed.
     pub numbers: Vec<f64>,
     /// The places of the numbers that are computed.
@@ -63,6 +66,8 @@ pub struct PictureJoint {
     pub sides: [Frame; 2],
     /// It closes a loop.
     pub cut: bool,
+    /// One of its motions runs at a prescribed speed.
+    pub driven: bool,
 }
 
 /// A force or a constraint between two points.

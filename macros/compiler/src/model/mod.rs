@@ -1,6 +1,7 @@
 //! The mechanism in the user's terms: names resolved to ids, values in SI, every rule checked.
 
 pub mod constraint;
+pub mod elements;
 pub mod evaluate;
 pub mod expression;
 pub mod inertia;

@@ -1,6 +1,7 @@
 //! A mechanism as text, for snapshots: every value in SI with its names resolved.
 
 mod constraint;
+mod elements;
 mod law;
 mod shape;
 

@@ -35,7 +35,7 @@ fn a_report_is_one_file_with_the_declaration_and_what_was_asked() {
     for wanted in [
         "<h1>A bar &amp; a shaft</h1>",
         "RotatingPendulum at omega = 5 rad/s",
-        "200 samples of the variables within their tolerances (seed 7)",
+        "Monte Carlo (200 samples, seed 7)",
         "Campbell diagram",
         "pub mechanism RotatingPendulum {",
     ] {

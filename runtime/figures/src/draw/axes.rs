@@ -3,9 +3,12 @@
 use plotters::prelude::DrawingBackend;
 
 use super::Outcome;
-use super::layout::{Frame, px};
+use super::layout::{Frame, HANGING, below, hanging, px};
 use super::pen::{Anchor, Pen};
 use crate::figure::{Axis, Panel, Point};
+
+/// Size of the letters of ticks, shown.
+const TICK: i32 = 15;
 
 /// Positions of a panel as pixels.
 #[derive(Clone, Copy, Debug)]
@@ -53,13 +56,23 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
         top,
         bottom,
     } = *frame;
+    let hanging = hanging(panel);
     for (value, text) in ticks(&panel.x, 9.0) {
         let (x, _) = place.pixel([value, panel.y.range[0]]);
         if panel.x.categories.is_empty() {
             pen.hair([(x, top), (x, bottom)], 0.12)?;
             pen.hair([(x, bottom), (x, bottom + px(5))], 1.0)?;
         }
-        pen.text(&text, (x, bottom + px(16)), 15, Anchor::Middle)?;
+        match hanging {
+            true => pen.fitted(
+                &text,
+                (x, bottom + px(10)),
+                TICK,
+                Anchor::Below,
+                px(HANGING),
+            )?,
+            false => pen.text(&text, (x, bottom + px(16)), TICK, Anchor::Middle)?,
+        }
     }
     for (value, text) in ticks(&panel.y, f64::from(bottom - top) / f64::from(px(52))) {
         let (_, y) = place.pixel([panel.x.range[0], value]);
@@ -67,19 +80,23 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, panel: &Panel, frame: &F
             pen.hair([(left, y), (right, y)], 0.12)?;
             pen.hair([(left - px(5), y), (left, y)], 1.0)?;
         }
-        pen.text(&text, (left - px(9), y), 15, Anchor::Right)?;
+        let room = left - px(12);
+        pen.fitted(&text, (left - px(9), y), TICK, Anchor::Right, room)?;
     }
     pen.hair([(left, bottom), (right, bottom)], 1.0)?;
     pen.hair([(left, top), (left, bottom)], 1.0)?;
     let middle = ((left + right) / 2, (top + bottom) / 2);
-    pen.text(
+    let heading = (middle.0, bottom + px(below(panel) - 17));
+    pen.fitted(
         &panel.x.heading(),
-        (middle.0, bottom + px(41)),
+        heading,
         17,
         Anchor::Middle,
+        right - left,
     )?;
     if panel.y.categories.is_empty() {
-        pen.text(&panel.y.heading(), (px(18), middle.1), 17, Anchor::Upwards)?;
+        let (heading, place) = (panel.y.heading(), (px(18), middle.1));
+        pen.fitted(&heading, place, 17, Anchor::Upwards, bottom - top)?;
     }
     Ok(())
 }

@@ -4,12 +4,13 @@ use plotters::prelude::DrawingBackend;
 
 use super::Outcome;
 use super::layout::{Frame, px};
-use super::pen::{Anchor, Pen};
+use super::pen::{Anchor, Pen, length};
 
 /// Size of the letters, shown.
 const SIZE: i32 = 14;
-/// Width of a letter as a share of its size.
-const LETTER: f64 = 0.6;
+
+/// How far words reach beyond the right end of the panel.
+const BEYOND: i32 = px(20);
 
 /// A box: left, right, top, bottom.
 type Box = [i32; 4];
@@ -52,7 +53,7 @@ impl Labels {
         at: (i32, i32),
         text: &str,
     ) -> Outcome {
-        let width = (LETTER * f64::from(px(SIZE)) * text.chars().count() as f64) as i32;
+        let width = length(text, SIZE);
         let (side, half) = (px(7), px(SIZE) / 2);
         let rises = [-px(10), px(10), 0, -px(22), px(22), -px(34), px(34)];
         let places = rises.into_iter().flat_map(|rise| {
@@ -64,10 +65,19 @@ impl Labels {
         let places: Vec<Box> = places.collect();
         let free =
             |own: &&Box| self.inside(own) && !self.taken.iter().any(|other| meet(own, other));
-        let place = places.iter().find(free).or(places.first());
+        let inside = |own: &&Box| self.inside(own);
+        let place = places.iter().find(free);
+        let place = place
+            .or_else(|| places.iter().find(inside))
+            .or(places.first());
         if let Some(&[left, right, top, bottom]) = place {
+            // Where no place is inside, the words are longer than the panel is wide, or nearly.
+            let room = self.frame.right + BEYOND - self.frame.left;
+            let left = left
+                .min(self.frame.right + BEYOND - width)
+                .max(self.frame.left);
             self.taken.push([left, right, top, bottom]);
-            pen.text(text, (left, (top + bottom) / 2), SIZE, Anchor::Left)?;
+            pen.fitted(text, (left, (top + bottom) / 2), SIZE, Anchor::Left, room)?;
         }
         Ok(())
     }
@@ -75,7 +85,7 @@ impl Labels {
     fn inside(&self, &[left, right, top, bottom]: &Box) -> bool {
         let own = &self.frame;
         left >= own.left
-            && right <= own.right + px(20)
+            && right <= own.right + BEYOND
             && top >= own.top - px(8)
             && bottom <= own.bottom
     }

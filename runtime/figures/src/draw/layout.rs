@@ -15,11 +15,13 @@ const LEFT: i32 = 92;
 const RIGHT: i32 = 28;
 const BELOW: i32 = 58;
 const ABOVE: i32 = 10;
+/// Most room for a word that hangs below the horizontal axis.
+pub(super) const HANGING: i32 = 150;
 /// Characters of a line of the caption.
 const LINE: usize = 116;
 
 /// Pixels of the drawing.
-pub(super) fn px(shown: i32) -> i32 {
+pub(super) const fn px(shown: i32) -> i32 {
     SCALE * shown
 }
 
@@ -57,7 +59,7 @@ impl Layout {
                 top: y + px(ABOVE),
                 bottom: y + px(ABOVE + height(panel, figure.panels.len())),
             };
-            y = frame.bottom + px(BELOW);
+            y = frame.bottom + px(below(panel));
             panels.push(frame);
         }
         let caption: Vec<String> = figure.caption.iter().flat_map(|own| wrapped(own)).collect();
@@ -71,6 +73,22 @@ impl Layout {
             caption_top,
         }
     }
+}
+
+/// Room for the words below the horizontal axis; categories that do not fit beside each other hang.
+pub(super) fn below(panel: &Panel) -> i32 {
+    let names = panel.x.categories.iter().map(|own| own.chars().count());
+    match names.max() {
+        Some(longest) if hanging(panel) => BELOW + (9 * longest as i32).min(HANGING),
+        _ => BELOW,
+    }
+}
+
+/// Whether the categories of the horizontal axis have no room beside each other.
+pub(super) fn hanging(panel: &Panel) -> bool {
+    let names = panel.x.categories.iter().map(|own| own.chars().count());
+    let slot = (WIDTH - left(panel) - RIGHT) / panel.x.categories.len().max(1) as i32;
+    names.max().is_some_and(|longest| 9 * longest as i32 > slot)
 }
 
 /// Room for the words beside the vertical axis.
@@ -94,15 +112,20 @@ fn height(panel: &Panel, panels: usize) -> i32 {
 /// A text in lines.
 fn wrapped(text: &str) -> Vec<String> {
     let mut lines = vec![String::new()];
-    for word in text.split(' ') {
+    let words = text.split(' ').flat_map(|word| {
+        let letters: Vec<char> = word.chars().collect();
+        let pieces = letters.chunks(LINE).map(|own| own.iter().collect());
+        pieces.collect::<Vec<String>>()
+    });
+    for word in words {
         let full = |line: &String| line.chars().count() + word.chars().count() >= LINE;
         match lines.last_mut() {
-            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.is_empty() => line.push_str(&word),
             Some(line) if !full(line) => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines

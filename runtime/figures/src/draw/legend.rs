@@ -106,7 +106,8 @@ pub(super) fn draw<B: DrawingBackend>(pen: &Pen<'_, B>, layout: &Layout) -> Outc
             Symbol::Point(colour, shape) => pen.marker((middle, y), colour, shape)?,
             Symbol::Mark => pen.hair([(middle, y - half), (middle, y + half)], 0.6)?,
         }
-        pen.text(&entry.label, (end + px(8), y), 15, Anchor::Left)?;
+        let room = px(width - SYMBOL - 16);
+        pen.fitted(&entry.label, (end + px(8), y), 15, Anchor::Left, room)?;
     }
     Ok(())
 }

@@ -31,12 +31,8 @@ fn draw<B: DrawingBackend>(figure: &Figure, layout: &Layout, area: &Area<B>) -> 
     area.fill(&plotters::style::WHITE).map_err(words)?;
     let pen = Pen::new(area);
     let middle = px(WIDTH) / 2;
-    pen.text(
-        &figure.title,
-        (middle, px(TITLE_HEIGHT) / 2),
-        22,
-        Anchor::Middle,
-    )?;
+    let title = (middle, px(TITLE_HEIGHT) / 2);
+    pen.fitted(&figure.title, title, 22, Anchor::Middle, px(WIDTH - 48))?;
     legend::draw(&pen, layout)?;
     for (own, frame) in figure.panels.iter().zip(&layout.panels) {
         panel::draw(&pen, own, frame)?;

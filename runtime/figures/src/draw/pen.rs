@@ -20,6 +20,29 @@ pub(super) enum Anchor {
     Right,
     /// In the middle, reading upwards.
     Upwards,
+    /// At its end, reading upwards: it hangs below.
+    Below,
+}
+
+/// Width of a letter as a share of its size; that of most is less.
+pub(super) const LETTER: f64 = 0.6;
+/// Letters that can be read in print.
+const SMALLEST: i32 = 10;
+
+/// Length of a text with letters of this size, as shown, in pixels of the drawing.
+pub(super) fn length(text: &str, size: i32) -> i32 {
+    (LETTER * f64::from(px(size)) * text.chars().count() as f64).ceil() as i32
+}
+
+/// Size and letters of a text that has this room.
+fn fit(text: &str, size: i32, room: i32) -> (i32, String) {
+    let fits = |size: &i32| length(text, *size) <= room;
+    if let Some(size) = (SMALLEST..=size).rev().find(fits) {
+        return (size, text.to_owned());
+    }
+    let letters = (f64::from(room) / (LETTER * f64::from(px(SMALLEST)))) as usize;
+    let kept = text.chars().take(letters.saturating_sub(3));
+    (SMALLEST, kept.chain("...".chars()).collect())
 }
 
 /// Draws onto an area.
@@ -44,6 +67,19 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         self.coloured(text, at, size, anchor, Colour::Black)
     }
 
+    /// A text in a room of this length, in pixels of the drawing: with smaller letters or, where these would be too small to read, cut.
+    pub(super) fn fitted(
+        &self,
+        text: &str,
+        at: Pixel,
+        size: i32,
+        anchor: Anchor,
+        room: i32,
+    ) -> Outcome {
+        let (size, text) = fit(text, size, room);
+        self.text(&text, at, size, anchor)
+    }
+
     pub(super) fn coloured(
         &self,
         text: &str,
@@ -57,6 +93,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
             Anchor::Middle => (HPos::Center, FontTransform::None),
             Anchor::Right => (HPos::Right, FontTransform::None),
             Anchor::Upwards => (HPos::Center, FontTransform::Rotate270),
+            Anchor::Below => (HPos::Right, FontTransform::Rotate270),
         };
         let style = (FONT, size * SCALE)
             .into_font()

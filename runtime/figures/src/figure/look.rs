@@ -103,8 +103,50 @@ impl Shape {
 mod tests {
     use super::*;
 
-    /// CIE 1976 lightness, 0 to 100.
-    fn lightness(colour: Colour) -> f64 {
+    type Matrix = [[f64; 3]; 3];
+
+    /// What readers without one kind of cones see of linear red, green and blue: Machado, Oliveira and Fernandes (2009), "A
+    /// Physiologically-based Model for Simulation of Color Vision Deficiency", severity 1.
+    const BLIND: [(&str, Matrix); 3] = [
+        (
+            "protanopes",
+            [
+                [0.152_286, 1.052_583, -0.204_868],
+                [0.114_503, 0.786_281, 0.099_216],
+                [-0.003_882, -0.048_116, 1.051_998],
+            ],
+        ),
+        (
+            "deuteranopes",
+            [
+                [0.367_322, 0.860_646, -0.227_968],
+                [0.280_085, 0.672_501, 0.047_413],
+                [-0.011_820, 0.042_940, 0.968_881],
+            ],
+        ),
+        (
+            "tritanopes",
+            [
+                [1.255_528, -0.076_749, -0.178_779],
+                [-0.078_411, 0.930_809, 0.147_602],
+                [0.004_733, 0.691_367, 0.303_900],
+            ],
+        ),
+    ];
+    const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// Linear sRGB to CIE XYZ (IEC 61966-2-1), white at the sums of its rows.
+    const XYZ: Matrix = [
+        [0.412_4, 0.357_6, 0.180_5],
+        [0.212_6, 0.715_2, 0.072_2],
+        [0.019_3, 0.119_2, 0.950_5],
+    ];
+
+    fn apply(matrix: &Matrix, own: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(own).map(|(a, b)| a * b).sum())
+    }
+
+    /// CIE 1976 L*, a*, b* of a colour as such a reader sees it.
+    fn lab(colour: Colour, reader: &Matrix) -> [f64; 3] {
         let linear = |channel: u8| {
             let own = f64::from(channel) / 255.0;
             match own <= 0.04045 {
@@ -112,16 +154,79 @@ mod tests {
                 false => ((own + 0.055) / 1.055).powf(2.4),
             }
         };
-        let [red, green, blue] = colour.rgb().map(linear);
-        116.0 * (0.2126 * red + 0.7152 * green + 0.0722 * blue).cbrt() - 16.0
+        let seen = apply(reader, colour.rgb().map(linear)).map(|own| own.clamp(0.0, 1.0));
+        let (own, white) = (apply(&XYZ, seen), apply(&XYZ, [1.0; 3]));
+        let [x, y, z] = core::array::from_fn(|k| {
+            let share: f64 = own[k] / white[k];
+            match share > (6.0_f64 / 29.0).powi(3) {
+                true => share.cbrt(),
+                false => share / (3.0 * (6.0_f64 / 29.0).powi(2)) + 4.0 / 29.0,
+            }
+        });
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    /// CIE 1976 colour difference: 2.3 is just noticed, side by side.
+    fn difference(a: usize, b: usize, reader: &Matrix) -> f64 {
+        let [a, b] = [a, b].map(|k| lab(Colour::Series(k), reader));
+        let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+
+    fn difference_in_grey(a: usize, b: usize) -> f64 {
+        let [a, b] = [a, b].map(|k| lab(Colour::Series(k), &UNIT)[0]);
+        (a - b).abs()
     }
 
     #[test]
     fn neighbours_differ_in_grey() {
         for series in 0..SERIES.len() - 1 {
-            let [own, next] = [series, series + 1].map(|k| lightness(Colour::Series(k)));
-            assert!((own - next).abs() > 11.0, "{series}: {own} {next}");
+            let apart = difference_in_grey(series, series + 1);
+            assert!(apart > 11.0, "{series}: {apart}");
         }
+    }
+
+    #[test]
+    fn lines_of_one_stroke_differ_in_grey() {
+        for (a, b) in (0..SERIES.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            let apart = difference_in_grey(a, b);
+            assert!(
+                Stroke::of(a) != Stroke::of(b) || apart > 11.0,
+                "{a} {b}: {apart}"
+            );
+        }
+    }
+
+    #[test]
+    fn colours_differ_for_every_reader() {
+        let all = BLIND.iter().map(|(name, matrix)| (*name, matrix));
+        for (name, reader) in all.chain([("others", &UNIT)]) {
+            for (a, b) in (0..SERIES.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
+                let apart = difference(a, b, reader);
+                assert!(apart > 15.0, "{name}: {a} {b}: {apart}");
+            }
+        }
+    }
+
+    /// Black, white and pure red have known values: L* 0 and 100, and (53.2, 80.1, 67.2).
+    #[test]
+    fn the_measure_is_that_of_the_textbook() {
+        let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1);
+        assert!(near(lab(Colour::Black, &UNIT), [0.0; 3]));
+        // A reader whom everything is as bright as white: rows of the matrix sum to one, white stays white.
+        for (name, matrix) in &BLIND {
+            let white = apply(matrix, [1.0; 3]);
+            assert!(
+                near(white, [1.0; 3]) && white.iter().all(|own| (own - 1.0).abs() < 1e-5),
+                "{name}"
+            );
+        }
+        let red = [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+        let full = Colour::Series(1).rgb()[0];
+        assert_eq!(full, 230);
+        let scale = 1.0 / ((f64::from(full) / 255.0 + 0.055) / 1.055).powf(2.4);
+        let pure = red.map(|row| row.map(|own| own * scale));
+        assert!(near(lab(Colour::Series(1), &pure), [53.2, 80.1, 67.2]));
     }
 
     #[test]

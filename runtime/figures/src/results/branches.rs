@@ -1,7 +1,7 @@
 //! Branches of equilibria.
 
-use eigentol::branches::{Branches, SpecialKind, SpecialPoint};
-use eigentol::{Description, Equilibrium, Role};
+use eigentol::branches::{Branch, BranchPoint, Branches, SpecialKind, SpecialPoint};
+use eigentol::{Description, Equilibrium, Role, Stability};
 
 use super::along::{input_axis, input_unit, with_notes};
 use crate::Error;
@@ -25,6 +25,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
     let d = &*first.description;
     let special = result.special();
     let mut panels: Vec<Panel> = Vec::new();
+    let mut open_ends = false;
     let resting = d.coordinates.iter().enumerate();
     let resting = resting.filter(|(_, info)| info.role == Role::Position);
     for (k, info) in resting.clone().take(MOST) {
@@ -36,7 +37,7 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
             Some([in_unit(value, &unit), in_unit(own, &info.unit)])
         };
         for (number, branch) in result.branches.iter().enumerate() {
-            for (stability, stretch) in branch.stretches() {
+            for (stability, stretch, before, after) in joined(branch) {
                 let (word, stroke) = match stability.holds() {
                     true => ("stable", Stroke::Solid),
                     false => ("unstable", Stroke::Dotted),
@@ -45,14 +46,15 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
                     1 => word.to_owned(),
                     _ => format!("branch {}, {word}", number + 1),
                 };
+                let middle = |pair: [&BranchPoint; 2]| {
+                    let [a, b] = pair.map(|own| place(own.value, &own.equilibrium));
+                    Some(between(a?, b?))
+                };
                 let points = stretch.iter().map(|own| place(own.value, &own.equilibrium));
-                add(
-                    &mut panel,
-                    label,
-                    Colour::Series(number),
-                    stroke,
-                    points.collect(),
-                );
+                let points = before.map(middle).into_iter().chain(points);
+                let points = points.chain(after.map(middle)).collect();
+                open_ends |= after.is_some_and(|[a, b]| holds(a) != holds(b));
+                add(&mut panel, label, Colour::Series(number), stroke, points);
             }
         }
         for (word, shape) in [
@@ -87,11 +89,49 @@ pub fn branches(result: &Branches, style: &Style) -> Result<Figure, Error> {
         let at = with_unit(own.value, &unit);
         format!("({}) {} at {at}", k + 1, kind(own).1)
     }));
+    if open_ends {
+        caption.push(
+            "Where a stretch ends without a number, stability changes between two points of the branch: drawn half way.".to_owned(),
+        );
+    }
     if result.truncated {
         caption.push("There are more branches than were followed.".to_owned());
     }
     let title = style.titled(format!("{}: branches of equilibria", d.name));
     Ok(Figure::new(title, caption, panels))
+}
+
+fn holds(point: &BranchPoint) -> bool {
+    point.equilibrium.stability.holds()
+}
+
+/// A stretch of a branch with, where it begins or ends between two points, those two.
+type Joined<'a> = (
+    Stability,
+    &'a [BranchPoint],
+    Option<[&'a BranchPoint; 2]>,
+    Option<[&'a BranchPoint; 2]>,
+);
+
+/// The stretches of a branch. Where stability changes at no special point, as at the onset of flutter, no point belongs to both.
+fn joined(branch: &Branch) -> Vec<Joined<'_>> {
+    let all = branch.stretches();
+    let gap = |before: Option<usize>, after: usize| {
+        let last = all.get(before?)?.1.last()?;
+        let next = all.get(after)?.1.first()?;
+        (!core::ptr::eq(last, next)).then_some([last, next])
+    };
+    let each = all.iter().enumerate();
+    let each = each.map(|(k, (stability, stretch))| {
+        let (before, after) = (gap(k.checked_sub(1), k), gap(Some(k), k + 1));
+        (*stability, *stretch, before, after)
+    });
+    each.collect()
+}
+
+/// The point half way between two.
+fn between(a: Point, b: Point) -> Point {
+    [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
 /// Adds a stretch to the curve of the same look, so that the legend has it once.

@@ -12,6 +12,9 @@ use crate::caption::number;
 use crate::figure::{Axis, Colour, Curve, Figure, Panel, Shape, Stroke};
 use crate::style::Style;
 
+/// Room to the left and to the right of the paths in the plane, as a share of their width.
+const ROOM: f64 = 0.04;
+
 /// Real parts of the eigenvalues, solid, and imaginary parts, dashed, along the input, with the limits of stability and their bars of as many standard
 /// deviations as the tolerances hold.
 ///
@@ -99,8 +102,10 @@ pub fn root_locus<R: Along + ?Sized>(result: &R, style: &Style) -> Result<Figure
         panel.markers(label, Colour::Black, shape, points);
     }
     panel.fit();
+    // The markers at either end have a size: half of it would be cut off at the frame.
     let [low, high] = panel.x.range;
-    panel.x.range = [low, high.max(0.02 * (high - low))];
+    let room = ROOM * (high - low);
+    panel.x.range = [low - room, (high + room).max(room)];
     if let Some(top) = style.top() {
         panel.y.range[1] = top;
     }

@@ -134,7 +134,7 @@ impl<'a> Histogram<'a> {
                 format!(", sigma {} {symbol}", number(own))
             });
             {
-                let samples = style.sampled(self.sampled.samples);
+                let samples = self.sampled.drawn();
                 format!(
                     "Monte Carlo, {samples}: mean {} {symbol}{sigma}.",
                     number(mean)

@@ -125,7 +125,7 @@ impl<'a> Spreads<'a> {
         }
         lower.x.range = upper.x.range;
         if let Some(own) = self.series.iter().find_map(|own| own.sampled.first()) {
-            let samples = style.sampled(own.samples);
+            let samples = own.drawn();
             caption.push(format!("Monte Carlo: {samples}; bars are standard errors."));
         }
         let panels = match lower.is_empty() {

@@ -3,13 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use eigentol::Study;
+use eigentol::branches::BranchPoint;
 use eigentol_figures::figure::{Panel, Point, Stroke};
 use eigentol_figures::{
-    Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria, frequencies,
-    root_locus,
+    Figure, Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria,
+    frequencies, root_locus,
 };
 
-use crate::machines::{Bars, Door, Pendulum, bars, pendulum, rotor_diagram, save, values};
+use crate::machines::{Bars, Door, Pendulum, Rotor, bars, pendulum, rotor_diagram, save, values};
 
 /// All points of the curves of a panel whose label begins like this.
 fn points<'a>(panel: &'a Panel, label: &str) -> Vec<&'a Point> {
@@ -257,6 +258,69 @@ fn the_frequency_of_the_pendulum_touches_zero_at_its_critical_speed() {
     };
     assert_eq!(before.last(), after.first(), "no jump, so no gap");
     save(&figure, "equilibrium");
+}
+
+/// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter, the stable and
+/// the unstable stretch meet.
+#[test]
+fn stretches_of_a_branch_meet_where_flutter_begins() {
+    let (low, high) = (0.0, 6000.0 * PI / 30.0);
+    let found = Study::new(Rotor).branches(Rotor::speed, low, high).unwrap();
+    let [branch] = &found.branches[..] else {
+        panic!("{} branches", found.branches.len())
+    };
+    let holds = |point: &BranchPoint| point.equilibrium.stability.holds();
+    let mut pairs = branch.points.windows(2);
+    let onset = pairs.find(|pair| holds(&pair[0]) != holds(&pair[1]));
+    let [before, after] = onset.expect("flutter begins") else {
+        unreachable!()
+    };
+    let onset = 0.5 * (before.value + after.value) * 30.0 / PI;
+    let figure = branches(&found, &Style::default()).unwrap();
+    for panel in &figure.panels {
+        let pieces = panel.curves.iter().flat_map(|own| &own.pieces);
+        let ends: Vec<&Point> = pieces
+            .flat_map(|own| [&own[0], &own[own.len() - 1]])
+            .collect();
+        for end in &ends {
+            let here = ends.iter().filter(|own| own == &end).count();
+            let outer = panel.x.range.contains(&end[0]);
+            assert_eq!(here, if outer { 1 } else { 2 }, "{end:?} of {ends:?}");
+        }
+        let solid = panel.curves.iter().find(|own| own.stroke == Stroke::Solid);
+        let last = solid.and_then(|own| own.pieces.last()?.last());
+        assert!((last.unwrap()[0] - onset).abs() < 1e-9, "{last:?} {onset}");
+    }
+    let said = |figure: &Figure| {
+        figure
+            .caption
+            .iter()
+            .any(|line| line.contains("drawn half way"))
+    };
+    assert!(said(&figure), "{:?}", figure.caption);
+    let whole = Study::new(Rotor)
+        .branches(Rotor::speed, low, 0.2 * high)
+        .unwrap();
+    assert!(!said(&branches(&whole, &Style::default()).unwrap()));
+    save(&figure, "branches_to_flutter");
+}
+
+#[test]
+fn markers_of_a_root_locus_stand_clear_of_the_frame() {
+    let figure = root_locus(&rotor_diagram(21), &Style::default()).unwrap();
+    let panel = &figure.panels[0];
+    let [low, high] = panel.x.range;
+    // Markers are 8 pixels wide, the panel is 840.
+    let room = 8.0 / 840.0 * (high - low);
+    let points: Vec<&Point> = panel.markers.iter().flat_map(|own| &own.points).collect();
+    assert!(points.len() >= 8);
+    for at in points {
+        assert!(
+            (low + room..=high - room).contains(&at[0]),
+            "{at:?} of {low} to {high}"
+        );
+    }
+    save(&figure, "root_locus_rotor");
 }
 
 #[test]

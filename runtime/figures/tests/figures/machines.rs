@@ -117,6 +117,7 @@ pub(crate) fn save(figure: &Figure, name: &str) -> String {
     }
     let text = std::fs::read_to_string(path).expect("it was written");
     assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
+    crate::words::assert_readable(&text, name);
     let data = serde_json::to_string(figure).expect("it is data");
     assert!(!data.contains("null"), "{name}: every number is finite");
     text

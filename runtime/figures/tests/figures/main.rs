@@ -5,3 +5,4 @@ mod degenerate;
 mod drawing;
 mod machines;
 mod point;
+mod words;

@@ -1,5 +1,6 @@
 //! What happens along an input: branches of equilibria, frequencies, damping, critical values.
 
+use eigentol::tolerance::Spread;
 use eigentol_figures::{branches, campbell, damping_ratios, root_locus};
 use eigentol_tables::{Table, tables};
 
@@ -77,7 +78,9 @@ fn modes(html: &mut Html, content: &Content, along: &Along) -> Result<(), Error>
         .points
         .iter()
         .flat_map(|point| point.modes.iter().flatten());
-    if damped.into_iter().any(|mode| mode.damping_ratio.is_some()) {
+    let is_damped = |own: &Spread| own.mean != 0.0;
+    let mut damped = damped.filter_map(|mode| mode.damping_ratio.as_ref());
+    if damped.any(is_damped) {
         chart(
             html,
             &damping_ratios(found, &content.style.clone().title("Damping ratios")),

@@ -4,7 +4,7 @@ use eigentol::sweep::{Condition, Event, EventTolerance};
 use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
 use eigentol::{Campbell, Description, Modes};
 
-use super::verdicts::{NOTHING_VARIES, named};
+use super::verdicts::NOTHING_VARIES;
 use crate::Error;
 use crate::content::{Along, Content, Spreads};
 use crate::html::Html;
@@ -134,10 +134,11 @@ fn tolerances(spread: &Spreads) -> Vec<Line> {
         }
         Ok(summary) => {
             let doubted = summary.trust.iter().filter(|own| !own.trusted());
-            let doubted: Vec<usize> = doubted.map(|own| own.mode).collect();
+            let doubted: Vec<String> = doubted.map(|own| (own.mode + 1).to_string()).collect();
+            let plural = if doubted.len() > 1 { "s" } else { "" };
             let text = format!(
-                "{}: the first-order spread is not to be trusted. See Tolerances.",
-                named(&doubted)
+                "The first-order spread of mode{plural} {} is not to be trusted. See Tolerances.",
+                doubted.join(", ")
             );
             lines.push((Some(false), text));
         }

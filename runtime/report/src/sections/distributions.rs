@@ -24,15 +24,9 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             return Ok(());
         }
     };
-    let setup = &content.setup;
-    let stream = match setup.stream {
-        0 => String::new(),
-        stream => format!(", stream {stream}"),
-    };
     html.paragraph(&format!(
-        "{} samples of the variables within their tolerances (seed {}{stream}), each solved anew. {}",
-        found.samples,
-        setup.seed,
+        "Monte Carlo ({}): in each sample the variables have other values within their tolerances, and it is solved anew. {}",
+        found.drawn(),
         stable_samples(found).1
     ));
     let count = found.modes.len();
@@ -54,8 +48,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
             continue;
         }
         let caption = match &*own.name {
-            "outcomes" => "What became of the samples",
-            _ => "Statistics of the samples",
+            "outcomes" => format!("What became of {}", found.drawn()),
+            _ => format!("Statistics of {}", found.drawn()),
         };
         let columns: &[&str] = match &*own.name {
             "outcomes" => &["outcome", "samples"],
@@ -70,7 +64,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
                 "greatest of frequency",
             ],
         };
-        table(html, caption, &own, columns)?;
+        table(html, &caption, &own, columns)?;
     }
     Ok(())
 }

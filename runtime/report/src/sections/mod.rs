@@ -4,10 +4,12 @@ mod along;
 mod brief;
 mod distributions;
 mod equilibrium;
+mod laws;
 mod mechanism;
 mod modes;
 mod parts;
 mod shares;
+mod variables;
 mod verdicts;
 
 use crate::Error;

@@ -1,5 +1,6 @@
 //! How the mechanism vibrates.
 
+use eigentol::picture::Scene;
 use eigentol_figures::{mode_shapes, participation};
 use eigentol_tables::tables;
 
@@ -10,6 +11,7 @@ use crate::content::{Content, Pictures};
 use crate::html::Html;
 use crate::scene::{AMPLITUDE, View};
 use crate::tables::table;
+use crate::words::digits;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     match &content.pictures {
@@ -62,6 +64,7 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
         "In a mode the farthest place moves by {:.0} % of the size of the mechanism, in truth by as little as the disturbance. Grey: the equilibrium.",
         100.0 * AMPLITUDE
     ));
+    html.paragraph(&upwards(&pictures.scene));
     for (mode, picture) in pictures.modes.iter().enumerate() {
         if let Err(error) = picture {
             refused(
@@ -79,4 +82,15 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
         ));
     }
     Ok(())
+}
+
+/// Which way is up in the picture, and why.
+fn upwards(scene: &Scene) -> String {
+    let up = scene.up().map(|own| digits(own, 3)).join(", ");
+    match scene.gravity {
+        Some(_) => format!("Up is against gravity: [{up}] in the common frame."),
+        None => format!(
+            "No gravity is declared. Up is [{up}] in the common frame, the axis of the first driven joint on the ground, or z."
+        ),
+    }
 }

@@ -1,4 +1,4 @@
-//! Bodies, joints and what connects points, as tables.
+//! Bodies, joints, and what acts on them or binds them, as tables.
 
 use eigentol::picture::{Scene, Shape, Solid};
 use eigentol_tables::Table;
@@ -10,7 +10,10 @@ pub(super) fn tables(scene: &Scene) -> Vec<(&'static str, Table)> {
     let all = [
         ("Bodies; lengths in m, masses in kg", bodies(scene)),
         ("Joints", joints(scene)),
-        ("Forces and constraints between points", links(scene)),
+        (
+            "Gravity, drives, forces, constraints and curves; numbers in SI",
+            elements(scene),
+        ),
         ("What rolls", wheels(scene)),
     ];
     all.into_iter().filter(|(_, own)| own.rows() > 0).collect()
@@ -88,14 +91,12 @@ fn joints(scene: &Scene) -> Table {
     table
 }
 
-fn links(scene: &Scene) -> Table {
-    let all = scene.links.iter();
-    let point = |number: usize| Some(scene.points.get(number)?.name.to_string());
-    let mut table = Table::new("links");
+fn elements(scene: &Scene) -> Table {
+    let all = scene.elements.iter();
+    let mut table = Table::new("elements");
     table.texts("name", all.clone().map(|own| Some(own.name.to_string())));
     table.texts("kind", all.clone().map(|own| Some(own.kind.to_string())));
-    table.texts("from", all.clone().map(|own| point(own.ends[0])));
-    table.texts("to", all.map(|own| point(own.ends[1])));
+    table.texts("law", all.map(|own| Some(own.law.to_string())));
     table
 }
 

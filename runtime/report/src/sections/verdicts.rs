@@ -1,6 +1,6 @@
 //! What tolerances do to the frequencies, and which numbers can be trusted.
 
-use eigentol::summary::{Advice, Doubt, Sampling, Summary};
+use eigentol::report::News;
 use eigentol_tables::tables;
 
 use super::refused;
@@ -8,7 +8,6 @@ use crate::Error;
 use crate::content::Content;
 use crate::html::Html;
 use crate::tables::table;
-use crate::words::sentence;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let summary = match &content.spread {
@@ -26,8 +25,13 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         }
     };
     html.element("ul", &[("class", "verdicts")], |html| {
-        for (good, text) in sentences(summary) {
-            html.leaf("li", &[("class", if good { "good" } else { "bad" })], &text);
+        for sentence in summary.sentences() {
+            let class = match sentence.news {
+                News::Good => "good",
+                News::Bad => "bad",
+                _ => "fact",
+            };
+            html.leaf("li", &[("class", class)], &sentence.text);
         }
     });
     let columns = [
@@ -47,7 +51,6 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     if let Some(own) = tables(summary).first() {
         table(html, &caption, own, &columns)?;
     }
-    html.paragraph(&about_samples(&summary.sampling));
     let mixed = summary
         .trust
         .iter()
@@ -62,67 +65,3 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 
 /// What is said where no variable has a tolerance.
 pub(super) const NOTHING_VARIES: &str = "No variable has a tolerance: nothing spreads.";
-
-/// `Mode 1`, `Modes 1, 2 and 4`.
-pub(super) fn named(modes: &[usize]) -> String {
-    match modes {
-        [] => "No mode".to_owned(),
-        [one] => format!("Mode {}", one + 1),
-        [others @ .., last] => {
-            let others: Vec<String> = others.iter().map(|mode| (mode + 1).to_string()).collect();
-            format!("Modes {} and {}", others.join(", "), last + 1)
-        }
-    }
-}
-
-/// Each doubt once, with all the modes that share it, then what to use; and whether it is good news.
-pub(super) fn sentences(summary: &Summary) -> Vec<(bool, String)> {
-    let mut said: Vec<&Doubt> = Vec::new();
-    let mut all = Vec::new();
-    for doubt in summary.trust.iter().flat_map(|own| &own.doubts) {
-        if said.contains(&doubt) {
-            continue;
-        }
-        said.push(doubt);
-        let shares = summary
-            .trust
-            .iter()
-            .filter(|own| own.doubts.contains(doubt));
-        let modes: Vec<usize> = shares.map(|own| own.mode).collect();
-        all.push((false, sentence(&format!("{}: {doubt}", named(&modes)))));
-    }
-    for (advice, text) in [
-        (
-            Advice::FirstOrder,
-            "nothing speaks against the first-order sigma.",
-        ),
-        (
-            Advice::SecondOrder,
-            "use second order, which agrees with the samples.",
-        ),
-        (Advice::Sampling, "use Monte Carlo."),
-    ] {
-        let own = summary.trust.iter().filter(|own| own.advice == advice);
-        let modes: Vec<usize> = own.map(|own| own.mode).collect();
-        if !modes.is_empty() {
-            all.push((
-                advice == Advice::FirstOrder,
-                format!("{}: {text}", named(&modes)),
-            ));
-        }
-    }
-    all
-}
-
-fn about_samples(sampling: &Sampling) -> String {
-    match sampling {
-        Sampling::Done(sampled) => format!(
-            "Checked by {} samples, each solved anew at its own equilibrium.",
-            sampled.samples
-        ),
-        Sampling::TooDear { operations, budget } => format!(
-            "Not checked by samples: they would cost {operations:.1e} operations of {budget:.1e}. The verdicts rest on distances and second order."
-        ),
-        _ => "No samples were needed.".to_owned(),
-    }
-}

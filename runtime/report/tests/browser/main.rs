@@ -101,6 +101,77 @@ fn the_page_is_drawn_without_a_complaint_and_loads_nothing() {
     fs::write(file.with_extension("pdf"), chrome.pdf()).unwrap();
 }
 
+/// What is wrong with the words of the charts: cut by the edge, covered by others, or under the legend.
+const WORDS: &str = "(() => { const wrong = []; \
+    const apart = (a, b) => a.left >= b.right - 1 || b.left >= a.right - 1 || a.top >= b.bottom - 3 || b.top >= a.bottom - 3; \
+    for (const svg of document.querySelectorAll('figure .plot svg')) { \
+        const title = svg.closest('figure').querySelector('h3').textContent; \
+        const edge = svg.getBoundingClientRect(); \
+        const legend = svg.closest('.panel').querySelector('.legend')?.getBoundingClientRect(); \
+        if (legend && legend.bottom > edge.top + 1) wrong.push(`${title}: the legend covers the chart`); \
+        const texts = [...svg.querySelectorAll('text')].map((own) => [own, own.getBoundingClientRect()]); \
+        texts.forEach(([own, box], k) => { \
+            const inside = box.left >= edge.left - 1 && box.right <= edge.right + 1 && box.top >= edge.top - 1 && box.bottom <= edge.bottom + 1; \
+            if (!inside) wrong.push(`${title}: '${own.textContent}' is cut`); \
+            if (own.getAttribute('transform')) return; \
+            for (const [other, there] of texts.slice(0, k)) \
+                if (!other.getAttribute('transform') && !apart(box, there)) wrong.push(`${title}: '${own.textContent}' covers '${other.textContent}'`); \
+        }); } \
+    return wrong; })()";
+
+#[test]
+fn no_words_of_a_chart_are_cut_or_covered() {
+    let Some(mut chrome) = opened("words") else {
+        return;
+    };
+    for width in [1200, 800, 420] {
+        let size =
+            json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        chrome.ask("Emulation.setDeviceMetricsOverride", size);
+        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("words.html");
+        chrome.open(&file);
+        let charts = chrome.number("document.querySelectorAll('figure .plot svg').length");
+        assert!(charts > 10.0, "{charts}");
+        assert_eq!(chrome.evaluate(WORDS), json!([]), "{width} pixels");
+    }
+    // The check sees what is wrong.
+    let moved = "{ const text = document.querySelector('figure .axes text'); text.setAttribute('x', '-60'); }";
+    chrome.evaluate(moved);
+    let found = chrome.evaluate(WORDS);
+    assert!(found.as_array().is_some_and(|own| !own.is_empty()));
+}
+
+/// What a chart shows is what its figure has: as many curves, markers and bars, and an entry of the legend for each label.
+#[test]
+fn charts_have_everything_of_their_figures() {
+    let Some(mut chrome) = opened("structure") else {
+        return;
+    };
+    let wrong = "(() => { const wrong = []; \
+        for (const figure of document.querySelectorAll('figure')) { \
+            const { panels } = JSON.parse(figure.querySelector('script').textContent); \
+            const drawn = [...figure.querySelectorAll('.panel')]; \
+            const title = figure.querySelector('h3').textContent; \
+            if (drawn.length !== panels.length) wrong.push(`${title}: panels`); \
+            panels.forEach((panel, k) => { \
+                const count = (selector) => drawn[k].querySelectorAll(selector).length; \
+                const same = (what, a, b) => { if (a !== b) wrong.push(`${title}: ${what}: ${a} of ${b}`); }; \
+                const sum = (all, of) => all.reduce((total, own) => total + of(own), 0); \
+                same('pieces of curves', count('g.curve path'), sum(panel.curves, (own) => own.pieces.length)); \
+                same('bands', count('g.band path'), panel.bands.length); \
+                same('bars', count('g.bars rect'), sum(panel.bars, (own) => own.bars.length)); \
+                same('marks', count('g.mark line'), panel.marks.length); \
+                same('groups of markers', count('g.markers'), panel.markers.length); \
+                same('labels', count('text.label'), panel.labels.filter(({ at }) => at[0] >= panel.x.range[0] && at[0] <= panel.x.range[1] && at[1] >= panel.y.range[0] && at[1] <= panel.y.range[1]).length); \
+                const labels = ['curves', 'bands', 'bars', 'marks', 'error_bars', 'markers'].flatMap((kind) => panel[kind].map((own) => own.label)); \
+                same('entries of the legend', count('.legend button'), new Set(labels.filter((label) => label)).size); \
+                const dashes = [...drawn[k].querySelectorAll('g.curve')].map((own) => own.querySelector('path')?.getAttribute('stroke-dasharray') ? 1 : 0); \
+                same('dashed curves', sum(dashes, (own) => own), panel.curves.filter((own) => own.stroke !== 'solid').length); \
+            }); } \
+        return wrong; })()";
+    assert_eq!(chrome.evaluate(wrong), json!([]));
+}
+
 #[test]
 fn the_pointer_and_the_keys_show_values() {
     let Some(mut chrome) = opened("hover") else {

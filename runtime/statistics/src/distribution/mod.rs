@@ -240,6 +240,22 @@ impl Distribution {
         Self::discrete(&values)
     }
 
+    /// What it is called: `normal`, `uniform`, ...; `constant` where nothing varies.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match &self.kind {
+            _ if self.sigma == 0.0 => "constant",
+            Kind::Normal => "normal",
+            Kind::Lognormal { .. } => "lognormal",
+            Kind::Weibull { .. } => "Weibull",
+            Kind::TruncatedNormal { .. } => "truncated normal",
+            Kind::Uniform { .. } => "uniform",
+            Kind::Triangular { .. } => "triangular",
+            Kind::Beta { .. } => "beta",
+            Kind::Discrete(_) => "discrete",
+        }
+    }
+
     /// Mean.
     #[must_use]
     pub fn mean(&self) -> f64 {

@@ -155,7 +155,8 @@ pub(super) fn outcomes(counts: &Counts) -> Table {
     table
 }
 
-/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`, where they were kept: a row for each.
+/// `Monte Carlo`: a row for each mode; `outcomes`: a row for each outcome; `samples`, where they were kept: a row for each. All have
+/// seed and stream of the random numbers, where they are below 2^63.
 impl Tables for MonteCarlo {
     fn tables(&self) -> Vec<Table> {
         let d = &self.description;
@@ -165,13 +166,20 @@ impl Tables for MonteCarlo {
         statistics(&mut table, "frequency", "rad/s", modes);
         let damping = self.damping_ratios.iter().map(Option::as_ref);
         statistics(&mut table, "damping ratio", "", damping);
-        operating_point(&mut table, d, &self.inputs, None);
+        let sequence = |table: &mut Table| {
+            operating_point(table, d, &self.inputs, None);
+            let rows = table.rows();
+            for (name, value) in [("seed", self.seed), ("stream", self.stream)] {
+                table.whole(name, vec![usize::try_from(value).ok(); rows]);
+            }
+        };
+        sequence(&mut table);
         let mut outcomes = outcomes(&self.counts);
-        operating_point(&mut outcomes, d, &self.inputs, None);
+        sequence(&mut outcomes);
         let mut tables = vec![table, outcomes];
         if let Some(all) = &self.all {
             let mut samples = samples_table(d, 0, all);
-            operating_point(&mut samples, d, &self.inputs, None);
+            sequence(&mut samples);
             tables.push(samples);
         }
         tables

@@ -11,7 +11,7 @@ use crate::mechanics::picture::{Picture, PictureBody, PictureJoint, PictureLink,
 use crate::mechanics::setup::{Context, Values};
 use crate::model::expression::{Expr, Vector};
 use crate::model::mechanism::{
-    Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Part, Placement, Shape,
+    Body, Constraint, ConstraintLaw, Force, ForceLaw, Joint, Motion, Part, Placement, Shape,
 };
 
 use super::parameters::parameter;
@@ -29,7 +29,15 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let joints = mechanism.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| {
         let cut = context.topology.cut.contains(&JointId::new(index));
-        numbers.joint(g, joint, cut)
+        let driven = joint.steps.iter().any(|step| {
+            let motion = &mechanism.coordinates[step.coordinate.index()].motion;
+            matches!(motion, Motion::Driven(_)) && motion.runs()
+        });
+        PictureJoint {
+            cut,
+            driven,
+            ..numbers.joint(g, joint)
+        }
     });
     let joints = joints.collect();
     for point in &mechanism.points {
@@ -42,6 +50,7 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
     let wheels = mechanism.constraints.iter();
     let wheels = wheels.filter_map(|constraint| numbers.wheel(g, axes, constraint));
     let wheels = wheels.collect();
+    numbers.declared(g, &mechanism.gravity);
     let (numbers, computed, values) = numbers.split(g);
     let function = Function {
         name: KernelName::Picture.name(),
@@ -67,6 +76,7 @@ pub(crate) fn picture(g: &mut Graph, context: &Context) -> (Function, Picture) {
             .chain(constraints(&mechanism.constraints))
             .collect(),
         wheels,
+        elements: mechanism.elements(),
         numbers,
         computed,
     };
@@ -239,7 +249,7 @@ impl<'a> Numbers<'a> {
         axes.0.into_iter().for_each(|axis| self.vector(axis));
     }
 
-    fn joint(&mut self, g: &mut Graph, joint: &Joint, cut: bool) -> PictureJoint {
+    fn joint(&mut self, g: &mut Graph, joint: &Joint) -> PictureJoint {
         let mut side = |placement: &Placement, axis: Option<&Vector>| {
             let (offset, rotation) = self.values.placement(g, placement);
             let axis = match axis {
@@ -257,7 +267,8 @@ impl<'a> Numbers<'a> {
             name: joint.name.to_string(),
             kind: joint.word,
             sides: [joint.from, joint.to],
-            cut,
+            cut: false,
+            driven: false,
         }
     }
 

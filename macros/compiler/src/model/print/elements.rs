@@ -1,0 +1,80 @@
+//! What acts and what binds, each in words: for readers of a picture.
+
+use super::Names;
+use crate::model::elements::Element;
+use crate::model::expression::Expr;
+use crate::model::mechanism::{Mechanism, Motion};
+
+impl Mechanism {
+    /// Gravity, drives, forces, constraints and curves, in the order of declaration of each kind.
+    pub fn elements(&self) -> Vec<Element> {
+        let names = Names(self);
+        let still = self.gravity.iter().all(|own| *own == Expr::Number(0.0));
+        let gravity = (!still).then(|| Element {
+            name: "gravity".to_owned(),
+            kind: "gravity".to_owned(),
+            law: names.vector(&self.gravity),
+        });
+        let drives = self.coordinates.iter().filter_map(|coordinate| {
+            let Motion::Driven(speed) = &coordinate.motion else {
+                return None;
+            };
+            Some(Element {
+                name: coordinate.name.to_string(),
+                kind: "drive".to_owned(),
+                law: format!("at {}", names.scalar(speed)),
+            })
+        });
+        let forces = self.forces.iter();
+        let forces = forces.map(|force| element(&force.name, &names.law(&force.law)));
+        let constraints = self.constraints.iter();
+        let constraints = constraints
+            .map(|constraint| element(&constraint.name, &names.constraint(&constraint.law)));
+        let curves = self.curves.iter().map(|curve| {
+            let [first, last] = curve.range();
+            let points = curve.spline.pieces().len().saturating_sub(1);
+            Element {
+                name: curve.spline.name().to_string(),
+                kind: "curve".to_owned(),
+                law: format!(
+                    "through {points} points from {first} to {}",
+                    curve.with_unit(last)
+                ),
+            }
+        });
+        let all = gravity.into_iter().chain(drives).chain(forces);
+        all.chain(constraints).chain(curves).collect()
+    }
+}
+
+/// Arguments that need not be declared: without them they are zero.
+const OPTIONAL: [&str; 7] = [
+    "stiffness",
+    "damping",
+    "turning_stiffness",
+    "turning_damping",
+    "rest",
+    "force",
+    "moment",
+];
+
+/// A law without the arguments that are zero.
+fn quiet(law: &str) -> String {
+    let mut text = format!("{law} ");
+    for name in OPTIONAL {
+        for zero in ["0", "[0, 0, 0]"] {
+            text = text.replace(&format!(" {name} {zero} "), " ");
+        }
+    }
+    text.trim_end().to_owned()
+}
+
+/// A law as text begins with the word it is declared with.
+fn element(name: &impl ToString, text: &str) -> Element {
+    let (kind, law) = text.split_once(' ').unwrap_or((text, ""));
+    Element {
+        name: name.to_string(),
+        kind: kind.to_owned(),
+        law: quiet(law),
+    }
+}
