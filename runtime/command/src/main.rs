@@ -14,6 +14,7 @@ mod picture;
 mod place;
 mod point;
 mod progress;
+mod rows;
 mod study_file;
 mod sweep;
 mod verdict;

@@ -206,7 +206,15 @@ impl<M: DirectionalKernels> Study<M> {
         let following = settings.following();
         let watch = settings.watch();
         let each = |found| go_on(each(found), watch);
-        campbell::campbell_each(mechanism, (u, b), &start, following, &axes, tolerances, each)
+        campbell::campbell_each(
+            mechanism,
+            (u, b),
+            &start,
+            following,
+            &axes,
+            tolerances,
+            each,
+        )
     }
 
     /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).

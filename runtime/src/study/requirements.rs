@@ -5,10 +5,10 @@ use super::{Solved, Study};
 use crate::Error;
 use crate::allocation::{Allocation, Choices, allocate};
 use crate::kernels::DirectionalKernels;
-use crate::tolerance::Sampling;
 use crate::requirement::{
     Chances, FormSettings, RareFailure, Reliability, Requirement, Requirements, SamplingSettings,
 };
+use crate::tolerance::Sampling;
 
 impl<M: DirectionalKernels> Solved<'_, M> {
     /// Chances of meeting requirements all at once, and of each by itself, from as many samples as the study takes

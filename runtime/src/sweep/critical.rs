@@ -160,7 +160,8 @@ impl Path {
                 rest = &rest[steps..];
                 continue;
             };
-            let beyond = |(value, ..): &(f64, Vector, bool)| (value - critical.value) * direction > 0.0;
+            let beyond =
+                |(value, ..): &(f64, Vector, bool)| (value - critical.value) * direction > 0.0;
             let next = rest.iter().position(beyond).unwrap_or(rest.len());
             rest = &rest[next.max(1)..];
             found.push(critical);

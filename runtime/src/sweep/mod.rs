@@ -15,8 +15,8 @@ mod sensitivity_sweep;
 mod sweep;
 mod track;
 
-pub use critical::critical_state;
 pub(crate) use critical::Path;
+pub use critical::critical_state;
 pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
