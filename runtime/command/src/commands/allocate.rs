@@ -64,6 +64,10 @@ impl Allocate {
                 "after {tried} choices: there may be cheaper tolerances"
             )));
         }
+        let (samples, planned) = (found.chances.all.samples(), found.chances.planned);
+        if samples < planned {
+            return Ok(Verdict::stopped(samples, planned, "samples"));
+        }
         Ok(match found.refuted.first() {
             None => Verdict::Yes,
             Some(k) => Verdict::No(format!("samples refute requirement {}", k + 1)),
