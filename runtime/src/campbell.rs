@@ -1,13 +1,15 @@
 //! Campbell diagrams: every mode against an input, with damping, whirl and spread, and where the modes meet engine orders.
 
+use core::ops::ControlFlow;
+
 use crate::algebra::Vector;
 use crate::arguments::check_input;
 use crate::kernels::{DirectionalKernels, Kernels};
 use crate::modes::{Family, Mode, Modes, Whirl, whirls};
 use crate::sensitivity::{Quantity, Sensitivities, sensitivities};
 use crate::sweep::{
-    Condition, Crossing, Event, EventTolerance, Following, Line, Tracker, between,
-    critical_states_on, critical_tolerance, crossing_tolerance,
+    Condition, Crossing, Event, EventTolerance, Following, Line, Path, Tracker, between,
+    critical_tolerance, crossing_tolerance,
 };
 use crate::tolerance::{Spread, Tolerances};
 use crate::{Behaviour, Complex, Description, Equilibrium, Error, Input, Shared};
@@ -138,17 +140,30 @@ pub fn campbell(
     axes: &Axes<'_>,
     tolerances: &Tolerances,
 ) -> Result<Campbell, Error> {
-    diagram(mechanism, (u, b), start, following.into(), axes, tolerances)
+    let mut points = Vec::with_capacity(axes.values.len());
+    let each = |point| {
+        points.push(point);
+        ControlFlow::Continue(())
+    };
+    let found = campbell_each(mechanism, (u, b), start, following, axes, tolerances, each)?;
+    Ok(Campbell { points, ..found })
 }
 
-fn diagram(
+/// As [`campbell`], but gives each point to `each`, in order and as soon as it is found, and keeps none: the result has what lies
+/// between the points only. The diagram ends where `each` breaks off.
+///
+/// # Errors
+/// As [`campbell`].
+pub fn campbell_each(
     mechanism: &dyn DirectionalKernels,
     (u, b): (&[f64], &[f64]),
     start: &[f64],
-    following: Following,
+    following: impl Into<Following>,
     axes: &Axes<'_>,
     tolerances: &Tolerances,
+    mut each: impl FnMut(CampbellPoint) -> ControlFlow<()>,
 ) -> Result<Campbell, Error> {
+    let following = following.into();
     let Axes {
         input,
         values,
@@ -160,12 +175,10 @@ fn diagram(
     let conditions = orders.iter().map(|&line| Condition::Line(line));
     let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
     let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
-    let mut points = Vec::with_capacity(values.len());
-    let mut smooth = Vec::with_capacity(values.len());
+    let mut path = Path::new(following);
     for &value in values {
         let before = tracker.last.clone();
         let failed = tracker.advance(value);
-        smooth.push(tracker.smooth && failed.is_none());
         if let (Some(before), Some(after), None) = (&before, &tracker.last, &failed) {
             for &condition in &conditions {
                 let mut found = Vec::new();
@@ -184,11 +197,19 @@ fn diagram(
         }
         if let Some(point) = failed.as_ref().or(tracker.last.as_ref()) {
             let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
-            points.push(CampbellPoint {
+            path.add(
+                value,
+                &point.equilibrium,
+                tracker.smooth && failed.is_none(),
+            );
+            let shown = each(CampbellPoint {
                 value,
                 equilibrium: point.equilibrium.clone(),
                 modes: point.solved().map(describe).map_err(Error::clone),
             });
+            if shown.is_break() {
+                break;
+            }
         }
     }
     // Engine order by engine order; stable, so onsets stay as they were found.
@@ -200,16 +221,14 @@ fn diagram(
         _ => None,
     };
     crossings.sort_by_key(order);
-    let path = points.iter().zip(&smooth);
-    let path = path.map(|(point, smooth)| (point.value, &point.equilibrium, *smooth));
-    let critical = critical_states_on(mechanism, (u, b), following, input, path);
+    let critical = path.critical_states(mechanism, (u, b), input);
     let critical = critical
         .iter()
         .map(|state| critical_tolerance(mechanism, state, tolerances));
     Ok(Campbell {
         input,
         critical: critical.collect(),
-        points,
+        points: Vec::new(),
         orders: orders.to_vec(),
         crossings,
         flutter_onsets,

@@ -135,6 +135,8 @@ pub mod summary;
 pub mod sweep;
 #[cfg(feature = "std")]
 pub mod tolerance;
+#[cfg(feature = "std")]
+mod watch;
 
 pub use eigentol_macros::mechanism;
 pub use mechanism::{Any, Coordinate, DesignVariable, Input, Output};
@@ -173,6 +175,8 @@ pub use state::{Equilibrium, Stability};
 pub use study::{InDeclaredUnit, Parameter, Solved, Study, Value};
 #[cfg(feature = "std")]
 pub use tolerance::{FirstOrder, MonteCarlo, Tolerances};
+#[cfg(feature = "std")]
+pub use watch::Watch;
 
 /// The example of the README, compiled and run.
 #[cfg(all(doctest, feature = "std"))]

@@ -30,3 +30,4 @@ mod sweeps;
 mod tolerance;
 mod trigonometry;
 mod verdict;
+mod watched;

@@ -41,15 +41,16 @@ const MECHANICS: [&str; 8] = [
 /// The types that the subfolders of `mechanics` share with other rooms.
 const TYPES: [&str; 3] = ["functions", "kernel_name", "picture"];
 
-/// The rooms of the runtime, in order: each may import those before it. The first sixteen are the core: contract, equilibrium,
+/// The rooms of the runtime, in order: each may import those before it. The first seventeen are the core: contract, equilibrium,
 /// modes, sensitivities, first-order tolerances and Monte Carlo.
-const RUNTIME: [&str; 31] = [
+const RUNTIME: [&str; 32] = [
     "setters",
     "algebra",
     "scalar",
     "mechanism",
     "error",
     "arguments",
+    "watch",
     "kernels",
     "constraints",
     "rounding",

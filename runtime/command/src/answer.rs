@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use eigentol_compiler::base::nearest::nearest;
-use eigentol_tables::{Table, csv, json};
+use eigentol_tables::{Table, csv, json, parquet};
 
 use crate::failure::Failure;
 
@@ -19,6 +19,14 @@ pub(crate) enum Form {
     Text,
     Csv,
     Json,
+    Parquet,
+}
+
+impl Form {
+    /// Whether it is one table.
+    pub(crate) fn has_rows(self) -> bool {
+        matches!(self, Self::Csv | Self::Parquet)
+    }
 }
 
 /// A result in its form.
@@ -46,7 +54,7 @@ impl Answer {
         let kind = R::KIND;
         let (text, tables) = match self.form {
             Form::Text => (result.to_string(), Vec::new()),
-            Form::Csv => (String::new(), result.tables()),
+            Form::Csv | Form::Parquet => (String::new(), result.tables()),
             Form::Json => (json::to_string(result)?, Vec::new()),
         };
         self.results.push(Written {
@@ -75,18 +83,23 @@ impl Answer {
         &self,
         kind: Option<&str>,
         table: Option<&str>,
-    ) -> Result<String, Failure> {
+    ) -> Result<Vec<u8>, Failure> {
         if self.form == Form::Text && kind.is_none() {
             let shown = self.results.iter().filter(|own| !own.aside);
             let all: Vec<&str> = shown.map(|own| own.text.as_str()).collect();
-            return Ok(all.join("\n"));
+            return Ok(all.join("\n").into_bytes());
         }
         let result = named("result", &self.results, kind, |own| own.kind)?;
-        if self.form != Form::Csv {
-            return Ok(result.text.clone());
+        if !self.form.has_rows() {
+            return Ok(result.text.clone().into_bytes());
         }
         let table = named("table", &result.tables, table, |own| &own.name)?;
-        Ok(csv::to_string(table)?)
+        let mut file = Vec::new();
+        match self.form {
+            Form::Parquet => parquet::write(table, &mut file)?,
+            _ => csv::write(table, &mut file)?,
+        }
+        Ok(file)
     }
 }
 

@@ -5,10 +5,11 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand, ValueEnum};
+use eigentol::Error;
 
 use crate::commands::{
     allocate, branches, campbell, check, completions, expand, import, merge, modes, new, report,
-    sample, sensitivities, tolerance,
+    sample, sensitivities, sweep, tolerance,
 };
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -122,6 +123,7 @@ enum Command {
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
     Campbell(campbell::Campbell),
+    Sweep(sweep::Sweep),
     Branches(branches::Branches),
     Sample(sample::Sample),
     Merge(merge::Merge),
@@ -147,6 +149,10 @@ impl Arguments {
                 diagnostics::say_no("stopped", &reason, color);
                 interrupt::INTERRUPTED
             }
+            Err(Failure::Analysis(Error::Stopped)) => {
+                diagnostics::say_no("stopped", "before there was an answer", color);
+                interrupt::INTERRUPTED
+            }
             Err(Failure::NobodyReads) => 0,
             Err(failure) => {
                 diagnostics::say(&failure, color);
@@ -165,6 +171,7 @@ impl Command {
             Self::Sensitivities(own) => own.run(),
             Self::Tolerance(own) => own.run(),
             Self::Campbell(own) => own.run(),
+            Self::Sweep(own) => own.run(),
             Self::Branches(own) => own.run(),
             Self::Sample(own) => own.run(),
             Self::Merge(own) => own.run(),

@@ -2,13 +2,14 @@
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 
 use crate::failure::Failure;
 
 /// Exit code of a program that SIGINT has ended: 128 and the number of the signal.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-static STOP: AtomicBool = AtomicBool::new(false);
+static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static STOPPABLE: AtomicBool = AtomicBool::new(false);
 
 /// From now on Ctrl-C ends the program with a message.
@@ -24,9 +25,9 @@ pub(crate) fn watch() -> Result<(), Failure> {
 }
 
 /// From now on the first Ctrl-C sets this flag, and the second one ends the program.
-pub(crate) fn stop() -> &'static AtomicBool {
+pub(crate) fn stop() -> Arc<AtomicBool> {
     STOPPABLE.store(true, Ordering::Relaxed);
-    &STOP
+    Arc::clone(&STOP)
 }
 
 /// Whether Ctrl-C has set the flag.

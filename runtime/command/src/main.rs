@@ -15,6 +15,7 @@ mod picture;
 mod place;
 mod point;
 mod progress;
+mod rows;
 mod study_file;
 mod sweep;
 mod verdict;

@@ -1,43 +1,95 @@
 //! In which form an answer is written.
 
+use std::io::{self, IsTerminal as _};
+
 use clap::Args;
+use eigentol_tables::Table;
 
 use crate::answer::{Answer, Form};
 use crate::failure::Failure;
 use crate::place::Place;
+use crate::rows::Rows;
 
 /// Form and place of the answer.
 #[derive(Args, Debug)]
 pub(crate) struct Output {
-    /// Numbers as one JSON document, with every digit
-    #[arg(long, conflicts_with = "csv")]
+    /// Numbers as one JSON document, with every digit; also for `--output FILE.json`
+    #[arg(long, conflicts_with_all = ["csv", "parquet"])]
     json: bool,
-    /// Numbers as CSV, units in the headings
-    #[arg(long)]
+    /// Numbers as CSV, units in the headings; also for `--output FILE.csv`
+    #[arg(long, conflicts_with = "parquet")]
     csv: bool,
-    /// Which result is written, of a question with several [default for JSON and CSV: the one that answers it]
+    /// Numbers as a Parquet file, units in the names of columns; also for `--output FILE.parquet`
+    #[arg(long)]
+    parquet: bool,
+    /// Which result is written, of a question with several [default for JSON, CSV and Parquet: the one that answers it]
     #[arg(long, value_name = "NAME")]
     result: Option<String>,
-    /// Which table of the result is written as CSV [default: the one that answers the question]
-    #[arg(long, value_name = "NAME", requires = "csv")]
+    /// Which table of the result is written as CSV or Parquet [default: the one that answers the question]
+    #[arg(long, value_name = "NAME")]
     table: Option<String>,
     #[command(flatten)]
     place: Place,
 }
 
 impl Output {
-    /// Refuses, before long work, a file that cannot be written.
+    /// Refuses, before long work, a file that cannot be written, and what makes no sense.
     pub(crate) fn check(&self) -> Result<(), Failure> {
+        let form = self.form();
+        if self.table.is_some() && !form.has_rows() {
+            let help =
+                "add `--csv` or `--parquet`, or an `--output` that ends in `.csv` or `.parquet`";
+            return Err(Failure::usage("only CSV and Parquet have one table", help));
+        }
+        if form == Form::Parquet && self.place.path().is_none() && io::stdout().is_terminal() {
+            let help = "name a file: `--output FILE.parquet`";
+            return Err(Failure::usage("Parquet is nothing to read", help));
+        }
         self.place.check()
+    }
+
+    fn form(&self) -> Form {
+        let ending = self
+            .place
+            .path()
+            .and_then(|path| path.extension()?.to_str());
+        match (self.json, self.csv, self.parquet) {
+            (true, ..) => Form::Json,
+            (_, true, _) => Form::Csv,
+            (.., true) => Form::Parquet,
+            _ => match ending {
+                Some("json") => Form::Json,
+                Some("csv") => Form::Csv,
+                Some("parquet") => Form::Parquet,
+                _ => Form::Text,
+            },
+        }
     }
 
     /// An answer to fill.
     pub(crate) fn answer(&self) -> Answer {
-        Answer::new(match (self.json, self.csv) {
-            (true, _) => Form::Json,
-            (false, true) => Form::Csv,
-            (false, false) => Form::Text,
-        })
+        Answer::new(self.form())
+    }
+
+    /// Whether one table is asked for, that of this name.
+    pub(crate) fn wants_table(&self, name: &str) -> bool {
+        self.form().has_rows() && self.table.as_deref() == Some(name)
+    }
+
+    /// The rows of the table that answers the question, to be written as they come; `None` where something else is asked for.
+    pub(crate) fn rows<T>(
+        &self,
+        (kind, table): (&str, &str),
+        make: impl Fn(&[T]) -> Table,
+    ) -> Result<Option<Rows<'_, T, impl Fn(&[T]) -> Table>>, Failure> {
+        let own = |wanted: &Option<String>, name: &str| {
+            wanted.as_deref().is_none_or(|wanted| wanted == name)
+        };
+        let asked = own(&self.result, kind) && own(&self.table, table);
+        match self.form() {
+            form if form.has_rows() && asked => Rows::begin(&self.place, form, make).map(Some),
+            _ => Ok(None),
+        }
     }
 
     /// Writes a text that has only one form.
@@ -46,7 +98,7 @@ impl Output {
     }
 
     pub(crate) fn write(&self, answer: &Answer) -> Result<(), Failure> {
-        let text = answer.written(self.result.as_deref(), self.table.as_deref())?;
-        self.place.write(&text)
+        let content = answer.written(self.result.as_deref(), self.table.as_deref())?;
+        self.place.write_bytes(&content)
     }
 }

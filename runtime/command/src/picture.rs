@@ -25,6 +25,11 @@ pub(crate) struct Picture {
 }
 
 impl Picture {
+    /// Whether a figure is asked for.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.figure.is_some()
+    }
+
     /// Refuses, before long work, a file of another form or one that cannot be written.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if let Some(path) = &self.figure {

@@ -1,7 +1,7 @@
 //! Where text goes: standard output, or a file that is replaced when all of it is written.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, IsTerminal as _, Write as _};
+use std::io::{self, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 
@@ -33,13 +33,44 @@ impl Place {
 
     /// Writes a text.
     pub(crate) fn write(&self, text: &str) -> Result<(), Failure> {
-        match &self.output {
-            Some(path) => {
-                let written = Target::of(path).write(text.as_bytes());
-                written.map_err(|source| Failure::write(path, source))
+        self.write_bytes(text.as_bytes())
+    }
+
+    /// Writes a text or other data.
+    pub(crate) fn write_bytes(&self, content: &[u8]) -> Result<(), Failure> {
+        let written = match &self.output {
+            Some(path) => Target::of(path).write(content),
+            None => {
+                let mut out = io::stdout().lock();
+                out.write_all(content).and_then(|()| out.flush())
             }
-            None => print(text),
+        };
+        written.map_err(|source| self.failure(source))
+    }
+
+    /// Begins what is written as it comes.
+    pub(crate) fn begin(&self) -> Result<Begun, Failure> {
+        let begun = match &self.output {
+            Some(path) => Target::of(path).begin(),
+            None => Ok(Begun {
+                file: Box::new(io::stdout()),
+                moves: None,
+            }),
+        };
+        begun.map_err(|source| self.failure(source))
+    }
+
+    /// What it means that writing has failed.
+    pub(crate) fn failure(&self, source: io::Error) -> Failure {
+        match &self.output {
+            Some(path) => Failure::write(path, source),
+            None => printing(source),
         }
+    }
+
+    /// The file, if there is one.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.output.as_deref()
     }
 }
 
@@ -47,10 +78,57 @@ impl Place {
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|error| match error.kind() {
+    written.map_err(printing)
+}
+
+fn printing(error: io::Error) -> Failure {
+    match error.kind() {
         io::ErrorKind::BrokenPipe => Failure::NobodyReads,
         _ => Failure::Print(error),
-    })
+    }
+}
+
+/// What is written as it comes. A file that is not finished leaves what was there.
+pub(crate) struct Begun {
+    file: Box<dyn Write + Send>,
+    /// From where to where a file is moved when it is complete.
+    moves: Option<(PathBuf, PathBuf)>,
+}
+
+impl Begun {
+    /// Moves the file into its place.
+    pub(crate) fn finish(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        match self.moves.take() {
+            Some((beside, path)) => {
+                let moved = fs::rename(&beside, path);
+                if moved.is_err() {
+                    let _ = fs::remove_file(beside);
+                }
+                moved
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl Write for Begun {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Begun {
+    fn drop(&mut self) {
+        if let Some((beside, _)) = self.moves.take() {
+            // What is left of it is of no use; that it stays is no other failure.
+            let _ = fs::remove_file(beside);
+        }
+    }
 }
 
 /// A file to write.
@@ -84,6 +162,20 @@ impl<'a> Target<'a> {
                 fs::remove_file(beside)
             }
         }
+    }
+
+    fn begin(&self) -> io::Result<Begun> {
+        self.check()?;
+        Ok(match self {
+            Self::Device(path) => Begun {
+                file: Box::new(OpenOptions::new().write(true).open(path)?),
+                moves: None,
+            },
+            Self::File { path, beside } => Begun {
+                file: Box::new(File::create(beside)?),
+                moves: Some((beside.clone(), path.to_path_buf())),
+            },
+        })
     }
 
     pub(crate) fn write(&self, content: &[u8]) -> io::Result<()> {

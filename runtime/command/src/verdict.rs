@@ -13,6 +13,11 @@ pub(crate) enum Verdict {
 }
 
 impl Verdict {
+    /// Ctrl-C came after so many of the steps.
+    pub(crate) fn stopped(done: usize, wanted: usize, steps: &str) -> Self {
+        Self::Stopped(format!("after {done} of {wanted} {steps}"))
+    }
+
     /// Whether a mechanism stays where it is and its modes do not grow.
     pub(crate) fn of(equilibrium: &Equilibrium, modes: &Modes) -> Self {
         if !equilibrium.stability.holds() {

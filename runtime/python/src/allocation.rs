@@ -56,7 +56,7 @@ impl Study {
             let limits = (number(&least, &unit, &name)?, number(&most, &unit, &name)?);
             moving.push(Nominal { variable, limits });
         }
-        let found = self.ask(py, move |study| {
+        let found = self.ask_stoppably(py, move |study| {
             let own = |(variable, limits, (fixed, factor, power))| HalfWidth {
                 variable,
                 limits,

@@ -7,7 +7,7 @@ use eigentol_tables::Tables;
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, vector};
-use crate::results::result;
+use crate::results::{Document, result};
 use crate::study::Study;
 use crate::values::{List, mode_number};
 
@@ -26,6 +26,12 @@ impl fmt::Display for All {
 impl Tables for All {
     fn tables(&self) -> Vec<eigentol_tables::Table> {
         self.0[..].tables()
+    }
+}
+
+impl Document for All {
+    fn document(&self) -> Result<String, eigentol_tables::Error> {
+        eigentol_tables::json::to_string(&self.0)
     }
 }
 

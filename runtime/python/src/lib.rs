@@ -51,8 +51,8 @@ mod module {
     use crate::response::Response;
     #[pymodule_export]
     use crate::results::{
-        Branch, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
-        OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep,
+        Assembly, Branch, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
+        OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, json_schema,
     };
     #[pymodule_export]
     use crate::robots::{Import, import_urdf};

@@ -12,8 +12,8 @@ use pyo3::types::{PyString, PyTuple};
 use crate::events::{Event, events};
 use crate::response::wanted;
 use crate::results::{
-    Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes, OutputSensitivities,
-    Sensitivities, ShapeSensitivity, Sweep, quantity,
+    Assembly, Branches, Campbell, Equilibrium, EquilibriumShift, ModeCurvature, Modes,
+    OutputSensitivities, Sensitivities, ShapeSensitivity, Sweep, quantity,
 };
 use crate::spreads::{
     FirstOrder, Influence, ModeMargin, MonteCarlo, OutputTolerances, Propagation, SecondOrder,
@@ -126,10 +126,8 @@ impl Study {
     /// Samples of the design, each with its own equilibrium and modes, on all processors. Ctrl-C ends it; to keep what is done, take
     /// the samples in parts (`samples_between`).
     fn monte_carlo(&self, py: Python<'_>) -> PyResult<MonteCarlo> {
-        let found = self.ask_stoppably(py, |study, stop| {
-            study.sample_modes(&study.sampling().stop(Some(stop)))
-        });
-        found.map(|samples| MonteCarlo(samples.result()))
+        self.ask_stoppably(py, |study| study.monte_carlo())
+            .map(MonteCarlo)
     }
 
     /// All equilibria found from random starts between two states: lists in the order of the coordinates, SI, or dictionaries.
@@ -150,6 +148,12 @@ impl Study {
         search.seed = seed.unwrap_or(search.seed);
         let found = self.ask(py, |study| study.equilibria(&search))?;
         Ok(found.into_iter().map(Equilibrium).collect())
+    }
+
+    /// The state that closes the loops from the start values, before any equilibrium is looked for: which of the assemblies it is, and
+    /// how far from a dead centre. Coordinates with a start value are held.
+    fn assembly(&self, py: Python<'_>) -> PyResult<Assembly> {
+        self.ask(py, |study| study.assembly()).map(Assembly)
     }
 
     /// Whirl of each mode, shape (m,): minor over major axis of the orbit, positive along the rotation; None where it does not
@@ -263,7 +267,8 @@ impl Study {
         unit: Option<&str>,
     ) -> PyResult<Sweep> {
         let (input, values) = self.values(py, input, values, unit)?;
-        self.ask(py, |study| study.sweep(input, &values)).map(Sweep)
+        self.ask_stoppably(py, |study| study.sweep(input, &values))
+            .map(Sweep)
     }
 
     /// A Campbell diagram: modes along an input with spreads, and where they meet `orders`, multiples of the input. Values are SI,
@@ -281,7 +286,7 @@ impl Study {
         if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
             return Err(not_finite(py, "orders", *other));
         }
-        self.ask(py, |study| study.campbell(input, &values, &orders))
+        self.ask_stoppably(py, |study| study.campbell(input, &values, &orders))
             .map(Campbell)
     }
 
@@ -294,7 +299,7 @@ impl Study {
         high: &Bound<'_, PyAny>,
     ) -> PyResult<Branches> {
         let (input, low, high) = self.range(py, input, low, high)?;
-        self.ask(py, |study| study.branches(input, low, high))
+        self.ask_stoppably(py, |study| study.branches(input, low, high))
             .map(Branches)
     }
 

@@ -1,5 +1,6 @@
 //! A study as one HTML file.
 
+use std::fs;
 use std::path::PathBuf;
 
 use eigentol_report::{Error, Report};
@@ -33,20 +34,29 @@ impl Study {
             return Err(not_finite(py, "orders", *other));
         }
         let text = self.mechanism(py).get().text().to_owned();
-        let mut report = Report::new(&self.inner).declaration(text).orders(&orders);
-        if let Some(title) = title {
-            report = report.title(title);
-        }
-        if let Some(sweep) = sweep {
-            let (input, values, unit) = parts(sweep)?;
-            let (input, values) = self.values(py, &input, &values, unit.as_deref())?;
-            report = report.sweep(input, &values);
-        }
-        py.detach(|| report.save(path))
-            .map_err(|error| match error {
-                Error::Study(error) => raise(py, error),
-                other => PyOSError::new_err(other.to_string()),
-            })
+        let sweep = match sweep {
+            None => None,
+            Some(sweep) => {
+                let (input, values, unit) = parts(sweep)?;
+                Some(self.values(py, &input, &values, unit.as_deref())?)
+            }
+        };
+        let html = self.stoppably(py, |study| {
+            let mut report = Report::new(study).declaration(text).orders(&orders);
+            if let Some(title) = title {
+                report = report.title(title);
+            }
+            if let Some((input, values)) = &sweep {
+                report = report.sweep(*input, values);
+            }
+            report.html()
+        })?;
+        let html = html.map_err(|error| match error {
+            Error::Study(error) => raise(py, error),
+            other => PyOSError::new_err(other.to_string()),
+        })?;
+        fs::write(&path, html)
+            .map_err(|source| PyOSError::new_err(Error::Write { path, source }.to_string()))
     }
 }
 

@@ -72,10 +72,23 @@ fn ends<'py>(given: &Bound<'py, PyAny>) -> PyResult<Ends<'py>> {
 impl Study {
     /// Chances of meeting requirements, by sampling. Each is "stable", or a response as `propagate` takes it with a low and a high
     /// end, None for no end: `(("frequency", 0), 3.9, None)`, or a forbidden band: `("outside", ("frequency", 0), 3.0, 4.0)`;
-    /// frequencies are in rad/s.
-    fn chances(&self, py: Python<'_>, requirements: Vec<Bound<'_, PyAny>>) -> PyResult<Chances> {
+    /// frequencies are in rad/s. Of `start` and `stop` only the samples `start` to below `stop` are taken; numbers of samples of parts
+    /// add up to those of the whole. Ctrl-C ends it.
+    #[pyo3(signature = (requirements, start=None, stop=None))]
+    fn chances(
+        &self,
+        py: Python<'_>,
+        requirements: Vec<Bound<'_, PyAny>>,
+        start: Option<u64>,
+        stop: Option<u64>,
+    ) -> PyResult<Chances> {
         let wanted = self.requirements(&requirements)?;
-        self.ask(py, |study| study.chances(&wanted)).map(Chances)
+        let found = self.ask_stoppably(py, |study| {
+            let sampling = study.sampling();
+            let range = start.unwrap_or(0)..stop.unwrap_or(sampling.samples as u64);
+            study.chances_by(&wanted, &sampling.range(Some(range)))
+        });
+        found.map(Chances)
     }
 
     /// Reliability by way of design points (FORM and SORM); requirements as `chances` takes them.
@@ -121,6 +134,18 @@ impl Chances {
     #[getter]
     fn failure<'py>(&self, py: Python<'py>) -> Array1<'py> {
         vector(py, self.0.each.iter().map(requirement::Tally::failure))
+    }
+
+    /// Number of samples.
+    #[getter]
+    fn samples(&self) -> usize {
+        self.0.all.samples()
+    }
+
+    /// How many samples meet each requirement, shape (k,).
+    #[getter]
+    fn met<'py>(&self, py: Python<'py>) -> Array1<'py, i64> {
+        vector(py, self.0.each.iter().map(|own| own.met as i64))
     }
 
     /// Share of the samples that meet all requirements.

@@ -1,5 +1,6 @@
 //! A mechanism at one operating point.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -58,17 +59,28 @@ impl Study {
         found.map_err(|error| raise(py, error))
     }
 
-    /// As [`Self::ask`]; Ctrl-C ends the work by setting the flag, and is raised.
+    /// As [`Self::ask`], for long work; Ctrl-C ends it, and is raised.
     pub(crate) fn ask_stoppably<R: Send>(
         &self,
         py: Python<'_>,
-        question: impl FnOnce(&eigentol::Study<Interpreted>, &AtomicBool) -> Result<R, Error> + Send,
+        question: impl FnOnce(&eigentol::Study<Interpreted>) -> Result<R, Error> + Send,
     ) -> PyResult<R> {
-        let stop = AtomicBool::new(false);
+        let found = self.stoppably(py, question)?;
+        found.map_err(|error| raise(py, error))
+    }
+
+    /// What a question gives; Ctrl-C ends it, and is raised.
+    pub(crate) fn stoppably<R: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(&eigentol::Study<Interpreted>) -> R + Send,
+    ) -> PyResult<R> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let study = self.inner.clone().stop(Arc::clone(&stop));
         let here = thread::current();
         thread::scope(|scope| {
             let work = scope.spawn(|| {
-                let found = question(&self.inner, &stop);
+                let found = question(&study);
                 here.unpark();
                 found
             });
@@ -85,7 +97,7 @@ impl Study {
             let found = py.detach(|| work.join());
             match (interrupted, found) {
                 (Some(interrupt), _) => Err(interrupt),
-                (None, Ok(found)) => found.map_err(|error| raise(py, error)),
+                (None, Ok(found)) => Ok(found),
                 (None, Err(panic)) => std::panic::resume_unwind(panic),
             }
         })

@@ -247,12 +247,79 @@ def test_ctrl_c_ends_a_run_of_samples(study, request):
     # Whoever starts the tests in the background may have Ctrl-C ignored.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
-    for question in [study.monte_carlo, lambda: study.samples_between(0, 1_000_000_000)]:
+    speeds = np.linspace(4.0, 8.0, 3_000_000)
+    questions = [
+        study.monte_carlo,
+        lambda: study.samples_between(0, 1_000_000_000),
+        lambda: study.chances([(("frequency", 0), 3.9, None)]),
+        lambda: study.campbell("omega", speeds),
+        lambda: study.sweep("omega", speeds),
+    ]
+    for question in questions:
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         start = time.monotonic()
         with pytest.raises(KeyboardInterrupt):
             question()
         assert time.monotonic() - start < 20
+
+
+def test_chances_of_parts_add_up(study):
+    study, wanted = study.replace(samples=1000, tolerances={"l": "10%"}), [(("frequency", 0), 4.0, None)]
+    whole = study.chances(wanted)
+    parts = [study.chances(wanted, stop=300), study.chances(wanted, 300)]
+    assert [part.samples for part in parts] == [300, 700] and whole.samples == 1000
+    assert 0 < whole.met[0] < 1000
+    assert sum(part.met[0] for part in parts) == whole.met[0]
+    with pytest.raises(eigentol.InvalidValue, match="range"):
+        study.chances(wanted, 500, 2000)
+
+
+FOUR_BAR = """
+pub mechanism FourBar {
+    gravity 9.81 m/s^2 along -z;
+    body a: rod(mass: 1 kg, length: 100 mm, along: x);
+    body b: rod(mass: 2 kg, length: 250 mm, along: x);
+    body c: rod(mass: 2 kg, length: 200 mm, along: x);
+    joint alpha: revolute(-y) from ground to a;
+    joint beta:  revolute(-y) from a to b at [100 mm, 0, 0];
+    joint gamma: revolute(-y) from ground to c at [250 mm, 0, 0];
+    joint pin:   revolute(-y) from b to c at [250 mm, 0, 0], at [200 mm, 0, 0] on c, cut;
+    force spring: spring(on: alpha, stiffness: 8 N*m/rad, rest: 80 deg);
+}
+"""
+
+
+def test_a_loop_is_assembled_on_the_side_of_its_guess():
+    """Where the circles of coupler and rocker meet, on either side of the line between their centres."""
+    mechanism = eigentol.Mechanism.from_text(FOUR_BAR)
+    modes = []
+    for side in (1, -1):
+        guess = {"gamma": f"{side * 110} deg", "beta": "-30 deg" if side > 0 else "-120 deg"}
+        study = eigentol.Study(mechanism, start={"alpha": "60 deg"}, guess=guess)
+        found = study.assembly()
+        alpha = math.radians(60)
+        tip = 0.1 * np.array([math.cos(alpha), math.sin(alpha)])
+        line = np.array([0.25, 0.0]) - tip
+        distance = np.hypot(*line)
+        along = (distance**2 + 0.25**2 - 0.2**2) / (2 * distance)
+        across = side * math.sqrt(0.25**2 - along**2)
+        unit = line / distance
+        corner = tip + along * unit + across * np.array([-unit[1], unit[0]])
+        beta = math.atan2(*(corner - tip)[::-1]) - alpha
+        gamma = math.atan2(corner[1], corner[0] - 0.25)
+        own = dict(zip(found.names, found.coordinates))
+        assert abs(own["alpha"] - alpha) < 1e-12
+        for name, expected in (("beta", beta), ("gamma", gamma)):
+            turned = math.remainder(own[name] - expected, 2 * math.pi)
+            assert abs(turned) < 1e-9, (name, side)
+        assert found.held[:3] == [True, False, False] and not found.singular
+        assert 0 < found.margin <= 1 and np.abs(found.gaps).max() < 1e-12
+        assert found.moved[0] == 0 and abs(found.moved).max() > 0
+        assert found.table()["alpha [rad]"][0] == own["alpha"]
+        modes.append(found.mode)
+    assert sorted(modes) == ["negative", "positive"]
+    with pytest.raises(eigentol.NotAssembled):
+        eigentol.Study(mechanism, start={"alpha": 0, "beta": 0, "gamma": 0}).assembly()
 
 
 def test_kernels(pendulum):

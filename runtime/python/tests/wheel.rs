@@ -144,8 +144,15 @@ fn run(name: &str, packages: &[&str], files: &[&str]) {
 
 #[test]
 fn the_module_passes_its_tests() {
-    let packages = ["maturin>=1.9.4,<2", "numpy", "pytest", "scipy"];
+    let packages = [
+        "maturin>=1.9.4,<2",
+        "jsonschema",
+        "numpy",
+        "pytest",
+        "scipy",
+    ];
     let files = [
+        "test_documents.py",
         "test_pendulum.py",
         "test_tables.py",
         "test_mistakes.py",
@@ -159,7 +166,7 @@ fn the_module_passes_its_tests() {
 
 /// Hundreds of megabytes are downloaded for it.
 #[test]
-#[ignore = "installs ROSS, OpenTURNS, Dask, pandas and polars"]
+#[ignore = "installs ROSS, OpenTURNS, Dask, mypy, pandas and polars"]
 fn the_module_agrees_with_its_peers() {
     let packages = [
         "maturin>=1.9.4,<2",
@@ -174,6 +181,8 @@ fn the_module_agrees_with_its_peers() {
         "plotly<6",
         "ross-rotordynamics>=2,<3",
         "example-robot-data",
+        "mypy",
+        "typing_extensions",
     ];
     run(
         "python-peers",
@@ -183,6 +192,7 @@ fn the_module_agrees_with_its_peers() {
             "test_peers.py",
             "test_parts.py",
             "test_robots.py",
+            "test_stubs.py",
         ],
     );
 }

@@ -10,7 +10,7 @@ use crate::requirement::{
     Chances, FormSettings, Reliability, Requirements, chances_of, check, reliability_of,
 };
 use crate::tolerance::Sampling;
-use crate::{Description, Error, Shared, Vector};
+use crate::{Description, Error, Shared, Vector, Watch};
 
 /// A reliability index that falls short by this is reached.
 const ENOUGH: f64 = 1e-6;
@@ -45,6 +45,8 @@ pub struct Allocation {
     pub refuted: Vec<usize>,
     /// Choices that the search tried.
     pub evaluations: usize,
+    /// The search was stopped: there may be cheaper ones.
+    pub stopped: bool,
     /// The inputs it belongs to, SI.
     pub inputs: Vector,
     /// The mechanism it belongs to.
@@ -58,7 +60,8 @@ pub struct Allocation {
 /// # Errors
 /// [`Error::Infeasible`] where no choice is reliable enough; [`Error::Setting`], [`Error::WrongLength`] and [`Error::UnknownHandle`]
 /// for choices that make no sense and a cost that is not finite; what [`Requirements::reliability`] refuses;
-/// [`Error::NoReliability`] where a limit has no design point at the start although designs may fail.
+/// [`Error::NoReliability`] where a limit has no design point at the start although designs may fail; [`Error::Stopped`] where the
+/// search is stopped ([`Sampling::stop`]) before any choice was reliable enough. Later it ends with the best choice until then.
 pub fn allocate(
     requirements: &Requirements<'_>,
     choices: &Choices<'_>,
@@ -77,9 +80,14 @@ pub fn allocate(
         nominal,
         half_widths,
     };
-    let (x, best, before, evaluations) = search(&problem)?;
+    let watch = sampling.watch();
+    let (x, best, before, evaluations) = search(&problem, watch)?;
     let (nominal, half_widths) = problem.design(&x);
+    let stopped = watch.stopped();
     if let Some(worst) = best.worst().filter(|own| own.shortfall() > ENOUGH) {
+        if stopped {
+            return Err(Error::Stopped);
+        }
         return Err(Error::Infeasible {
             nominal: nominal.into(),
             half_widths: half_widths.into(),
@@ -106,13 +114,17 @@ pub fn allocate(
         chances,
         refuted,
         evaluations,
+        stopped,
         inputs: state.inputs.clone(),
         description: state.description.clone(),
     })
 }
 
 /// The best choice, what it comes to, the cost at the start, and how many were tried.
-fn search(problem: &Problem<'_>) -> Result<(Vec<f64>, Evaluated, f64, usize), Error> {
+fn search(
+    problem: &Problem<'_>,
+    watch: Watch<'_>,
+) -> Result<(Vec<f64>, Evaluated, f64, usize), Error> {
     let (start, bounds) = problem.start();
     let first = problem.evaluate(&start)?;
     let (before, scale) = (first.cost, first.cost.abs().max(f64::MIN_POSITIVE));
@@ -125,7 +137,7 @@ fn search(problem: &Problem<'_>) -> Result<(Vec<f64>, Evaluated, f64, usize), Er
     });
     let objective = |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
         let mut progress = progress.borrow_mut();
-        let Some(found) = progress.at(problem, x) else {
+        let Some(found) = progress.at(problem, watch, x) else {
             return f64::INFINITY;
         };
         if let Some(gradient) = gradient {
@@ -141,7 +153,7 @@ fn search(problem: &Problem<'_>) -> Result<(Vec<f64>, Evaluated, f64, usize), Er
             move |x: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
                 let mut progress = progress.borrow_mut();
                 let Some(own) = progress
-                    .at(problem, x)
+                    .at(problem, watch, x)
                     .and_then(|found| found.requirements.get(k))
                 else {
                     return f64::INFINITY;
@@ -191,8 +203,13 @@ struct Progress {
 }
 
 impl Progress {
-    fn at(&mut self, problem: &Problem<'_>, x: &[f64]) -> Option<&Evaluated> {
+    /// What a choice comes to; nothing any more when the search is stopped, which ends it soon.
+    fn at(&mut self, problem: &Problem<'_>, watch: Watch<'_>, x: &[f64]) -> Option<&Evaluated> {
+        if watch.stopped() {
+            return None;
+        }
         if self.last_choice != x {
+            watch.advance(1);
             self.last_choice = x.to_vec();
             self.tried += 1;
             let finite = x.iter().all(|x| x.is_finite());

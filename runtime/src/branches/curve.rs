@@ -11,7 +11,7 @@ use crate::equilibrium::{
 use crate::error::NotFound;
 use crate::kernels::{DirectionalKernels, Linear};
 use crate::rounding;
-use crate::{Description, Equilibrium, Error, Shared};
+use crate::{Description, Equilibrium, Error, Shared, Watch};
 
 /// A mechanism of which one input varies.
 pub(crate) struct Curve<'a> {
@@ -21,6 +21,7 @@ pub(crate) struct Curve<'a> {
     pub(crate) inputs: &'a [f64],
     pub(crate) design: &'a [f64],
     pub(crate) settings: &'a Continuation,
+    pub(crate) watch: Watch<'a>,
     /// Redundant constraints, which Newton's method is better off without; every point is held to all of them.
     dropped: Vec<bool>,
 }
@@ -84,7 +85,13 @@ impl<'a> Curve<'a> {
             inputs,
             design,
             settings,
+            watch: Watch::default(),
         })
+    }
+
+    /// The same, for somebody who waits.
+    pub(crate) fn watched(self, watch: Watch<'a>) -> Self {
+        Self { watch, ..self }
     }
 
     /// Number of unknowns.

@@ -12,7 +12,7 @@ use super::{Branch, BranchEnd, BranchPoint, Branches};
 use crate::algebra::Vector;
 use crate::equilibrium::{Policy, Search, equilibrium, find_equilibria, solve};
 use crate::kernels::DirectionalKernels;
-use crate::{Equilibrium, Error};
+use crate::{Equilibrium, Error, Watch};
 
 /// Share of the range by which a start on a singular state is moved.
 const NUDGE: f64 = 1e-6;
@@ -72,7 +72,24 @@ pub fn branches(
     settings: &Continuation,
     search: Option<&Search>,
 ) -> Result<Branches, Error> {
-    let curve = Curve::new(mechanism, u, b, settings)?;
+    let nobody = Watch::default();
+    branches_each(mechanism, (u, b), start, (settings, search), nobody, |_| {})
+}
+
+/// As [`branches`], for somebody who waits: `each` sees every branch as soon as it is complete, and a search that is stopped gives what
+/// was found until then, the last branch with an end [`BranchEnd::Stopped`].
+///
+/// # Errors
+/// As [`branches`].
+pub fn branches_each(
+    mechanism: &dyn DirectionalKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    (settings, search): (&Continuation, Option<&Search>),
+    watch: Watch<'_>,
+    each: impl FnMut(&Branch),
+) -> Result<Branches, Error> {
+    let curve = Curve::new(mechanism, u, b, settings)?.watched(watch);
     let none = Search {
         lower: start.into(),
         upper: start.into(),
@@ -103,7 +120,7 @@ pub fn branches(
         Some(state) => curve.about(state),
         None => curve,
     };
-    Ok(curve.explore(states))
+    Ok(curve.explore(states, each))
 }
 
 impl Curve<'_> {
@@ -177,13 +194,17 @@ impl Curve<'_> {
         }
     }
 
-    fn explore(&self, states: Vec<Equilibrium>) -> Branches {
+    fn explore(&self, states: Vec<Equilibrium>, mut each: impl FnMut(&Branch)) -> Branches {
         let mut found: Vec<Branch> = Vec::new();
         let mut leads = VecDeque::new();
         for state in states {
             match self.begin(&state) {
                 Ok(station) => leads.push_back(Lead::Start(station)),
-                Err(trouble) => found.push(self.lone_point(state, trouble)),
+                Err(trouble) => {
+                    let alone = self.lone_point(state, trouble);
+                    each(&alone);
+                    found.push(alone);
+                }
             }
         }
         let mut entered: Vec<CurvePosition> = Vec::new();
@@ -215,7 +236,15 @@ impl Curve<'_> {
                     leads.push_back(Lead::Through(junction, other));
                 }
             }
+            each(&branch);
+            let stopped = branch.ends.contains(&BranchEnd::Stopped);
             found.push(branch);
+            if stopped {
+                return Branches {
+                    branches: found,
+                    truncated: true,
+                };
+            }
         }
         Branches {
             branches: found,

@@ -21,7 +21,7 @@ mod walk;
 pub(crate) use bordered::Bordered;
 pub(crate) use curve::Curve;
 pub(crate) use curve_point::CurvePoint;
-pub use explore::{branch, branches};
+pub use explore::{branch, branches, branches_each};
 pub use settings::Continuation;
 pub use special::{SpecialKind, SpecialPoint};
 
@@ -74,6 +74,8 @@ pub enum BranchEnd {
     PointLimit,
     /// The branch could not be followed; the error says why.
     Lost(Error),
+    /// The branch goes on, but the work was stopped ([`Watch::stop`](crate::Watch::stop)).
+    Stopped,
 }
 
 /// A connected line of equilibria.
@@ -145,7 +147,7 @@ impl Branch {
 pub struct Branches {
     /// The branches, in the order in which they were found; each once.
     pub branches: Vec<Branch>,
-    /// The search stopped at [`Continuation::max_branches`] although there are more.
+    /// The search ended at [`Continuation::max_branches`], or was stopped, although there may be more.
     pub truncated: bool,
 }
 

@@ -59,7 +59,14 @@ impl Curve<'_> {
         let mut at = start.clone();
         let mut length = 0.2 * settings.max_step;
         let mut refused: Option<Trouble> = None;
+        let mut seen = 0;
         while walk.points.len() < settings.max_points {
+            self.watch.advance(walk.points.len() - seen);
+            seen = walk.points.len();
+            if self.watch.stopped() {
+                walk.end = BranchEnd::Stopped;
+                return walk;
+            }
             if let Some(end) = self.leaving(&at) {
                 walk.end = end;
                 return walk;

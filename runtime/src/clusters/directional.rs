@@ -5,7 +5,7 @@ use crate::arguments::check_count;
 use crate::kernels::DirectionalKernels;
 use crate::modes::{Family, merged};
 use crate::sensitivity::{eigenvalues, outside_domain};
-use crate::{Complex, Equilibrium, Error, Modes};
+use crate::{Complex, Description, Equilibrium, Error, Modes, Shared, Vector};
 
 /// How the eigenvalues of a cluster move along one direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,10 @@ pub struct DirectionalDerivatives {
     pub eigenvalues: Vec<Complex>,
     /// Derivatives of the frequencies, rad/s, ascending; `None` for modes that do not oscillate.
     pub frequencies: Option<Vec<f64>>,
+    /// The inputs they belong to, SI.
+    pub inputs: Vector,
+    /// The mechanism they belong to.
+    pub description: Shared<Description>,
 }
 
 /// Derivatives of the eigenvalues of the cluster of mode number `mode` along the change `du` of the inputs and `db` of the design
@@ -82,5 +86,7 @@ pub fn directional_derivatives(
         family: modes.family,
         eigenvalues: found,
         frequencies,
+        inputs: at.inputs.clone(),
+        description: at.description.clone(),
     })
 }

@@ -350,6 +350,9 @@ pub enum Error {
         /// Which ones.
         missing: Vec<core::ops::Range<u64>>,
     },
+    /// The work was stopped before there was anything to show.
+    #[error("stopped before there was an answer")]
+    Stopped,
     /// The worker threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(String),

@@ -48,6 +48,14 @@ impl fmt::Display for Allocation {
                 .to_owned(),
             ]);
         }
-        write!(f, "{table}")
+        write!(f, "{table}")?;
+        if self.stopped {
+            writeln!(f, "  Stopped: there may be cheaper tolerances.")?;
+        }
+        let planned = self.chances.planned;
+        if self.chances.all.samples() < planned {
+            writeln!(f, "  Not complete: {planned} samples were asked for.")?;
+        }
+        Ok(())
     }
 }

@@ -38,6 +38,7 @@ impl fmt::Display for BranchEnd {
             Self::Escape => write!(f, "infinity"),
             Self::Domain(error) => write!(f, "edge of the domain: {error}"),
             Self::PointLimit => write!(f, "limit of the number of points"),
+            Self::Stopped => write!(f, "stopped"),
             Self::Lost(error) => write!(f, "lost: {error}"),
         }
     }
@@ -288,7 +289,10 @@ impl fmt::Display for Branches {
             let word = if own.len() == 1 { "branch" } else { "branches" };
             writeln!(f, "  {word} {}: {text}", own.join(", "))?;
         }
-        if self.truncated {
+        let stopped = |branch: &Branch| branch.ends.contains(&BranchEnd::Stopped);
+        if self.branches.iter().any(stopped) {
+            writeln!(f, "  stopped: there may be more")?;
+        } else if self.truncated {
             writeln!(f, "  there are more branches: the limit was reached")?;
         }
         Ok(())

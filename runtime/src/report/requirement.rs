@@ -21,6 +21,13 @@ impl fmt::Display for Chances {
         let samples = self.all.samples();
         let subject = title(&self.description, &self.inputs);
         writeln!(f, "{subject}: requirements, {samples} samples")?;
+        if samples < self.planned {
+            writeln!(
+                f,
+                "  Not complete: {} samples were asked for.",
+                self.planned
+            )?;
+        }
         let mut table = Table::new(cells([
             "requirement",
             "met",

@@ -10,7 +10,7 @@ use crate::tolerance::{Counts, Draw, Sampling, Tolerances, pool};
 use crate::{Description, Error, Shared};
 
 /// Samples worked on by one thread at a time.
-const CHUNK: usize = 64;
+const CHUNK: u64 = 64;
 
 /// How many samples met a requirement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,6 +91,8 @@ pub struct Chances {
     pub each: Vec<Tally>,
     /// What became of the samples.
     pub counts: Counts,
+    /// Number of samples that were asked for: more where the work was stopped, or where this is a part of a run.
+    pub planned: usize,
     /// The inputs they belong to, SI.
     pub inputs: Vector,
     /// The mechanism they belong to.
@@ -98,11 +100,12 @@ pub struct Chances {
 }
 
 impl Requirements<'_> {
-    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Of `sampling`, what is kept,
-    /// which vectors are used, a range and a stop do not matter.
+    /// Chances of meeting the requirements, by plain Monte Carlo; the same for any number of threads. Numbers of samples of ranges that
+    /// make up a run add up to those of the run. A run that is stopped has at least its first 64 samples. Of `sampling`, what is kept
+    /// and which vectors are used do not matter.
     ///
     /// # Errors
-    /// [`Error::Setting`] for no sample, [`Error::Threads`].
+    /// [`Error::Setting`] for no sample and for a range that is none of the samples, [`Error::Threads`].
     pub fn chances(&self, sampling: &Sampling<'_>) -> Result<Chances, Error> {
         chances_of(self, self.deviations(), sampling)
     }
@@ -114,21 +117,30 @@ pub(crate) fn chances_of(
     deviations: &Deviations<'_>,
     sampling: &Sampling<'_>,
 ) -> Result<Chances, Error> {
-    if sampling.samples == 0 {
+    let range = sampling.now()?;
+    if range.is_empty() {
         return Err(Error::Setting {
-            setting: "samples",
+            setting: if sampling.samples == 0 {
+                "samples"
+            } else {
+                "range"
+            },
             reason: "at least one is needed".to_owned(),
         });
     }
+    let watch = sampling.watch();
     let state = requirements.responses().nominal();
     let variables = deviations.dimension();
     let normal = Standard::new(variables)?;
     let room = || requirements.responses().workspace();
     let work = |room: &mut Workspace, index: usize| {
-        let first = index * CHUNK;
-        let number = CHUNK.min(sampling.samples - first);
         let mut piece = Piece::new(requirements.wanted().len());
-        let mut draw = normal.from((sampling.seed, sampling.stream), first as u64);
+        if index > 0 && watch.stopped() {
+            return Ok(piece);
+        }
+        let first = range.start + index as u64 * CHUNK;
+        let number = CHUNK.min(range.end - first);
+        let mut draw = normal.from((sampling.seed, sampling.stream), first);
         for _ in 0..number {
             let design = deviations.design(draw.next());
             let found = requirements.responses().at(room, &design)?;
@@ -139,12 +151,10 @@ pub(crate) fn chances_of(
                 tally.add(met);
             }
         }
-        if let Some(progress) = sampling.progress {
-            progress(number);
-        }
+        watch.advance(number as usize);
         Ok(piece)
     };
-    let pieces = sampling.samples.div_ceil(CHUNK);
+    let pieces = (range.end - range.start).div_ceil(CHUNK) as usize;
     let size = (state.coordinates.len(), variables);
     let pieces: Vec<Result<Piece, Error>> = pool::run(sampling.threads, size, pieces, room, work)?;
     let mut sum = Piece::new(requirements.wanted().len());
@@ -160,6 +170,7 @@ pub(crate) fn chances_of(
         all: sum.all,
         each: sum.each,
         counts: sum.counts,
+        planned: sampling.samples,
         inputs: state.inputs.clone(),
         description: state.description.clone(),
     })

@@ -16,4 +16,5 @@ pub use margin::{Margin, MarginDerivatives, margin};
 pub use nonlinearity::Nonlinearity;
 pub use probability::Probability;
 pub use quadratic::{ModelMoments, Quadratic};
+pub(crate) use spread::second_order_watched;
 pub use spread::{ModeSecondOrder, SecondOrder, SecondOrderSpread, second_order};

@@ -7,7 +7,7 @@ use crate::algebra::Vector;
 use crate::kernels::CurvatureKernels;
 use crate::sensitivity::Quantity;
 use crate::tolerance::Tolerances;
-use crate::{Description, Equilibrium, Error, Modes, Shared};
+use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 
 /// A quantity of a mode to second order.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,11 +71,34 @@ pub fn second_order(
     tolerances: &Tolerances,
 ) -> SecondOrder {
     let one = |mode: usize| mode_second_order(mechanism, at, modes, mode, tolerances);
+    of_each((0..modes.modes.len()).map(one).collect(), at, tolerances)
+}
+
+/// As [`second_order`], for somebody who waits.
+pub(crate) fn second_order_watched(
+    mechanism: &dyn CurvatureKernels,
+    (at, modes): (&Equilibrium, &Modes),
+    tolerances: &Tolerances,
+    watch: Watch<'_>,
+) -> Result<SecondOrder, Error> {
+    let one = |mode: usize| match watch.stopped() {
+        true => Err(Error::Stopped),
+        false => Ok(mode_second_order(mechanism, at, modes, mode, tolerances)),
+    };
+    let all = (0..modes.modes.len()).map(one).collect::<Result<_, _>>()?;
+    Ok(of_each(all, at, tolerances))
+}
+
+fn of_each(
+    modes: Vec<Result<ModeSecondOrder, Error>>,
+    at: &Equilibrium,
+    tolerances: &Tolerances,
+) -> SecondOrder {
     SecondOrder {
-        modes: (0..modes.modes.len()).map(one).collect(),
+        modes,
         sigma_level: tolerances.sigma_level(),
         inputs: at.inputs.clone(),
-        description: modes.description.clone(),
+        description: at.description.clone(),
     }
 }
 

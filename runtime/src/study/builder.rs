@@ -1,5 +1,8 @@
 //! A study, and how it is set up.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use super::parameter::Parameter;
 use super::settings::Settings;
 use super::value::Value;
@@ -283,6 +286,42 @@ impl<M: Kernels> Study<M> {
         self
     }
 
+    /// Calls `progress`, from any thread, with the number of steps of long work that are done since its last call: samples, values of
+    /// an input, points of branches, choices of tolerances.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let study = study.progress(|steps| print!("{}", ".".repeat(steps)));
+    /// study.campbell(Pendulum::omega, &[4.0, 4.5, 5.0], &[1.0])?;
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn progress(mut self, progress: impl Fn(usize) + Send + Sync + 'static) -> Self {
+        self.settings.watcher.progress = Some(Arc::new(progress));
+        self
+    }
+
+    /// Ends long work soon after `flag` becomes true, from another thread or a handler of Ctrl-C, with what is done: samples, sweeps and
+    /// branches as far as they came. What is of no use by halves is [`Error::Stopped`].
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use std::sync::Arc;
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// let flag = Arc::new(AtomicBool::new(false));
+    /// let own = Arc::clone(&flag);
+    /// // After the first value.
+    /// let study = study.stop(flag).progress(move |_| own.store(true, Ordering::Relaxed));
+    /// assert_eq!(study.campbell(Pendulum::omega, &[4.0, 4.5, 5.0], &[1.0])?.points.len(), 1);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    #[must_use]
+    pub fn stop(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.settings.watcher.stop = Some(flag);
+        self
+    }
+
     /// Asks a Monte Carlo run to return every sample.
     #[must_use]
     pub fn keep_samples(mut self, keep: bool) -> Self {
@@ -425,7 +464,7 @@ impl<M: Kernels> Study<M> {
     /// How this study samples: what [`Study::samples`], [`Study::seed`] and other settings say. Range, progress and stop can be added
     /// for [`Study::sample_modes`].
     #[must_use]
-    pub fn sampling<'s>(&self) -> Sampling<'s> {
+    pub fn sampling(&self) -> Sampling<'_> {
         self.settings.sampling()
     }
 }

@@ -13,6 +13,7 @@ mod solved;
 mod summary;
 mod value;
 mod variation;
+mod watcher;
 
 pub use builder::Study;
 pub use parameter::Parameter;

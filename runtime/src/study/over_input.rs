@@ -1,16 +1,18 @@
 //! What a study can be asked along an input: sweeps, diagrams, branches, and where something happens.
 
+use core::ops::ControlFlow;
+
 use super::deviating::deviating;
 use super::{Study, Value};
-use crate::branches::{self, Branches, Continuation};
-use crate::campbell::{self, Axes, Campbell};
+use crate::branches::{self, Branch, Branches, Continuation};
+use crate::campbell::{self, Axes, Campbell, CampbellPoint};
 use crate::equilibrium::Search;
 use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::Sensitivities;
 use crate::sweep::{self, CriticalState, Crossing, EventTolerance, Line, Sweep, SweepPoint};
 use crate::tolerance;
 use crate::tolerance::{FirstOrder, Tolerances};
-use crate::{Error, Input};
+use crate::{Error, Input, Watch};
 
 impl<M: BatchKernels> Study<M> {
     /// Equilibria and modes at each value of one input, and the critical values between them ([`sweep::sweep`]).
@@ -29,15 +31,49 @@ impl<M: BatchKernels> Study<M> {
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
     ) -> Result<Sweep, Error> {
+        let mut points = Vec::with_capacity(values.len());
+        let each = |point: &SweepPoint| {
+            points.push(point.clone());
+            ControlFlow::Continue(())
+        };
+        let found = self.sweep_each(input, values, each)?;
+        Ok(Sweep { points, ..found })
+    }
+
+    /// As [`Study::sweep`], but shows each point to `each` as soon as it is found, until that breaks off, and keeps none
+    /// ([`sweep::sweep_each`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use std::ops::ControlFlow;
+    ///
+    /// let values: Vec<f64> = (0..1000).map(|k| 4.0 + 1e-3 * f64::from(k)).collect();
+    /// study.sweep_each(Pendulum::omega, &values, |point| {
+    ///     println!("{}: {:?}", point.value, point.modes.as_ref().map(|modes| modes.frequencies()));
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::sweep`].
+    pub fn sweep_each(
+        &self,
+        input: Input<M>,
+        values: &[impl Into<Value> + Copy],
+        mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
+    ) -> Result<Sweep, Error> {
         let Self {
             mechanism,
             settings,
         } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
+        let point = (&settings.inputs[..], &settings.design[..]);
         let start = settings.assembled_start(mechanism)?;
-        let following = settings.following();
         let values = settings.values_si(input.any(), values)?;
-        sweep::sweep(mechanism, u, b, &start, following, input.any(), &values)
+        let (following, along) = (settings.following(), (input.any(), &values[..]));
+        let watch = settings.watch();
+        let each = |found: &SweepPoint| go_on(each(found), watch);
+        sweep::sweep_each(mechanism, point, &start, following, along, each)
     }
 
     /// Calls `each` with equilibrium, modes and their total derivatives at each value of one input, in order
@@ -120,8 +156,42 @@ impl<M: DirectionalKernels> Study<M> {
         values: &[impl Into<Value> + Copy],
         orders: &[impl Into<Line> + Copy],
     ) -> Result<Campbell, Error> {
+        let mut points = Vec::with_capacity(values.len());
+        let each = |point| {
+            points.push(point);
+            ControlFlow::Continue(())
+        };
+        let found = self.campbell_each(input, values, orders, each)?;
+        Ok(Campbell { points, ..found })
+    }
+
+    /// As [`Study::campbell`], but gives each point to `each` as soon as it is found, until that breaks off, and keeps none
+    /// ([`campbell::campbell_each`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use std::ops::ControlFlow;
+    ///
+    /// let mut seen = 0;
+    /// let between = study.campbell_each(Pendulum::omega, &[4.0, 5.0, 6.0], &[1.0], |point| {
+    ///     seen += usize::from(point.modes.is_ok());
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert!(seen == 3 && between.points.is_empty());
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::campbell`].
+    pub fn campbell_each(
+        &self,
+        input: Input<M>,
+        values: &[impl Into<Value> + Copy],
+        orders: &[impl Into<Line> + Copy],
+        mut each: impl FnMut(CampbellPoint) -> ControlFlow<()>,
+    ) -> Result<Campbell, Error> {
         if let Some(wide) = deviating!(self, DirectionalKernels) {
-            return wide.campbell(Input::new(input.index()), values, orders);
+            return wide.campbell_each(Input::new(input.index()), values, orders, each);
         }
         let Self {
             mechanism,
@@ -134,7 +204,17 @@ impl<M: DirectionalKernels> Study<M> {
         let values = settings.values_si(input.any(), values)?;
         let axes = Axes::new(input.any(), &values, &orders);
         let following = settings.following();
-        campbell::campbell(mechanism, u, b, &start, following, &axes, tolerances)
+        let watch = settings.watch();
+        let each = |found| go_on(each(found), watch);
+        campbell::campbell_each(
+            mechanism,
+            (u, b),
+            &start,
+            following,
+            &axes,
+            tolerances,
+            each,
+        )
     }
 
     /// Branches of equilibria while an input goes from `low` to `high` ([`branches::branches`]).
@@ -178,13 +258,34 @@ impl<M: DirectionalKernels> Study<M> {
         continuation: &Continuation,
         search: Option<&Search>,
     ) -> Result<Branches, Error> {
+        self.branches_each(continuation, search, |_| {})
+    }
+
+    /// As [`Study::branches_with`]; `each` sees every branch as soon as it is complete ([`branches::branches_each`]).
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// let settings = study.continuation(Pendulum::omega, 0.0, 6.0)?;
+    /// study.branches_each(&settings, None, |branch| println!("{} points", branch.points.len()))?;
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Study::branches`].
+    pub fn branches_each(
+        &self,
+        continuation: &Continuation,
+        search: Option<&Search>,
+        each: impl FnMut(&Branch),
+    ) -> Result<Branches, Error> {
         let Self {
             mechanism,
             settings,
         } = self;
-        let (u, b) = (&settings.inputs, &settings.design);
+        let point = (&settings.inputs[..], &settings.design[..]);
         let start = settings.assembled_start(mechanism)?;
-        branches::branches(mechanism, u, b, &start, continuation, search)
+        let (how, watch) = ((continuation, search), settings.watch());
+        branches::branches_each(mechanism, point, &start, how, watch, each)
     }
 
     /// The settings with which [`Study::branches`] follows branches from `low` to `high`, to be changed and passed to
@@ -377,6 +478,15 @@ impl<M: Kernels> Study<M> {
         let tolerances = self.settings.tolerances()?;
         let found = self.flutter_onsets(input, low, high)?;
         Ok(spreads(&self.mechanism, &found, tolerances))
+    }
+}
+
+/// One more value is done.
+fn go_on(wanted: ControlFlow<()>, watch: Watch<'_>) -> ControlFlow<()> {
+    watch.advance(1);
+    match watch.stopped() {
+        true => ControlFlow::Break(()),
+        false => wanted,
     }
 }
 

@@ -8,6 +8,7 @@ use crate::kernels::DirectionalKernels;
 use crate::requirement::{
     Chances, FormSettings, RareFailure, Reliability, Requirement, Requirements, SamplingSettings,
 };
+use crate::tolerance::Sampling;
 
 impl<M: DirectionalKernels> Solved<'_, M> {
     /// Chances of meeting requirements all at once, and of each by itself, from as many samples as the study takes
@@ -28,11 +29,36 @@ impl<M: DirectionalKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::tolerances`], [`Requirements::new`] and [`Requirements::chances`].
     pub fn chances(&self, wanted: &[Requirement]) -> Result<Chances, Error> {
+        self.chances_by(wanted, &self.study.sampling())
+    }
+
+    /// As [`Solved::chances`], with any settings: a range of the samples, a run that is watched and stopped.
+    ///
+    /// ```
+    #[doc = include_str!("example.txt")]
+    /// use eigentol::requirement::Requirement;
+    /// use eigentol::response::Response;
+    /// use eigentol::Quantity;
+    ///
+    /// let first = Response::Mode { mode: 0, quantity: Quantity::Frequency };
+    /// let (study, wanted) = (study.samples(1000), [Requirement::at_least(first, 4.0)]);
+    /// let part = |range| study.chances_by(&wanted, &study.sampling().range(Some(range)));
+    /// let failed = part(0..300)?.all.failed + part(300..1000)?.all.failed;
+    /// assert_eq!(failed, study.chances(&wanted)?.all.failed);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Solved::chances`].
+    pub fn chances_by(
+        &self,
+        wanted: &[Requirement],
+        sampling: &Sampling<'_>,
+    ) -> Result<Chances, Error> {
         if let Some(wide) = deviating!(self.study, DirectionalKernels) {
-            return self.in_study(&wide).chances(wanted);
+            return self.in_study(&wide).chances_by(wanted, sampling);
         }
-        let sampling = self.study.settings.sampling();
-        self.requirements(wanted)?.chances(&sampling)
+        self.requirements(wanted)?.chances(sampling)
     }
 
     /// Probabilities of failure by design points, with importance factors and exact derivatives ([`Requirements::reliability`]).
@@ -155,6 +181,18 @@ impl<M: DirectionalKernels> Study<M> {
     /// As [`Study::modes`] and [`Solved::chances`].
     pub fn chances(&self, wanted: &[Requirement]) -> Result<Chances, Error> {
         self.solve()?.chances(wanted)
+    }
+
+    /// Chances of meeting requirements, as [`Solved::chances_by`].
+    ///
+    /// # Errors
+    /// As [`Study::modes`] and [`Solved::chances`].
+    pub fn chances_by(
+        &self,
+        wanted: &[Requirement],
+        sampling: &Sampling<'_>,
+    ) -> Result<Chances, Error> {
+        self.solve()?.chances_by(wanted, sampling)
     }
 
     /// Probabilities of failure by design points, as [`Solved::reliability`].

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::parameter::Parameter;
 use super::value::Value;
 use super::variation::Variation;
+use super::watcher::Watcher;
 use crate::algebra::{Matrix, Vector};
 use crate::constraints::Structure;
 use crate::equilibrium;
@@ -17,6 +18,7 @@ use crate::sweep::{Following, Range};
 use crate::tolerance::{Distribution, Sampling, Tolerances};
 use crate::{
     Coordinate, Description, DesignVariable, Equilibrium, Error, Input, Mode, Modes, Shared, Unit,
+    Watch,
 };
 
 /// The operating point, the tolerances and how to solve.
@@ -43,6 +45,7 @@ pub(super) struct Settings {
     pub(super) vectors: Option<Instructions>,
     pub(super) keep_samples: bool,
     pub(super) steps: usize,
+    pub(super) watcher: Watcher,
     fault: Option<Error>,
 }
 
@@ -73,6 +76,7 @@ impl Settings {
             vectors: Some(Instructions::best()),
             keep_samples: false,
             steps: 200,
+            watcher: Watcher::default(),
             fault: None,
             description,
         };
@@ -277,7 +281,13 @@ impl Settings {
         values.iter().map(si).collect()
     }
 
-    pub(super) fn sampling<'a>(&self) -> Sampling<'a> {
+    /// Who waits.
+    pub(super) fn watch(&self) -> Watch<'_> {
+        self.watcher.watch()
+    }
+
+    pub(super) fn sampling(&self) -> Sampling<'_> {
+        let watch = self.watch();
         Sampling {
             samples: self.samples,
             seed: self.seed,
@@ -286,8 +296,8 @@ impl Settings {
             keep_samples: self.keep_samples,
             vectors: self.vectors,
             range: None,
-            progress: None,
-            stop: None,
+            progress: watch.progress,
+            stop: watch.stop,
         }
     }
 

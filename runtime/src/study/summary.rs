@@ -42,12 +42,12 @@ impl<M: SummaryKernels> Solved<'_, M> {
             equilibrium,
             modes,
         } = self;
-        summary::summary_within(
+        summary::summary_watched(
             &study.mechanism,
-            equilibrium,
-            modes,
+            (equilibrium, modes),
             study.settings.tolerances()?,
             operations,
+            study.settings.watch(),
         )
     }
 }

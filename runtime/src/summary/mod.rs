@@ -33,10 +33,10 @@ use self::sampled::{About, Prediction};
 use crate::algebra::Vector;
 use crate::clusters::{ClusterTolerance, clusters};
 use crate::kernels::SummaryKernels;
-use crate::second_order::{SecondOrder, second_order};
+use crate::second_order::{SecondOrder, second_order_watched};
 use crate::sensitivity::sensitivities;
 use crate::tolerance::{FirstOrder, Tolerances, first_order};
-use crate::{Description, Equilibrium, Error, Modes, Shared};
+use crate::{Description, Equilibrium, Error, Modes, Shared, Watch};
 
 /// Additions and multiplications that the samples of a [`summary`] may cost: some ten milliseconds.
 pub const BUDGET: f64 = 1.5e8;
@@ -121,10 +121,24 @@ pub fn summary_within(
     tolerances: &Tolerances,
     budget: f64,
 ) -> Result<Summary, Error> {
+    summary_watched(mechanism, (at, modes), tolerances, budget, Watch::default())
+}
+
+/// As [`summary_within`], for somebody who waits.
+///
+/// # Errors
+/// As [`summary`]; [`Error::Stopped`] if the work is stopped: half a verdict is none.
+pub fn summary_watched(
+    mechanism: &dyn SummaryKernels,
+    (at, modes): (&Equilibrium, &Modes),
+    tolerances: &Tolerances,
+    budget: f64,
+    watch: Watch<'_>,
+) -> Result<Summary, Error> {
     let slopes = sensitivities(mechanism, at, modes)?;
     let mut summary = Summary {
         first: first_order(modes, &slopes, tolerances)?,
-        second: second_order(mechanism, at, modes, tolerances),
+        second: second_order_watched(mechanism, (at, modes), tolerances, watch)?,
         clusters: clusters(mechanism, at, modes, tolerances)?,
         trust: Vec::new(),
         sampling: Sampling::NotNeeded,
@@ -145,6 +159,7 @@ pub fn summary_within(
         at,
         modes,
         tolerances,
+        watch,
     };
     let groups: Vec<&[usize]> = (summary.clusters.iter())
         .map(|cluster| &cluster.modes[..])

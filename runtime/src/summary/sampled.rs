@@ -10,7 +10,7 @@ use crate::kernels::SummaryKernels;
 use crate::second_order::Quadratic;
 use crate::sensitivity::Quantity;
 use crate::tolerance::{self, Counts, Outcome, Sample, Tolerances, monte_carlo};
-use crate::{Equilibrium, Error, Modes, Stability};
+use crate::{Equilibrium, Error, Modes, Stability, Watch};
 
 /// Numbers of samples, of which the next is taken where the last did not decide.
 const STAGES: [usize; 5] = [256, 1024, 4096, 16_384, 65_536];
@@ -54,6 +54,7 @@ pub(super) struct About<'a> {
     pub(super) at: &'a Equilibrium,
     pub(super) modes: &'a Modes,
     pub(super) tolerances: &'a Tolerances,
+    pub(super) watch: Watch<'a>,
 }
 
 /// What was found: a check of each prediction where there are enough values, and how many there are.
@@ -99,14 +100,20 @@ impl About<'_> {
                 let sampling = tolerance::Sampling::default()
                     .samples(TOGETHER.min(stage - counts.total()))
                     .stream(stream)
-                    .keep_samples(true);
+                    .keep_samples(true)
+                    .progress(self.watch.progress)
+                    .stop(self.watch.stop);
                 let Self {
                     mechanism,
                     at,
                     modes,
                     tolerances,
+                    ..
                 } = *self;
                 let run = monte_carlo(mechanism, at, modes, tolerances, &sampling)?;
+                if self.watch.stopped() {
+                    return Err(Error::Stopped);
+                }
                 stream += 1;
                 counts.merge(&run.counts);
                 each = operations(self.modes, run.side_by_side);

@@ -3,6 +3,7 @@
 use super::points::CriticalState;
 use super::range::Range;
 use super::track::Following;
+use crate::algebra::Vector;
 use crate::branches::{BranchEnd, Continuation, Curve, CurvePoint, SpecialPoint};
 use crate::equilibrium::{Policy, equilibrium};
 use crate::kernels::DirectionalKernels;
@@ -75,56 +76,98 @@ pub fn critical_state(
 /// Most critical states on one path: a safeguard, far above what a machine has.
 const MOST_STATES: usize = 32;
 
-/// The critical states on a path of stable equilibria, each on the branch that the path follows up to it. None where
-/// stable equilibria are not what is followed, or the values neither ascend nor descend. With each state, whether the path
-/// leads to it from the one before so smoothly that there is none between the two: it is not looked for there.
-pub(crate) fn critical_states_on<'a>(
-    mechanism: &dyn DirectionalKernels,
-    (u, b): (&[f64], &[f64]),
-    following: Following,
-    input: Input,
-    path: impl Iterator<Item = (f64, &'a Result<Equilibrium, Error>, bool)>,
-) -> Vec<CriticalState> {
-    let mut found = Vec::new();
-    if following.policy != Policy::Stable {
-        return found;
-    }
-    let solved = path.filter_map(|(value, state, smooth)| {
-        let state = state.as_ref().ok()?;
-        Some((value, &*state.coordinates, smooth))
-    });
-    let path: Vec<_> = solved.collect();
-    let monotonic = path.is_sorted_by(|a, b| a.0 < b.0) || path.is_sorted_by(|a, b| a.0 > b.0);
-    let (Some(&(end, ..)), true) = (path.last(), monotonic) else {
-        return found;
-    };
-    let direction = end - path[0].0;
-    let mut rest = &path[..];
-    while let [(low, start, _), after @ ..] = rest
-        && found.len() < MOST_STATES
-    {
-        // How far nothing excludes one.
-        let steps = after.iter().take_while(|(.., smooth)| !smooth).count();
-        if steps == 0 {
-            rest = after;
-            continue;
+/// A path of stable equilibria, of which is kept what it takes to find the critical states on it.
+pub(crate) struct Path {
+    /// Stable equilibria are what is followed.
+    stable: bool,
+    /// Values, states, and whether the path leads to it from the one before so smoothly that there is no critical state between the
+    /// two. Of smooth states in a row only the last.
+    stations: Vec<(f64, Vector, bool)>,
+    /// The first value, and the last one.
+    ends: Option<(f64, f64)>,
+    ascends: bool,
+    descends: bool,
+}
+
+impl Path {
+    pub(crate) fn new(following: Following) -> Self {
+        Self {
+            stable: following.policy == Policy::Stable,
+            stations: Vec::new(),
+            ends: None,
+            ascends: true,
+            descends: true,
         }
-        let range = Range {
-            input,
-            low: *low,
-            high: after[steps - 1].0,
-            steps,
-        };
-        let Ok(critical) = critical_state(mechanism, u, b, start, range) else {
-            rest = &rest[steps..];
-            continue;
-        };
-        let beyond = |(value, ..): &(f64, &[f64], bool)| (value - critical.value) * direction > 0.0;
-        let next = rest.iter().position(beyond).unwrap_or(rest.len());
-        rest = &rest[next.max(1)..];
-        found.push(critical);
     }
-    found
+
+    /// Goes on to a state, if there is one.
+    pub(crate) fn add(&mut self, value: f64, state: &Result<Equilibrium, Error>, smooth: bool) {
+        let Ok(state) = state else {
+            return;
+        };
+        if !self.stable {
+            return;
+        }
+        match &mut self.ends {
+            None => self.ends = Some((value, value)),
+            Some((_, last)) => {
+                self.ascends &= *last < value;
+                self.descends &= *last > value;
+                *last = value;
+            }
+        }
+        match self.stations.last_mut() {
+            Some(last) if last.2 && smooth => {
+                last.0 = value;
+                last.1.copy_from_slice(&state.coordinates);
+            }
+            _ => self
+                .stations
+                .push((value, state.coordinates.clone(), smooth)),
+        }
+    }
+
+    /// The critical states, each on the branch that the path follows up to it. None where stable equilibria are not what is followed,
+    /// or the values neither ascend nor descend.
+    pub(crate) fn critical_states(
+        &self,
+        mechanism: &dyn DirectionalKernels,
+        (u, b): (&[f64], &[f64]),
+        input: Input,
+    ) -> Vec<CriticalState> {
+        let mut found = Vec::new();
+        let Some((first, last)) = self.ends.filter(|_| self.ascends || self.descends) else {
+            return found;
+        };
+        let direction = last - first;
+        let mut rest = &self.stations[..];
+        while let [(low, start, _), after @ ..] = rest
+            && found.len() < MOST_STATES
+        {
+            // How far nothing excludes one.
+            let steps = after.iter().take_while(|(.., smooth)| !smooth).count();
+            if steps == 0 {
+                rest = after;
+                continue;
+            }
+            let range = Range {
+                input,
+                low: *low,
+                high: after[steps - 1].0,
+                steps,
+            };
+            let Ok(critical) = critical_state(mechanism, u, b, start, range) else {
+                rest = &rest[steps..];
+                continue;
+            };
+            let beyond =
+                |(value, ..): &(f64, Vector, bool)| (value - critical.value) * direction > 0.0;
+            let next = rest.iter().position(beyond).unwrap_or(rest.len());
+            rest = &rest[next.max(1)..];
+            found.push(critical);
+        }
+        found
+    }
 }
 
 fn not_in_range(what: &'static str, inputs: &[crate::InputInfo], range: &Range) -> Error {

@@ -1,6 +1,8 @@
 //! Following an equilibrium from value to value of an input: side by side in the vectors of the processor where the way is
 //! smooth, one by one elsewhere.
 
+use core::ops::ControlFlow;
+
 use super::points::SweepPoint;
 use super::track::{Tracker, even};
 use crate::batched::Block;
@@ -18,13 +20,14 @@ pub(crate) struct Station<'a> {
     pub(crate) smooth: bool,
 }
 
-/// Goes on to each of `values`; `each` sees what is there, in order, with derivatives of the modes if they are wanted.
+/// Goes on to each of `values` until `each` breaks off; it sees what is there, in order, with derivatives of the modes if they are
+/// wanted.
 pub(crate) fn follow(
     tracker: &mut Tracker<'_>,
     kernels: &dyn BatchKernels,
     values: &[f64],
     with_slopes: bool,
-    mut each: impl FnMut(Station<'_>),
+    mut each: impl FnMut(Station<'_>) -> ControlFlow<()>,
 ) {
     let mut rest = values;
     let mut memory = Vec::new();
@@ -40,7 +43,9 @@ pub(crate) fn follow(
         {
             let number = tracker.solve_block(kernels, workspace, rest);
             let block = &workspace.block;
-            show(tracker, block, number, slopes.as_mut(), &mut each);
+            if show(tracker, block, number, slopes.as_mut(), &mut each).is_break() {
+                return;
+            }
             tracker.commit(block, number);
             rest = &rest[number..];
             // Where the way bends too much for a whole block, so it does a little farther on.
@@ -54,11 +59,14 @@ pub(crate) fn follow(
                 let (state, modes) = point.solved().map_err(Error::clone)?;
                 sensitivities(tracker.mechanism, state, modes)
             });
-            each(Station {
+            let shown = each(Station {
                 point,
                 slopes: slopes.as_ref(),
                 smooth: tracker.smooth && failed.is_none(),
             });
+            if shown.is_break() {
+                return;
+            }
         }
         rest = behind;
     }
@@ -70,16 +78,16 @@ fn show(
     block: &Block<'_>,
     number: usize,
     mut slopes: Option<&mut Result<Sensitivities, Error>>,
-    each: &mut impl FnMut(Station<'_>),
-) {
+    each: &mut impl FnMut(Station<'_>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let (mechanism, input) = (tracker.mechanism, tracker.input.index());
     let Some(point) = &mut tracker.last else {
-        return;
+        return ControlFlow::Continue(());
     };
     let mut before = None;
     for lane in 0..number {
         let Ok((state, modes)) = point.solved_mut() else {
-            return;
+            return ControlFlow::Continue(());
         };
         let value = block.values.0[lane];
         state.inputs[input] = value;
@@ -103,6 +111,7 @@ fn show(
             point,
             slopes: slopes.as_deref(),
             smooth: even(last, least),
-        });
+        })?;
     }
+    ControlFlow::Continue(())
 }

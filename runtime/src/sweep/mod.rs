@@ -15,8 +15,8 @@ mod sensitivity_sweep;
 mod sweep;
 mod track;
 
+pub(crate) use critical::Path;
 pub use critical::critical_state;
-pub(crate) use critical::critical_states_on;
 pub(crate) use crossing::between;
 pub use crossing::{Condition, Crossing, Line, crossings, flutter_onsets};
 pub use event_sensitivity::{critical_sensitivity, crossing_sensitivity};
@@ -24,6 +24,6 @@ pub use event_tolerance::{Event, EventTolerance, critical_tolerance, crossing_to
 pub use points::{CriticalState, Sweep, SweepPoint};
 pub use range::Range;
 pub use sensitivity_sweep::sensitivity_sweep;
-pub use sweep::sweep;
+pub use sweep::{sweep, sweep_each};
 pub use track::Following;
 pub(crate) use track::Tracker;

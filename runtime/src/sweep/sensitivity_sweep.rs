@@ -1,5 +1,7 @@
 //! Derivatives along an input.
 
+use core::ops::ControlFlow;
+
 use super::driver::follow;
 use super::points::SweepPoint;
 use super::track::{Following, Tracker};
@@ -30,6 +32,7 @@ pub fn sensitivity_sweep(
         if let Some(slopes) = station.slopes {
             each(station.point, slopes);
         }
+        ControlFlow::Continue(())
     });
     Ok(())
 }

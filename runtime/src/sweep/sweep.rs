@@ -1,8 +1,10 @@
 //! Sweeps of one input: each point starts from the equilibrium before it, and modes keep their identity.
 
-use super::critical::critical_states_on;
+use core::ops::ControlFlow;
+
+use super::critical::Path;
 use super::driver::follow;
-use super::points::Sweep;
+use super::points::{Sweep, SweepPoint};
 use super::track::{Following, Tracker};
 use crate::arguments::check_input;
 use crate::kernels::BatchKernels;
@@ -25,23 +27,43 @@ pub fn sweep(
     input: Input,
     values: &[f64],
 ) -> Result<Sweep, Error> {
+    let mut points = Vec::with_capacity(values.len());
+    let each = |point: &SweepPoint| {
+        points.push(point.clone());
+        ControlFlow::Continue(())
+    };
+    let along = (input, values);
+    let found = sweep_each(mechanism, (u, b), start, following, along, each)?;
+    Ok(Sweep { points, ..found })
+}
+
+/// As [`sweep`], but shows each point to `each`, in order and as soon as it is found, and keeps none: the result has the critical
+/// states only. The sweep ends where `each` breaks off.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_each(
+    mechanism: &dyn BatchKernels,
+    (u, b): (&[f64], &[f64]),
+    start: &[f64],
+    following: impl Into<Following>,
+    (input, values): (Input, &[f64]),
+    mut each: impl FnMut(&SweepPoint) -> ControlFlow<()>,
+) -> Result<Sweep, Error> {
     let description = mechanism.description();
     check_input(input, &description)?;
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
-    let mut smooth = Vec::with_capacity(values.len());
-    let mut points = Vec::with_capacity(values.len());
+    let mut path = Path::new(following);
     follow(&mut tracker, mechanism, values, false, |station| {
-        smooth.push(station.smooth);
-        points.push(station.point.clone());
+        let point = station.point;
+        path.add(point.value, &point.equilibrium, station.smooth);
+        each(point)
     });
-    let path = points.iter().zip(&smooth);
-    let path = path.map(|(point, smooth)| (point.value, &point.equilibrium, *smooth));
-    let critical = critical_states_on(mechanism, (u, b), following, input, path);
     Ok(Sweep {
         input,
-        points,
-        critical,
+        points: Vec::new(),
+        critical: path.critical_states(mechanism, (u, b), input),
         inputs: u.into(),
         description,
     })

@@ -14,7 +14,7 @@ use crate::kernels::BatchKernels;
 use crate::modes::{CLUSTER_GAP, clusters};
 use crate::scalar::Instructions;
 use crate::setters::setters;
-use crate::{Equilibrium, Error, Modes};
+use crate::{Equilibrium, Error, Modes, Watch};
 
 /// Chunks of samples that are worth a thread of their own: side by side they take some ten microseconds each.
 const CHUNKS_SIDE_BY_SIDE: u64 = 4;
@@ -60,8 +60,13 @@ impl<'a> Sampling<'a> {
         stop: Option<&'a AtomicBool>,
     );
 
+    /// Who waits for them.
+    pub(crate) fn watch(&self) -> Watch<'a> {
+        Watch::default().progress(self.progress).stop(self.stop)
+    }
+
     /// The samples to take now.
-    fn now(&self) -> Result<Range<u64>, Error> {
+    pub(crate) fn now(&self) -> Result<Range<u64>, Error> {
         let total = self.samples as u64;
         let range = self.range.clone().unwrap_or(0..total);
         if range.start > range.end || range.end > total {

@@ -7,7 +7,7 @@ use eigentol_statistics::summary::Partial;
 use super::result::MonteCarlo;
 use super::run::{Format, Run};
 use super::solver::{LEFT_NOMINAL_BRANCH, Numbered};
-use super::{Counts, Fingerprint, Statistics};
+use super::{Counts, Fingerprint, Sample, Statistics};
 use crate::algebra::Vector;
 use crate::modes::Family;
 use crate::{Description, Error, Shared};
@@ -89,6 +89,30 @@ impl PartialMonteCarlo {
     #[must_use]
     pub fn result(&self) -> MonteCarlo {
         self.clone().into_result()
+    }
+
+    /// Takes out the samples that were kept, each with its number in the run, counted from 0; none where they were not. The statistics
+    /// stay, and what is merged later keeps no samples: a run of any length needs the memory of one part.
+    ///
+    /// ```
+    /// # use eigentol::{Study, mechanism};
+    /// # mechanism! {
+    /// #     mechanism Pendulum {
+    /// #         design l = 2 m +/- 1 %;
+    /// #         gravity 9.81 m/s^2 along -z;
+    /// #         body bar: rod(mass: 3 kg, length: l, along: -z);
+    /// #         joint theta: revolute(y) from ground to bar;
+    /// #     }
+    /// # }
+    /// let study = Study::new(Pendulum).samples(1000).keep_samples(true);
+    /// let mut part = study.samples_between(300..400)?;
+    /// let samples = part.take_samples();
+    /// assert_eq!((samples.len(), samples[0].0), (100, 300));
+    /// assert_eq!(part.result().samples, 100);
+    /// # Ok::<(), eigentol::Error>(())
+    /// ```
+    pub fn take_samples(&mut self) -> Vec<(u64, Sample)> {
+        self.kept.take().unwrap_or_default()
     }
 
     fn parts(&self) -> &[Partial] {

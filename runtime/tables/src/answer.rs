@@ -3,8 +3,9 @@
 use eigentol::allocation::Allocation;
 use eigentol::branches::{Branch, Branches};
 use eigentol::campbell::Campbell;
-use eigentol::clusters::ClusterTolerance;
+use eigentol::clusters::{ClusterTolerance, DirectionalDerivatives};
 use eigentol::equilibrium::Assembly;
+use eigentol::modes::Whirl;
 use eigentol::propagation::{Controlled, Influence, Propagation, WorstCase};
 use eigentol::requirement::{Chances, RareFailure, Reliability};
 use eigentol::second_order::{ModeCurvature, ModeMargin, SecondOrder};
@@ -70,6 +71,7 @@ at_one_point! {
     "assembly": Assembly;
     "chances": Chances;
     "controlled spreads": Controlled;
+    "directional derivatives": DirectionalDerivatives;
     "equilibrium": Equilibrium;
     "equilibrium shift": EquilibriumShift;
     "first-order tolerances": FirstOrder;
@@ -193,6 +195,21 @@ lists! {
     "crossings": Crossing;
     "equilibria": Equilibrium;
     "events": EventTolerance;
+}
+
+impl Tables for Vec<Option<Whirl>> {
+    fn tables(&self) -> Vec<crate::Table> {
+        self[..].tables()
+    }
+}
+
+/// The whirl of each mode. It does not say of which mechanism it is: the modes do.
+impl Answer for Vec<Option<Whirl>> {
+    const KIND: &'static str = "whirls";
+
+    fn subject(&self) -> Option<Subject<'_>> {
+        None
+    }
 }
 
 impl Tables for Vec<ClusterTolerance> {

@@ -14,18 +14,23 @@
 //!       {"name": "frequency", "unit": "rad/s", "kind": "numbers", "values": [2.5, null]}
 //!     ]}
 //!   ],
+//!   "lengths": "5d41402abc4b2a76",
 //!   "description": {"name": "Pendulum", "...": "names and units of coordinates, inputs, design variables and outputs"},
 //!   "result": {"...": "every field of the result, SI"}
 //! }
 //! ```
 //!
 //! - `format` and `version` come first. Another version is refused by name; within a version fields may be added, none changes.
+//! - The schema of all documents ([JSON Schema](https://json-schema.org), draft 2020-12) is the file `eigentol.schema.json` of this crate,
+//!   [`SCHEMA`].
 //! - `inputs` has the operating point in declared units, without an input that varies.
 //! - `tables` has what people and other programs want ([`tables`](crate::tables)): columns of equal length, each of the `kind`
 //!   `numbers`, `whole`, `texts` or `flags`, in declared units; `null` where there is nothing.
 //! - `result` has all there is to the result, in the words of the Rust type and in SI, so that [`read`] gives the same result. Complex
 //!   numbers are `[real, imaginary]`, matrices lists of rows, infinite numbers the words `"Infinity"` and `"-Infinity"`. A `description`
 //!   that is `null` is that of the document.
+//! - `lengths` is a number that changes with the length of any list in `description` and `result`, in hexadecimal digits: what would no longer fit
+//!   together is refused by [`read`]. Other programs need not look at it.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -42,6 +47,9 @@ const FORMAT: &str = "eigentol";
 /// The version of documents that is written and read.
 pub const VERSION: u64 = 1;
 
+/// The JSON Schema (draft 2020-12) of all documents of this version.
+pub const SCHEMA: &str = include_str!("../eigentol.schema.json");
+
 #[derive(Serialize)]
 struct Written<'a> {
     format: &'a str,
@@ -51,6 +59,7 @@ struct Written<'a> {
     mechanism: Option<&'a str>,
     inputs: BTreeMap<&'a str, Quantity<'a>>,
     tables: Vec<Table>,
+    lengths: String,
     description: Value,
     result: Value,
 }
@@ -63,6 +72,7 @@ struct Quantity<'a> {
 
 #[derive(Deserialize)]
 struct Whole {
+    lengths: String,
     description: Value,
     result: Value,
 }
@@ -97,6 +107,7 @@ pub fn write<A: Answer>(answer: &A, mut file: impl Write) -> Result<(), Error> {
         mechanism: subject.map(|own| &*own.description.name),
         inputs: inputs.collect(),
         tables: answer.tables(),
+        lengths: lengths(&description, &result),
         description,
         result,
     };
@@ -130,9 +141,14 @@ pub fn read<A: Answer>(file: impl Read) -> Result<A, Error> {
         });
     }
     let Whole {
+        lengths: written,
         description,
         mut result,
     } = serde_json::from_value(document).map_err(content)?;
+    if written != lengths(&description, &result) {
+        let reason = "its lists have not the lengths with which they were written";
+        return Err(Error::Content(reason.to_owned()));
+    }
     put_back(&mut result, &description);
     serde_json::from_value(result).map_err(content)
 }
@@ -166,6 +182,38 @@ fn kind(document: &Value) -> Result<&str, Error> {
     }
     let kind = document.get("kind").and_then(Value::as_str);
     kind.ok_or(Error::Foreign)
+}
+
+/// A number that changes with the length of any list, as text: the hash of all of them in order (FNV-1a).
+fn lengths(description: &Value, result: &Value) -> String {
+    fn add(hash: &mut u64, bytes: &[u8]) {
+        for byte in bytes {
+            *hash = (*hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn walk(hash: &mut u64, value: &Value) {
+        match value {
+            Value::Array(all) => {
+                add(hash, &(all.len() as u64).to_le_bytes());
+                all.iter().for_each(|own| walk(hash, own));
+            }
+            Value::Object(fields) => {
+                // Programs are free to write fields in another order.
+                let fields: BTreeMap<&String, &Value> = fields.iter().collect();
+                for (name, own) in fields {
+                    add(hash, name.as_bytes());
+                    walk(hash, own);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    let mut hash = 0xcbf2_9ce4_8422_2325;
+    walk(&mut hash, description);
+    walk(&mut hash, result);
+    format!("{hash:016x}")
 }
 
 /// Every state and every set of modes names its mechanism; a document says once what all have in common.

@@ -11,5 +11,8 @@ mod table;
 
 pub use answer::{Answer, Subject};
 pub use error::Error;
-pub use results::{Tables, samples_table, sweep_table, tables};
+pub use results::{
+    Tables, branch_table, campbell_table, numbered_samples_table, samples_table, sweep_table,
+    tables,
+};
 pub use table::{Column, Table, Values};

@@ -97,7 +97,7 @@ impl Answers {
             ),
         );
         self.both(name, study.monte_carlo());
-        self.plain(name, &solved.whirls());
+        self.both(name, Ok(solved.whirls()));
         self.plain(name, &solved.picture().expect("a picture"));
         let swing = solved.mode_pictures(0, 4, 0.1);
         self.plain(name, &swing.expect("a mode"));
@@ -107,7 +107,7 @@ impl Answers {
             vec![1.0; operation.inputs.len()],
             vec![1.0; study.design_values().len()],
         );
-        self.plain(name, &solved.directional_derivatives(0, (&u, &b)));
+        self.both(name, solved.directional_derivatives(0, (&u, &b)));
         if solved.equilibrium.coordinates.len() <= SMALL {
             self.ask_of_chance(name, &study);
             if let Some(&value) = operation.inputs.first() {

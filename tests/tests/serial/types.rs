@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What cannot be written, and why.
-const NOT_WRITTEN: [(&str, &str); 31] = [
+const NOT_WRITTEN: [(&str, &str); 32] = [
     ("Any", "has no values"),
     ("Axes", "borrows its values"),
     ("Batch", "a register"),
@@ -35,6 +35,7 @@ const NOT_WRITTEN: [(&str, &str); 31] = [
     ("Solved", "borrows a study"),
     ("Study", "holds a mechanism"),
     ("Vector", "written by hand"),
+    ("Watch", "holds a function"),
     ("Workspace", "room for computations"),
 ];
 

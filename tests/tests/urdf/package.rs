@@ -126,20 +126,34 @@ fn every_file_gives_the_numbers_of_pinocchio() {
     for file in urdf_files(&folder) {
         let text = read(&file);
         for floating in [false, true] {
-            // What is no body here, or replaced, is another robot.
-            let Ok(robot) = Robot::new(&text, &options(floating), &[]) else {
+            let replacing = options(floating).nearest_inertias(true);
+            let given =
+                Robot::new(&text, &options(floating), &[]).map(|own| (own, options(floating)));
+            let Ok((robot, options)) = given.or_else(|_| {
+                let own = Robot::new(&text, &replacing, &[]);
+                own.map(|own| (own, replacing))
+            }) else {
+                // What is no body here either is another robot.
                 continue;
             };
             let points = robot.points(4);
-            let robot = Robot::new(&text, &options(floating), &points).expect("a robot");
+            let robot = Robot::new(&text, &options, &points).expect("a robot");
             let originals: Vec<&str> = points.iter().map(|point| robot.original(point)).collect();
             requests.push(json!({
                 "file": file, "floating": floating, "coordinates": robot.coordinates(), "points": originals,
+                "nearest": options.nearest_inertias,
             }));
             robots.push((robot, points));
         }
     }
     assert!(robots.len() > 110, "{}", robots.len());
+    for name in ["icub_reduced", "romeo_small", "romeo_laas_small"] {
+        let own = |request: &&Value| {
+            let file = request["file"].as_str().unwrap_or_default();
+            request["nearest"] == true && file.ends_with(&format!("/{name}.urdf"))
+        };
+        assert_eq!(requests.iter().filter(own).count(), 2, "{name}");
+    }
     let Some(numbers) = reference(&python, &Value::Array(requests)) else {
         return;
     };
@@ -147,6 +161,13 @@ fn every_file_gives_the_numbers_of_pinocchio() {
     for ((robot, points), one) in robots.iter().zip(numbers.as_array().expect("a list")) {
         let what = format!("{} floating {}", one["file"], one["floating"]);
         let states = one["states"].as_array().expect("states");
+        assert_eq!(
+            one["nearest"] == true,
+            one["replaced"]
+                .as_array()
+                .is_some_and(|own| !own.is_empty()),
+            "{what}"
+        );
         let error = robot.assert_right(&what, &texts(&one["coordinates"]), states, points);
         worst = worst.max(error);
     }

@@ -3,6 +3,7 @@
 Reads from standard input a list of {"file", "floating", "coordinates", "points"}: the coordinates that are free, by the names of
 their joints in the file (`base_px` and so on of a floating base); all others stay at zero. `points` are names of links. Writes the
 list with "states" to standard output; fields as in ../robots, all in SI, with springs of 50 and dampers of 0.5 on every coordinate.
+Of a robot with "nearest": true, inertias that no body has are replaced by the nearest possible ones; "replaced" has their joints.
 """
 
 import json
@@ -56,10 +57,37 @@ def configuration(model, angles):
     return q
 
 
+def nearest_moments(given):
+    """The nearest moments of which none exceeds the sum of the others: Dykstra's projections on three half-spaces."""
+    normals = [np.array(n) / np.sqrt(3) for n in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
+    x, corrections = np.array(given), [np.zeros(3) for _ in normals]
+    for _ in range(10000):
+        for k, normal in enumerate(normals):
+            before = x + corrections[k]
+            x = before - max(normal @ before, 0.0) * normal
+            corrections[k] = before - x
+    return x
+
+
+def replace_inertias(model):
+    """Of each joint, where all links that are welded together count as one body."""
+    replaced = []
+    for joint in range(1, model.njoints):
+        own = model.inertias[joint]
+        moments, axes = np.linalg.eigh(own.inertia)
+        if 2 * moments.max() - moments.sum() > 2e-9 * moments.sum():
+            nearest = axes @ np.diag(nearest_moments(moments)) @ axes.T
+            model.inertias[joint] = pin.Inertia(own.mass, own.lever, nearest)
+            replaced.append(model.names[joint])
+    return replaced
+
+
 def states(robot):
     with open(robot["file"]) as file:
         text = file.read()
     model = pin.buildModelFromXML(on_six_joints(text) if robot["floating"] else text)
+    if robot.get("nearest"):
+        robot["replaced"] = replace_inertias(model)
     data = model.createData()
     names = columns(model)
     place = [names.index(name) for name in robot["coordinates"]]

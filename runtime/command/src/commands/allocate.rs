@@ -11,6 +11,7 @@ use eigentol_interpreter::Interpreted;
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::point::{Point, Question, design, parameter, unknown, written};
+use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
 use crate::verdict::Verdict;
 
@@ -36,7 +37,8 @@ impl Allocate {
             let message = "nothing is required, or nothing may be chosen";
             return Err(Failure::usage(message, help));
         }
-        let study = study
+        let bar = progress::bar("choices and samples", None);
+        let study = progress::watched(study, &bar)
             .samples(self.samples.or(file.samples).unwrap_or(3000))
             .seed(file.seed.unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
@@ -52,9 +54,20 @@ impl Allocate {
             choose(&study, choice, &mut choices)?;
         }
         let found = study.allocation(&wanted, &choices)?;
+        bar.finish_and_clear();
         let mut answer = self.output.answer();
         answer.add(&found)?;
         self.output.write(&answer)?;
+        if found.stopped {
+            let tried = found.evaluations;
+            return Ok(Verdict::Stopped(format!(
+                "after {tried} choices: there may be cheaper tolerances"
+            )));
+        }
+        let (samples, planned) = (found.chances.all.samples(), found.chances.planned);
+        if samples < planned {
+            return Ok(Verdict::stopped(samples, planned, "samples"));
+        }
         Ok(match found.refuted.first() {
             None => Verdict::Yes,
             Some(k) => Verdict::No(format!("samples refute requirement {}", k + 1)),

@@ -1,12 +1,15 @@
 //! Branches of equilibria.
 
 use clap::Args;
+use eigentol::branches::BranchEnd;
 use eigentol_figures as figures;
+use eigentol_tables::{Table, branch_table};
 
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
+use crate::progress;
 use crate::sweep::Sweep;
 use crate::verdict::Verdict;
 
@@ -27,16 +30,40 @@ impl Branches {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         self.picture.check()?;
-        let question = self.point.question()?;
+        let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
-        let found = question
-            .study
-            .branches(range.input, range.low, range.high)?;
-        let mut answer = self.output.answer();
-        answer.add(&found)?;
+        let bar = progress::bar("points of branches", None);
+        question.study = progress::watched(question.study, &bar);
+        let study = &question.study;
+        let settings = study.continuation(range.input, range.low, range.high)?;
+        let make = |all: &[Table]| all.first().cloned().unwrap_or_default();
+        let mut rows = self.output.rows(("branches", "branches"), make)?;
+        let (mut number, mut written) = (0, Ok(()));
+        let found = study.branches_each(&settings, None, |branch| {
+            number += 1;
+            if let (Some(rows), Ok(())) = (&mut rows, &written) {
+                written = rows
+                    .add(branch_table(number, branch))
+                    .and_then(|()| rows.write());
+            }
+        })?;
+        written?;
+        bar.finish_and_clear();
         let style = self.picture.style(&question);
         self.picture.draw(|| figures::branches(&found, &style))?;
-        self.output.write(&answer)?;
+        match rows {
+            Some(rows) => rows.finish()?,
+            None => {
+                let mut answer = self.output.answer();
+                answer.add(&found)?;
+                self.output.write(&answer)?;
+            }
+        }
+        let ends = found.branches.iter().flat_map(|branch| &branch.ends);
+        if ends.into_iter().any(|end| *end == BranchEnd::Stopped) {
+            let points: usize = found.branches.iter().map(|own| own.points.len()).sum();
+            return Ok(Verdict::Stopped(format!("after {points} points")));
+        }
         if found.stable().next().is_some() {
             return Ok(Verdict::Yes);
         }

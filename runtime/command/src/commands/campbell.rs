@@ -1,12 +1,17 @@
 //! Campbell diagrams.
 
+use std::ops::ControlFlow;
+
 use clap::Args;
+use eigentol::campbell::CampbellPoint;
 use eigentol_figures as figures;
+use eigentol_tables::campbell_table;
 
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
+use crate::progress;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
 
@@ -32,7 +37,7 @@ impl Campbell {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         self.picture.check()?;
-        let question = self.point.question()?;
+        let mut question = self.point.question()?;
         let range = self.sweep.range(&question)?;
         let values = self.points.values(&range, &question)?;
         let given = question.file.orders.clone().unwrap_or_default();
@@ -41,14 +46,49 @@ impl Campbell {
         } else {
             &self.orders
         };
-        let found = question.study.campbell(range.input, &values, orders)?;
-        let mut answer = self.output.answer();
-        answer.add(&found)?;
+        let bar = progress::bar("values", Some(values.len() as u64));
+        question.study = progress::watched(question.study, &bar);
+        let study = &question.study;
+        let (d, inputs, input) = (study.description(), study.input_values(), range.input);
+        let make = |points: &[CampbellPoint]| campbell_table(d, inputs, input.any(), points);
+        let kind = "Campbell diagram";
+        let mut rows = self.output.rows((kind, kind), make)?;
+        // Rows that are written as they come need not be kept.
+        let keep = rows.is_none() || self.picture.is_wanted();
+        let (mut points, mut done, mut solved) = (Vec::new(), 0, 0);
+        let mut written = Ok(());
+        let found = study.campbell_each(input, &values, orders, |point| {
+            done += 1;
+            solved += usize::from(point.modes.is_ok());
+            if keep {
+                points.push(point.clone());
+            }
+            if let Some(rows) = &mut rows {
+                written = rows.add(point);
+            }
+            match written {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            }
+        })?;
+        written?;
+        bar.finish_and_clear();
+        let mut found = found;
+        found.points = points;
         let style = self.picture.style(&question);
         self.picture.draw(|| figures::campbell(&found, &style))?;
-        self.output.write(&answer)?;
-        let mut states = found.points.iter().map(|point| point.modes.is_ok());
-        if states.any(|found| found) {
+        match rows {
+            Some(rows) => rows.finish()?,
+            None => {
+                let mut answer = self.output.answer();
+                answer.add(&found)?;
+                self.output.write(&answer)?;
+            }
+        }
+        if done < values.len() {
+            return Ok(Verdict::stopped(done, values.len(), "values"));
+        }
+        if solved > 0 {
             return Ok(Verdict::Yes);
         }
         Ok(Verdict::No("no value of the range has modes".to_owned()))

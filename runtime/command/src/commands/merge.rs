@@ -17,7 +17,7 @@ pub(crate) struct Merge {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Write a partial result again, to be merged with others
-    #[arg(long, conflicts_with_all = ["json", "csv"])]
+    #[arg(long, conflicts_with_all = ["json", "csv", "parquet", "table"])]
     partial: bool,
     #[command(flatten)]
     output: Output,

@@ -13,4 +13,5 @@ pub(crate) mod new;
 pub(crate) mod report;
 pub(crate) mod sample;
 pub(crate) mod sensitivities;
+pub(crate) mod sweep;
 pub(crate) mod tolerance;

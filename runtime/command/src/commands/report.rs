@@ -3,8 +3,10 @@
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::place::Place;
 use crate::point::Point;
+use crate::progress;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
 
@@ -50,7 +52,8 @@ impl Report {
             None => Vec::new(),
         };
         let file = &question.file;
-        let study = (question.study.clone())
+        let bar = progress::bar("samples, values and points", None);
+        let study = progress::watched(question.study.clone(), &bar)
             .samples(self.samples.or(file.samples).unwrap_or(3000))
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(file.stream.unwrap_or(0));
@@ -68,7 +71,13 @@ impl Report {
         if let Some(range) = &range {
             report = report.sweep(range.input, &values);
         }
-        self.place.write(&report.html()?)?;
+        let html = report.html()?;
+        bar.finish_and_clear();
+        self.place.write(&html)?;
+        if interrupt::stopped() {
+            let reason = "the report says what is done";
+            return Ok(Verdict::Stopped(reason.to_owned()));
+        }
         // What the report says is not there is an answer of "no" here.
         let solved = study.solve()?;
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))

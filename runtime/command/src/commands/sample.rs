@@ -4,9 +4,11 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use clap::Args;
-use eigentol::tolerance::PartialMonteCarlo;
-use eigentol::{Solved, Study};
+use eigentol::tolerance::{PartialMonteCarlo, Sample as Solution, Sampling};
+use eigentol::{Error, Solved};
 use eigentol_interpreter::Interpreted;
+use eigentol_tables::numbered_samples_table;
+use indicatif::ProgressBar;
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -33,14 +35,14 @@ pub(crate) struct Sample {
     /// Threads; as many as the machine has unless set
     #[arg(long, value_name = "COUNT")]
     threads: Option<usize>,
-    /// Keep every sample: `--csv --table samples` writes them
+    /// Keep every sample, for `--json` and partial results; `--table samples` writes them as they come without it
     #[arg(long)]
     keep: bool,
     /// Take one part of the samples, the third of 64, and write a partial result for `merge`
-    #[arg(long, value_name = "3/64", conflicts_with_all = ["json", "csv"])]
+    #[arg(long, value_name = "3/64", conflicts_with_all = ["json", "csv", "parquet", "table"])]
     shard: Option<Shard>,
     /// Write a partial result for `merge` or `--resume`, also after Ctrl-C
-    #[arg(long, conflicts_with_all = ["json", "csv"])]
+    #[arg(long, conflicts_with_all = ["json", "csv", "parquet", "table"])]
     partial: bool,
     /// Go on with a partial result of this run
     #[arg(long, value_name = "FILE")]
@@ -55,27 +57,46 @@ impl Sample {
         let question = self.point.question()?;
         let file = &question.file;
         let samples = self.samples.or(file.samples).unwrap_or(3000);
+        let shown = self.output.wants_table("samples");
         let study = question
             .study
             .samples(samples)
             .seed(self.seed.or(file.seed).unwrap_or(0))
             .stream(self.stream.or(file.stream).unwrap_or(0))
             .threads(self.threads.unwrap_or(0))
-            .keep_samples(self.keep);
-        let solved = study.solve()?;
+            .keep_samples(self.keep || shown);
         let range = self.shard.unwrap_or(Shard::WHOLE).range(samples as u64);
-        let part = self.sampled((&study, &solved), &range)?;
-        if self.shard.is_some() || self.partial {
-            self.output.write_text(&parts::text(&part)?)?;
+        let bar = progress::bar("samples", Some(range.end - range.start));
+        let study = progress::watched(study, &bar);
+        let solved = study.solve()?;
+        let run = Run {
+            solved: &solved,
+            sampling: study.sampling(),
+            range: &range,
+            bar: &bar,
+        };
+        // Nothing, to refuse a partial result of another run before the work is done.
+        let mut part = run.take(range.start..range.start)?;
+        if let Some(path) = &self.resume {
+            parts::add(&mut part, path, parts::read(path)?)?;
+        }
+        if shown {
+            self.write_samples(&run, &mut part)?;
         } else {
-            let mut answer = self.output.answer();
-            answer.add(&part.result())?;
-            self.output.write(&answer)?;
+            run.complete(&mut part, u64::MAX, |_| Ok(()))?;
+            bar.finish_and_clear();
+            if self.shard.is_some() || self.partial {
+                self.output.write_text(&parts::text(&part)?)?;
+            } else {
+                let mut answer = self.output.answer();
+                answer.add(&part.result())?;
+                self.output.write(&answer)?;
+            }
         }
         let missing = within(&part.missing(), &range);
         if interrupt::stopped() && !missing.is_empty() {
             let wanted = range.end - range.start;
-            let done = wanted - missing.iter().map(|own| own.end - own.start).sum::<u64>();
+            let done = wanted - length(&missing);
             return Ok(Verdict::Stopped(format!(
                 "after {done} of {wanted} samples"
             )));
@@ -83,33 +104,70 @@ impl Sample {
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }
 
-    /// The samples of a range, those that are done already as they are.
-    fn sampled(
-        &self,
-        (study, solved): (&Study<Interpreted>, &Solved<'_, Interpreted>),
-        range: &Range<u64>,
-    ) -> Result<PartialMonteCarlo, Failure> {
-        let bar = progress::bar("samples", range.end - range.start);
-        let count = |done| bar.inc(done as u64);
-        let sampling = study
-            .sampling()
-            .progress(Some(&count))
-            .stop(Some(interrupt::stop()));
-        let some = |range| solved.sample_modes(&sampling.clone().range(Some(range)));
-        // Nothing, to refuse a partial result of another run before the work is done.
-        let mut part = some(range.start..range.start)?;
-        if let Some(path) = &self.resume {
-            parts::add(&mut part, path, parts::read(path)?)?;
-        }
-        let missing = within(&part.missing(), range);
-        let left: u64 = missing.iter().map(|own| own.end - own.start).sum();
-        bar.set_position(range.end - range.start - left);
-        for range in missing {
-            part.merge(some(range)?)?;
-        }
-        bar.finish_and_clear();
-        Ok(part)
+    /// Takes what is missing of a run, and writes its samples as they come.
+    fn write_samples(&self, run: &Run<'_>, part: &mut PartialMonteCarlo) -> Result<(), Failure> {
+        let description = part.result().description;
+        let modes = run.solved.modes.modes.len();
+        let make = |all: &[(u64, Solution)]| numbered_samples_table(&description, modes, all);
+        let Some(mut rows) = self.output.rows(("Monte Carlo", "samples"), make)? else {
+            return Err(Failure::usage(
+                "samples are of the result `Monte Carlo`",
+                "leave `--result` out",
+            ));
+        };
+        run.complete(part, TOGETHER, |part| {
+            let mut samples = part.take_samples().into_iter();
+            samples.try_for_each(|one| rows.add(one))
+        })?;
+        run.bar.finish_and_clear();
+        rows.finish()
     }
+}
+
+/// Samples that are in memory together where all are written.
+const TOGETHER: u64 = 16_384;
+
+/// A run that is going on.
+struct Run<'a> {
+    solved: &'a Solved<'a, Interpreted>,
+    sampling: Sampling<'a>,
+    range: &'a Range<u64>,
+    bar: &'a ProgressBar,
+}
+
+impl Run<'_> {
+    fn take(&self, range: Range<u64>) -> Result<PartialMonteCarlo, Error> {
+        let sampling = self.sampling.clone();
+        self.solved.sample_modes(&sampling.range(Some(range)))
+    }
+
+    /// Adds what is missing, so many samples at once, each part being shown before.
+    fn complete(
+        &self,
+        done: &mut PartialMonteCarlo,
+        together: u64,
+        mut each: impl FnMut(&mut PartialMonteCarlo) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        each(done)?;
+        let missing = within(&done.missing(), self.range);
+        self.bar
+            .set_position(self.range.end - self.range.start - length(&missing));
+        for range in missing {
+            let mut start = range.start;
+            while start < range.end && !interrupt::stopped() {
+                let end = start.saturating_add(together).min(range.end);
+                let mut part = self.take(start..end)?;
+                each(&mut part)?;
+                done.merge(part)?;
+                start = end;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn length(ranges: &[Range<u64>]) -> u64 {
+    ranges.iter().map(|own| own.end - own.start).sum()
 }
 
 /// What of these ranges lies within another.

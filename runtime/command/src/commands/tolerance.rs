@@ -1,12 +1,14 @@
 //! What tolerances do at one operating point.
 
 use clap::Args;
+use eigentol::Error;
 use eigentol_figures::shares_of_all;
 
 use crate::failure::Failure;
 use crate::output::Output;
 use crate::picture::Picture;
 use crate::point::Point;
+use crate::progress;
 use crate::verdict::Verdict;
 
 /// Spread of frequencies and outputs by tolerances, and how far it can be trusted
@@ -24,18 +26,32 @@ impl Tolerance {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         self.picture.check()?;
-        let question = self.point.question()?;
-        let solved = question.study.solve()?;
+        let mut question = self.point.question()?;
+        let bar = progress::bar("samples", None);
+        question.study = progress::watched(question.study, &bar);
+        let study = &question.study;
+        let solved = study.solve()?;
         let mut answer = self.output.answer();
         let first = solved.first_order()?;
-        answer.add_aside(&first)?;
-        answer.add(&solved.summary()?)?;
-        if !question.study.description().outputs.is_empty() {
+        let summary = solved.summary();
+        bar.finish_and_clear();
+        let stopped = matches!(summary, Err(Error::Stopped));
+        if stopped {
+            answer.add(&first)?;
+        } else {
+            answer.add_aside(&first)?;
+            answer.add(&summary?)?;
+        }
+        if !study.description().outputs.is_empty() {
             answer.add(&solved.output_tolerances()?)?;
         }
         let style = self.picture.style(&question);
         self.picture.draw(|| shares_of_all(&first, &style))?;
         self.output.write(&answer)?;
+        if stopped {
+            let reason = "before samples and second order could judge the first-order spread";
+            return Ok(Verdict::Stopped(reason.to_owned()));
+        }
         Ok(Verdict::of(&solved.equilibrium, &solved.modes))
     }
 }

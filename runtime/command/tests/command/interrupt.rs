@@ -5,10 +5,12 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::program::{answer, command, folder, pendulum, run};
+use eigentol_tables::csv;
+
+use crate::program::{PENDULUM, answer, command, examples, file, folder, pendulum, run};
 
 /// Waits until a program has its own handler of SIGINT: before that the signal would just end it.
-fn listens(child: &Child) {
+pub(crate) fn listens(child: &Child) {
     for _ in 0..600 {
         let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
         let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
@@ -22,7 +24,7 @@ fn listens(child: &Child) {
     panic!("no handler after half a minute");
 }
 
-fn interrupt(child: &Child) {
+pub(crate) fn interrupt(child: &Child) {
     let sent = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status();
@@ -92,25 +94,16 @@ fn an_answer_says_that_it_is_not_complete() {
     }
 }
 
-/// What cannot be kept half done leaves what was there.
+/// What cannot be shown half done leaves what was there.
 #[test]
-fn other_work_ends_at_once() {
-    let path = folder("ended").join("diagram.csv");
+fn what_has_no_half_leaves_the_old_file() {
+    let path = folder("ended").join("sensitivities.csv");
     fs::write(&path, "old").unwrap();
     let name = path.display().to_string();
-    let sweep = [
-        "--sweep",
-        "speed=0..6000rpm",
-        "--points",
-        "5000000",
-        "--csv",
-        "-o",
-        &name,
-    ];
-    let mut command = command(&[&["campbell", "jeffcott_rotor.mechanism"], &sweep[..]].concat());
+    let robot = "../tests/truth/robots/Icub.mech";
+    let mut command = command(&["sensitivities", robot, "-o", &name]);
     let child = command.stderr(Stdio::piped()).spawn().unwrap();
     listens(&child);
-    sleep(Duration::from_millis(300));
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
@@ -122,9 +115,109 @@ fn other_work_ends_at_once() {
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
 
+/// Ctrl-C some time after the start: exit code 130, and what was written and said.
+fn stopped(arguments: &[&str], after: Duration) -> (String, String) {
+    let mut command = command(arguments);
+    let child = (command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn())
+    .unwrap();
+    listens(&child);
+    sleep(after);
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{err}");
+    (out, err)
+}
+
+#[test]
+fn a_report_says_how_far_it_came() {
+    let path = folder("half a report").join("report.html");
+    let name = path.display().to_string();
+    let samples = ["--samples", "2000000000", "--output", &name];
+    let (_, err) = stopped(&pendulum("report", &samples), Duration::from_secs(4));
+    assert!(err.starts_with("stopped: "), "{err}");
+    let html = fs::read_to_string(&path).unwrap();
+    assert!(html.starts_with("<!doctype html>") && html.contains("</html>"));
+    assert!(
+        html.contains("2000000000"),
+        "what was asked for is not said"
+    );
+}
+
+#[test]
+fn an_allocation_is_checked_by_the_samples_that_are_done() {
+    let folder = folder("half an allocation");
+    let declaration = fs::canonicalize(examples().join(PENDULUM)).unwrap();
+    let study = format!(
+        "mechanism = {declaration:?}\nsamples = 2000000000\nset.omega = \"5 rad/s\"\nstart.theta = \"60 deg\"\n\
+         tolerance.l = \"10%\"\n[[require]]\nmode = 1\nat_least = \"3.9 rad/s\"\nfailure = 0.01\n\
+         [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
+    );
+    let study = file(&folder, "study.toml", &study);
+    let (out, err) = stopped(&["allocate", "--study", &study], Duration::from_secs(4));
+    assert!(
+        err.starts_with("stopped: after ") && err.contains("of 2000000000 samples"),
+        "{err}"
+    );
+    assert!(
+        out.contains("Not complete: 2000000000 samples were asked for"),
+        "{out}"
+    );
+}
+
+/// Bars in series have a pitchfork for each, and branches from each of those.
+#[test]
+fn branches_are_kept_as_far_as_they_came() {
+    let folder = folder("half of the branches");
+    let mut chain = String::from(
+        "pub mechanism Chain {\n input omega: rad/s;\n gravity 9.81 m/s^2 along -z;\n body b0: massless;\n\
+         joint spin: revolute(z) from ground to b0, driven at omega;\n",
+    );
+    for k in 1..=9 {
+        let place = if k == 1 { "" } else { " at [0, 0, -1 m]" };
+        chain += &format!(
+            " body b{k}: rod(mass: 1 kg, length: 1 m, along: -z);\n joint q{k}: revolute(y) from b{} to b{k}{place};\n",
+            k - 1
+        );
+    }
+    let chain = file(&folder, "chain.mechanism", &(chain + "}\n"));
+    let path = folder.join("rows.csv");
+    let name = path.display().to_string();
+    let arguments = [
+        "branches",
+        &chain,
+        "--sweep",
+        "omega=0..60 rad/s",
+        "-o",
+        &name,
+    ];
+    let (_, err) = stopped(&arguments, Duration::from_secs(3));
+    let points = err
+        .strip_prefix("stopped: after ")
+        .and_then(|own| own.strip_suffix(" points\n"));
+    let points: usize = points.unwrap_or_else(|| panic!("{err}")).parse().unwrap();
+    let table = csv::read("branches", fs::File::open(path).unwrap()).unwrap();
+    assert!(
+        points > 0 && table.rows() == points,
+        "{points} {}",
+        table.rows()
+    );
+}
+
 /// No bar where nobody looks at it.
 #[test]
 fn progress_is_for_terminals() {
     let run = run(&pendulum("sample", &["--samples", "500"]));
     assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let diagram = [
+        "campbell",
+        "jeffcott_rotor.mechanism",
+        "--sweep",
+        "speed=0..6000rpm",
+    ];
+    assert_eq!(crate::program::run(&diagram).err, "");
 }

@@ -18,5 +18,6 @@ mod readme;
 mod reports;
 mod rust_examples;
 mod starter;
+mod streams;
 mod subcommands;
 mod walkthrough;

@@ -1,5 +1,6 @@
 //! Where a mechanism stays.
 
+use eigentol::equilibrium::AssemblyMode;
 use pyo3::prelude::*;
 
 use super::result;
@@ -103,5 +104,65 @@ impl EquilibriumShift {
     #[getter]
     fn by_design<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py>> {
         matrix(py, &self.0.by_design)
+    }
+}
+
+result! {
+    /// A state that closes the loops of a mechanism, SI. `n` is the number of unknowns.
+    Assembly(eigentol::equilibrium::Assembly)
+}
+
+#[pymethods]
+impl Assembly {
+    /// Names of the unknowns.
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        names::coordinates(&self.0.description)
+    }
+
+    /// The unknowns: coordinates (rad or m), after them speeds and reactions of constraints (SI), shape (n,).
+    #[getter]
+    fn coordinates<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.coordinates.clone())
+    }
+
+    /// Which unknowns were held at their start values.
+    #[getter]
+    fn held(&self) -> Vec<bool> {
+        self.0.held.clone()
+    }
+
+    /// How far each unknown moved from its start value, shape (n,).
+    #[getter]
+    fn moved<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.moved.clone())
+    }
+
+    /// Gap left in each constraint, at the place of its reaction, shape (n,): rounding.
+    #[getter]
+    fn gaps<'py>(&self, py: Python<'py>) -> Array1<'py> {
+        vector(py, self.0.gaps.clone())
+    }
+
+    /// On which side of the dead centres it is assembled, "positive" or "negative": no motion leads from one to the other but through a
+    /// dead centre. None unless as many coordinates are held as the mechanism has degrees of freedom.
+    #[getter]
+    fn mode(&self) -> Option<&'static str> {
+        self.0.mode.map(|mode| match mode {
+            AssemblyMode::Positive => "positive",
+            AssemblyMode::Negative => "negative",
+        })
+    }
+
+    /// How well the constraints determine the coordinates that are not held: 1 at best, 0 at a dead centre.
+    #[getter]
+    fn margin(&self) -> f64 {
+        self.0.margin
+    }
+
+    /// Whether it is a dead centre or a singular configuration.
+    #[getter]
+    fn singular(&self) -> bool {
+        self.0.singular
     }
 }

@@ -8,10 +8,10 @@ mod shared;
 mod sweep;
 
 pub(crate) use branches::{Branch, Branches};
-pub(crate) use equilibrium::{Equilibrium, EquilibriumShift};
+pub(crate) use equilibrium::{Assembly, Equilibrium, EquilibriumShift};
 pub(crate) use modes::Modes;
 pub(crate) use sensitivities::{
     ModeCurvature, OutputSensitivities, Sensitivities, ShapeSensitivity, quantity,
 };
-pub(crate) use shared::{html, result, table};
+pub(crate) use shared::{Document, html, json_schema, result, table};
 pub(crate) use sweep::{Campbell, Sweep};

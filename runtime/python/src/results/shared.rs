@@ -38,6 +38,15 @@ macro_rules! result {
                 $crate::results::table(py, &eigentol_tables::tables(&self.0), name)
             }
 
+            /// The result as a JSON document, with every digit: what `eigentol --json` prints. Its schema is `eigentol.json_schema()`.
+            fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+                use $crate::results::Document as _;
+                let text = self.0.document();
+                text.map_err(|error| {
+                    $crate::errors::new(py, $crate::errors::Kind::Error, error.to_string())
+                })
+            }
+
             /// Names of the tables.
             #[getter]
             fn tables(&self) -> Vec<String> {
@@ -48,6 +57,23 @@ macro_rules! result {
     };
 }
 pub(crate) use result;
+
+/// A result that a JSON document can hold.
+pub(crate) trait Document {
+    fn document(&self) -> Result<String, eigentol_tables::Error>;
+}
+
+impl<A: eigentol_tables::Answer> Document for A {
+    fn document(&self) -> Result<String, eigentol_tables::Error> {
+        eigentol_tables::json::to_string(self)
+    }
+}
+
+/// The JSON Schema of the documents that `to_json` gives, as a text.
+#[pyfunction]
+pub(crate) fn json_schema() -> &'static str {
+    eigentol_tables::json::SCHEMA
+}
 
 /// The table of this name, or the first, as a dictionary.
 pub(crate) fn table<'py>(

@@ -5,18 +5,22 @@ use super::equilibrium::stability;
 use super::names::{operating_point, unknowns, varied};
 use crate::Table;
 
-/// `branches`: a row for each equilibrium, with the number of its branch; `special points`: a row for each fold and fork.
-fn tables_of(branches: &[Branch]) -> Vec<Table> {
-    let Some(one) = branches.first() else {
-        return Vec::new();
-    };
+/// A row for each equilibrium of a branch, with the number of the branch, counted from 1: branches can be written one after the other, all
+/// have the same columns.
+#[must_use]
+pub fn branch_table(number: usize, branch: &Branch) -> Table {
+    rows_of(number, std::slice::from_ref(branch), branch)
+}
+
+/// The rows of some branches, the first of which has this number; all are of the mechanism of one of them.
+fn rows_of(first: usize, branches: &[Branch], one: &Branch) -> Table {
     let d = &one.description;
     let rows = || {
         let each = branches.iter().enumerate();
         each.flat_map(|(k, branch)| branch.points.iter().map(move |point| (k, point)))
     };
     let mut table = Table::new("branches");
-    table.whole("branch", rows().map(|(k, _)| k + 1));
+    table.whole("branch", rows().map(|(k, _)| k + first));
     varied(&mut table, d, one.input, rows().map(|(_, own)| own.value));
     let states: Vec<_> = rows()
         .map(|(_, own)| Some(&own.equilibrium.coordinates[..]))
@@ -28,6 +32,17 @@ fn tables_of(branches: &[Branch]) -> Vec<Table> {
     );
     let inputs = one.points.first().map(|own| &own.equilibrium.inputs[..]);
     operating_point(&mut table, d, inputs.unwrap_or_default(), Some(one.input));
+    table
+}
+
+/// `branches`: [`branch_table`] of all; `special points`: a row for each fold and fork.
+fn tables_of(branches: &[Branch]) -> Vec<Table> {
+    let Some(one) = branches.first() else {
+        return Vec::new();
+    };
+    let d = &one.description;
+    let inputs = one.points.first().map(|own| &own.equilibrium.inputs[..]);
+    let table = rows_of(1, branches, one);
     let special: Vec<(usize, &SpecialPoint)> = (branches.iter().enumerate())
         .flat_map(|(k, branch)| branch.special.iter().map(move |own| (k, own)))
         .collect();

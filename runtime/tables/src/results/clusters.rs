@@ -1,4 +1,5 @@
-use eigentol::clusters::{ClusterTolerance, SortedSpread};
+use eigentol::Family;
+use eigentol::clusters::{ClusterTolerance, DirectionalDerivatives, SortedSpread};
 use eigentol::tolerance::Statistics;
 
 use super::Tables;
@@ -76,6 +77,33 @@ impl Tables for [ClusterTolerance] {
         );
         operating_point(&mut found, d, &one.inputs, None);
         vec![found, table]
+    }
+}
+
+/// `directional derivatives`: a row for each eigenvalue of the cluster; which belongs to which mode is not defined.
+impl Tables for DirectionalDerivatives {
+    fn tables(&self) -> Vec<Table> {
+        let unit = match self.family {
+            Family::Undamped => "1/s^2",
+            Family::General => "1/s",
+        };
+        let rows = self.eigenvalues.len();
+        let mut table = Table::new("directional derivatives");
+        table.texts("modes", vec![Some(listed(&self.modes)); rows]);
+        table.numbers(
+            "Re derivative",
+            unit,
+            self.eigenvalues.iter().map(|own| own.re),
+        );
+        table.numbers(
+            "Im derivative",
+            unit,
+            self.eigenvalues.iter().map(|own| own.im),
+        );
+        let frequencies = (0..rows).map(|k| self.frequencies.as_ref()?.get(k).copied());
+        table.numbers("derivative of frequency", "rad/s", frequencies);
+        operating_point(&mut table, &self.description, &self.inputs, None);
+        vec![table]
     }
 }
 

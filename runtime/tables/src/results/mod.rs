@@ -18,8 +18,10 @@ mod summary;
 mod sweep;
 mod tolerance;
 
+pub use branches::branch_table;
+pub use campbell::campbell_table;
 pub(crate) use names::as_written;
-pub use samples::samples_table;
+pub use samples::{numbered_samples_table, samples_table};
 pub use sweep::sweep_table;
 
 use crate::Table;

@@ -30,9 +30,28 @@ use crate::Table;
 /// ```
 #[must_use]
 pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table {
-    let all = samples.iter();
+    // A sample has a place for each nominal mode, also where it was not found.
+    let modes = samples.iter().map(|own| own.frequencies.len()).max();
+    let numbers = (first + 1..).take(samples.len());
+    rows(d, modes.unwrap_or(0), numbers, samples.iter())
+}
+
+/// As [`samples_table`], of samples that have their numbers, counted from 0, and of so many modes, so that a part without samples has the
+/// same columns: what [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
+#[must_use]
+pub fn numbered_samples_table(d: &Description, modes: usize, samples: &[(u64, Sample)]) -> Table {
+    let numbers = samples.iter().map(|(number, _)| *number as usize + 1);
+    rows(d, modes, numbers, samples.iter().map(|(_, sample)| sample))
+}
+
+fn rows<'a>(
+    d: &Description,
+    modes: usize,
+    numbers: impl Iterator<Item = usize>,
+    all: impl Iterator<Item = &'a Sample> + Clone,
+) -> Table {
     let mut table = Table::new("samples");
-    table.whole("sample", (first + 1..).take(samples.len()));
+    table.whole("sample", numbers);
     table.texts("outcome", all.clone().map(|sample| outcome(sample.outcome)));
     design(&mut table, d, all.clone().map(|sample| &sample.design[..]));
     unknowns(
@@ -40,9 +59,7 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
         d,
         all.clone().map(|sample| sample.coordinates.as_deref()),
     );
-    // A sample has a place for each nominal mode, also where it was not found.
-    let modes = all.clone().map(|own| own.frequencies.len()).max();
-    for r in 0..modes.unwrap_or(0) {
+    for r in 0..modes {
         let frequency = all.clone().map(|own| *own.frequencies.get(r)?);
         table.numbers(format!("frequency {}", r + 1), "rad/s", frequency);
         let damping = all.clone().map(|own| *own.damping_ratios.get(r)?);

@@ -124,35 +124,57 @@ fn other_documents_are_refused() {
     );
 }
 
-/// Every list of the result in turn loses its last entry: what comes back has tables all the same, or is refused.
-fn survives_lists_that_are_too_short<A: Answer>(answer: &A) {
+/// Every list of the result in turn loses its last entry, or has one twice: refused, before anything is made of it.
+fn lists_of_other_lengths_are_refused<A: Answer>(answer: &A) {
     let text = json::to_string(answer).expect("text");
     let whole: Value = serde_json::from_str(&text).expect("JSON");
-    for list in 0.. {
-        let mut damaged = whole.clone();
-        let mut left = list;
-        if !shorten(&mut damaged["result"], &mut left) {
-            assert!(list > 0);
-            break;
-        }
-        if let Ok(back) = json::read::<A>(damaged.to_string().as_bytes()) {
-            let _ = back.tables();
+    assert!(json::read::<A>(text.as_bytes()).is_ok(), "{}", A::KIND);
+    let schema: Value = serde_json::from_str(json::SCHEMA).expect("JSON");
+    let kinds = schema["properties"]["kind"]["enum"]
+        .as_array()
+        .expect("kinds");
+    assert!(kinds.iter().any(|kind| kind == A::KIND), "{}", A::KIND);
+    for change in [shorter, longer] {
+        for list in 0.. {
+            let mut damaged = whole.clone();
+            let mut left = list;
+            if !resize(&mut damaged["result"], &mut left, change) {
+                assert!(list > 0);
+                break;
+            }
+            if damaged == whole {
+                continue;
+            }
+            let read = json::read::<A>(damaged.to_string().as_bytes());
+            assert!(
+                matches!(&read, Err(Error::Content(reason)) if reason.contains("lengths")),
+                "{}: {damaged}",
+                A::KIND
+            );
         }
     }
 }
 
-/// Shortens the list that comes after `left` others; whether there was one.
-fn shorten(value: &mut Value, left: &mut usize) -> bool {
+fn shorter(all: &mut Vec<Value>) {
+    all.pop();
+}
+
+fn longer(all: &mut Vec<Value>) {
+    all.extend(all.last().cloned());
+}
+
+/// Changes the list that comes after `left` others; whether there was one.
+fn resize(value: &mut Value, left: &mut usize, change: fn(&mut Vec<Value>)) -> bool {
     match value {
         Value::Array(all) if *left == 0 => {
-            all.pop();
+            change(all);
             true
         }
         Value::Array(all) => {
             *left -= 1;
-            all.iter_mut().any(|own| shorten(own, left))
+            all.iter_mut().any(|own| resize(own, left, change))
         }
-        Value::Object(fields) => fields.values_mut().any(|own| shorten(own, left)),
+        Value::Object(fields) => fields.values_mut().any(|own| resize(own, left, change)),
         _ => false,
     }
 }
@@ -165,30 +187,57 @@ fn damaged_results_do_no_harm() {
         .samples(64)
         .keep_samples(true);
     let solved = study.solve().expect("a state");
-    survives_lists_that_are_too_short(&solved.equilibrium);
-    survives_lists_that_are_too_short(&solved.modes);
-    survives_lists_that_are_too_short(&solved.equilibrium_shift().expect("derivatives"));
-    survives_lists_that_are_too_short(&solved.outputs().expect("outputs"));
-    survives_lists_that_are_too_short(&solved.sensitivities().expect("derivatives"));
-    survives_lists_that_are_too_short(&solved.first_order().expect("spreads"));
-    survives_lists_that_are_too_short(&solved.second_order().expect("spreads"));
-    survives_lists_that_are_too_short(&solved.summary().expect("a summary"));
+    lists_of_other_lengths_are_refused(&solved.equilibrium);
+    lists_of_other_lengths_are_refused(&solved.modes);
+    lists_of_other_lengths_are_refused(&solved.equilibrium_shift().expect("derivatives"));
+    lists_of_other_lengths_are_refused(&solved.outputs().expect("outputs"));
+    lists_of_other_lengths_are_refused(&solved.sensitivities().expect("derivatives"));
+    lists_of_other_lengths_are_refused(&solved.first_order().expect("spreads"));
+    lists_of_other_lengths_are_refused(&solved.second_order().expect("spreads"));
+    lists_of_other_lengths_are_refused(&solved.summary().expect("a summary"));
     let few = study.clone().samples(3);
-    survives_lists_that_are_too_short(&few.monte_carlo().expect("samples"));
+    lists_of_other_lengths_are_refused(&few.monte_carlo().expect("samples"));
     let sweep = study
         .sweep(Swing::speed, &[6.0, 6.1, 6.2])
         .expect("a sweep");
-    survives_lists_that_are_too_short(&sweep);
+    lists_of_other_lengths_are_refused(&sweep);
     let responses = [Response::Mode {
         mode: 0,
         quantity: Quantity::Frequency,
     }];
-    survives_lists_that_are_too_short(&study.propagate(&responses).expect("spreads"));
-    survives_lists_that_are_too_short(&study.worst_case(&responses).expect("limits"));
-    survives_lists_that_are_too_short(&study.influence(&responses).expect("shares"));
+    lists_of_other_lengths_are_refused(&study.propagate(&responses).expect("spreads"));
+    lists_of_other_lengths_are_refused(&study.worst_case(&responses).expect("limits"));
+    lists_of_other_lengths_are_refused(&study.influence(&responses).expect("shares"));
     let wanted = [Requirement::at_least(responses[0], 5.8)];
-    survives_lists_that_are_too_short(&study.chances(&wanted).expect("chances"));
-    survives_lists_that_are_too_short(&study.reliability(&wanted).expect("points"));
+    lists_of_other_lengths_are_refused(&study.chances(&wanted).expect("chances"));
+    lists_of_other_lengths_are_refused(&study.reliability(&wanted).expect("points"));
+    lists_of_other_lengths_are_refused(&solved.output_tolerances().expect("spreads"));
+    lists_of_other_lengths_are_refused(&solved.mode_curvature(0).expect("derivatives"));
+    lists_of_other_lengths_are_refused(&solved.shape_sensitivity(0).expect("derivatives"));
+    lists_of_other_lengths_are_refused(&solved.whirls());
+    let along = solved.directional_derivatives(0, (&[1.0], &[1.0]));
+    lists_of_other_lengths_are_refused(&along.expect("derivatives"));
+    let speeds = [6.0, 6.1, 6.2];
+    let diagram = study.campbell(Swing::speed, &speeds, &[1.0]);
+    lists_of_other_lengths_are_refused(&diagram.expect("a diagram"));
+    let branches = study.branches(Swing::speed, 3.0, 6.0).expect("branches");
+    lists_of_other_lengths_are_refused(&branches.branches[0]);
+    let critical = study.critical_tolerance(Swing::speed, 2.0, 6.0);
+    lists_of_other_lengths_are_refused(&critical.expect("a critical speed"));
+}
+
+/// A document without them, or of a description that has changed.
+#[test]
+fn lengths_are_those_of_the_description_too() {
+    let lost = serde_json::from_str::<Value>(&text()).expect("JSON");
+    let mut damaged = lost.clone();
+    damaged["description"]["design"] = Value::Array(Vec::new());
+    let mut without = lost;
+    let _ = without.as_object_mut().expect("fields").remove("lengths");
+    for text in [damaged, without] {
+        let error = json::read::<Modes>(text.to_string().as_bytes()).expect_err("refused");
+        assert!(matches!(error, Error::Content(_)), "{error}");
+    }
 }
 
 #[test]

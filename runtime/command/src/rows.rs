@@ -1,0 +1,95 @@
+//! Rows that are written as they are computed, so that memory does not grow with their number and what is done is not lost.
+
+use std::time::{Duration, Instant};
+
+use eigentol_tables::{Error, Table, csv, parquet};
+
+use crate::answer::Form;
+use crate::failure::Failure;
+use crate::place::{Begun, Place};
+
+/// Things that a block of rows is made of: of CSV, which is read while it grows, and of Parquet, of which each block is a row group.
+const CSV_BLOCK: usize = 256;
+const PARQUET_BLOCK: usize = 4096;
+/// How long a row of CSV waits for others.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// The rows of one table, of things of one kind.
+pub(crate) struct Rows<'a, T, F> {
+    place: &'a Place,
+    file: File,
+    make: F,
+    waiting: Vec<T>,
+    begun: bool,
+    written: Instant,
+}
+
+enum File {
+    Csv(csv::Writer<Begun>),
+    Parquet(parquet::Writer<Begun>),
+}
+
+impl<'a, T, F: Fn(&[T]) -> Table> Rows<'a, T, F> {
+    pub(crate) fn begin(place: &'a Place, form: Form, make: F) -> Result<Self, Failure> {
+        let begun = place.begin()?;
+        Ok(Self {
+            place,
+            file: match form {
+                Form::Parquet => File::Parquet(parquet::Writer::new(begun)),
+                _ => File::Csv(csv::Writer::new(begun)),
+            },
+            make,
+            waiting: Vec::new(),
+            begun: false,
+            written: Instant::now(),
+        })
+    }
+
+    /// Adds the rows of one thing.
+    pub(crate) fn add(&mut self, one: T) -> Result<(), Failure> {
+        self.waiting.push(one);
+        let full = match self.file {
+            File::Csv(_) => self.waiting.len() >= CSV_BLOCK || self.written.elapsed() >= PATIENCE,
+            File::Parquet(_) => self.waiting.len() >= PARQUET_BLOCK,
+        };
+        match full {
+            true => self.write(),
+            false => Ok(()),
+        }
+    }
+
+    /// Writes the rest and puts the file into its place. Without any row there are headings only.
+    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+        self.write()?;
+        let place = self.place;
+        let begun = match self.file {
+            File::Csv(file) => file.finish(),
+            File::Parquet(file) => file.into_inner(),
+        };
+        let begun = begun.map_err(|error| failure(place, error))?;
+        begun.finish().map_err(|source| place.failure(source))
+    }
+
+    /// Writes what waits, if anything does.
+    pub(crate) fn write(&mut self) -> Result<(), Failure> {
+        if self.waiting.is_empty() && self.begun {
+            return Ok(());
+        }
+        self.begun = true;
+        let table = (self.make)(&self.waiting);
+        let written = match &mut self.file {
+            File::Csv(file) => file.write(&table),
+            File::Parquet(file) => file.write(&table),
+        };
+        self.waiting.clear();
+        self.written = Instant::now();
+        written.map_err(|error| failure(self.place, error))
+    }
+}
+
+fn failure(place: &Place, error: Error) -> Failure {
+    match error {
+        Error::Write(source) => place.failure(source),
+        error => error.into(),
+    }
+}

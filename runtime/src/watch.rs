@@ -1,0 +1,48 @@
+//! Who waits for an answer: sees how far it is, and may end the work.
+
+use core::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::setters::setters;
+
+/// Who waits for a long answer: sees how far it is, and may end the work with what is done.
+///
+/// A study has one as well, which all of its long questions obey ([`Study::progress`](crate::Study::progress),
+/// [`Study::stop`](crate::Study::stop)).
+#[derive(Clone, Copy, Default)]
+#[non_exhaustive]
+pub struct Watch<'a> {
+    /// Called with the number of steps done since the last call, from any thread: samples, values of an input, points of branches,
+    /// choices of tolerances.
+    pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
+    /// Ends the work soon after it becomes true.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+impl<'a> Watch<'a> {
+    setters!(
+        progress: Option<&'a (dyn Fn(usize) + Sync)>,
+        stop: Option<&'a AtomicBool>,
+    );
+
+    /// So many more steps are done.
+    pub(crate) fn advance(&self, steps: usize) {
+        if let Some(progress) = self.progress {
+            progress(steps);
+        }
+    }
+
+    /// Whether the work is to end.
+    pub(crate) fn stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch")
+            .field("progress", &self.progress.is_some())
+            .field("stop", &self.stop)
+            .finish()
+    }
+}
