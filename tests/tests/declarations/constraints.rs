@@ -173,12 +173,7 @@ fn a_coupling_is_the_equation_of_its_coordinates() {
 #[test]
 fn an_equation_may_have_any_dimension() {
     let mechanism = resolved(CLOSED_MECHANISM);
-    for (name, unit) in [
-        ("slot", "m"),
-        ("area", "m^2"),
-        ("pure", ""),
-        ("sum", "rad"),
-    ] {
+    for (name, unit) in [("slot", "m"), ("area", "m^2"), ("pure", ""), ("sum", "rad")] {
         let ConstraintLaw::Equation { unit: own, .. } = law(&mechanism, name) else {
             panic!("an equation");
         };
