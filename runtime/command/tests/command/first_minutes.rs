@@ -83,6 +83,22 @@ fn a_value_without_its_option_is_told_which() {
         &["modes", PENDULUM, "--omega", "5rad/s"],
         &["'--set NAME=VALUE'"],
     );
+    hinted(
+        &["modes", PENDULUM, "--set", "omega", "5rad/s"],
+        &["'--set NAME=5rad/s'"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--set", "theta=60deg"],
+        &["`theta` is a coordinate", "`--start`"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--start", "omega=5rad/s"],
+        &["`omega` is no coordinate", "`--set omega=...`"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--set", "omega=1,5rad/s"],
+        &["unexpected `,`", "`3.5`, not `3,5`"],
+    );
     // Nothing else is hidden by the hint.
     hinted(&["modes", PENDULUM, "--figur", "a.svg"], &["'--figure'"]);
     let run = run(&["modes", "omega=5rad/s"]);
@@ -129,6 +145,8 @@ fn a_folder_or_a_misspelt_name_in_place_of_a_file() {
         assert_eq!(run.code, 3);
         assert!(run.err.contains(&part), "{path}: {}", run.err);
     }
+    let far = run(&["check", &inside.replace("rotor", "pendulum")]);
+    assert!(!far.err.contains("did you mean"), "{}", far.err);
     fs::remove_file(&inside).unwrap();
     let run = run(&["check", &place]);
     assert!(run.err.contains("this is a folder"), "{}", run.err);
