@@ -224,3 +224,33 @@ fn orders_in_one_word() {
         campbell(&["--order", "1", "--order", "2"])
     );
 }
+
+#[test]
+fn beyond_the_ends_of_a_curve_in_the_unit_of_the_curve() {
+    let text = "mechanism Film { input speed: rpm;
+        curve k: [1000, 2000, 3000] rpm -> [5, 6, 6.5] kN/m;
+        body shaft: massless; body block: point(mass: 2 kg);
+        joint spin: revolute(z) from ground to shaft, driven at speed;
+        joint x: prismatic(z) from shaft to block;
+        force spring: spring(on: x, stiffness: k(speed)); }";
+    let folder = folder("ends");
+    let path = file(&folder, "film.mechanism", text);
+    let at = |value: &str| run(&["modes", &path, "--set", value]);
+    for (value, end, beyond) in [
+        (
+            "speed=500rpm",
+            "1000 rpm, where this curve begins",
+            "but is -500\n",
+        ),
+        (
+            "speed=5000rpm",
+            "3000 rpm, where the curve k ends",
+            "but is -2000\n",
+        ),
+    ] {
+        let Run { code, err, .. } = at(value);
+        assert_eq!(code, 1);
+        assert!(err.contains(end) && err.ends_with(beyond), "{err}");
+    }
+    assert_eq!(at("speed=1000rpm").code, 0);
+}
