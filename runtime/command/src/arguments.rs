@@ -91,6 +91,9 @@ pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
             };
             format!("a value stands behind its option: '{option} {given}'")
         }
+        None if given.starts_with(|sign: char| sign.is_ascii_digit()) => {
+            format!("a name and its value are one word: '--set NAME={given}'")
+        }
         _ if is_near || !given.starts_with("--") => return error,
         _ => "values of inputs and design variables are given as '--set NAME=VALUE'".to_owned(),
     };

@@ -113,9 +113,11 @@ impl Failure {
     /// A value that cannot be read, `place` as the user wrote it. One mistake is enough for one value.
     pub(crate) fn value(place: impl Display, mistakes: &Mistakes) -> Self {
         let first = mistakes.iter().next();
+        let message = first.map_or("", |mistake| &mistake.message);
         Self::Value {
             place: place.to_string(),
-            message: first.map_or_else(String::new, |mistake| mistake.message.clone()),
+            // A declaration would go on here with its next item.
+            message: message.replace("expected `;`, found", "unexpected"),
             help: first.and_then(|mistake| mistake.help.clone()),
         }
     }

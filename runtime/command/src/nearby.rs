@@ -25,38 +25,38 @@ pub(crate) fn nearby(path: &Path, why: ErrorKind) -> Option<String> {
     if let Some(value) = path.to_str().filter(|own| own.contains('=')) {
         return Some(format!("a value stands behind its option: `--set {value}`"));
     }
-    let folder = path.parent()?;
-    let with_ending = path.with_extension("mechanism");
-    if path.extension().is_none() && with_ending.exists() {
-        return Some(format!("did you mean `{}`?", with_ending.display()));
-    }
-    let names: Vec<String> = (files(folder).iter())
-        .filter_map(|own| Some(own.file_name()?.to_str()?.to_owned()))
-        .collect();
-    let near = nearest(
-        path.file_name()?.to_str()?,
-        names.iter().map(String::as_str),
-    )?;
-    Some(format!("did you mean `{}`?", folder.join(near).display()))
+    // Without their endings, which would make any two names alike.
+    let files = files(path.parent()?);
+    let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
+    let stems: Vec<String> = files.iter().filter_map(|file| stem(file)).collect();
+    let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
+    let found = files
+        .iter()
+        .find(|file| stem(file).as_deref() == Some(near))?;
+    Some(format!("did you mean `{}`?", found.display()))
 }
 
 /// Some declarations of a folder, by name.
 fn declarations(folder: &Path) -> Vec<PathBuf> {
     let mut found = files(folder);
-    found.retain(|file| file.extension().is_some_and(|own| own == "mechanism"));
+    found.retain(|file| is_declaration(file));
     found.truncate(NAMED);
     found
 }
 
-/// The files of a folder, by name; none where it cannot be read.
+/// The files of a folder, declarations first and by name; none where it cannot be read.
 fn files(folder: &Path) -> Vec<PathBuf> {
-    let folder = match folder.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => folder,
-    };
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    let here = folder.as_os_str().is_empty();
+    let read = fs::read_dir(if here { Path::new(".") } else { folder });
+    let entries = read.into_iter().flatten().flatten();
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| folder.join(entry.file_name()))
+        .collect();
     files.retain(|file| file.is_file());
-    files.sort();
+    files.sort_by_key(|file| (!is_declaration(file), file.clone()));
     files
+}
+
+fn is_declaration(file: &Path) -> bool {
+    file.extension().is_some_and(|own| own == "mechanism")
 }

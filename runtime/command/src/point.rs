@@ -203,6 +203,11 @@ pub(crate) fn parameter(
         ));
     }
     let inputs = description.inputs.iter().map(|info| &info.name);
+    if study.find_coordinate(name).is_ok() {
+        let message = format!("`{name}` is a coordinate, no input or design variable");
+        let help = "the analysis finds its value; where the search starts is said by `--start`";
+        return Err(Failure::usage(message, help));
+    }
     let known = inputs.chain(description.design.iter().map(|info| &info.name));
     Err(unknown(
         description,
@@ -251,6 +256,12 @@ fn coordinate(
     let all = &study.description().coordinates;
     match study.find_coordinate(name) {
         Ok(found) => Ok((found, all[found.index()].unit.clone())),
+        Err(_) if parameter(study, name).is_ok() => {
+            let message = format!("`{name}` is no coordinate");
+            let help =
+                format!("values of inputs and design variables are given by `--set {name}=...`");
+            Err(Failure::usage(message, help))
+        }
         Err(_) => {
             let moves = |info: &&CoordinateInfo| matches!(info.role, Role::Position | Role::Speed);
             let known = all.iter().filter(moves).map(|info| &info.name);

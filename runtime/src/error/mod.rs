@@ -40,7 +40,7 @@ pub enum Error {
         expected: usize,
     },
     /// A physical requirement is not met.
-    #[error("{quantity} must be {requirement}, but is {value}")]
+    #[error("{quantity} must be {requirement}, but is {}", six_digits(*value))]
     Unphysical {
         /// What is wrong, for example `mass of bar1`.
         quantity: Text,
@@ -407,4 +407,9 @@ impl From<eigentol_statistics::Error> for Error {
             },
         }
     }
+}
+
+/// What rounding has left of a value that was computed.
+fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }

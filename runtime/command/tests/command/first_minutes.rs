@@ -83,6 +83,22 @@ fn a_value_without_its_option_is_told_which() {
         &["modes", PENDULUM, "--omega", "5rad/s"],
         &["'--set NAME=VALUE'"],
     );
+    hinted(
+        &["modes", PENDULUM, "--set", "omega", "5rad/s"],
+        &["'--set NAME=5rad/s'"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--set", "theta=60deg"],
+        &["`theta` is a coordinate", "`--start`"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--start", "omega=5rad/s"],
+        &["`omega` is no coordinate", "`--set omega=...`"],
+    );
+    hinted(
+        &["modes", PENDULUM, "--set", "omega=1,5rad/s"],
+        &["unexpected `,`", "`3.5`, not `3,5`"],
+    );
     // Nothing else is hidden by the hint.
     hinted(&["modes", PENDULUM, "--figur", "a.svg"], &["'--figure'"]);
     let run = run(&["modes", "omega=5rad/s"]);
@@ -129,6 +145,8 @@ fn a_folder_or_a_misspelt_name_in_place_of_a_file() {
         assert_eq!(run.code, 3);
         assert!(run.err.contains(&part), "{path}: {}", run.err);
     }
+    let far = run(&["check", &inside.replace("rotor", "pendulum")]);
+    assert!(!far.err.contains("did you mean"), "{}", far.err);
     fs::remove_file(&inside).unwrap();
     let run = run(&["check", &place]);
     assert!(run.err.contains("this is a folder"), "{}", run.err);
@@ -205,4 +223,34 @@ fn orders_in_one_word() {
         campbell(&["--order", "1,2"]),
         campbell(&["--order", "1", "--order", "2"])
     );
+}
+
+#[test]
+fn beyond_the_ends_of_a_curve_in_the_unit_of_the_curve() {
+    let text = "mechanism Film { input speed: rpm;
+        curve k: [1000, 2000, 3000] rpm -> [5, 6, 6.5] kN/m;
+        body shaft: massless; body block: point(mass: 2 kg);
+        joint spin: revolute(z) from ground to shaft, driven at speed;
+        joint x: prismatic(z) from shaft to block;
+        force spring: spring(on: x, stiffness: k(speed)); }";
+    let folder = folder("ends");
+    let path = file(&folder, "film.mechanism", text);
+    let at = |value: &str| run(&["modes", &path, "--set", value]);
+    for (value, end, beyond) in [
+        (
+            "speed=500rpm",
+            "1000 rpm, where this curve begins",
+            "but is -500\n",
+        ),
+        (
+            "speed=5000rpm",
+            "3000 rpm, where the curve k ends",
+            "but is -2000\n",
+        ),
+    ] {
+        let Run { code, err, .. } = at(value);
+        assert_eq!(code, 1);
+        assert!(err.contains(end) && err.ends_with(beyond), "{err}");
+    }
+    assert_eq!(at("speed=1000rpm").code, 0);
 }
