@@ -183,7 +183,7 @@ fn mode_shapes_are_relative_to_the_largest_component() {
     let mass = &solved.equilibrium.linear.mass;
     for (bars, mode) in figure.panels[0].bars.iter().zip(&solved.modes.modes) {
         let shape: Vec<f64> = mode.shape.iter().map(|own| own.re).collect();
-        let energy = [0, 1].map(|i| shape[i] * (mass[(i, 0)] * shape[0] + mass[(i, 1)] * shape[1]));
+        let energy = [0, 1].map(|i| shape[i] * (mass[i][0] * shape[0] + mass[i][1] * shape[1]));
         let whole: f64 = energy.iter().sum();
         for (bar, own) in bars.bars.iter().zip(energy) {
             assert!(
