@@ -228,7 +228,7 @@ fn a_dark_screen_does_not_hide_the_page() {
     let dim = "[...document.querySelectorAll('body, p, td, th, li, h2, button, .axes text')].filter((own) => { \
         const style = getComputedStyle(own); \
         const ink = own instanceof SVGElement ? style.fill : style.color; \
-        return ink.match(/[0-9.]+/g).slice(0, 3).some((channel) => Number(channel) > 150); }).length";
+        return ink.match(/[0-9.]+/g).slice(0, 3).some((channel) => Number(channel) > 160); }).length";
     assert_eq!(chrome.evaluate(dim), json!(0));
     let paper = "getComputedStyle(document.body).backgroundColor";
     assert_eq!(chrome.text(paper), "rgb(255, 255, 255)");
