@@ -95,6 +95,7 @@ def test_units_and_numbers_agree(pendulum):
 
 def test_samples_are_arrays(study):
     found = study.replace(samples=400, keep_samples=True, seed=3).monte_carlo()
+    assert (found.seed, found.stream) == (3, 0)
     assert found.designs.shape == (400, 2) and found.frequencies.shape == (400, 1)
     np.testing.assert_allclose(found.frequencies[:, 0], frequency(found.designs[:, 1]), rtol=1e-9)
     np.testing.assert_allclose(found.eigenvalues.imag, found.frequencies, rtol=1e-9)

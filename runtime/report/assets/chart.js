@@ -168,7 +168,7 @@ class Chart {
     const { left, right, top, bottom } = this.inner;
     const { x, y } = this.panel;
     const axes = svgElement("g", { class: "axes" }, this.svg);
-    for (const [value, text] of marksOf(x, this.view[0], 8)) {
+    for (const [value, text] of marksOf(x, this.view[0], Math.max(2, Math.min(8, Math.floor((right - left) / 70))))) {
       const place = this.x(value);
       if (x.categories.length === 0) svgElement("line", { x1: place, x2: place, y1: top, y2: bottom, class: "grid" }, axes);
       const aslant = this.slant && { "text-anchor": "end", transform: `rotate(-35 ${place} ${bottom + 14})` };

@@ -498,3 +498,256 @@ fn samples_say_how_they_were_drawn() {
     assert_eq!(column(&sampled, "seed"), [Some(3.0)]);
     assert_eq!(column(&sampled, "stream"), [Some(2.0)]);
 }
+
+mechanism! {
+    mechanism Bars {
+        input omega: rpm;
+        design l1 = 1.0 m +/- 3%;
+        design l2 = 0.8 m +/- 30 mm;
+        gravity 9.81 m/s^2 along -z;
+        body shaft: massless;
+        body bar1: rod(mass: 3 kg, length: l1, along: -z);
+        body bar2: rod(mass: 2 kg, length: l2, along: -z);
+        joint spin: revolute(z) from ground to shaft, driven at omega;
+        joint theta1: revolute(y) from shaft to bar1;
+        joint theta2: revolute(y) from bar1 to bar2 at [0, 0, -l1];
+    }
+}
+
+fn two_bars() -> Study<Bars> {
+    Study::new(Bars)
+        .input(Bars::omega, InDeclaredUnit(20.0))
+        .sigma_level(2.0)
+        .samples(300)
+        .seed(5)
+}
+
+/// Numbers of a text, in order.
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split([' ', ',', '(', ')', '%', ':']);
+    words
+        .filter_map(|word| word.trim_end_matches('.').parse().ok())
+        .collect()
+}
+
+fn close(a: f64, b: f64, digits: i32) -> bool {
+    (a / b - 1.0).abs() < 0.6 * 10_f64.powi(1 - digits)
+}
+
+/// What matters first has the numbers of the results: frequencies with bands and causes, events with bands, in declared units.
+#[test]
+fn the_lines_in_short_have_the_numbers_of_the_results() {
+    let study = two_bars();
+    let values = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0].map(InDeclaredUnit);
+    let html = Report::new(&study)
+        .sweep(Bars::omega, &values)
+        .orders(&[4.0])
+        .html()
+        .unwrap();
+    let (_, brief) = html.split_once("<section id=\"brief\">").unwrap();
+    let (brief, _) = brief.split_once("</section>").unwrap();
+    let lines: Vec<&str> = brief.split("<li class=\"").skip(1).collect();
+    let first = study.first_order().unwrap();
+    for (r, mode) in first.modes.iter().enumerate() {
+        let line = lines
+            .iter()
+            .find(|line| line.contains(&format!("Mode {} at", r + 1)))
+            .unwrap();
+        let own = mode.frequency.as_ref().unwrap();
+        let (k, share) = own
+            .variance_shares
+            .iter()
+            .enumerate()
+            .max_by(|a, b| a.1.total_cmp(b.1))
+            .unwrap();
+        let said = numbers(line);
+        let [number, value, band, level, percent] = said[..] else {
+            panic!("{line}")
+        };
+        assert_eq!((number, level), (r as f64 + 1.0, 2.0));
+        assert!(
+            close(value, own.mean, 6) && close(band, 2.0 * own.sigma, 3),
+            "{line} {own:?}"
+        );
+        assert!(
+            (percent - 100.0 * share).abs() < 0.51
+                && line.contains(["mostly from l1", "mostly from l2"][k]),
+            "{line}"
+        );
+    }
+    assert!(
+        lines
+            .iter()
+            .any(|line| line.starts_with("good\">All of 300 samples are stable.")),
+        "{brief}"
+    );
+    assert!(lines[0].starts_with("good\">The equilibrium is stable"));
+    let campbell = study
+        .campbell(
+            Bars::omega,
+            &values.map(|own| own.0 * std::f64::consts::PI / 30.0),
+            &[4.0],
+        )
+        .unwrap();
+    let rpm = 30.0 / std::f64::consts::PI;
+    let told = |what: &str| -> Vec<Vec<f64>> {
+        lines
+            .iter()
+            .filter(|line| line.contains(what))
+            .map(|line| numbers(line))
+            .collect()
+    };
+    let crossings = told("is 4 times omega at omega");
+    assert!(
+        !crossings.is_empty() && crossings.len() == campbell.crossings.len(),
+        "{brief}"
+    );
+    let critical = told("loses its stiffness");
+    assert!(
+        !critical.is_empty() && critical.len() == campbell.critical.len(),
+        "{brief}"
+    );
+    for (said, event) in crossings
+        .iter()
+        .zip(&campbell.crossings)
+        .chain(critical.iter().zip(&campbell.critical))
+    {
+        let [.., value, band, level] = said[..] else {
+            panic!("{said:?}")
+        };
+        assert!(
+            close(value, event.value * rpm, 6)
+                && close(band, 2.0 * event.sigma().unwrap() * rpm, 3),
+            "{said:?}"
+        );
+        assert_eq!(level, 2.0);
+    }
+}
+
+/// Each mode has the histogram and the shares of its own, and captions say how many standard deviations a band has.
+#[test]
+fn figures_and_tables_of_each_mode_are_its_own() {
+    use eigentol_figures::{Histogram, Style, shares};
+    let study = two_bars();
+    let html = Report::new(&study).html().unwrap();
+    let figures = data(&html, "figure");
+    let solved = study.solve().unwrap();
+    let summary = solved.summary().unwrap();
+    let (first, sampled) = (summary.first, solved.monte_carlo().unwrap());
+    for mode in 0..2 {
+        let style = Style::default().title(format!("Mode {}", mode + 1));
+        let histogram = Histogram::new(&sampled, mode)
+            .first_order(&first)
+            .figure(&style);
+        for expected in [histogram, shares(&first, mode, &style)] {
+            assert!(
+                figures.contains(&serde_json::to_value(expected.unwrap()).unwrap()),
+                "mode {mode}"
+            );
+        }
+        let own: Vec<_> = first.modes[mode]
+            .variance_shares()
+            .iter()
+            .map(|own| Some(100.0 * own))
+            .collect();
+        assert_eq!(
+            column(&table(&html, "shares"), &format!("mode {}", mode + 1)),
+            own
+        );
+    }
+    let sigmas = study.tolerances().unwrap().sigmas().to_vec();
+    let shown = column(&table(&html, "variables"), "sigma");
+    assert_eq!(shown, [None, Some(sigmas[0]), Some(sigmas[1])]);
+    let text = words(&html);
+    for caption in [
+        "a half-width holds 2 standard deviations",
+        "a band holds 2 standard deviations of first order",
+        "normal, 0.8 \u{b1} 0.03 m",
+        "Law, mean and 2 standard deviations",
+    ] {
+        assert!(text.contains(caption), "{caption}: {text}");
+    }
+    assert!(html.contains("<p class=\"subject\">Bars at omega = 20 rpm</p>"));
+    let scene = &data(&html, "scene")[0];
+    for (shown, mode) in scene["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(&solved.modes.modes)
+    {
+        let omega = mode.frequency().unwrap();
+        let title = numbers(shown["title"].as_str().unwrap());
+        let about = numbers(shown["about"].as_str().unwrap());
+        assert!(
+            close(title[1], omega, 6) && close(about[0], omega / std::f64::consts::TAU, 6),
+            "{shown}"
+        );
+    }
+}
+
+/// Captions stand above the tables they are of, and verdicts have the sign of what they say.
+#[test]
+fn captions_and_signs_are_those_of_what_they_stand_at() {
+    let values = [3.0, 4.0, 5.0];
+    let html = Report::new(&swinging().input(Pendulum::omega, 3.9))
+        .sweep(Pendulum::omega, &values)
+        .orders(&[0.6])
+        .html()
+        .unwrap();
+    for (caption, name) in [
+        ("Where a frequency is a multiple of the input", "crossings"),
+        (
+            "Where the equilibrium loses its stiffness",
+            "critical states",
+        ),
+        ("All modes along the input", "Campbell diagram"),
+        ("Folds and branch points", "special points"),
+        ("Statistics of 500 samples, seed 3", "Monte Carlo"),
+        ("Natural modes", "modes"),
+    ] {
+        let (_, after) = html
+            .split_once(&format!("<caption>{caption}"))
+            .unwrap_or_else(|| panic!("{caption}"));
+        let (_, json) = after.split_once("data-kind=\"table\">").unwrap();
+        assert!(
+            json.starts_with(&format!("{{\"name\":\"{name}\"")),
+            "{caption}: {}",
+            &json[..60]
+        );
+    }
+    let summary = swinging().input(Pendulum::omega, 3.9).summary().unwrap();
+    let bad = &summary.sentences()[0];
+    assert!(
+        html.contains(&format!("<li class=\"bad\">{}</li>", bad.text)),
+        "{bad}"
+    );
+    let html = Report::new(&swinging()).html().unwrap();
+    let good = swinging().summary().unwrap().sentences().remove(0);
+    assert!(
+        html.contains(&format!("<li class=\"good\">{}</li>", good.text)),
+        "{good}"
+    );
+}
+
+#[test]
+fn bodies_and_joints_are_those_of_the_declaration() {
+    let html = Report::new(&carriage()).html().unwrap();
+    let bodies = table(&html, "bodies");
+    assert_eq!(texts(&bodies, "body"), ["turntable", "cart", "arm"]);
+    assert_eq!(
+        texts(&bodies, "made of"),
+        ["massless", "box, 0.2 x 0.1 x 0.1", "rod, length 1"]
+    );
+    let joints = table(&html, "joints");
+    for (column, expected) in [
+        ("joint", ["turn", "slide", "theta"]),
+        ("kind", ["revolute", "prismatic", "revolute"]),
+        ("from", ["ground", "turntable", "cart"]),
+        ("to", ["turntable", "cart", "arm"]),
+    ] {
+        assert_eq!(texts(&joints, column), expected);
+    }
+    let unknowns = table(&html, "equilibrium");
+    assert_eq!(texts(&unknowns, "unknown"), ["slide", "theta"]);
+    assert_eq!(texts(&unknowns, "unit"), ["m", "rad"]);
+}

@@ -53,7 +53,8 @@ fn gaps_are_named() {
     let files = parts("gaps", 4);
     let run = run(&["merge", &files[3], &files[0]]);
     assert_eq!(run.code, 1);
-    assert!(run.out.contains("1000 samples: 1000 stable"), "{}", run.out);
+    let drawn = "1000 samples, seed 7, numbers 0 to 499 and 1500 to 1999: 1000 stable";
+    assert!(run.out.contains(drawn), "{}", run.out);
     assert!(
         run.err.contains("samples are missing: 500 to below 1500"),
         "{}",

@@ -151,10 +151,18 @@ fn samples_are_a_function_of_seed_and_stream() {
     let sample =
         |more: &[&str]| answer(&pendulum("sample", &[&["--samples", "200"], more].concat()));
     let first = sample(&["--seed", "7"]);
-    assert!(first.contains("200 samples: 200 stable"), "{first}");
+    assert!(first.contains("200 samples, seed 7: 200 stable"), "{first}");
     assert_eq!(first, sample(&["--seed", "7", "--threads", "1"]));
-    assert_ne!(first, sample(&["--seed", "8"]));
-    assert_ne!(first, sample(&["--seed", "7", "--stream", "1"]));
+    // Not only in the line that names them.
+    let numbers = |text: &str| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert!(!numbers(&first).is_empty());
+    assert_ne!(numbers(&first), numbers(&sample(&["--seed", "8"])));
+    let stream = sample(&["--seed", "7", "--stream", "1"]);
+    assert!(
+        stream.contains("200 samples, seed 7, stream 1: 200 stable"),
+        "{stream}"
+    );
+    assert_ne!(numbers(&first), numbers(&stream));
 }
 
 const STUDY: &str = "

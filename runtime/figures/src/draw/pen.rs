@@ -24,8 +24,8 @@ pub(super) enum Anchor {
     Below,
 }
 
-/// Width of a letter as a share of its size; that of most is less.
-pub(super) const LETTER: f64 = 0.6;
+/// Width of a letter as a share of the size that plotters is given, of which a fifth is the room between lines; that of most is less.
+pub(super) const LETTER: f64 = 0.52;
 /// Letters that can be read in print.
 const SMALLEST: i32 = 10;
 

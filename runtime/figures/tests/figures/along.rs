@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use eigentol::Study;
 use eigentol::branches::BranchPoint;
-use eigentol_figures::figure::{Panel, Point, Stroke};
+use eigentol::sweep::Event;
+use eigentol_figures::figure::{Colour, Panel, Point, Shape, Stroke};
 use eigentol_figures::{
     Figure, Spreads, Style, branches, campbell, damping_ratios, eigenvalues, equilibria,
     frequencies, root_locus,
@@ -260,6 +261,191 @@ fn the_frequency_of_the_pendulum_touches_zero_at_its_critical_speed() {
     save(&figure, "equilibrium");
 }
 
+/// Numbers of a line, in order.
+fn numbers(line: &str) -> Vec<f64> {
+    let words = line.split([' ', ',', ';', '%', '(', ')']);
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Every event that the diagram has room for stands at its place, and its line of the caption has its value and sigma.
+#[test]
+fn events_stand_where_they_happen_and_are_told_with_their_numbers() {
+    let result = rotor_diagram(61);
+    let rpm = 30.0 / PI;
+    let figure = campbell(&result, &Style::default()).unwrap();
+    let panel = &figure.panels[0];
+    let bars: Vec<_> = panel.error_bars.iter().flat_map(|own| &own.bars).collect();
+    let all = result
+        .crossings
+        .iter()
+        .chain(&result.critical)
+        .chain(&result.flutter_onsets);
+    let mut shown = 0;
+    for (k, event) in all.enumerate() {
+        let height = match event.event {
+            Event::Crossing { s, .. } => s.im / TAU,
+            _ => 0.0,
+        };
+        if height > panel.y.range[1] {
+            continue;
+        }
+        shown += 1;
+        let at = [event.value * rpm, height];
+        let near =
+            |own: &Point| (own[0] - at[0]).abs() < 1e-9 * at[0] && (own[1] - at[1]).abs() < 1e-9;
+        let bar = bars.iter().find(|bar| near(&bar.at)).expect("a bar");
+        let half = 3.0 * event.sigma().unwrap() * rpm;
+        assert!(
+            (bar.at[0] - bar.low[0] - half).abs() < 1e-9
+                && (bar.high[0] - bar.at[0] - half).abs() < 1e-9
+        );
+        let number = panel
+            .labels
+            .iter()
+            .find(|own| near(&own.at))
+            .expect("a number");
+        assert_eq!(number.text, (k + 1).to_string());
+        let line = figure
+            .caption
+            .iter()
+            .find(|line| line.starts_with(&format!("({}) ", k + 1)));
+        let told = numbers(&line.unwrap().replace("rpm", ""));
+        let [.., value, sigma] = told[..] else {
+            panic!("{told:?}")
+        };
+        assert!(
+            (value / at[0] - 1.0).abs() < 1e-4 && (sigma * 3.0 / half - 1.0).abs() < 1e-4,
+            "{line:?} {at:?}"
+        );
+    }
+    assert!(
+        shown >= 4 && bars.len() == shown,
+        "{shown} of {}",
+        bars.len()
+    );
+}
+
+/// Bands lie about the frequencies, and about the damping ratios in percent.
+#[test]
+fn bands_lie_about_their_modes() {
+    let result = rotor_diagram(31);
+    let style = Style::default().true_width();
+    let frequencies = campbell(&result, &style).unwrap();
+    let ratios = damping_ratios(&result, &style).unwrap();
+    let mut seen = 0;
+    for point in &result.points {
+        for mode in point
+            .modes
+            .as_ref()
+            .unwrap()
+            .iter()
+            .filter(|own| !own.clustered)
+        {
+            let own = [
+                (&frequencies, &mode.frequency, 1.0 / TAU),
+                (&ratios, &mode.damping_ratio, 100.0),
+            ];
+            for (figure, spread, scale) in own {
+                let spread = spread.as_ref().unwrap();
+                let expected = [
+                    point.value * 30.0 / PI,
+                    scale * (spread.mean - spread.band),
+                    scale * (spread.mean + spread.band),
+                ];
+                let same = |edge: &[f64; 3]| {
+                    edge.iter()
+                        .zip(expected)
+                        .all(|(a, b)| (a - b).abs() <= 1e-9 * b.abs().max(1.0))
+                };
+                let bands = figure.panels[0].bands.iter();
+                let mut edges = bands
+                    .filter(|own| own.colour == Colour::Series(mode.label))
+                    .flat_map(|own| &own.edges);
+                assert!(edges.any(same), "{expected:?}");
+                let middle = [expected[0], 0.5 * (expected[1] + expected[2])];
+                let name = format!("mode {}", mode.label + 1);
+                let near = |at: &&Point| at.iter().zip(middle).all(|(a, b)| (a - b).abs() < 1e-6);
+                assert!(
+                    points(&figure.panels[0], &name).iter().any(near),
+                    "{name} {middle:?}"
+                );
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 200, "{seen}");
+}
+
+/// The path of every eigenvalue begins at a ring and ends at a disc.
+#[test]
+fn a_root_locus_goes_from_rings_to_discs() {
+    let result = rotor_diagram(21);
+    let figure = root_locus(&result, &Style::default()).unwrap();
+    for (shape, label, point) in [
+        (Shape::Ring, "speed = 0 rpm", result.points.first()),
+        (Shape::Disc, "speed = 6000 rpm", result.points.last()),
+    ] {
+        let own = figure.panels[0]
+            .markers
+            .iter()
+            .find(|own| own.shape == shape)
+            .unwrap();
+        assert_eq!(own.label, label);
+        for mode in point.unwrap().modes.as_ref().unwrap() {
+            assert!(
+                own.points.contains(&[mode.s.re, mode.s.im]),
+                "{shape:?} {:?}",
+                mode.s
+            );
+        }
+    }
+}
+
+/// Every coordinate has its own panel with its own values.
+#[test]
+fn branches_show_each_coordinate_in_its_panel() {
+    let found = bars().branches(Bars::omega, 0.0, 7.0).unwrap();
+    let figure = branches(&found, &Style::of(&bars())).unwrap();
+    let names: Vec<&str> = figure.panels.iter().map(|own| &*own.y.name).collect();
+    assert_eq!(names, ["theta1", "theta2"]);
+    for (k, panel) in figure.panels.iter().enumerate() {
+        let shown: Vec<&Point> = points(panel, "branch");
+        for point in found.branches.iter().flat_map(|own| &own.points) {
+            let at = [point.value, point.equilibrium.coordinates[k]];
+            assert!(shown.contains(&&at), "{at:?}");
+        }
+    }
+    let pendulum = pendulum().branches(Pendulum::omega, 0.0, 8.0).unwrap();
+    let figure = branches(&pendulum, &Style::of(&crate::machines::pendulum())).unwrap();
+    let design = "l = 1 m +/- 0.03 m";
+    assert!(
+        figure.caption.iter().any(|line| line.contains(design)),
+        "{:?}",
+        figure.caption
+    );
+}
+
+#[test]
+fn frequencies_are_those_of_the_sweep() {
+    let result = rotor_diagram(21);
+    let figure = frequencies(&result, &Style::default()).unwrap();
+    let [upper, lower] = &figure.panels[..] else {
+        panic!("two panels")
+    };
+    for point in &result.points {
+        for mode in point.modes.as_ref().unwrap() {
+            let name = format!("mode {}", mode.label + 1);
+            let at = point.value * 30.0 / PI;
+            let ratio = -mode.s.re / mode.s.norm();
+            for (panel, value) in [(upper, mode.s.im / TAU), (lower, 100.0 * ratio)] {
+                let near =
+                    |own: &&Point| (own[0] - at).abs() < 1e-6 && (own[1] - value).abs() < 1e-9;
+                assert!(points(panel, &name).iter().any(near), "{name} {at} {value}");
+            }
+        }
+    }
+}
+
 /// No piece of a branch ends in the open: where stability changes without a special point, as at the onset of flutter, the stable and
 /// the unstable stretch meet.
 #[test]
@@ -406,6 +592,9 @@ fn spreads_are_those_of_their_results_and_means_are_differences() {
                 .unwrap();
             assert_eq!(bar.at[1], statistics.sigma.unwrap());
             let nominal = first.iter().find(|own| own.inputs[0] == speed).unwrap();
+            let curve = points(sigmas, &format!("first order, {} %", [3, 6, 12][k]));
+            let expected = [speed, nominal.modes[0].frequency.as_ref().unwrap().sigma];
+            assert!(curve.contains(&&expected), "{expected:?}");
             let nominal = nominal.modes[0].behaviour.frequency().unwrap();
             let bar = means.error_bars[k]
                 .bars

@@ -1,10 +1,24 @@
 //! Figures of one operating point.
 
+use std::f64::consts::TAU;
+
 use eigentol::Study;
 use eigentol::second_order::Band;
 use eigentol_figures::{Histogram, Style, margin, mode_shapes, participation, shares};
 
 use crate::machines::{Bars, Pendulum, Rotor, bars, pendulum, save};
+
+/// Numbers of a line, in order.
+fn numbers(line: &str) -> Vec<f64> {
+    let words = line.split([' ', ',', ';', ':', '%']);
+    words.filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Whether numbers of five digits are these.
+fn same(told: &[f64], expected: &[f64]) -> bool {
+    let near = |(told, own): (&f64, &f64)| (told / own - 1.0).abs() < 1e-4;
+    told.len() == expected.len() && told.iter().zip(expected).all(near)
+}
 
 #[test]
 fn shares_are_those_of_first_order_with_the_greatest_on_top() {
@@ -28,6 +42,23 @@ fn shares_are_those_of_first_order_with_the_greatest_on_top() {
         .collect();
     assert!(lengths.is_sorted(), "{lengths:?}");
     assert!(figure.title.contains("swing"));
+    for (label, bar) in panel.labels.iter().zip(&panel.bars[0].bars) {
+        let told: f64 = label.text.parse().unwrap_or(0.0);
+        assert!(
+            (told - bar[1]).abs() <= 0.05 + 1e-9 && label.at[0] == bar[1],
+            "{label:?} {bar:?}"
+        );
+    }
+    let spread = found.modes[0].frequency.as_ref().unwrap();
+    let line = figure
+        .caption
+        .iter()
+        .find(|own| own.starts_with("frequency "));
+    let told = numbers(line.unwrap());
+    assert!(
+        same(&told, &[spread.mean, spread.sigma]),
+        "{told:?} {spread:?}"
+    );
     save(&figure, "shares");
 }
 
@@ -57,6 +88,40 @@ fn a_histogram_has_area_one_and_so_have_its_densities() {
         let area: f64 = points.windows(2).map(area).sum();
         assert!((area - 1.0).abs() < 2e-3, "{} {area}", curve.label);
     }
+    // In Hz: the peak of first order, the mean of the second-order model, and the bars about the mean of the samples.
+    let scale = 1.0 / TAU;
+    let own = first.modes[0].frequency.as_ref().unwrap();
+    let (mean, sigma) = (scale * own.mean, scale * own.sigma);
+    let density = |z: f64| (-0.5 * z * z).exp() / (sigma * TAU.sqrt());
+    for at in &panel.curves[0].pieces[0] {
+        assert!(
+            (at[1] - density((at[0] - mean) / sigma)).abs() < 1e-9 * density(0.0),
+            "{at:?}"
+        );
+    }
+    let moments = &second.modes[0].as_ref().unwrap().frequency.moments;
+    let points = &panel.curves[1].pieces[0];
+    let weighted: f64 = points.iter().map(|at| at[0] * at[1]).sum();
+    let weight: f64 = points.iter().map(|at| at[1]).sum();
+    assert!((weighted / weight - scale * moments.mean).abs() < 0.01 * sigma);
+    let statistics = sampled.modes[0].as_ref().unwrap();
+    let shares = panel.bars[0].bars.iter().map(|bar| {
+        let share = (bar[1] - bar[0]) * bar[3];
+        (share, 0.5 * (bar[0] + bar[1]))
+    });
+    let middle: f64 = shares.map(|(share, at)| share * at).sum();
+    assert!(
+        (middle - scale * statistics.mean).abs() < 0.05 * sigma,
+        "{middle}"
+    );
+    let start = "Monte Carlo, 4000 samples, seed 3: ";
+    let told = figure
+        .caption
+        .iter()
+        .find_map(|own| own.strip_prefix(start));
+    let told = numbers(told.unwrap_or_else(|| panic!("{:?}", figure.caption)));
+    let expected = [statistics.mean, statistics.sigma.unwrap()].map(|own| scale * own);
+    assert!(same(&told, &expected), "{told:?} {expected:?}");
     save(&figure, "histogram");
 }
 
@@ -81,6 +146,14 @@ fn a_margin_shows_its_probability() {
         (percent / (100.0 * found.margin.corrected.value) - 1.0).abs() < 1e-4,
         "{label}"
     );
+    let line = figure
+        .caption
+        .iter()
+        .find(|own| own.starts_with("probability of the band"));
+    let told = numbers(line.unwrap());
+    let (own, chance) = (&found.margin, &found.margin.corrected);
+    let expected = [100.0 * own.first_order, 100.0 * chance.value, own.distance];
+    assert!(same(&told, &expected), "{told:?} {expected:?}");
     save(&figure, "margin");
 }
 
@@ -111,9 +184,18 @@ fn mode_shapes_are_relative_to_the_largest_component() {
     save(&figure, "mode_shapes");
 
     let figure = participation(&solved.modes, &solved.equilibrium, &Style::of(&study)).unwrap();
-    for bars in &figure.panels[0].bars {
-        let sum: f64 = bars.bars.iter().map(|bar| bar[2] + bar[3]).sum();
-        assert!((sum - 100.0).abs() < 1e-9, "{sum}");
+    // Twice the kinetic energy is the product of the shape with M times the shape, coordinate by coordinate.
+    let mass = &solved.equilibrium.linear.mass;
+    for (bars, mode) in figure.panels[0].bars.iter().zip(&solved.modes.modes) {
+        let shape: Vec<f64> = mode.shape.iter().map(|own| own.re).collect();
+        let energy = [0, 1].map(|i| shape[i] * (mass[i][0] * shape[0] + mass[i][1] * shape[1]));
+        let whole: f64 = energy.iter().sum();
+        for (bar, own) in bars.bars.iter().zip(energy) {
+            assert!(
+                (bar[2] + bar[3] - 100.0 * own / whole).abs() < 1e-9,
+                "{bar:?}"
+            );
+        }
     }
     save(&figure, "participation");
 }
@@ -123,9 +205,32 @@ fn complex_shapes_have_magnitude_and_phase() {
     let study = Study::new(Rotor).input(Rotor::speed, 300.0);
     let modes = study.modes().unwrap();
     let figure = mode_shapes(&modes, &Style::of(&study).hertz()).unwrap();
-    let [_, phases] = &figure.panels[..] else {
+    let [magnitudes, phases] = &figure.panels[..] else {
         panic!("two panels")
     };
+    for (r, mode) in modes.modes.iter().enumerate() {
+        let largest = mode
+            .shape
+            .iter()
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()))
+            .unwrap();
+        for (k, own) in mode.shape.iter().enumerate() {
+            let relative = own / largest;
+            let bar = magnitudes.bars[r].bars[k];
+            assert!((bar[3] - relative.norm()).abs() < 1e-12);
+            let at = 0.5 * (bar[0] + bar[1]);
+            let phase = phases.markers[r]
+                .points
+                .iter()
+                .find(|own| (own[0] - at).abs() < 1e-9);
+            if let Some(phase) = phase {
+                let turns = (phase[1] - relative.arg().to_degrees()) / 360.0;
+                assert!((turns - turns.round()).abs() < 1e-9, "{phase:?} {relative}");
+            } else {
+                assert!(relative.norm() < 1e-3);
+            }
+        }
+    }
     assert!(
         phases
             .markers

@@ -172,6 +172,68 @@ fn charts_have_everything_of_their_figures() {
     assert_eq!(chrome.evaluate(wrong), json!([]));
 }
 
+/// Points, bands and bars stand where the numbers of the axes put them.
+#[test]
+fn everything_stands_where_the_axes_say() {
+    let Some(mut chrome) = opened("places") else {
+        return;
+    };
+    let wrong = "(() => { const wrong = []; let seen = 0; \
+        for (const figure of document.querySelectorAll('figure')) { \
+            const { panels } = JSON.parse(figure.querySelector('script').textContent); \
+            const title = figure.querySelector('h3').textContent; \
+            [...figure.querySelectorAll('.plot svg')].forEach((svg, k) => { \
+                const panel = panels[k]; \
+                if (panel.x.categories.length + panel.y.categories.length > 0) return; \
+                const lines = (upright) => [...svg.querySelectorAll('.axes line.grid')].filter((own) => (own.getAttribute('x1') === own.getAttribute('x2')) === upright); \
+                const texts = [...svg.querySelectorAll('.axes text')]; \
+                const scale = (upright) => { \
+                    const [from, to] = upright ? [0, lines(true).length - 1] : [lines(true).length, texts.length - (panel.y.name ? 3 : 2)]; \
+                    const place = (n) => Number(lines(upright)[n].getAttribute(upright ? 'x1' : 'y1')); \
+                    const [a, b] = [Number(texts[from].textContent), Number(texts[to].textContent)]; \
+                    const [p, q] = [place(0), place(lines(upright).length - 1)]; \
+                    return (value) => p + (q - p) * (value - a) / (b - a); }; \
+                const [x, y] = [scale(true), scale(false)]; \
+                const near = (what, [p, q], at) => { seen += 1; if (!(Math.hypot(x(at[0]) - p, y(at[1]) - q) < 0.6)) wrong.push(`${title}: ${what} ${at} at ${p} ${q}`); }; \
+                const corners = (path) => path.getAttribute('d').replace('Z', '').slice(1).split('L').map((own) => own.split(' ').map(Number)); \
+                const paths = [...svg.querySelectorAll('g.curve path')]; \
+                panel.curves.flatMap((own) => own.pieces).forEach((piece, n) => corners(paths[n]).forEach((at, m) => near('curve', at, piece[m]))); \
+                const bands = [...svg.querySelectorAll('g.band path')]; \
+                panel.bands.forEach((band, n) => { const all = corners(bands[n]); band.edges.forEach(([at, low, high], m) => { near('band', all[m], [at, high]); near('band', all[all.length - 1 - m], [at, low]); }); }); \
+                const rects = [...svg.querySelectorAll('g.bars rect')]; \
+                panel.bars.flatMap((own) => own.bars).forEach(([left, right, low, high], n) => { \
+                    const [a, b, w, h] = ['x', 'y', 'width', 'height'].map((name) => Number(rects[n].getAttribute(name))); \
+                    near('bar', [a, b], [left, high]); near('bar', [a + w, b + h], [right, low]); }); \
+                const groups = [...svg.querySelectorAll('g.errors')]; \
+                panel.error_bars.forEach((own, n) => own.bars.forEach((bar, m) => { \
+                    const line = groups[n].querySelectorAll('line')[3 * m + (own.shape === 'cross' ? 2 * m : 0)]; \
+                    const end = (e) => [Number(line.getAttribute(`x${e}`)), Number(line.getAttribute(`y${e}`))]; \
+                    near('interval', end(1), bar.low); near('interval', end(2), bar.high); })); \
+            }); } \
+        return [seen, ...wrong.slice(0, 9)]; })()";
+    let found = chrome.evaluate(wrong);
+    let found = found.as_array().expect("a list");
+    assert!(found[0].as_f64().unwrap() > 1000.0, "{found:?}");
+    assert_eq!(found.len(), 1, "{found:?}");
+}
+
+/// Printed, in the dark, or with a narrow window, the page is black on white and has everything.
+#[test]
+fn a_dark_screen_does_not_hide_the_page() {
+    let Some(mut chrome) = opened("dark") else {
+        return;
+    };
+    let features = json!({ "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
+    chrome.ask("Emulation.setEmulatedMedia", features);
+    let dim = "[...document.querySelectorAll('body, p, td, th, li, h2, button, .axes text')].filter((own) => { \
+        const style = getComputedStyle(own); \
+        const ink = own instanceof SVGElement ? style.fill : style.color; \
+        return ink.match(/[0-9.]+/g).slice(0, 3).some((channel) => Number(channel) > 160); }).length";
+    assert_eq!(chrome.evaluate(dim), json!(0));
+    let paper = "getComputedStyle(document.body).backgroundColor";
+    assert_eq!(chrome.text(paper), "rgb(255, 255, 255)");
+}
+
 #[test]
 fn the_pointer_and_the_keys_show_values() {
     let Some(mut chrome) = opened("hover") else {
