@@ -26,6 +26,7 @@ Requirement: TypeAlias = (
 )
 Table: TypeAlias = dict[str, Any]
 
+@type_check_only
 class Settings(TypedDict, total=False):
     """Settings of a study."""
 
@@ -47,6 +48,7 @@ class Settings(TypedDict, total=False):
     vectors: bool
     steps: int
 
+@type_check_only
 class UrdfOptions(TypedDict, total=False):
     """How a URDF file becomes a declaration."""
 
@@ -239,14 +241,14 @@ class Study:
     ) -> DirectionalDerivatives: ...
     def sweep(self, input: str, values: ArrayLike, unit: str | None = None) -> Sweep: ...
     def campbell(
-        self, input: str, values: ArrayLike, orders: Sequence[float] = [1.0], unit: str | None = None
+        self, input: str, values: ArrayLike, orders: Sequence[float] = ..., unit: str | None = None
     ) -> Campbell: ...
     def branches(self, input: str, low: Value, high: Value) -> Branches: ...
     def report(
         self,
         path: str | PathLike[str],
         sweep: tuple[str, ArrayLike] | tuple[str, ArrayLike, str] | None = None,
-        orders: Sequence[float] = [],
+        orders: Sequence[float] = ...,
         title: str | None = None,
     ) -> None: ...
     def critical(self, input: str, low: Value, high: Value) -> Event: ...

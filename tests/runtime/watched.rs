@@ -271,7 +271,7 @@ fn allocations_stop_with_the_best_so_far() {
     ] {
         assert!(text.contains(sentence), "{text}");
     }
-    let (study, _) = stopped_after(pendulum(), 1);
+    let (study, _) = stopped_after(pendulum(), 0);
     let none = study.allocation(&at_least(3.99), &choices());
     assert_eq!(none.unwrap_err(), Error::Stopped);
 }

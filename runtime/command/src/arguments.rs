@@ -126,7 +126,7 @@ enum Command {
     Sensitivities(sensitivities::Sensitivities),
     Tolerance(tolerance::Tolerance),
     Campbell(campbell::Campbell),
-    Sweep(sweep::Sweep),
+    Sweep(sweep::Follow),
     Branches(branches::Branches),
     Sample(sample::Sample),
     Merge(merge::Merge),

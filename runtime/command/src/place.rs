@@ -49,13 +49,10 @@ impl Place {
     }
 
     /// Begins what is written as it comes.
-    pub(crate) fn begin(&self) -> Result<Begun, Failure> {
+    pub(crate) fn begin(&self) -> Result<(Unfinished, Begun), Failure> {
         let begun = match &self.output {
             Some(path) => Target::of(path).begin(),
-            None => Ok(Begun {
-                file: Box::new(io::stdout()),
-                moves: None,
-            }),
+            None => Ok((Unfinished(None), Box::new(io::stdout()) as Begun)),
         };
         begun.map_err(|source| self.failure(source))
     }
@@ -88,43 +85,26 @@ fn printing(error: io::Error) -> Failure {
     }
 }
 
-/// What is written as it comes. A file that is not finished leaves what was there.
-pub(crate) struct Begun {
-    file: Box<dyn Write + Send>,
-    /// From where to where a file is moved when it is complete.
-    moves: Option<(PathBuf, PathBuf)>,
-}
+/// What is written as it comes.
+pub(crate) type Begun = Box<dyn Write + Send>;
 
-impl Begun {
-    /// Moves the file into its place.
-    pub(crate) fn finish(mut self) -> io::Result<()> {
-        self.file.flush()?;
-        match self.moves.take() {
-            Some((beside, path)) => {
-                let moved = fs::rename(&beside, path);
-                if moved.is_err() {
-                    let _ = fs::remove_file(beside);
-                }
-                moved
-            }
-            None => Ok(()),
+/// From where to where a file is moved when it is complete; unless it is, what was there stays.
+pub(crate) struct Unfinished(Option<(PathBuf, PathBuf)>);
+
+impl Unfinished {
+    pub(crate) fn move_into_place(mut self) -> io::Result<()> {
+        match &self.0 {
+            Some((beside, path)) => fs::rename(beside, path)?,
+            None => return Ok(()),
         }
+        self.0 = None;
+        Ok(())
     }
 }
 
-impl Write for Begun {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
-}
-
-impl Drop for Begun {
+impl Drop for Unfinished {
     fn drop(&mut self) {
-        if let Some((beside, _)) = self.moves.take() {
+        if let Some((beside, _)) = &self.0 {
             // What is left of it is of no use; that it stays is no other failure.
             let _ = fs::remove_file(beside);
         }
@@ -164,17 +144,18 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn begin(&self) -> io::Result<Begun> {
+    fn begin(&self) -> io::Result<(Unfinished, Begun)> {
         self.check()?;
         Ok(match self {
-            Self::Device(path) => Begun {
-                file: Box::new(OpenOptions::new().write(true).open(path)?),
-                moves: None,
-            },
-            Self::File { path, beside } => Begun {
-                file: Box::new(File::create(beside)?),
-                moves: Some((beside.clone(), path.to_path_buf())),
-            },
+            Self::Device(path) => {
+                let device = OpenOptions::new().write(true).open(path)?;
+                (Unfinished(None), Box::new(device))
+            }
+            Self::File { path, beside } => {
+                let file = File::create(beside)?;
+                let moves = (beside.clone(), path.to_path_buf());
+                (Unfinished(Some(moves)), Box::new(file))
+            }
         })
     }
 

@@ -6,7 +6,7 @@ use eigentol_tables::{Error, Table, csv, parquet};
 
 use crate::answer::Form;
 use crate::failure::Failure;
-use crate::place::{Begun, Place};
+use crate::place::{Begun, Place, Unfinished};
 
 /// Things that a block of rows is made of: of CSV, which is read while it grows, and of Parquet, of which each block is a row group.
 const CSV_BLOCK: usize = 256;
@@ -17,6 +17,7 @@ const PATIENCE: Duration = Duration::from_millis(200);
 /// The rows of one table, of things of one kind.
 pub(crate) struct Rows<'a, T, F> {
     place: &'a Place,
+    target: Unfinished,
     file: File,
     make: F,
     waiting: Vec<T>,
@@ -31,9 +32,10 @@ enum File {
 
 impl<'a, T, F: Fn(&[T]) -> Table> Rows<'a, T, F> {
     pub(crate) fn begin(place: &'a Place, form: Form, make: F) -> Result<Self, Failure> {
-        let begun = place.begin()?;
+        let (target, begun) = place.begin()?;
         Ok(Self {
             place,
+            target,
             file: match form {
                 Form::Parquet => File::Parquet(parquet::Writer::new(begun)),
                 _ => File::Csv(csv::Writer::new(begun)),
@@ -62,12 +64,12 @@ impl<'a, T, F: Fn(&[T]) -> Table> Rows<'a, T, F> {
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         self.write()?;
         let place = self.place;
-        let begun = match self.file {
-            File::Csv(file) => file.finish(),
-            File::Parquet(file) => file.into_inner(),
+        let complete = match self.file {
+            File::Csv(file) => file.finish().map(drop),
+            File::Parquet(file) => file.finish(),
         };
-        let begun = begun.map_err(|error| failure(place, error))?;
-        begun.finish().map_err(|source| place.failure(source))
+        complete.map_err(|error| failure(place, error))?;
+        (self.target.move_into_place()).map_err(|source| place.failure(source))
     }
 
     /// Writes what waits, if anything does.

@@ -196,7 +196,11 @@ fn values(cells: Vec<String>) -> Values {
 }
 
 fn writing(error: csv::Error) -> Error {
-    Error::Write(error.into())
+    Error::Write(match error.into_kind() {
+        // With its own kind: the reader of a pipe may have gone.
+        csv::ErrorKind::Io(source) => source,
+        other => std::io::Error::other(format!("{other:?}")),
+    })
 }
 
 fn reading(error: csv::Error) -> Error {

@@ -110,20 +110,9 @@ impl<W: Write + Send> Writer<W> {
     /// # Errors
     /// [`Error::Write`].
     pub fn finish(self) -> Result<(), Error> {
-        self.into_inner().map(drop)
-    }
-
-    /// As [`Self::finish`], and gives the file back.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn into_inner(self) -> Result<W, Error> {
         match self.state {
-            State::Empty(mut file) => {
-                file.flush().map_err(Error::Write)?;
-                Ok(file)
-            }
-            State::Begun { file, .. } => file.into_inner().map_err(writing),
+            State::Empty(mut file) => file.flush().map_err(Error::Write),
+            State::Begun { file, .. } => file.close().map(drop).map_err(writing),
             State::Failed => Err(Error::Write(io::Error::other("writing failed before"))),
         }
     }

@@ -108,7 +108,9 @@ impl Sample {
     fn write_samples(&self, run: &Run<'_>, part: &mut PartialMonteCarlo) -> Result<(), Failure> {
         let description = part.result().description;
         let modes = run.solved.modes.modes.len();
-        let make = |all: &[(u64, Solution)]| numbered_samples_table(&description, modes, all);
+        let inputs = &run.solved.equilibrium.inputs;
+        let make =
+            |all: &[(u64, Solution)]| numbered_samples_table(&description, inputs, modes, all);
         let Some(mut rows) = self.output.rows(("Monte Carlo", "samples"), make)? else {
             return Err(Failure::usage(
                 "samples are of the result `Monte Carlo`",

@@ -16,7 +16,7 @@ use crate::verdict::Verdict;
 
 /// Equilibria and modes along an input, and the critical values on the way
 #[derive(Args, Debug)]
-pub(crate) struct Sweep {
+pub(crate) struct Follow {
     #[command(flatten)]
     point: Point,
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub(crate) struct Sweep {
     output: Output,
 }
 
-impl Sweep {
+impl Follow {
     pub(crate) fn run(&self) -> Result<Verdict, Failure> {
         self.output.check()?;
         let question = self.point.question()?;

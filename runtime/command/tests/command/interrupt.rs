@@ -115,22 +115,27 @@ fn what_has_no_half_leaves_the_old_file() {
     assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
 }
 
-/// Ctrl-C some time after the start: exit code 130, and what was written and said.
-fn stopped(arguments: &[&str], after: Duration) -> (String, String) {
-    let mut command = command(arguments);
-    let child = (command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn())
-    .unwrap();
-    listens(&child);
-    sleep(after);
-    interrupt(&child);
-    let output = child.wait_with_output().unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{err}");
-    (out, err)
+/// Ctrl-C some seconds after the start, later if nothing was begun then: exit code 130, and what was written and said.
+fn stopped(arguments: &[&str]) -> (String, String) {
+    for seconds in [4, 12, 36] {
+        let mut command = command(arguments);
+        let child = (command
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn())
+        .unwrap();
+        listens(&child);
+        sleep(Duration::from_secs(seconds));
+        interrupt(&child);
+        let output = child.wait_with_output().unwrap();
+        let out = String::from_utf8(output.stdout).unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(130), "{err}");
+        if !err.starts_with("stopped: nothing was written") {
+            return (out, err);
+        }
+    }
+    panic!("nothing was begun in 36 s");
 }
 
 #[test]
@@ -138,7 +143,7 @@ fn a_report_says_how_far_it_came() {
     let path = folder("half a report").join("report.html");
     let name = path.display().to_string();
     let samples = ["--samples", "2000000000", "--output", &name];
-    let (_, err) = stopped(&pendulum("report", &samples), Duration::from_secs(4));
+    let (_, err) = stopped(&pendulum("report", &samples));
     assert!(err.starts_with("stopped: "), "{err}");
     let html = fs::read_to_string(&path).unwrap();
     assert!(html.starts_with("<!doctype html>") && html.contains("</html>"));
@@ -158,7 +163,7 @@ fn an_allocation_is_checked_by_the_samples_that_are_done() {
          [[choose]]\ntolerance = \"l\"\nleast = \"1 mm\"\nmost = \"300 mm\"\ncost = {{ fixed = 0, factor = 1.0, power = 1 }}\n"
     );
     let study = file(&folder, "study.toml", &study);
-    let (out, err) = stopped(&["allocate", "--study", &study], Duration::from_secs(4));
+    let (out, err) = stopped(&["allocate", "--study", &study]);
     assert!(
         err.starts_with("stopped: after ") && err.contains("of 2000000000 samples"),
         "{err}"
@@ -195,7 +200,7 @@ fn branches_are_kept_as_far_as_they_came() {
         "-o",
         &name,
     ];
-    let (_, err) = stopped(&arguments, Duration::from_secs(3));
+    let (_, err) = stopped(&arguments);
     let points = err
         .strip_prefix("stopped: after ")
         .and_then(|own| own.strip_suffix(" points\n"));
@@ -206,6 +211,51 @@ fn branches_are_kept_as_far_as_they_came() {
         "{points} {}",
         table.rows()
     );
+}
+
+/// What a command shows on a terminal, which the program `script` plays.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(arguments: &[&str]) -> Option<String> {
+    let own = env!("CARGO_BIN_EXE_eigentol");
+    let words = [own].into_iter().chain(arguments.iter().copied());
+    let quoted: Vec<String> = words.map(|word| format!("'{word}'")).collect();
+    let mut terminal = Command::new("script");
+    terminal
+        .args(["-qec", &quoted.join(" "), "/dev/null"])
+        .current_dir(examples())
+        .env("TERM", "xterm")
+        .stdin(Stdio::null());
+    let output = terminal.output().ok()?;
+    assert!(output.status.success(), "{arguments:?}");
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn long_work_shows_how_far_it_is() {
+    let path = folder("watched").join("out.csv");
+    let file = path.display().to_string();
+    let speeds = ["--sweep", "omega=4..8 rad/s", "-o", &file];
+    let rows = [&speeds[..], &["--points", "20000"]].concat();
+    for (arguments, what) in [
+        (
+            pendulum("sample", &["--samples", "20000", "-o", &file]),
+            "samples",
+        ),
+        (pendulum("campbell", &rows), "values"),
+        (pendulum("sweep", &rows), "values"),
+        (pendulum("branches", &speeds), "points of branches"),
+        (
+            pendulum("report", &["--samples", "20000", "-o", &file]),
+            "samples, values",
+        ),
+        (pendulum("tolerance", &["-o", &file]), "samples"),
+    ] {
+        match on_a_terminal(&arguments) {
+            Some(shown) => assert!(shown.contains(what), "{arguments:?}: {shown}"),
+            None => println!("skipped: there is no program `script` to play a terminal"),
+        }
+    }
 }
 
 /// No bar where nobody looks at it.

@@ -29,6 +29,10 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
         found.drawn(),
         stable_samples(found).1
     ));
+    if found.samples < found.planned {
+        let planned = found.planned;
+        html.paragraph(&format!("Not complete: {planned} samples were asked for."));
+    }
     let count = found.modes.len();
     let figures = (0..count.min(MODES)).map(|mode| {
         let style = content

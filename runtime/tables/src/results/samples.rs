@@ -1,7 +1,7 @@
 use eigentol::tolerance::{Outcome, Sample};
 use eigentol::{Complex, Description};
 
-use super::names::{design, unknowns, word};
+use super::names::{design, operating_point, unknowns, word};
 use crate::Table;
 
 /// A row for each sample: its number in the run, what became of it, design variables, unknowns, and of each mode the frequency, the
@@ -37,11 +37,18 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
 }
 
 /// As [`samples_table`], of samples that have their numbers, counted from 0, and of so many modes, so that a part without samples has the
-/// same columns: what [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
+/// same columns, the operating point last: what [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
 #[must_use]
-pub fn numbered_samples_table(d: &Description, modes: usize, samples: &[(u64, Sample)]) -> Table {
+pub fn numbered_samples_table(
+    d: &Description,
+    inputs: &[f64],
+    modes: usize,
+    samples: &[(u64, Sample)],
+) -> Table {
     let numbers = samples.iter().map(|(number, _)| *number as usize + 1);
-    rows(d, modes, numbers, samples.iter().map(|(_, sample)| sample))
+    let mut table = rows(d, modes, numbers, samples.iter().map(|(_, sample)| sample));
+    operating_point(&mut table, d, inputs, None);
+    table
 }
 
 fn rows<'a>(
