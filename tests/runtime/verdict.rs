@@ -35,6 +35,23 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A swing: two ropes of one length with a seat between them, a loop that is cut.
+    mechanism Swing {
+        design l = 1.0 m;
+        design c = 0.0 N*m*s;
+        gravity 9.81 m/s^2 along -z;
+        body left: rod(mass: 1.5 kg, length: l, along: -z);
+        body right: rod(mass: 1.5 kg, length: l, along: -z);
+        body seat: rod(mass: 2.0 kg, length: 0.6 m, along: x);
+        joint theta: revolute(y) from ground to left;
+        joint phi: revolute(y) from ground to right at [0.6 m, 0, 0];
+        joint hinge: revolute(y) from left to seat at [0, 0, -l];
+        joint pin: revolute(y) from right to seat at [0, 0, -l], at [0.6 m, 0, 0] on seat, cut;
+        force friction: damper(on: theta, damping: c);
+    }
+}
+
 /// `3 g / 2`, of a bar of 1 m the square of the critical speed.
 const W: f64 = 1.5 * 9.81;
 const TOLERANCES: [f64; 8] = [0.01, 0.02, 0.03, 0.06, 0.12, 0.15, 0.20, 0.25];
@@ -59,12 +76,17 @@ fn frequency(speed: f64, length: f64) -> f64 {
 /// Frequencies and their weights: the length at so many places of a normal number, a sum that is exact to some 1e-6 where the
 /// frequency has a root.
 fn distribution(speed: f64, sigma: f64) -> Vec<(f64, f64)> {
+    over_lengths(sigma, |length| frequency(speed, length))
+}
+
+/// The same of any function of the length.
+fn over_lengths(sigma: f64, of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     const STEP: f64 = 1e-3;
     let places = (-6_500..=6_500).map(|k| (f64::from(k) + 0.5) * STEP);
     let weight = |z: f64| (-0.5 * z * z).exp() * STEP / std::f64::consts::TAU.sqrt();
     places
         .filter(|z| 1.0 + sigma * z > 0.0)
-        .map(|z| (frequency(speed, 1.0 + sigma * z), weight(z)))
+        .map(|z| (of(1.0 + sigma * z), weight(z)))
         .collect()
 }
 
@@ -285,6 +307,62 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
         .unwrap();
     assert_eq!(exact.sampling, Sampling::NotNeeded);
     assert!(exact.trusted());
+}
+
+/// The seat moves along a circle: `(2 + 1) l^2 theta'' + c theta' + (2 + 1.5) g l theta = 0`, each rope a third of its mass at its end.
+#[test]
+fn verdicts_on_a_loop_are_right() {
+    let own = |damping: f64, l: f64| {
+        let (inertia, stiffness) = (3.0 * l * l, 3.5 * 9.81 * l);
+        let ratio = 0.5 * damping / (inertia * stiffness).sqrt();
+        let frequency = (stiffness / inertia * (1.0 - ratio * ratio)).sqrt();
+        (frequency, ratio)
+    };
+    for damping in [0.0, 2.0, 9.0] {
+        for tolerance in [0.01, 0.03, 0.12, 0.25] {
+            let study = Study::new(Swing)
+                .design(Swing::c, damping)
+                .guess(Swing::theta, 0.1);
+            let study = study.guess(Swing::phi, 0.1).guess(Swing::hinge, -0.1);
+            let summary = study.tolerance(Swing::l, tolerance).summary().unwrap();
+            let at = format!("{damping} {tolerance}");
+            let sigma = tolerance / 3.0;
+            let exact = exact_sigma(&over_lengths(sigma, |l| own(damping, l).0));
+            judged(&summary, 0, exact, 1e-4, &at);
+            if damping == 0.0 {
+                continue;
+            }
+            let all = over_lengths(sigma, |l| own(damping, l).1);
+            let (exact, mean) = (
+                exact_sigma(&all),
+                all.iter().map(|(value, weight)| value * weight),
+            );
+            let mean: f64 = mean.sum();
+            let check = summary.trust[0]
+                .check(Quantity::DampingRatio)
+                .expect("it is damped");
+            let first = summary.first.modes[0]
+                .damping_ratio
+                .as_ref()
+                .expect("it is damped");
+            let error = check.first_order_error.expect("it has slopes");
+            let off = error.value - (first.sigma / exact - 1.0);
+            assert!(
+                off.abs() <= 5.0 * error.standard_error + 1e-4,
+                "{at}: {off}\n{summary}"
+            );
+            let off = (check.sigma.value - exact).abs();
+            assert!(
+                off <= 5.0 * check.sigma.standard_error,
+                "{at}: {off}\n{summary}"
+            );
+            let scatter = exact / (check.count as f64).sqrt();
+            assert!(
+                (check.mean - mean).abs() <= 5.0 * scatter,
+                "{at}\n{summary}"
+            );
+        }
+    }
 }
 
 fn twice<M: Mechanism>(study: &Study<M>) {
