@@ -2,7 +2,7 @@
 //! closed forms and, on a turntable, against a dense QR, their number against the exact distribution.
 
 use eigentol::tolerance::Outcome;
-use eigentol::{Complex, Mechanism, MonteCarlo, Study, mechanism};
+use eigentol::{Complex, Mechanism, MonteCarlo, Stability, Study, mechanism};
 use nalgebra::{Matrix4, Schur};
 
 mechanism! {
@@ -278,5 +278,35 @@ fn modes_that_change_places_keep_their_names() {
             }
         }
         agrees(changed, normal(-20.0 / (8.0 * 2.0_f64.sqrt())));
+    }
+}
+
+/// The modes that a seal was judged by, ascending in size, are its answer.
+#[test]
+fn a_study_answers_with_the_modes_it_was_judged_by() {
+    for (stiff, across, damping) in [
+        ([110.0, 90.0], 8.0, 0.5),
+        ([400.0, 90.0], 30.0, 60.0),
+        ([90.0, 400.0], 200.0, 3.0),
+    ] {
+        let study = Study::new(Seal)
+            .design(Seal::kx, stiff[0])
+            .design(Seal::ky, stiff[1])
+            .design(Seal::across, across)
+            .design(Seal::damping, damping);
+        let solved = study.solve().expect("an equilibrium");
+        let mut exact = of_seal(damping, stiff, across);
+        exact.retain(|s| s.im >= 0.0);
+        exact.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let found = &solved.modes.modes;
+        assert_eq!(found.len(), exact.len());
+        for (label, (mode, s)) in found.iter().zip(&exact).enumerate() {
+            assert!((mode.s - s).norm() < 1e-9 * s.norm(), "{} {s}", mode.s);
+            assert_eq!(mode.label, label);
+        }
+        let grows = exact.iter().any(|s| s.re > 0.0);
+        assert_eq!(solved.modes.stable(), !grows);
+        let stable = solved.equilibrium.stability == Stability::Stable;
+        assert_eq!(stable, !grows);
     }
 }
