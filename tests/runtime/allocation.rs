@@ -129,6 +129,34 @@ fn a_band_shares_its_probability() {
     }
 }
 
+/// Of two requirements on different dimensions each has the closed form of its own chance.
+#[test]
+fn each_requirement_has_its_own_chance() {
+    let study = stack().tolerance(Stack::d, 0.1e-3);
+    let wanted = [
+        Requirement::at_most(gap(), 41e-3),
+        Requirement::at_most(Response::Output(Stack::third.any()), 10.5e-3),
+    ];
+    for failure in [[1e-3, 0.1], [0.02, 1e-6]] {
+        let mut choices = choices(1.0, (1e-6, 0.1), failure.to_vec());
+        choices.half_widths.push(HalfWidth {
+            variable: 3,
+            limits: (1e-6, 0.1),
+            cost: Cost::reciprocal(0.0, 2e-3, 1.0),
+        });
+        let found = allocate(&study, &wanted, &choices);
+        let [first, second] = failure.map(|chance| -normal::quantile(chance));
+        let exact = closed_form(1.0, 1e-3 / first);
+        for (t, exact) in found.half_widths.iter().zip(&exact) {
+            close(*t, *exact, 1e-5);
+        }
+        close(found.half_widths[3], 3.0 * 0.5e-3 / second, 1e-6);
+        for (place, beta) in [first, second].into_iter().enumerate() {
+            close(found.reliability.beta_of(place).unwrap(), beta, 1e-7);
+        }
+    }
+}
+
 /// A nominal value that may move is put in the middle of the band, where tolerances may be widest.
 #[test]
 fn nominal_values_move_to_the_middle() {

@@ -164,6 +164,18 @@ fn first_order_counts_the_mean_and_the_law() {
     }
 }
 
+/// Of shapes 2 and 5 the mean lies at two sevenths of the way, of 5 and 2 at five.
+#[test]
+fn a_beta_law_leans_as_its_shapes_say() {
+    for (alpha, beta, shift) in [(2.0, 5.0, 0.01), (5.0, 2.0, 0.04)] {
+        let study = study().limits(LENGTH, -0.01, 0.06);
+        let study = study.law(LENGTH, Law::Beta { alpha, beta });
+        let found = study.tolerances().unwrap();
+        assert!((found.shifts()[1] - shift).abs() < 1e-12);
+        close(found.sigmas()[1], 0.07 * (10.0_f64 / 392.0).sqrt(), 1e-12);
+    }
+}
+
 #[test]
 fn a_law_follows_limits_and_limits_keep_the_law() {
     let wide = |study: Study<Pendulum>| study.tolerances().unwrap().sigmas()[1];

@@ -14,6 +14,7 @@ mod dual;
 mod equilibrium;
 mod events;
 mod handwritten;
+mod judged;
 mod lanes;
 mod modes;
 mod partial;

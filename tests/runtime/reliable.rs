@@ -312,6 +312,14 @@ fn small_probabilities_of_a_curved_limit() {
     assert_eq!(rare.counts.total() as u64, rare.failure.samples);
     let one = study.clone().threads(1).rare_failure(&wanted, &settings);
     assert_eq!(one.unwrap().failure, rare.failure);
+    // No sample is left out or drawn twice, also where threads have pieces of their own.
+    let few = SamplingSettings {
+        samples: 1000,
+        coefficient_of_variation: 0.0,
+        ..SamplingSettings::default()
+    };
+    let rare = study.rare_failure(&wanted, &few).unwrap();
+    assert_eq!((rare.failure.samples, rare.counts.total()), (1000, 1000));
 }
 
 /// Against first-order reliability run again.

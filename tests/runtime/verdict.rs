@@ -35,6 +35,23 @@ mechanism! {
     }
 }
 
+mechanism! {
+    /// A swing: two ropes of one length with a seat between them, a loop that is cut.
+    mechanism Swing {
+        design l = 1.0 m;
+        design c = 0.0 N*m*s;
+        gravity 9.81 m/s^2 along -z;
+        body left: rod(mass: 1.5 kg, length: l, along: -z);
+        body right: rod(mass: 1.5 kg, length: l, along: -z);
+        body seat: rod(mass: 2.0 kg, length: 0.6 m, along: x);
+        joint theta: revolute(y) from ground to left;
+        joint phi: revolute(y) from ground to right at [0.6 m, 0, 0];
+        joint hinge: revolute(y) from left to seat at [0, 0, -l];
+        joint pin: revolute(y) from right to seat at [0, 0, -l], at [0.6 m, 0, 0] on seat, cut;
+        force friction: damper(on: theta, damping: c);
+    }
+}
+
 /// `3 g / 2`, of a bar of 1 m the square of the critical speed.
 const W: f64 = 1.5 * 9.81;
 const TOLERANCES: [f64; 8] = [0.01, 0.02, 0.03, 0.06, 0.12, 0.15, 0.20, 0.25];
@@ -59,12 +76,17 @@ fn frequency(speed: f64, length: f64) -> f64 {
 /// Frequencies and their weights: the length at so many places of a normal number, a sum that is exact to some 1e-6 where the
 /// frequency has a root.
 fn distribution(speed: f64, sigma: f64) -> Vec<(f64, f64)> {
+    over_lengths(sigma, |length| frequency(speed, length))
+}
+
+/// The same of any function of the length.
+fn over_lengths(sigma: f64, of: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     const STEP: f64 = 1e-3;
     let places = (-6_500..=6_500).map(|k| (f64::from(k) + 0.5) * STEP);
     let weight = |z: f64| (-0.5 * z * z).exp() * STEP / std::f64::consts::TAU.sqrt();
     places
         .filter(|z| 1.0 + sigma * z > 0.0)
-        .map(|z| (frequency(speed, 1.0 + sigma * z), weight(z)))
+        .map(|z| (of(1.0 + sigma * z), weight(z)))
         .collect()
 }
 
@@ -306,6 +328,67 @@ fn what_is_too_dear_to_sample_keeps_the_distances() {
         .unwrap();
     assert_eq!(exact.sampling, Sampling::NotNeeded);
     assert!(exact.trusted());
+}
+
+/// The seat moves along a circle: `3 l^2 theta'' + c theta' + 3.5 g l theta = 0`, of each rope a third of its mass at its end.
+#[test]
+fn verdicts_on_a_loop_are_right() {
+    let ratio = |damping: f64, l: f64| 0.5 * damping / (3.0 * 3.5 * 9.81 * l.powi(3)).sqrt();
+    let frequency =
+        |damping: f64, l: f64| (3.5 * 9.81 / (3.0 * l) * (1.0 - ratio(damping, l).powi(2))).sqrt();
+    for (damping, tolerance) in [0.0, 2.0, 5.0]
+        .into_iter()
+        .flat_map(|damping| [0.01, 0.03, 0.12, 0.2].map(|tolerance| (damping, tolerance)))
+    {
+        let study = Study::new(Swing)
+            .design(Swing::c, damping)
+            .guess(Swing::theta, 0.1)
+            .guess(Swing::phi, 0.1)
+            .guess(Swing::hinge, -0.1);
+        let summary = study.tolerance(Swing::l, tolerance).summary().unwrap();
+        let (at, sigma) = (format!("{damping} {tolerance}"), tolerance / 3.0);
+        let all = over_lengths(sigma, |l| frequency(damping, l));
+        if damping == 0.0 {
+            judged(&summary, 0, exact_sigma(&all), 1e-4, &at);
+            continue;
+        }
+        let (first, trust) = (&summary.first.modes[0], &summary.trust[0]);
+        let mut worst = 0.0_f64;
+        for (quantity, first, all) in [
+            (Quantity::Frequency, &first.frequency, all),
+            (
+                Quantity::DampingRatio,
+                &first.damping_ratio,
+                over_lengths(sigma, |l| ratio(damping, l)),
+            ),
+        ] {
+            let exact = exact_sigma(&all);
+            let off = first.as_ref().unwrap().sigma / exact - 1.0;
+            worst = worst.max(off.abs());
+            let check = trust.check(quantity).unwrap();
+            let found = check.first_order_error.unwrap();
+            assert!(
+                (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
+                "{at}: {off}\n{summary}"
+            );
+            let off = check.sigma.value - exact;
+            assert!(
+                off.abs() <= 5.0 * check.sigma.standard_error,
+                "{at}\n{summary}"
+            );
+            let mean: f64 = all.iter().map(|(value, weight)| value * weight).sum();
+            let scatter = exact / (check.count as f64).sqrt();
+            assert!(
+                (check.mean - mean).abs() <= 5.0 * scatter,
+                "{at}\n{summary}"
+            );
+        }
+        assert!(
+            !trust.trusted() || worst <= 0.05,
+            "{at}: {worst}\n{summary}"
+        );
+        assert!(trust.trusted() || worst >= 0.01, "{at}: {worst}\n{summary}");
+    }
 }
 
 fn twice<M: Mechanism>(study: &Study<M>) {

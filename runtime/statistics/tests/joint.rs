@@ -35,6 +35,30 @@ fn uniform_variables() {
     }
 }
 
+/// Of three uniform variables: `rho = 2 sin(pi r / 6)`, and the factor of a matrix of three rows written out.
+#[test]
+fn the_factor_is_that_of_the_normal_variables() {
+    let (a, b, c) = (0.6, -0.3, 0.2);
+    let matrix = [1.0, a, b, a, 1.0, c, b, c, 1.0];
+    let joint = Joint::correlated(vec![uniform(); 3], &matrix).unwrap();
+    let [a, b, c] = [a, b, c].map(|r: f64| 2.0 * (PI * r / 6.0).sin());
+    let second = (1.0 - a * a).sqrt();
+    let cross = (c - a * b) / second;
+    let rest = (1.0 - b * b - cross * cross).sqrt();
+    let wanted = [[1.0, 0.0, 0.0], [a, second, 0.0], [b, cross, rest]];
+    for (i, row) in wanted.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            let found = joint.normal_factor(i, j);
+            assert!((found - value).abs() < 1e-6, "{i} {j}: {found} {value}");
+        }
+    }
+    let alone = Joint::independent(vec![uniform(); 2]);
+    assert_eq!(
+        (alone.normal_factor(1, 1), alone.normal_factor(1, 0)),
+        (1.0, 0.0)
+    );
+}
+
 #[test]
 fn lognormal_variables() {
     let (a, b) = (

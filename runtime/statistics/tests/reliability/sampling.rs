@@ -93,6 +93,11 @@ fn plain_monte_carlo_counts() {
         found.failures as f64 / 20_000.0,
         1e-12,
     );
+    // Of a share of yes and no: `p (1 - p) / (n - 1)`.
+    let share = found.failures as f64 / 20_000.0;
+    let exact = (share * (1.0 - share) / 19_999.0).sqrt();
+    close(found.probability.standard_error / exact, 1.0, 1e-9);
+    close(found.coefficient_of_variation.unwrap(), exact / share, 1e-9);
     for interval in [wilson, clopper_pearson] {
         let interval = interval(found.failures, found.samples, 0.999).unwrap();
         assert!(interval.lower < below(-1.0) && below(-1.0) < interval.upper);
@@ -223,6 +228,19 @@ fn samples_without_a_value_are_counted_apart() {
     let off = |value: f64, exact: f64| assert!((value - exact).abs() < 0.012, "{value} {exact}");
     off(found.probability.value, below(1.0) - below(0.5));
     off(found.probability_without_value.value, below(-1.0));
+    // Drawn elsewhere, each sample has its weight, with a value or without.
+    let shifted = Proposal::mixture(vec![vec![1.0], vec![-0.5]], vec![2.0, 1.0]).unwrap();
+    let found = Sampler::new(&limits, Failure::Any, &shifted, &settings)
+        .unwrap()
+        .run();
+    for (estimate, exact) in [
+        (found.probability, below(1.0) - below(0.5)),
+        (found.probability_without_value, below(-1.0)),
+    ] {
+        let off = (estimate.value - exact).abs();
+        assert!(off < 4.0 * estimate.standard_error, "{estimate:?} {exact}");
+        assert!(estimate.standard_error < 0.02 * exact);
+    }
     let whole = LimitFunction::new(1, |z: &[f64]| {
         Ok::<_, &str>(LimitValue {
             value: 2.0 - z[0],
