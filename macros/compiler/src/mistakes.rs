@@ -85,8 +85,8 @@ pub fn tokens(text: &str) -> Result<TokenStream, Mistakes> {
     text.parse().map_err(|error: LexError| {
         let span = error.span();
         let start = span.start();
-        let line = text.trim_start_matches(BYTE_ORDER_MARK).lines();
-        let line = line.skip(start.line.saturating_sub(1)).next();
+        let mut lines = text.trim_start_matches(BYTE_ORDER_MARK).lines();
+        let line = lines.nth(start.line.saturating_sub(1));
         let sign = line.and_then(|line| line.chars().nth(start.column));
         let (message, help) = unreadable(sign);
         Mistakes(vec![mistake((span, span), message, Some(help))])
