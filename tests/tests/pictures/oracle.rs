@@ -58,6 +58,8 @@ fn differences(model: &Model, scene: &Scene, case: &Case) -> Vec<String> {
             same(what, implied.as_flattened(), tensor.as_flattened());
         }
     }
+    let gravity = scene.gravity.unwrap_or_default();
+    same("gravity".to_owned(), &gravity, &oracle.gravity(b));
     assert_eq!(scene.joints.len(), model.joints.len());
     let directions = oracle.directions(q, b);
     for ((shown, declared), directions) in scene.joints.iter().zip(&model.joints).zip(directions) {

@@ -378,6 +378,30 @@ fn the_mechanism_is_seen_turned_and_moved() {
     );
 }
 
+/// Seen from the front: how far above that of x the letter of y stands, how far from it that of z, and the height and the width of
+/// what is filled. The rotor's gravity is along -y, and its disk turns about z.
+const FRONT: &str = "(() => { const own = CanvasRenderingContext2D.prototype; const { fillText, beginPath, lineTo, fill } = own; \
+    const letters = {}; const all = []; let corners = []; \
+    own.fillText = function (text, x, y) { letters[text] = y; }; \
+    own.beginPath = function () { corners = []; return beginPath.call(this); }; \
+    own.lineTo = function (x, y) { corners.push([x, y]); return lineTo.call(this, x, y); }; \
+    own.fill = function () { if (this.canvas.matches('.view3d')) all.push(...corners); return fill.call(this); }; \
+        [...document.querySelectorAll('.controls button')].find((one) => one.textContent === 'From the front').click(); \
+    Object.assign(own, { fillText, beginPath, lineTo, fill }); \
+    const size = (k) => { const values = all.map((corner) => corner[k]); return Math.max(...values) - Math.min(...values); }; \
+    return [letters.x - letters.y, Math.abs(letters.x - letters.z), size(1), size(0)]; })()";
+
+#[test]
+fn gravity_is_downwards() {
+    let Some(mut chrome) = opened("gravity") else {
+        return;
+    };
+    let found = chrome.evaluate(FRONT);
+    let [above, level, high, wide] = [0_usize, 1, 2, 3].map(|k| found[k].as_f64().unwrap());
+    assert!(above > 20.0 && level < 1.0, "{found}");
+    assert!(high > 2.0 * wide, "{found}");
+}
+
 #[test]
 fn a_table_is_copied_with_all_its_digits() {
     let Some(mut chrome) = opened("copy") else {

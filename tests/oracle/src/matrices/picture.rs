@@ -1,7 +1,7 @@
 //! Where things are, as numbers.
 
 use super::Oracle;
-use super::bodies::{inertia, placement};
+use super::bodies::{inertia, placement, vector};
 use super::space::{Pose, Vector};
 use crate::model::{Frame, Part, Placement};
 
@@ -29,6 +29,11 @@ impl Oracle<'_> {
     pub fn direction(&self, q: &[f64], b: &[f64], frame: Frame, direction: [f64; 3]) -> [f64; 3] {
         let at = self.configuration(q, &self.driven_position, b);
         (at.pose(frame).rotation * Vector(direction)).0
+    }
+
+    /// Acceleration of gravity in the ground frame, m/s^2.
+    pub fn gravity(&self, b: &[f64]) -> [f64; 3] {
+        self.in_ground(vector(&self.model.gravity, b)).0
     }
 
     /// For each joint the directions of its motions as they are declared, unit vectors in the ground frame.

@@ -172,7 +172,7 @@ impl Oracle<'_> {
     }
 
     /// Components along the axes of the declared ground, in the frame of computation.
-    fn in_ground<D: Scalar>(&self, components: Vector<D>) -> Vector<D> {
+    pub(super) fn in_ground<D: Scalar>(&self, components: Vector<D>) -> Vector<D> {
         Matrix::constant(self.ground) * components
     }
 
