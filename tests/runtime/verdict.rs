@@ -362,8 +362,13 @@ fn verdicts_on_a_loop_are_right() {
                 (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
             );
+            // What the second order leaves of each sample is of the third.
+            let rest = found.standard_error;
             let off = second_order(of, sigma) / exact - 1.0;
             let found = check.second_order_error.unwrap();
+            if damping < 3.0 && tolerance > 0.1 {
+                assert!(found.standard_error < 0.6 * rest, "{at}\n{summary}");
+            }
             assert!(
                 (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"
