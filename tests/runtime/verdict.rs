@@ -336,6 +336,13 @@ fn verdicts_on_a_loop_are_right() {
     let ratio = |damping: f64, l: f64| 0.5 * damping / (3.0 * 3.5 * 9.81 * l.powi(3)).sqrt();
     let frequency =
         |damping: f64, l: f64| (3.5 * 9.81 / (3.0 * l) * (1.0 - ratio(damping, l).powi(2))).sqrt();
+    // Of `f(1) + f' x + f'' x^2 / 2`.
+    let second_order = |of: &dyn Fn(f64) -> f64, sigma: f64| {
+        let h = 1e-4;
+        let slope = (of(1.0 + h) - of(1.0 - h)) / (2.0 * h);
+        let curvature = (of(1.0 + h) - 2.0 * of(1.0) + of(1.0 - h)) / (h * h);
+        (slope * sigma).hypot(curvature * sigma * sigma / 2.0_f64.sqrt())
+    };
     for (damping, tolerance) in [0.0, 2.0, 5.0]
         .into_iter()
         .flat_map(|damping| [0.01, 0.03, 0.12, 0.2].map(|tolerance| (damping, tolerance)))
@@ -347,26 +354,42 @@ fn verdicts_on_a_loop_are_right() {
             .guess(Swing::hinge, -0.1);
         let summary = study.tolerance(Swing::l, tolerance).summary().unwrap();
         let (at, sigma) = (format!("{damping} {tolerance}"), tolerance / 3.0);
-        let all = over_lengths(sigma, |l| frequency(damping, l));
+        let vibration = |l| frequency(damping, l);
+        let decay = |l| ratio(damping, l);
         if damping == 0.0 {
-            judged(&summary, 0, exact_sigma(&all), 1e-4, &at);
+            judged(
+                &summary,
+                0,
+                exact_sigma(&over_lengths(sigma, vibration)),
+                1e-4,
+                &at,
+            );
             continue;
         }
         let (first, trust) = (&summary.first.modes[0], &summary.trust[0]);
         let mut worst = 0.0_f64;
-        for (quantity, first, all) in [
-            (Quantity::Frequency, &first.frequency, all),
-            (
-                Quantity::DampingRatio,
-                &first.damping_ratio,
-                over_lengths(sigma, |l| ratio(damping, l)),
-            ),
-        ] {
+        let all: [(_, _, &dyn Fn(f64) -> f64); 2] = [
+            (Quantity::Frequency, &first.frequency, &vibration),
+            (Quantity::DampingRatio, &first.damping_ratio, &decay),
+        ];
+        for (quantity, first, of) in all {
+            let all = over_lengths(sigma, of);
             let exact = exact_sigma(&all);
             let off = first.as_ref().unwrap().sigma / exact - 1.0;
             worst = worst.max(off.abs());
             let check = trust.check(quantity).unwrap();
             let found = check.first_order_error.unwrap();
+            assert!(
+                (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
+                "{at}: {off}\n{summary}"
+            );
+            // What the second order leaves of each sample is of the third.
+            let rest = found.standard_error;
+            let off = second_order(of, sigma) / exact - 1.0;
+            let found = check.second_order_error.unwrap();
+            if damping < 3.0 && tolerance > 0.1 {
+                assert!(found.standard_error < 0.6 * rest, "{at}\n{summary}");
+            }
             assert!(
                 (found.value - off).abs() <= 5.0 * found.standard_error + 1e-4,
                 "{at}: {off}\n{summary}"

@@ -8,6 +8,8 @@
 
 mod first_order;
 mod measure;
+#[cfg(test)]
+mod measure_tests;
 mod pairs;
 mod quadratic;
 mod system;

@@ -1,0 +1,92 @@
+//! Pairs of a bordered pencil with a closed form: three masses that two constraints of very different units join into one,
+//! `6 s^2 + 0.4 s + 15.5 = 0`.
+
+use super::measure::Measure;
+use crate::Complex;
+use crate::algebra::Matrix;
+use crate::kernels::Linear;
+
+const MOTIONS: usize = 3;
+/// Of the constraints `x = y` and `x = z`.
+const UNITS: [f64; 2] = [1.0, 1e6];
+
+fn pencil() -> Linear {
+    let square = |rows: [[f64; 5]; 5]| Matrix::from_fn(5, 5, |i, j| rows[i][j]);
+    let diagonal =
+        |values: [f64; 5]| Matrix::from_fn(5, 5, |i, j| if i == j { values[i] } else { 0.0 });
+    let [u, v] = UNITS;
+    Linear {
+        mass: diagonal([1.0, 3.0, 2.0, 0.0, 0.0]),
+        damping: diagonal([0.0, 0.4, 0.0, 0.0, 0.0]),
+        stiffness: square([
+            [4.0, 1.0, 0.0, u, v],
+            [-0.5, 9.0, 0.0, -u, 0.0],
+            [0.0, 0.0, 2.0, 0.0, -v],
+            [u, -u, 0.0, 0.0, 0.0],
+            [v, 0.0, -v, 0.0, 0.0],
+        ]),
+    }
+}
+
+fn root() -> Complex {
+    let real = -0.2 / 6.0;
+    Complex::new(real, (15.5 / 6.0 - real * real).sqrt())
+}
+
+/// The right and the left vector of that root: everything moves alike, and the reactions hold the second and the third mass.
+fn vectors() -> [[Complex; 5]; 2] {
+    let (s, one) = (root(), Complex::new(1.0, 0.0));
+    let second = 3.0 * s * s + 0.4 * s;
+    let third = 2.0 * s * s + 2.0;
+    [8.5, 10.0].map(|stiffness| {
+        let reaction = (second + stiffness) / UNITS[0];
+        [one, one, one, reaction, third / UNITS[1]]
+    })
+}
+
+fn measured(s: Complex, right: &[Complex], left: &[Complex]) -> Measure {
+    Measure::new(&pencil(), MOTIONS, s, right, left)
+}
+
+#[test]
+fn an_exact_pair_leaves_rounding() {
+    let [right, left] = vectors();
+    let found = measured(root(), &right, &left);
+    assert!(found.residual < 1e-15 && found.rounding_only, "{found:?}");
+    // What rounding of the elements may do to the root: some units of its last digit.
+    let last = f64::EPSILON * root().norm();
+    assert!(
+        found.doubt > last && found.doubt < 100.0 * last,
+        "{found:?}"
+    );
+    assert!(found.newton.norm() < found.doubt, "{found:?}");
+}
+
+#[test]
+fn the_step_is_that_of_the_quadratic() {
+    let [right, left] = vectors();
+    for off in [Complex::new(1e-3, 0.0), Complex::new(-0.02, 0.05)] {
+        let s = root() + off;
+        let exact = (6.0 * s * s + 0.4 * s + 15.5) / (12.0 * s + 0.4);
+        let found = measured(s, &right, &left);
+        assert!((found.newton - exact).norm() < 1e-12, "{found:?} {exact}");
+    }
+}
+
+/// Whichever vector is off, and in whichever unit its constraint is written.
+#[test]
+fn every_component_that_is_off_is_seen() {
+    let exact = vectors();
+    for side in 0..2 {
+        for component in 0..MOTIONS {
+            let mut both = exact;
+            both[side][component] += 1e-6;
+            let [right, left] = both;
+            let found = measured(root(), &right, &left);
+            assert!(
+                found.residual > 1e-7 && found.residual < 1e-5 && !found.rounding_only,
+                "{side} {component}: {found:?}"
+            );
+        }
+    }
+}
