@@ -17,8 +17,9 @@ const PATIENCE: Duration = Duration::from_millis(200);
 /// The rows of one table, of things of one kind.
 pub(crate) struct Rows<'a, T, F> {
     place: &'a Place,
-    target: Unfinished,
     file: File,
+    // Behind the file: what is left is removed when it is closed.
+    target: Unfinished,
     make: F,
     waiting: Vec<T>,
     begun: bool,
