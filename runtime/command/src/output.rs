@@ -77,17 +77,19 @@ impl Output {
     }
 
     /// The rows of the table that answers the question, to be written as they come; `None` where something else is asked for.
-    pub(crate) fn rows<T>(
-        &self,
+    pub(crate) fn rows<'a, T>(
+        &'a self,
         (kind, table): (&str, &str),
-        make: impl Fn(&[T]) -> Table,
-    ) -> Result<Option<Rows<'_, T, impl Fn(&[T]) -> Table>>, Failure> {
+        make: impl Fn(&[T]) -> Table + 'a,
+    ) -> Result<Option<Rows<'a, T>>, Failure> {
         let own = |wanted: &Option<String>, name: &str| {
             wanted.as_deref().is_none_or(|wanted| wanted == name)
         };
         let asked = own(&self.result, kind) && own(&self.table, table);
         match self.form() {
-            form if form.has_rows() && asked => Rows::begin(&self.place, form, make).map(Some),
+            form if form.has_rows() && asked => {
+                Rows::begin(&self.place, form, Box::new(make)).map(Some)
+            }
             _ => Ok(None),
         }
     }

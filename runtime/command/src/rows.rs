@@ -15,30 +15,34 @@ const PARQUET_BLOCK: usize = 4096;
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// The rows of one table, of things of one kind.
-pub(crate) struct Rows<'a, T, F> {
+pub(crate) struct Rows<'a, T> {
     place: &'a Place,
-    target: Unfinished,
     file: File,
-    make: F,
+    // Behind the file: what is left is removed when it is closed.
+    target: Unfinished,
+    make: Make<'a, T>,
     waiting: Vec<T>,
     begun: bool,
     written: Instant,
 }
 
+/// Makes the rows of some things.
+pub(crate) type Make<'a, T> = Box<dyn Fn(&[T]) -> Table + 'a>;
+
 enum File {
-    Csv(csv::Writer<Begun>),
+    Csv(Box<csv::Writer<Begun>>),
     Parquet(parquet::Writer<Begun>),
 }
 
-impl<'a, T, F: Fn(&[T]) -> Table> Rows<'a, T, F> {
-    pub(crate) fn begin(place: &'a Place, form: Form, make: F) -> Result<Self, Failure> {
+impl<'a, T> Rows<'a, T> {
+    pub(crate) fn begin(place: &'a Place, form: Form, make: Make<'a, T>) -> Result<Self, Failure> {
         let (target, begun) = place.begin()?;
         Ok(Self {
             place,
             target,
             file: match form {
                 Form::Parquet => File::Parquet(parquet::Writer::new(begun)),
-                _ => File::Csv(csv::Writer::new(begun)),
+                _ => File::Csv(Box::new(csv::Writer::new(begun))),
             },
             make,
             waiting: Vec::new(),

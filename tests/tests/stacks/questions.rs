@@ -1,6 +1,7 @@
 //! Every question, in the order of `runtime/src/study`.
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::equilibrium::Search;
@@ -196,6 +197,9 @@ pub(crate) fn of_chance<M: BatchKernels + CurvatureKernels + PictureKernels>() -
         ("controlled", |s, _| replied(s.controlled(&[response(s)]))),
         ("influence", |s, _| replied(s.influence(&[response(s)]))),
         ("chances", |s, _| answered(s.chances(&wanted(s)))),
+        ("chances_by", |s, _| {
+            answered(s.chances_by(&wanted(s), &s.sampling()));
+        }),
         ("reliability", |s, _| replied(s.reliability(&wanted(s)))),
         ("rare_failure", |s, _| {
             let settings = SamplingSettings {
@@ -241,6 +245,9 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
     }
     vec![
         ("sweep", |s, range| answered(s.sweep(input(), &range.sweep))),
+        ("sweep_each", |s, range| {
+            answered(s.sweep_each(input(), &range.sweep, |_| ControlFlow::Continue(())));
+        }),
         ("sensitivity_sweep", |s, range| {
             answered(
                 s.sensitivity_sweep(input(), &range.sweep, |_, slopes| assert!(slopes.is_ok())),
@@ -252,11 +259,20 @@ pub(crate) fn along_an_input<M: BatchKernels + CurvatureKernels + PictureKernels
         ("campbell", |s, range| {
             answered(s.campbell(input(), &range.sweep, &[range.order]));
         }),
+        ("campbell_each", |s, range| {
+            let each = |_| ControlFlow::Continue(());
+            answered(s.campbell_each(input(), &range.sweep, &[range.order], each));
+        }),
         between!(branches, branches),
         ("branches_with", |s, range| {
             let [low, high] = range.branches;
             let continuation = s.continuation(input(), low, high).expect("an input");
             answered(s.branches_with(&continuation, Some(&search(s))));
+        }),
+        ("branches_each", |s, range| {
+            let [low, high] = range.branches;
+            let continuation = s.continuation(input(), low, high).expect("an input");
+            answered(s.branches_each(&continuation, None, |_| {}));
         }),
         between!(continuation, branches),
         between!(critical_state, critical),

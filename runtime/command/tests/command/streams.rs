@@ -168,7 +168,7 @@ impl Endless {
             "--sweep",
             "omega=4..8 rad/s",
             "--points",
-            "50000000",
+            "5000000",
             "-o",
             &file,
         ];
@@ -217,7 +217,7 @@ impl Endless {
             .strip_prefix("stopped: after ")
             .and_then(|own| own.split_once(' '));
         let (done, rest) = done.unwrap_or_else(|| panic!("{err}"));
-        assert_eq!(rest.trim(), "of 50000000 values");
+        assert_eq!(rest.trim(), "of 5000000 values");
         assert_eq!(
             fs::read_dir(self.path.parent().unwrap()).unwrap().count(),
             1
