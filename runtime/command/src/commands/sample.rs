@@ -106,11 +106,8 @@ impl Sample {
 
     /// Takes what is missing of a run, and writes its samples as they come.
     fn write_samples(&self, run: &Run<'_>, part: &mut PartialMonteCarlo) -> Result<(), Failure> {
-        let description = part.result().description;
-        let modes = run.solved.modes.modes.len();
-        let inputs = &run.solved.equilibrium.inputs;
-        let make =
-            |all: &[(u64, Solution)]| numbered_samples_table(&description, inputs, modes, all);
+        let whole = part.result();
+        let make = |all: &[(u64, Solution)]| numbered_samples_table(&whole, all);
         let Some(mut rows) = self.output.rows(("Monte Carlo", "samples"), make)? else {
             return Err(Failure::usage(
                 "samples are of the result `Monte Carlo`",

@@ -1,5 +1,5 @@
 use eigentol::tolerance::{Outcome, Sample};
-use eigentol::{Complex, Description};
+use eigentol::{Complex, Description, MonteCarlo};
 
 use super::names::{design, operating_point, unknowns, word};
 use crate::Table;
@@ -36,19 +36,25 @@ pub fn samples_table(d: &Description, first: usize, samples: &[Sample]) -> Table
     rows(d, modes.unwrap_or(0), numbers, samples.iter())
 }
 
-/// As [`samples_table`], of samples that have their numbers, counted from 0, and of so many modes, so that a part without samples has the
-/// same columns, the operating point last: what [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
+/// As [`samples_table`], of samples of a run that have their numbers, counted from 0; a part without samples has the same columns. The
+/// operating point, seed and stream come last, as in all tables of the run. What
+/// [`PartialMonteCarlo::take_samples`](eigentol::tolerance::PartialMonteCarlo::take_samples) gives.
 #[must_use]
-pub fn numbered_samples_table(
-    d: &Description,
-    inputs: &[f64],
-    modes: usize,
-    samples: &[(u64, Sample)],
-) -> Table {
+pub fn numbered_samples_table(run: &MonteCarlo, samples: &[(u64, Sample)]) -> Table {
     let numbers = samples.iter().map(|(number, _)| *number as usize + 1);
-    let mut table = rows(d, modes, numbers, samples.iter().map(|(_, sample)| sample));
-    operating_point(&mut table, d, inputs, None);
+    let all = samples.iter().map(|(_, sample)| sample);
+    let mut table = rows(&run.description, run.modes.len(), numbers, all);
+    origin(&mut table, run);
     table
+}
+
+/// Where the random numbers come from and at what operating point they were used.
+pub(super) fn origin(table: &mut Table, run: &MonteCarlo) {
+    operating_point(table, &run.description, &run.inputs, None);
+    let rows = table.rows();
+    for (name, value) in [("seed", run.seed), ("stream", run.stream)] {
+        table.whole(name, vec![usize::try_from(value).ok(); rows]);
+    }
 }
 
 fn rows<'a>(

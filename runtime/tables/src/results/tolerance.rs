@@ -3,7 +3,7 @@ use eigentol::{Description, FirstOrder, MonteCarlo, Quantity};
 
 use super::Tables;
 use super::names::{behaviour, by, in_unit, operating_point, unit_of, word};
-use super::samples::samples_table;
+use super::samples::{origin, samples_table};
 use crate::Table;
 
 /// Columns of one spread: mean, sigma, band.
@@ -166,20 +166,13 @@ impl Tables for MonteCarlo {
         statistics(&mut table, "frequency", "rad/s", modes);
         let damping = self.damping_ratios.iter().map(Option::as_ref);
         statistics(&mut table, "damping ratio", "", damping);
-        let sequence = |table: &mut Table| {
-            operating_point(table, d, &self.inputs, None);
-            let rows = table.rows();
-            for (name, value) in [("seed", self.seed), ("stream", self.stream)] {
-                table.whole(name, vec![usize::try_from(value).ok(); rows]);
-            }
-        };
-        sequence(&mut table);
+        origin(&mut table, self);
         let mut outcomes = outcomes(&self.counts);
-        sequence(&mut outcomes);
+        origin(&mut outcomes, self);
         let mut tables = vec![table, outcomes];
         if let Some(all) = &self.all {
             let mut samples = samples_table(d, 0, all);
-            sequence(&mut samples);
+            origin(&mut samples, self);
             tables.push(samples);
         }
         tables
