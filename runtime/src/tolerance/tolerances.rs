@@ -180,7 +180,7 @@ impl Tolerances {
     /// ```
     /// use eigentol::tolerance::Tolerances;
     ///
-    /// let tolerances = Tolerances::new(&[0.03], 3.0, None)?;
+    /// let tolerances = Tolerances::new([0.03], 3.0, None)?;
     /// let [length] = &tolerances.distributions(&[1.0])?[..] else { unreachable!() };
     /// assert_eq!((length.name(), length.mean(), length.sigma()), ("normal", 1.0, 0.01));
     /// # Ok::<(), eigentol::Error>(())
