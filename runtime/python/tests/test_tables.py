@@ -82,13 +82,17 @@ def test_the_stubs_say_what_there_is():
     described = {node.name: node for node in ast.parse(stubs).body if isinstance(node, ast.ClassDef)}
     # How settings and options are typed: of no use at run time.
     del described["Settings"], described["UrdfOptions"]
+    # How the stubs name what all results have.
+    shared = {"_Result": described.pop("_Result")}
     classes = {name: own for name, own in vars(eigentol).items() if inspect.isclass(own)}
     assert set(described) == set(classes)
     for name, own in classes.items():
         if issubclass(own, Exception):
             continue
-        functions = {node.name for node in described[name].body if isinstance(node, ast.FunctionDef)}
-        fields = {node.target.id for node in described[name].body if isinstance(node, ast.AnnAssign)}
+        bases = [shared[base.id] for base in described[name].bases if getattr(base, "id", None) in shared]
+        nodes = [node for one in [described[name], *bases] for node in one.body]
+        functions = {node.name for node in nodes if isinstance(node, ast.FunctionDef)}
+        fields = {node.target.id for node in nodes if isinstance(node, ast.AnnAssign)}
         listed = {one for one in functions | fields if not one.startswith("_")}
         assert listed == public(own), name
         assert own.__doc__, name
