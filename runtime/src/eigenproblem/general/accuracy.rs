@@ -14,6 +14,8 @@ const FAR: f64 = 8.0;
 const SUM: f64 = 1e-7;
 /// Vectors of eigenvalues that come from one defective eigenvalue are parallel to this.
 const PARALLEL: f64 = 0.9;
+/// Vectors of a worse conditioned cluster do not tell it from an eigenvalue that it almost meets.
+const DEFECTIVE: f64 = 1e6;
 
 /// Whether the pair needs the second method: its error is far beyond what rounding in the pencil explains.
 pub(super) fn in_trouble(pair: &Pair) -> bool {
@@ -34,16 +36,25 @@ pub(super) fn is_complete(solver: &Solver, found: &Found) -> bool {
     (sum - solver.linearisation.sum()).abs() <= allowed
 }
 
-/// Fills in the errors of all pairs that are not part of a cluster.
-pub(super) fn estimate(solver: &mut Solver, found: &mut Found) {
+/// Fills in the errors of all pairs that are not part of a cluster, and says whether each eigenvalue is clearly itself: of those
+/// that almost meet, one may be found in place of another.
+pub(super) fn estimate(solver: &mut Solver, found: &mut Found) -> bool {
+    let mut all_told_apart = true;
     for i in 0..found.count {
-        if !found.pairs[i].merged {
-            found.pairs[i].error = error(solver, found, i);
-        }
+        let told_apart = if found.pairs[i].merged {
+            found.pairs[i].condition <= DEFECTIVE
+        } else {
+            let (error, told_apart) = error(solver, found, i);
+            found.pairs[i].error = error;
+            told_apart
+        };
+        all_told_apart &= told_apart;
     }
+    all_told_apart
 }
 
-fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
+/// The error of an eigenvalue, and whether it is clearly none of the others.
+fn error(solver: &mut Solver, found: &Found, i: usize) -> (f64, bool) {
     let pair = &found.pairs[i];
     let step = modulus(pair.newton);
     let own = pair.own();
@@ -54,7 +65,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         gap = gap.min(modulus(s - pair.s));
     }
     if FAR * first <= gap && pair.residual <= INACCURATE && !in_trouble(pair) {
-        return first;
+        return (first, true);
     }
     let error = first.max(solver.noise(pair.condition));
     // A perturbation that moves an eigenvalue by p to first order moves one of a pair at a distance d, which meet in a
@@ -83,7 +94,7 @@ fn error(solver: &mut Solver, found: &Found, i: usize) -> f64 {
         error
     };
     let most = solver.pencil.rate(pair.s) * solver.relative().powf(0.5 / n as f64);
-    reduced.min(most).max(own)
+    (reduced.min(most).max(own), false)
 }
 
 fn vector<'f>(found: &'f Found, i: usize) -> &'f [Complex64] {

@@ -170,8 +170,8 @@ fn start(into: &mut [Complex64], vector: &[Complex64], units: &[f64]) {
     }
 }
 
-/// Finds all pairs that start from `values`, `near` from the vectors in `found`; returns the number of those that went wrong; one that would be
-/// refused counts more than all others.
+/// Finds all pairs that start from `values`, and, where these are `near`, from the vectors in `found`; returns the number of
+/// those that went wrong; one that would be refused counts more than all others.
 fn find(
     solver: &mut Solver,
     found: &mut Found,
@@ -212,7 +212,8 @@ fn find(
             }
         }
     }
-    accuracy::estimate(solver, found);
+    let told_apart = accuracy::estimate(solver, found);
+    troubles += usize::from(near && !told_apart);
     if !accuracy::is_complete(solver, found) {
         troubles += 4 * n;
     }

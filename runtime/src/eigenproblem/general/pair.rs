@@ -70,7 +70,7 @@ impl Solver<'_> {
             s = next;
             last = step;
             let settled = pair.is_settled();
-            if settled || step <= SMALL * modulus(s) {
+            if settled || near && step <= SMALL * modulus(s) {
                 // The vectors may serve the improved eigenvalue as they are.
                 let moved = self.measure(s, left);
                 if (settled || moved.is_settled()) && moved.residual <= INACCURATE {
