@@ -250,6 +250,8 @@ class Study:
         sweep: tuple[str, ArrayLike] | tuple[str, ArrayLike, str] | None = None,
         orders: Sequence[float] = ...,
         title: str | None = None,
+        mode_names: Sequence[str] = ...,
+        frequency_unit: Literal["Hz", "rad/s"] | None = None,
     ) -> None: ...
     def critical(self, input: str, low: Value, high: Value) -> Event: ...
     def crossings(

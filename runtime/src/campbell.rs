@@ -57,6 +57,8 @@ pub struct Campbell {
     pub input: Input,
     /// One point for each value.
     pub points: Vec<CampbellPoint>,
+    /// How many of the values were not reached, because the run was stopped.
+    pub unreached: usize,
     /// The lines that crossings were looked for with.
     pub orders: Vec<Line>,
     /// Where a frequency meets a line: value of the input, sensitivity and spread; line by line. The number of
@@ -176,6 +178,7 @@ pub fn campbell_each(
     let conditions: Vec<Condition> = conditions.chain([Condition::FlutterOnset]).collect();
     let (mut crossings, mut flutter_onsets) = (Vec::new(), Vec::new());
     let mut path = Path::new(following);
+    let mut unreached = values.len();
     for &value in values {
         let before = tracker.last.clone();
         let failed = tracker.advance(value);
@@ -196,6 +199,7 @@ pub fn campbell_each(
             }
         }
         if let Some(point) = failed.as_ref().or(tracker.last.as_ref()) {
+            unreached -= 1;
             let describe = |(state, modes)| describe(mechanism, state, modes, tolerances);
             path.add(
                 value,
@@ -229,6 +233,7 @@ pub fn campbell_each(
         input,
         critical: critical.collect(),
         points: Vec::new(),
+        unreached,
         orders: orders.to_vec(),
         crossings,
         flutter_onsets,

@@ -188,6 +188,33 @@ fn a_law_follows_limits_and_limits_keep_the_law() {
     close(wide(soft.clone().sigma_level(2.0)), 1.5 * wide(soft), 1e-14);
 }
 
+/// Places between the limits follow them.
+#[test]
+fn one_of_some_values_between_limits() {
+    let places = vec![(0.0, 1.0), (0.25, 6.0), (1.0, 1.0)];
+    let law = Law::OneOf(places.into());
+    let study = study().limits(LENGTH, -0.01, 0.03).law(LENGTH, law.clone());
+    let found = study.tolerances().unwrap();
+    // Values of 0.99 (1/8), 1 (6/8) and 1.03 (1/8).
+    close(found.shifts()[1], 0.02 / 8.0, 1e-12);
+    let variance = (1e-4 + 9e-4) / 8.0 - (0.02_f64 / 8.0).powi(2);
+    close(found.sigmas()[1], variance.sqrt(), 1e-12);
+    let twice = study
+        .clone()
+        .limits(LENGTH, -0.02, 0.06)
+        .tolerances()
+        .unwrap();
+    close(twice.sigmas()[1], 2.0 * variance.sqrt(), 1e-12);
+    let outside = vec![(0.0, 1.0), (1.5, 1.0)];
+    let refused = study.law(LENGTH, Law::OneOf(outside.into())).tolerances();
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("1.5 is not between 0")
+    );
+}
+
 #[test]
 fn what_makes_no_sense_is_refused() {
     let refused = |study: Study<Pendulum>| match study.tolerances() {
@@ -311,6 +338,57 @@ mod declared {
             body bar: rod(mass: m, length: l, along: -z);
             joint spin: revolute(z) from ground to shaft, driven at omega;
             joint theta: revolute(y) from shaft to bar;
+        }
+    }
+
+    mechanism! {
+        mechanism Classes {
+            input omega: rad/s;
+            design l = 1 m one of [0.98, 1.0, 1.03] m weighted [1, 6, 1];
+            gravity 9.81 m/s^2 along -z;
+            body shaft: massless;
+            body bar: rod(mass: 3 kg, length: l, along: -z);
+            joint spin: revolute(z) from ground to shaft, driven at omega;
+            joint theta: revolute(y) from shaft to bar;
+        }
+    }
+
+    /// Three lengths, three frequencies: mean and variance are sums.
+    #[test]
+    fn classes_of_the_language() {
+        let study = Study::new(Classes)
+            .input(Classes::omega, SPEED)
+            .start(Classes::theta, 1.0)
+            .samples(4000)
+            .keep_samples(true);
+        let run = study.monte_carlo().unwrap();
+        let classes = [0.98, 1.0, 1.03].map(frequency);
+        let weights = [0.125, 0.75, 0.125];
+        let of = |value: &dyn Fn(f64) -> f64| -> f64 {
+            classes
+                .iter()
+                .zip(weights)
+                .map(|(own, weight)| weight * value(*own))
+                .sum()
+        };
+        let mean = of(&|own| own);
+        let variance = of(&|own| (own - mean).powi(2));
+        let found = run.modes[0].as_ref().unwrap();
+        assert!(
+            (found.mean - mean).abs() < 4.0 * (variance / 4000.0).sqrt(),
+            "{found:?}"
+        );
+        close(found.sigma.unwrap(), variance.sqrt(), 0.05);
+        close(found.min, classes[0].min(classes[2]), 1e-12);
+        close(found.max, classes[0].max(classes[2]), 1e-12);
+        for (length, weight) in [0.98, 1.0, 1.03].into_iter().zip(weights) {
+            let all = run.all.as_ref().unwrap();
+            let count = all
+                .iter()
+                .filter(|own| (own.design[0] - length).abs() < 1e-15)
+                .count();
+            let expected = 4000.0 * weight;
+            assert!((count as f64 - expected).abs() < 4.0 * (expected * (1.0 - weight)).sqrt());
         }
     }
 

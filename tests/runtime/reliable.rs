@@ -325,11 +325,11 @@ fn small_probabilities_of_a_curved_limit() {
 /// Against first-order reliability run again.
 #[test]
 fn derivatives_are_those_of_differences() {
-    let at = |nominal: [f64; 2], wide: [f64; 2], law: Law, edge: f64| {
+    let at = |nominal: [f64; 2], wide: [f64; 2], law: &Law, edge: f64| {
         let study = pendulum()
             .design(Pendulum::l, nominal[1])
             .limits(Pendulum::l, -0.01 * wide[1] + 0.01, 0.01 * wide[1] + 0.01)
-            .law(Pendulum::l, law)
+            .law(Pendulum::l, law.clone())
             .tolerance(Pendulum::omega, 0.15 * wide[0])
             .correlation([[1.0, 0.0, 0.0], [0.0, 1.0, 0.4], [0.0, 0.4, 1.0]]);
         let found = study
@@ -339,7 +339,7 @@ fn derivatives_are_those_of_differences() {
         let all = found.limits[0].design_points.clone().unwrap();
         (all[0].clone(), half_widths)
     };
-    for law in [Law::Normal, Law::Uniform, Law::Triangular] {
+    for law in &[Law::Normal, Law::Uniform, Law::Triangular] {
         for edge in [3.95, 4.0, 4.2] {
             let (point, half_widths) = at([0.0, 1.0], [1.0, 1.0], law, edge);
             let h = 1e-5;

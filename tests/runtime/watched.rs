@@ -100,13 +100,15 @@ fn whoever_looks_on_may_break_off() {
         }
     };
     let study = pendulum();
-    study
+    let swept = study
         .sweep_each(Pendulum::omega, &speeds(), |_| enough())
         .unwrap();
-    study
+    let drawn = study
         .campbell_each(Pendulum::omega, &speeds(), &[1.0], |_| enough())
         .unwrap();
     assert_eq!(seen, 14);
+    let missing = speeds().len() - 7;
+    assert_eq!((swept.unreached, drawn.unreached), (missing, missing));
 }
 
 #[test]
@@ -118,11 +120,17 @@ fn sweeps_and_diagrams_stop_with_what_is_done() {
     let part = study.campbell(Pendulum::omega, &speeds(), &[1.0]).unwrap();
     assert_eq!(part.points, whole.points[..10]);
     assert_eq!(done.load(Ordering::Relaxed), 10);
+    let missing = speeds().len() - 10;
+    assert_eq!((whole.unreached, part.unreached), (0, missing));
+    let line = format!("Not complete: {missing} of the values were not reached");
+    assert!(part.to_string().contains(&line) && !whole.to_string().contains(&line));
     let (study, _) = stopped_after(pendulum(), 10);
     let whole = pendulum().sweep(Pendulum::omega, &speeds()).unwrap();
     let part = study.sweep(Pendulum::omega, &speeds()).unwrap();
     assert_eq!(part.points, whole.points[..10]);
     assert!(part.critical.is_empty() && !whole.critical.is_empty());
+    assert_eq!((whole.unreached, part.unreached), (0, missing));
+    assert!(part.to_string().contains(&line) && !whole.to_string().contains(&line));
 }
 
 #[test]

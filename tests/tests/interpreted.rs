@@ -112,7 +112,7 @@ fn twins_have_the_same_tolerances() {
     let twin = Study::new(twin);
     assert_eq!(twin.description().inputs, compiled.inputs);
     assert_eq!(twin.description().design, compiled.design);
-    let limits = |lower, upper, law| ToleranceInfo {
+    let limits = |lower, upper, law: Law| ToleranceInfo {
         lower,
         upper,
         relative: false,
@@ -122,7 +122,7 @@ fn twins_have_the_same_tolerances() {
         relative: true,
         ..ToleranceInfo::half_width(0.01)
     };
-    let inputs = compiled.inputs.iter().map(|info| info.tolerance);
+    let inputs = compiled.inputs.iter().map(|info| info.tolerance.clone());
     let expected = [
         one_percent,
         limits(0.0, 0.5, Law::Uniform),
@@ -133,6 +133,13 @@ fn twins_have_the_same_tolerances() {
         alpha: 2.0,
         beta: 3.5,
     };
+    let Law::OneOf(places) = &compiled.design[7].tolerance.law else {
+        panic!("a list of values")
+    };
+    for (found, expected) in places.iter().zip([(0.0, 1.0), (0.25, 6.0), (1.0, 1.0)]) {
+        assert!((found.0 - expected.0).abs() < 1e-12 && found.1 == expected.1);
+    }
+    let shim = Law::OneOf(places.clone());
     let expected = [
         limits(-0.02, 0.04, Law::Lognormal),
         limits(-63.0, 63.0, Law::Weibull),
@@ -141,14 +148,15 @@ fn twins_have_the_same_tolerances() {
         limits(-4.1e-5, -2e-5, beta),
         ToleranceInfo::half_width(2e-4),
         limits(-2e-3, 2e-3, Law::TruncatedNormal),
+        limits(-1e-4, 3e-4, shim),
     ];
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs();
     for (info, expected) in compiled.design.iter().zip(expected) {
         let ToleranceInfo {
             lower, upper, law, ..
-        } = info.tolerance;
+        } = &info.tolerance;
         assert!(
-            near(lower, expected.lower) && near(upper, expected.upper) && law == expected.law,
+            near(*lower, expected.lower) && near(*upper, expected.upper) && *law == expected.law,
             "{info:?}"
         );
         assert!(!info.tolerance.relative);

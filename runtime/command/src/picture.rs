@@ -16,12 +16,39 @@ pub(crate) struct Picture {
     /// Draw a figure of the answer into a file, `.svg` or `.png`; a file that exists is replaced
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
-    /// What the figure calls the modes, the first one first: `bounce,pitch` [default: their numbers]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "figure")]
+    #[command(flatten)]
+    wording: Wording,
+}
+
+/// How a figure calls things.
+#[derive(Args, Debug)]
+pub(crate) struct Wording {
+    /// What figures call the modes, the first one first: `bounce,pitch` [default: their numbers]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     mode_names: Vec<String>,
-    /// Unit of frequencies in the figure [default: Hz along an input in rpm or Hz, otherwise rad/s]
-    #[arg(long, value_name = "UNIT", value_enum, requires = "figure")]
+    /// Unit of frequencies in figures [default: Hz along an input in rpm or Hz, otherwise rad/s]
+    #[arg(long, value_name = "UNIT", value_enum)]
     frequency_unit: Option<FrequencyUnit>,
+}
+
+impl Wording {
+    fn is_given(&self) -> bool {
+        !self.mode_names.is_empty() || self.frequency_unit.is_some()
+    }
+
+    /// Words as the study file has them, and what the command line says wins.
+    pub(crate) fn style(&self, question: &Question) -> Style {
+        let names = match self.mode_names.is_empty() {
+            true => &question.file.mode_names,
+            false => &self.mode_names,
+        };
+        let style = Style::default().name_modes(names.iter().map(|name| name.trim()));
+        match self.frequency_unit.or(question.file.frequency_unit) {
+            None => style,
+            Some(FrequencyUnit::Hertz) => style.hertz(),
+            Some(FrequencyUnit::RadiansPerSecond) => style.radians_per_second(),
+        }
+    }
 }
 
 impl Picture {
@@ -30,8 +57,12 @@ impl Picture {
         self.figure.is_some()
     }
 
-    /// Refuses, before long work, a file of another form or one that cannot be written.
+    /// Refuses, before long work, words without a figure, a file of another form or one that cannot be written.
     pub(crate) fn check(&self) -> Result<(), Failure> {
+        if self.figure.is_none() && self.wording.is_given() {
+            let message = "names of modes and a unit of frequencies are for a figure";
+            return Err(Failure::usage(message, "ask for one: `--figure modes.svg`"));
+        }
         if let Some(path) = &self.figure {
             Form::of(path)?;
             let writable = Target::of(path).check();
@@ -40,18 +71,9 @@ impl Picture {
         Ok(())
     }
 
-    /// How the figure is drawn: as the study file says, and what the command line says wins.
+    /// How the figure is drawn.
     pub(crate) fn style(&self, question: &Question) -> Style {
-        let names = match self.mode_names.is_empty() {
-            true => &question.file.mode_names,
-            false => &self.mode_names,
-        };
-        let style = Style::of(&question.study).name_modes(names.iter().map(|name| name.trim()));
-        match self.frequency_unit.or(question.file.frequency_unit) {
-            None => style,
-            Some(FrequencyUnit::Hertz) => style.hertz(),
-            Some(FrequencyUnit::RadiansPerSecond) => style.radians_per_second(),
-        }
+        self.wording.style(question).design_of(&question.study)
     }
 
     /// Draws the figure that is asked for, if it is.

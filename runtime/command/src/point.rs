@@ -26,7 +26,7 @@ pub(crate) struct Point {
     /// Value of an input or a design variable: `speed=3000rpm`
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     set: Vec<(String, String)>,
-    /// Tolerance of a design variable or an input: `l=3%`, `l="+0.2 -0.1 mm uniform"`
+    /// Tolerance of a design variable or an input: `l=3%`, `l="+0.2 -0.1 mm uniform"`, `l="one of [9, 10] mm"`
     #[arg(long, value_name = "NAME=TOLERANCE", value_parser = pair)]
     tol: Vec<(String, String)>,
     /// Where the search for the equilibrium starts; held while a mechanism with loops is assembled
@@ -134,21 +134,21 @@ fn tolerate(
 ) -> Result<Study<Interpreted>, Failure> {
     let (parameter, unit) = parameter(&study, name)?;
     let refused = |mistakes| Failure::value(format!("tolerance {name}={text}"), &mistakes);
+    let value = match parameter {
+        Parameter::Input(input) => study.input_values()[input.index()],
+        Parameter::Design(variable) => study.design_values()[variable.index()],
+    };
     let ToleranceInfo {
         lower,
         upper,
         relative,
         law,
-    } = tolerance(text, &unit).map_err(refused)?;
+    } = tolerance(text, &unit, value).map_err(refused)?;
     let study = if !relative {
         study.limits(parameter, lower, upper)
     } else if lower == -upper {
         study.relative_tolerance(parameter, upper)
     } else {
-        let value = match parameter {
-            Parameter::Input(input) => study.input_values()[input.index()],
-            Parameter::Design(variable) => study.design_values()[variable.index()],
-        };
         study.limits(parameter, value.abs() * lower, value.abs() * upper)
     };
     // Without a law the declared one stays.

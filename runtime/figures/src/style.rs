@@ -39,11 +39,17 @@ impl Style {
     /// A style whose captions have the design variables of a study with their tolerances.
     #[must_use]
     pub fn of<M: Kernels>(study: &Study<M>) -> Self {
+        Self::default().design_of(study)
+    }
+
+    /// Captions with the design variables of a study and their tolerances, as [`Style::of`] has them.
+    #[must_use]
+    pub fn design_of<M: Kernels>(self, study: &Study<M>) -> Self {
         let description = study.description();
         let tolerances = study.tolerances();
         let half_widths = tolerances.as_ref().map(|own| own.half_widths());
         let half_widths = half_widths.unwrap_or_default();
-        Self::default().note(design(description, study.design_values(), half_widths))
+        self.note(design(description, study.design_values(), half_widths))
     }
 
     /// The title.
@@ -123,7 +129,9 @@ impl Style {
         self.title.clone().unwrap_or(otherwise)
     }
 
-    pub(crate) fn mode(&self, label: usize) -> String {
+    /// What a mode is called: its name, or `mode 1`.
+    #[must_use]
+    pub fn mode(&self, label: usize) -> String {
         let own = self.names.get(&label);
         own.cloned()
             .unwrap_or_else(|| format!("mode {}", label + 1))
@@ -140,8 +148,9 @@ impl Style {
         }
     }
 
-    /// What one rad/s is in the unit of frequencies, and the symbol of that.
-    pub(crate) fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
+    /// What one rad/s is in the unit of frequencies, along an input or at a point, and the symbol of that.
+    #[must_use]
+    pub fn frequency(&self, along: Option<&InputInfo>) -> (f64, &'static str) {
         let turning = |info: &InputInfo| matches!(&*info.unit.symbol, "rpm" | "Hz");
         let hertz = match self.frequency {
             Some(own) => own == Frequency::Hertz,

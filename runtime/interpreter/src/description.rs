@@ -27,14 +27,18 @@ pub(crate) fn tolerance(tolerance: &mechanism::Tolerance) -> ToleranceInfo {
         lower: tolerance.lower,
         upper: tolerance.upper,
         relative: tolerance.relative,
-        law: match tolerance.law {
+        law: match &tolerance.law {
             mechanism::Law::Normal => Law::Normal,
             mechanism::Law::TruncatedNormal => Law::TruncatedNormal,
             mechanism::Law::Uniform => Law::Uniform,
             mechanism::Law::Triangular => Law::Triangular,
             mechanism::Law::Lognormal => Law::Lognormal,
             mechanism::Law::Weibull => Law::Weibull,
-            mechanism::Law::Beta { alpha, beta } => Law::Beta { alpha, beta },
+            mechanism::Law::Beta { alpha, beta } => Law::Beta {
+                alpha: *alpha,
+                beta: *beta,
+            },
+            mechanism::Law::OneOf(values) => Law::OneOf(values.clone().into()),
         },
     }
 }

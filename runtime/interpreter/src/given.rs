@@ -29,22 +29,22 @@ pub fn value(text: &str, unit: &Unit, what: &str) -> Result<f64, Mistakes> {
 }
 
 /// The tolerance of a quantity of this unit: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the sign `+/-` of a
-/// half-width.
+/// half-width, or `one of [1.9, 2.1] mm`. `nominal` is the value, SI, about which it varies.
 ///
 /// ```
 /// use eigentol::{Law, Unit};
 /// use eigentol_interpreter::tolerance;
 ///
 /// let mm = Unit { symbol: "mm".to_owned().into(), scale: 1e-3 };
-/// let found = tolerance("+0.2 0 mm uniform", &mm)?;
+/// let found = tolerance("+0.2 0 mm uniform", &mm, 0.02)?;
 /// assert_eq!((found.lower, found.upper, found.law), (0.0, 2e-4, Law::Uniform));
 /// # Ok::<(), eigentol_interpreter::Mistakes>(())
 /// ```
 ///
 /// # Errors
 /// What is wrong with the text; lines and columns count within it.
-pub fn tolerance(text: &str, unit: &Unit) -> Result<ToleranceInfo, Mistakes> {
-    let found = given::tolerance(tokens(text)?, declared(unit)?)?;
+pub fn tolerance(text: &str, unit: &Unit, nominal: f64) -> Result<ToleranceInfo, Mistakes> {
+    let found = given::tolerance(tokens(text)?, declared(unit)?, nominal)?;
     Ok(description::tolerance(&found))
 }
 

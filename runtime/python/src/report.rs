@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use eigentol_report::{Error, Report};
+use eigentol_report::{Error, Report, Style};
 use pyo3::exceptions::{PyOSError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -18,10 +18,11 @@ impl Study {
     ///
     /// `sweep` is a tuple of the name of an input and values of it, SI or texts with units, and may have a unit for plain numbers as
     /// its third entry: `("speed", range(0, 6001, 100), "rpm")`. `orders` are multiples of that input whose crossings are marked.
-    /// Samples and seed are those of the study.
+    /// Samples and seed are those of the study. `mode_names` are what figures and sentences call the modes, the first one first, and
+    /// `frequency_unit` is the unit of frequencies in them, `"Hz"` or `"rad/s"`.
     ///
     /// Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
-    #[pyo3(signature = (path, sweep=None, orders=vec![], title=None))]
+    #[pyo3(signature = (path, sweep=None, orders=vec![], title=None, mode_names=vec![], frequency_unit=None))]
     fn report(
         &self,
         py: Python<'_>,
@@ -29,7 +30,20 @@ impl Study {
         sweep: Option<&Bound<'_, PyTuple>>,
         orders: Vec<f64>,
         title: Option<String>,
+        mode_names: Vec<String>,
+        frequency_unit: Option<&str>,
     ) -> PyResult<()> {
+        let style = Style::default().name_modes(mode_names);
+        let style = match frequency_unit {
+            None => style,
+            Some("Hz") => style.hertz(),
+            Some("rad/s") => style.radians_per_second(),
+            Some(other) => {
+                let setting = "frequency_unit";
+                let reason = format!("\"Hz\" or \"rad/s\", not {other:?}");
+                return Err(raise(py, eigentol::Error::Setting { setting, reason }));
+            }
+        };
         if let Some(other) = orders.iter().find(|order| !order.is_finite()) {
             return Err(not_finite(py, "orders", *other));
         }
@@ -42,7 +56,8 @@ impl Study {
             }
         };
         let html = self.stoppably(py, |study| {
-            let mut report = Report::new(study).declaration(text).orders(&orders);
+            let report = Report::new(study).style(style);
+            let mut report = report.declaration(text).orders(&orders);
             if let Some(title) = title {
                 report = report.title(title);
             }

@@ -208,14 +208,14 @@ fn parameter(
     Ok((DesignVariable::new(place).into(), unit, value))
 }
 
-/// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm"), or both limits as deviations.
+/// A half-width (SI), a text ("3%", "+/- 0.1 mm uniform", "+0.2 -0.1 mm", "one of [1.9, 2.1] mm"), or both limits as deviations.
 fn tolerances(study: Study<Interpreted>, given: &Bound<'_, PyAny>) -> PyResult<Study<Interpreted>> {
     each(study, given, "tolerances", |study, name, given| {
         let py = given.py();
         let (parameter, unit, value) = parameter(&study, py, name)?;
         if let Ok(text) = given.cast::<PyString>() {
             let text = text.to_cow()?;
-            let read = tolerance(&text, &unit);
+            let read = tolerance(&text, &unit, value);
             let read = read.map_err(|mistakes| refused(py, &text, &mistakes))?;
             return Ok(tolerate(study, parameter, read, value));
         }

@@ -30,8 +30,8 @@ const BETWEEN_SIGNALS: Duration = Duration::from_millis(50);
 ///   inputs, design: values by name.
 ///   start: where the search for the equilibrium starts, by coordinate; held while a mechanism with loops is assembled.
 ///   guess: the same for dependent coordinates, which move freely.
-///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform"), or a pair of
-///       deviations, lower and upper.
+///   tolerances: by name of a design variable or an input: a half-width, a text ("3%", "+0.2 -0.1 mm uniform",
+///       "one of [9, 10] mm"), or a pair of deviations, lower and upper.
 ///   measured: arrays of measured values by name, SI, which take the place of a tolerance.
 ///   sigma_level: standard deviations that a half-width stands for (3).
 ///   correlation: matrix of the design variables, and after them of the inputs that have a tolerance.

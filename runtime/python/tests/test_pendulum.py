@@ -75,6 +75,8 @@ def test_first_order_spread(study):
     assert found.names == ["m", "l"] and found.trusted
     half = study.replace(tolerances={"l": "15 mm"}).first_order().sigma()
     np.testing.assert_allclose(half, [sigma / 2], rtol=1e-12)
+    listed = study.replace(tolerances={"l": "one of [0.97, 1.03] m"}).first_order().sigma()
+    np.testing.assert_allclose(listed, [3 * sigma], rtol=1e-12)
 
 
 def test_an_input_with_a_tolerance_is_a_variable(study):

@@ -1,6 +1,7 @@
 """Reports: one HTML file whose data are those of the results."""
 
 import json
+import math
 import re
 
 import pytest
@@ -37,6 +38,16 @@ def test_values_of_the_sweep_may_have_a_unit(study, tmp_path):
     path = tmp_path / "report.html"
     study.report(path, sweep=("omega", [40, 60], "rpm"))
     assert column(path, "Campbell diagram", "omega") == pytest.approx([4.18879020, 6.28318531])
+
+
+def test_modes_are_called_and_measured_as_the_user_says(study, tmp_path):
+    path = tmp_path / "report.html"
+    study.report(path, mode_names=["swing"], frequency_unit="Hz")
+    hertz = study.modes().frequencies[0] / (2 * math.pi)
+    assert f"Swing at {hertz:.4f}" in path.read_text("utf-8")
+    assert data(path, "scene")[0]["modes"][0]["title"].startswith("Swing: ")
+    with pytest.raises(ValueError, match="frequency_unit.*\"kHz\""):
+        study.report(path, frequency_unit="kHz")
 
 
 def test_mistakes_are_exceptions(study, tmp_path):

@@ -11,5 +11,6 @@ mod sections;
 mod tables;
 mod words;
 
+pub use eigentol_figures::Style;
 pub use error::Error;
 pub use report::Report;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use eigentol::kernels::{PictureKernels, SummaryKernels};
 use eigentol::{Input, Study, Value};
+use eigentol_figures::Style;
 
 use crate::content::Content;
 use crate::{Error, page};
@@ -42,6 +43,7 @@ pub struct Report<M> {
     pub(crate) declaration: Option<String>,
     pub(crate) along: Option<(Input<M>, Vec<Value>)>,
     pub(crate) orders: Vec<f64>,
+    pub(crate) style: Style,
 }
 
 impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
@@ -54,6 +56,7 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
             declaration: None,
             along: None,
             orders: Vec::new(),
+            style: Style::default(),
         }
     }
 
@@ -84,6 +87,13 @@ impl<M: SummaryKernels + PictureKernels + Clone> Report<M> {
     #[must_use]
     pub fn orders(mut self, orders: &[f64]) -> Self {
         self.orders = orders.to_vec();
+        self
+    }
+
+    /// Says what the modes are called and which unit frequencies have, in figures and sentences. Tables keep numbers and rad/s.
+    #[must_use]
+    pub fn style(mut self, style: Style) -> Self {
+        self.style = style;
         self
     }
 

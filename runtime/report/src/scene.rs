@@ -4,10 +4,11 @@ use std::f64::consts::TAU;
 
 use eigentol::picture::{ModePictures, Pose, Scene};
 use eigentol::{Mode, Modes};
+use eigentol_figures::Style;
 use serde::Serialize;
 
 use crate::content::Pictures;
-use crate::words::number;
+use crate::words::{capital, number};
 
 /// Most poses of all modes together: they are the bulk of the file.
 const POSES: usize = 14_000;
@@ -43,14 +44,14 @@ struct Motion {
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(pictures: &'a Pictures, modes: Option<&Modes>) -> Self {
+    pub(crate) fn new(pictures: &'a Pictures, modes: Option<&Modes>, style: &Style) -> Self {
         let scene = &pictures.scene;
         let size = scene.size();
         let motion = |own: &ModePictures| {
             let mode = modes?.modes.get(own.mode)?;
             let frames = own.frames.iter().map(|poses| flat(poses, size));
             Some(Motion {
-                title: title(mode),
+                title: title(mode, style),
                 about: about(mode, own.amplitude),
                 frames: frames.collect(),
             })
@@ -85,11 +86,12 @@ fn flat(poses: &[Pose], size: f64) -> Vec<f64> {
     all.collect()
 }
 
-fn title(mode: &Mode) -> String {
-    let number_of_mode = mode.label + 1;
+fn title(mode: &Mode, style: &Style) -> String {
+    let name = capital(&style.mode(mode.label));
+    let (scale, unit) = style.frequency(None);
     match mode.frequency() {
-        Some(omega) => format!("Mode {number_of_mode}: {} rad/s", number(omega)),
-        None => format!("Mode {number_of_mode}: {}", mode.behaviour),
+        Some(omega) => format!("{name}: {} {unit}", number(scale * omega)),
+        None => format!("{name}: {}", mode.behaviour),
     }
 }
 

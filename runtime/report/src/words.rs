@@ -62,21 +62,22 @@ pub(crate) fn operating_point(d: &Description, inputs: &[f64]) -> String {
     each.collect::<Vec<_>>().join(", ")
 }
 
+/// With a capital as the first letter.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.collect::<String>() + letters.as_str()
+}
+
 /// A sentence: the first letter a capital, a full stop at the end.
 pub(crate) fn sentence(text: &str) -> String {
     let text = text.trim();
-    let mut letters = text.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
     let stop = if text.ends_with(['.', '?', '!']) {
         ""
     } else {
         "."
     };
-    format!("{first}{}{stop}", letters.as_str())
+    format!("{}{stop}", capital(text))
 }
 
 #[cfg(test)]

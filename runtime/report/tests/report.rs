@@ -2,7 +2,7 @@
 
 use eigentol::{InDeclaredUnit, Study, mechanism};
 use eigentol_interpreter::Interpreted;
-use eigentol_report::{Error, Report};
+use eigentol_report::{Error, Report, Style};
 use serde_json::Value;
 
 mechanism! {
@@ -151,6 +151,42 @@ fn charts_are_the_figures_of_the_results() {
     );
     let expected = serde_json::to_value(expected.unwrap()).unwrap();
     assert!(figures.contains(&expected));
+}
+
+#[test]
+fn modes_are_called_and_measured_as_the_user_says() {
+    let study = swinging();
+    let omega = study.solve().unwrap().modes.modes[0].frequency().unwrap();
+    let page = |style: Style| {
+        let report = Report::new(&study).style(style);
+        report
+            .sweep(Pendulum::omega, &[4.5, 5.0, 5.5])
+            .html()
+            .unwrap()
+    };
+    let named = page(Style::default().name_mode(0, "swing").hertz());
+    let hertz = format!("{:.4}", omega / std::f64::consts::TAU);
+    assert!(
+        words(&named).contains(&format!("Swing at {hertz}")),
+        "{hertz}"
+    );
+    let scene = &data(&named, "scene")[0];
+    let title = scene["modes"][0]["title"].as_str().unwrap();
+    assert!(
+        title.starts_with(&format!("Swing: {hertz}")) && title.ends_with(" Hz"),
+        "{title}"
+    );
+    for figure in data(&named, "figure") {
+        let text = figure.to_string();
+        assert!(
+            !text.contains("mode 1") && !text.contains("rad/s]"),
+            "{text}"
+        );
+    }
+    let plain = page(Style::default());
+    assert!(words(&plain).contains(&format!("Mode 1 at {omega:.5}")));
+    // Tables keep numbers and rad/s.
+    assert_eq!(column(&table(&named, "modes"), "frequency"), [Some(omega)]);
 }
 
 #[test]

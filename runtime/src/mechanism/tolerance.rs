@@ -1,7 +1,9 @@
 //! Declared tolerances: limits about a value, and how values are distributed between them.
 
+use super::List;
+
 /// How a design variable or an input varies about its value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ToleranceInfo {
     /// Lower limit less the value, SI or a fraction of the value.
@@ -44,7 +46,7 @@ impl ToleranceInfo {
 ///
 /// Limits of the first three hold a number of standard deviations on either side of their middle, the sigma level of the analysis,
 /// three unless set: a few values lie beyond them. The others never leave them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Law {
@@ -67,4 +69,7 @@ pub enum Law {
         /// Second shape, positive.
         beta: f64,
     },
+    /// One of some values, as of parts that come in classes or have been measured: for each how far it is from the lower to the upper
+    /// limit, from 0 to 1, and a weight, which is not negative.
+    OneOf(List<(f64, f64)>),
 }

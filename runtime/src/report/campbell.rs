@@ -5,7 +5,7 @@ use core::fmt;
 use super::numbers::{given_in, heading, in_unit, number, optional, or_dash, rough, rough_in};
 use super::relevance::{EVERYTHING, shown};
 use super::shares::mostly;
-use super::table::{Table, cells, undamped};
+use super::table::{Table, cells, not_reached, undamped};
 use super::title::title_along;
 use super::tolerance::{spread_of, what_happens};
 use crate::campbell::{Campbell, CampbellMode};
@@ -18,6 +18,7 @@ impl fmt::Display for Campbell {
         let d = &self.description;
         let title = title_along(d, &self.inputs, self.input);
         writeln!(f, "{title}: Campbell diagram")?;
+        not_reached(f, self.unreached)?;
         let Some(info) = d.inputs.get(self.input.index()) else {
             return Ok(());
         };

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::numbers::{given_in, heading, in_unit, optional, with_unit};
 use super::relevance::{EVERYTHING, names, of_its_kind, shown};
-use super::table::{Table, undamped};
+use super::table::{Table, not_reached, undamped};
 use super::title::title_along;
 use crate::Mode;
 use crate::sweep::Sweep;
@@ -14,6 +14,7 @@ impl fmt::Display for Sweep {
         let d = &self.description;
         let title = title_along(d, &self.inputs, self.input);
         writeln!(f, "{title}: sweep")?;
+        not_reached(f, self.unreached)?;
         let input = d.inputs.get(self.input.index());
         let mut head = vec![input.map_or_else(String::new, |info| heading(&info.name, &info.unit))];
         let states = self

@@ -97,6 +97,17 @@ pub(super) fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
     texts.map(str::to_owned).to_vec()
 }
 
+/// Says of what runs along an input that it was stopped.
+pub(super) fn not_reached(f: &mut fmt::Formatter<'_>, unreached: usize) -> fmt::Result {
+    match unreached {
+        0 => Ok(()),
+        _ => writeln!(
+            f,
+            "  Not complete: {unreached} of the values were not reached."
+        ),
+    }
+}
+
 /// Says of results that rest on undamped modes what they leave out.
 pub(super) fn undamped(
     f: &mut fmt::Formatter<'_>,

@@ -62,10 +62,10 @@ impl Settings {
             policy: Policy::Stable,
             family: None,
             design_variations: (design.iter())
-                .map(|info| Variation::About(info.tolerance))
+                .map(|info| Variation::About(info.tolerance.clone()))
                 .collect(),
             input_variations: (description.inputs.iter())
-                .map(|info| Variation::About(info.tolerance))
+                .map(|info| Variation::About(info.tolerance.clone()))
                 .collect(),
             sigma_level: 3.0,
             correlation: None,

@@ -17,7 +17,7 @@ impl Variation {
     /// Sets limits about the value; the law stays, or is normal in place of given values.
     pub(super) fn set_limits(&mut self, (lower, upper): (f64, f64), relative: bool) {
         let law = match self {
-            Self::About(info) => info.law,
+            Self::About(info) => info.law.clone(),
             Self::Values(_) => Law::Normal,
         };
         *self = Self::About(ToleranceInfo {
@@ -31,7 +31,7 @@ impl Variation {
     /// Sets the law; limits stay, or are none in place of given values.
     pub(super) fn set_law(&mut self, law: Law) {
         let info = match self {
-            Self::About(info) => *info,
+            Self::About(info) => info.clone(),
             Self::Values(_) => ToleranceInfo::NONE,
         };
         *self = Self::About(ToleranceInfo { law, ..info });

@@ -17,6 +17,8 @@ pub struct Sweep {
     /// rounding, each on the branch before it. Found only where stable equilibria are wanted and the values ascend or
     /// descend.
     pub critical: Vec<CriticalState>,
+    /// How many of the values were not reached, because the run was stopped.
+    pub unreached: usize,
     /// The inputs, SI; all but the swept one keep their value.
     pub inputs: Vector,
     /// The mechanism it belongs to.

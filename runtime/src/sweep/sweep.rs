@@ -55,14 +55,17 @@ pub fn sweep_each(
     let following = following.into();
     let mut tracker = Tracker::new(mechanism, (u, b), start, following, input);
     let mut path = Path::new(following);
+    let mut unreached = values.len();
     follow(&mut tracker, mechanism, values, false, |station| {
         let point = station.point;
+        unreached -= 1;
         path.add(point.value, &point.equilibrium, station.smooth);
         each(point)
     });
     Ok(Sweep {
         input,
         points: Vec::new(),
+        unreached,
         critical: path.critical_states(mechanism, (u, b), input),
         inputs: u.into(),
         description,

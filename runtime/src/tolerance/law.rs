@@ -27,7 +27,7 @@ pub fn distribution(
     let sigma = standard_deviation(half_width, sigma_level)?;
     let middle = value + 0.5 * (lower + upper);
     let (low, high) = (value + lower, value + upper);
-    Ok(match tolerance.law {
+    Ok(match &tolerance.law {
         _ if half_width == 0.0 => Distribution::constant(middle),
         Law::Normal => Distribution::normal(middle, sigma),
         Law::Lognormal => Distribution::lognormal(middle, sigma),
@@ -35,7 +35,32 @@ pub fn distribution(
         Law::TruncatedNormal => Distribution::truncated_normal(middle, sigma, (low, high)),
         Law::Uniform => Distribution::uniform(low, high),
         Law::Triangular => Distribution::triangular(low, middle, high),
-        Law::Beta { alpha, beta } => Distribution::beta((alpha, beta), (low, high)),
+        Law::Beta { alpha, beta } => Distribution::beta((*alpha, *beta), (low, high)),
+        Law::OneOf(values) => {
+            if let Some((place, _)) = values
+                .iter()
+                .find(|(place, _)| !(0.0..=1.0).contains(place))
+            {
+                return Err(Error::Setting {
+                    setting: "place of a value",
+                    reason: format!(
+                        "{place} is not between 0, the lower limit, and 1, the upper one"
+                    ),
+                });
+            }
+            let value = |place: f64| {
+                if place == 1.0 {
+                    high
+                } else {
+                    low + place * (high - low)
+                }
+            };
+            let values: Vec<(f64, f64)> = values
+                .iter()
+                .map(|&(place, weight)| (value(place), weight))
+                .collect();
+            Distribution::discrete(&values)
+        }
     }?)
 }
 

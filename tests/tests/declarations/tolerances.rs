@@ -17,11 +17,14 @@ fn with_item(item: &str) -> Mechanism {
 /// Nominal value and tolerance of a design variable.
 fn design(value: &str) -> (f64, Tolerance) {
     let mechanism = with_item(&format!("design x = {value};"));
-    (mechanism.design[0].nominal, mechanism.design[0].tolerance)
+    let variable = &mechanism.design[0];
+    (variable.nominal, variable.tolerance.clone())
 }
 
 fn input(unit: &str) -> Tolerance {
-    with_item(&format!("input x: {unit};")).inputs[0].tolerance
+    with_item(&format!("input x: {unit};")).inputs[0]
+        .tolerance
+        .clone()
 }
 
 fn tolerance(upper: f64, lower: f64, law: Law) -> Tolerance {
@@ -129,11 +132,115 @@ fn a_law_follows_the_limits() {
             "+10% -10%",
         ] {
             let text = format!("5 {limits} {text}");
-            assert_near(design(&text).1, tolerance(0.5, -0.5, law), &text);
+            assert_near(design(&text).1, tolerance(0.5, -0.5, law.clone()), &text);
         }
         let text = format!("5 m +/- 50 cm {text}");
         assert_near(design(&text).1, tolerance(0.5, -0.5, law), &text);
     }
+}
+
+/// Values as they are; limits and places between them are those of the values.
+#[test]
+fn a_list_says_what_a_value_may_be() {
+    for (text, values) in [
+        (
+            "2 mm one of [1.9, 2.0, 2.1] mm",
+            [(1.9, 1.0), (2.0, 1.0), (2.1, 1.0)].as_slice(),
+        ),
+        (
+            "2 mm one of [2.1 mm, 1900 um] weighted [1, 3]",
+            &[(2.1, 1.0), (1.9, 3.0)],
+        ),
+        (
+            "2 mm one of [2.05, 2.05, 2.01] mm",
+            &[(2.05, 1.0), (2.05, 1.0), (2.01, 1.0)],
+        ),
+        ("2 mm one of [2.5 * 1 mm] weighted [0.5]", &[(2.5, 0.5)]),
+        (
+            "2 mm one of [0, -1, 1] mm weighted [1, 0, 2 * 2]",
+            &[(0.0, 1.0), (-1.0, 0.0), (1.0, 4.0)],
+        ),
+    ] {
+        let (nominal, found) = design(text);
+        let Law::OneOf(places) = &found.law else {
+            panic!("{text}: {found:?}")
+        };
+        assert!(!found.relative && found.lower <= found.upper && places.len() == values.len());
+        for ((place, weight), (value, expected)) in places.iter().zip(values) {
+            let arrived = nominal + found.lower + place * (found.upper - found.lower);
+            assert!((arrived - 1e-3 * value).abs() < 1e-15, "{text}: {arrived}");
+            assert_eq!(weight, expected, "{text}");
+        }
+    }
+    let (_, plain) = design("3 one of [2.9, 3.2]");
+    assert_eq!(plain.law, Law::OneOf(vec![(0.0, 1.0), (1.0, 1.0)]));
+}
+
+#[test]
+fn what_is_no_list_of_values_is_refused() {
+    for (text, expected) in [
+        ("2 mm one of 1.9 mm", "the values are listed in brackets"),
+        ("2 mm one of [] mm", "no value is listed"),
+        (
+            "2 mm one of [1, 2] kg",
+            "must be a length (mm), this is a mass (kg)",
+        ),
+        ("2 mm one of [1 mm, 2 kg]", "one dimension"),
+        (
+            "2 mm one of [1, 2]",
+            "`[1, 2]` has no unit; a length is expected",
+        ),
+        (
+            "2 mm one of [1, 2] mm weighted [1]",
+            "1 weights for 2 values",
+        ),
+        (
+            "2 mm one of [1, 2] mm weighted [1, -1]",
+            "a weight is not negative",
+        ),
+        (
+            "2 mm one of [1, 2] mm weighted [0, 0]",
+            "all weights are zero",
+        ),
+        (
+            "2 mm one of [1, 2] mm weighted [1, 2] mm",
+            "a weight must be",
+        ),
+        ("2 mm one of [m, 2] mm", "listed values are"),
+        (
+            "2 mm one off [1, 2] mm",
+            "write `one of [1.9, 2.0, 2.1] mm`",
+        ),
+        (
+            "2 mm one of [1, 2] mm uniform",
+            "the list says how they are distributed",
+        ),
+        ("2 mm +/- 1 mm one of [1, 2] mm", "unknown law `one`"),
+    ] {
+        let source = format!(
+            "mechanism Bar {{ design m = 3 kg; design x = {text}; body bar: rod(mass: m, length: 1 m, along: -z);
+                joint theta: revolute(y) from ground to bar; }}"
+        );
+        let tokens = source.parse().expect("tokens");
+        let found = match eigentol_compiler::syntax::parse::parse(tokens) {
+            Err(mistakes) => mistakes,
+            Ok(ast) => resolve(&ast).expect_err(text),
+        };
+        let messages: Vec<String> = found.iter().map(|own| own.text()).collect();
+        assert!(
+            messages.iter().any(|own| own.contains(expected)),
+            "{text}: {messages:?}"
+        );
+    }
+    let source = "mechanism Bar { input x: N one of [1, 2] N; body bar: rod(mass: 1 kg, length: 1 m, along: -z);
+        joint theta: revolute(y) from ground to bar; }";
+    let refused = resolve(&read(source)).expect_err("an input");
+    assert!(
+        refused
+            .to_string()
+            .contains("an input has no value of its own"),
+        "{refused}"
+    );
 }
 
 #[test]
@@ -195,6 +302,11 @@ fn the_canonical_text_keeps_what_was_written() {
         ("20 mm +1e-7 m -0.05", "20.0 mm +1e-7 m -0.05"),
         ("3 +2-1%truncated normal", "3.0 +2.0 -1.0% truncated normal"),
         ("3 +/- 5e-1 % beta(2,3)", "3.0 +/- 0.5% beta(2.0, 3.0)"),
+        ("2 mm one of[1.9,2]mm", "2.0 mm one of [1.9, 2.0] mm"),
+        (
+            "2 one of [1, 2 + 1] weighted [3, 4]",
+            "2.0 one of [1.0, 2.0 + 1.0] weighted [3.0, 4.0]",
+        ),
     ] {
         let source = format!("mechanism M {{ design x = {text}; }}");
         let printed = print(&read(&source));
@@ -210,7 +322,8 @@ fn the_canonical_text_keeps_what_was_written() {
 fn the_text_of_a_mechanism_names_limits_and_laws() {
     let mechanism = with_item(
         "input u: rad/s; input v: rad/s +/- 25 %; input w: rad/s +2 -1 rad/s uniform;
-        design a = 20 mm; design b = 20 mm +0.5 -0 mm; design c = 4 mm +/- 50 % beta(2, 0.5);",
+        design a = 20 mm; design b = 20 mm +0.5 -0 mm; design c = 4 mm +/- 50 % beta(2, 0.5);
+        design d = 4 mm one of [3, 5, 4] mm weighted [1, 1, 2];",
     );
     let text = mechanism.to_string();
     for line in [
@@ -220,6 +333,7 @@ fn the_text_of_a_mechanism_names_limits_and_laws() {
         "design a = 0.02 +/- 0 [mm]\n",
         "design b = 0.02 +0.0005 +0 [mm]\n",
         "design c = 0.004 +/- 0.002 beta(2, 0.5) [mm]\n",
+        "design d = 0.004 +/- 0.001 one of [0: 1, 1: 1, 0.5: 2] [mm]\n",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
@@ -239,6 +353,16 @@ fn random_tolerances_arrive_as_written() {
         alpha: 0.5,
         beta: 3.0,
     };
+    let laws = [
+        ("", Law::Normal),
+        ("normal", Law::Normal),
+        ("truncated normal", Law::TruncatedNormal),
+        ("uniform", Law::Uniform),
+        ("triangular", Law::Triangular),
+        ("lognormal", Law::Lognormal),
+        ("weibull", Law::Weibull),
+        ("beta(1 / 2, 3)", beta),
+    ];
     let (mut accepted, mut refused) = (0, 0);
     for _ in 0..2000 {
         let &(nominal, value) = one_of(
@@ -257,19 +381,7 @@ fn random_tolerances_arrive_as_written() {
             random,
             &[("mm", 1e-3), ("um", 1e-6), ("%", 0.01 * f64::abs(value))],
         );
-        let &(law_text, law) = one_of(
-            random,
-            &[
-                ("", Law::Normal),
-                ("normal", Law::Normal),
-                ("truncated normal", Law::TruncatedNormal),
-                ("uniform", Law::Uniform),
-                ("triangular", Law::Triangular),
-                ("lognormal", Law::Lognormal),
-                ("weibull", Law::Weibull),
-                ("beta(1 / 2, 3)", beta),
-            ],
-        );
+        let (law_text, law) = one_of(random, &laws);
         let signed = |random: &mut ChaCha8Rng, number: f64| match number {
             0.0 => (*one_of(random, &["0", "+0", "-0"])).to_string(),
             number => format!("{number:+}"),
@@ -294,8 +406,8 @@ fn random_tolerances_arrive_as_written() {
         match resolve(&ast) {
             Ok(mechanism) => {
                 assert!(is_right, "{text}");
-                let expected = tolerance(scale * upper, scale * lower, law);
-                assert_near(mechanism.design[0].tolerance, expected, &text);
+                let expected = tolerance(scale * upper, scale * lower, law.clone());
+                assert_near(mechanism.design[0].tolerance.clone(), expected, &text);
                 accepted += 1;
             }
             Err(mistakes) => {

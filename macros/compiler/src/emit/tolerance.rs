@@ -12,11 +12,11 @@ pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
         upper,
         relative,
         law,
-    } = *tolerance;
+    } = tolerance;
     if !tolerance.varies() {
         return quote!(::eigentol::ToleranceInfo::NONE);
     }
-    if tolerance.is_symmetric() && !relative && law == Law::Normal {
+    if tolerance.is_symmetric() && !relative && *law == Law::Normal {
         return quote!(::eigentol::ToleranceInfo::half_width(#upper));
     }
     let law = match law {
@@ -27,6 +27,12 @@ pub(super) fn info(tolerance: &Tolerance) -> TokenStream {
         Law::Lognormal => quote!(Lognormal),
         Law::Weibull => quote!(Weibull),
         Law::Beta { alpha, beta } => quote!(Beta { alpha: #alpha, beta: #beta }),
+        Law::OneOf(values) => {
+            let values = values
+                .iter()
+                .map(|(place, weight)| quote!((#place, #weight)));
+            quote!(OneOf(::eigentol::List::Static(&[#(#values),*])))
+        }
     };
     quote! {
         ::eigentol::ToleranceInfo { lower: #lower, upper: #upper, relative: #relative, law: ::eigentol::Law::#law }

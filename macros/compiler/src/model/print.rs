@@ -219,8 +219,15 @@ fn tolerance(tolerance: &Tolerance) -> String {
     if tolerance.relative {
         text += " of it";
     }
-    if tolerance.law != Law::Normal {
-        text += &format!(" {}", tolerance.law);
+    match &tolerance.law {
+        Law::Normal => {}
+        Law::OneOf(values) => {
+            let each = values
+                .iter()
+                .map(|(place, weight)| format!("{place}: {weight}"));
+            text += &format!(" one of [{}]", each.collect::<Vec<_>>().join(", "));
+        }
+        law => text += &format!(" {law}"),
     }
     text
 }

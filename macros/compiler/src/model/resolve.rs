@@ -18,6 +18,7 @@ pub mod given;
 mod gravity;
 mod joints;
 mod kernels_only;
+mod lists;
 mod matrices;
 mod nominal;
 mod operators;

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 /// Limits about a value, and the distribution between them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tolerance {
     /// Lower limit less the value, SI or a fraction of the value.
     pub lower: f64,
@@ -41,7 +41,7 @@ impl Tolerance {
 }
 
 /// How values are distributed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// Normal.
     Normal,
@@ -62,6 +62,8 @@ pub enum Law {
         /// Second shape, positive.
         beta: f64,
     },
+    /// One of some values: how far each is from the lower to the upper limit, from 0 to 1, and a weight.
+    OneOf(Vec<(f64, f64)>),
 }
 
 impl Display for Law {
@@ -74,6 +76,7 @@ impl Display for Law {
             Law::Lognormal => "lognormal",
             Law::Weibull => "weibull",
             Law::Beta { alpha, beta } => return write!(f, "beta({alpha}, {beta})"),
+            Law::OneOf(values) => return write!(f, "one of {} values", values.len()),
         })
     }
 }

@@ -137,7 +137,7 @@ pub struct Design {
 pub struct Tolerance {
     /// The limits.
     pub limits: Limits,
-    /// The numbers of the limits with their units; not the `+/-`.
+    /// The numbers of the limits with their units, not the `+/-`; or the whole list of values.
     pub extent: Extent,
     /// The distribution; normal when absent.
     pub law: Option<Law>,
@@ -152,6 +152,17 @@ pub enum Limits {
     HalfWidth(Value),
     /// `+0.1 -0.05 mm`: unequal ones.
     Deviations(Box<Deviations>),
+    /// `one of [1.9, 2.0, 2.1] mm`: what it may be.
+    Values(Box<Values>),
+}
+
+/// What a value may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values {
+    /// A list of values.
+    pub values: Value,
+    /// A list of how often each occurs, to some scale; all alike when absent.
+    pub weights: Option<Value>,
 }
 
 /// The limits less the value.

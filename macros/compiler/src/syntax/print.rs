@@ -114,6 +114,10 @@ fn tolerance(tolerance: Option<&Tolerance>) -> String {
         Limits::Percent(percent) => format!(" +/- {percent}%"),
         Limits::HalfWidth(width) => format!(" +/- {}", value(width)),
         Limits::Deviations(both) => format!(" {}", deviations(both)),
+        Limits::Values(of) => match &of.weights {
+            None => format!(" one of {}", value(&of.values)),
+            Some(weights) => format!(" one of {} weighted {}", value(&of.values), value(weights)),
+        },
     };
     if let Some(of) = &tolerance.law {
         let _ = write!(text, " {}", law(&of.kind));

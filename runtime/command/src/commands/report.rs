@@ -4,6 +4,7 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::picture::Wording;
 use crate::place::Place;
 use crate::point::Point;
 use crate::progress;
@@ -31,6 +32,8 @@ pub(crate) struct Report {
     /// Heading of the report [default: the name of the mechanism]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
+    #[command(flatten)]
+    wording: Wording,
     #[command(flatten)]
     place: Place,
 }
@@ -63,6 +66,7 @@ impl Report {
             false => &self.orders,
         };
         let mut report = eigentol_report::Report::new(&study)
+            .style(self.wording.style(&question))
             .declaration(question.text)
             .orders(orders);
         if let Some(title) = &self.title {

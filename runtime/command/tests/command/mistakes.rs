@@ -133,6 +133,8 @@ fn values_with_wrong_units() {
         ("l=3% unifrom", "did you mean `uniform`?"),
         ("l=-1% +1%", "the upper limit stands first"),
         ("l=3", "`3` has no unit"),
+        ("l=one of [1, 2] kg", "must be a length"),
+        ("l=one of 1 m", "write `one of [1.9, 2.0, 2.1] mm`"),
     ] {
         refused(&pendulum("tolerance", &["--tol", tolerance]), 2, &[part]);
     }

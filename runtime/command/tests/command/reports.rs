@@ -23,6 +23,10 @@ fn a_report_is_one_file_with_the_declaration_and_what_was_asked() {
         "7",
         "--title",
         "A bar & a shaft",
+        "--mode-names",
+        "swing",
+        "--frequency-unit",
+        "Hz",
         "--output",
         path,
     ];
@@ -37,6 +41,7 @@ fn a_report_is_one_file_with_the_declaration_and_what_was_asked() {
         "RotatingPendulum at omega = 5 rad/s",
         "Monte Carlo (200 samples, seed 7)",
         "Campbell diagram",
+        "Swing at 0.",
         "pub mechanism RotatingPendulum {",
     ] {
         assert!(html.contains(wanted), "{wanted}");

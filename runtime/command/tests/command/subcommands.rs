@@ -99,6 +99,11 @@ fn tolerances_are_given_as_declarations_give_them() {
     assert!((sigma("l=30mm") / of_declaration - 1.0).abs() < 1e-12);
     assert!((sigma("l=+/- 1.5%") / of_declaration - 0.5).abs() < 1e-12);
     assert!((sigma("l=3% uniform") / of_declaration - 3.0_f64.sqrt()).abs() < 1e-12);
+    // Two values, three standard deviations of the declaration away on either side.
+    assert!((sigma("l=one of [0.97, 1.03] m") / of_declaration - 3.0).abs() < 1e-12);
+    let weighted = sigma("l=one of [970, 1000, 1030] mm weighted [1, 2, 1]");
+    assert!((weighted / of_declaration - 4.5_f64.sqrt()).abs() < 1e-12);
+    assert!(sigma("omega=one of [4.9, 5.1] rad/s") > of_declaration);
     let wandering = sigma("omega=1%");
     assert!(wandering > of_declaration);
 }

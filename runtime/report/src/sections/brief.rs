@@ -3,6 +3,7 @@
 use eigentol::sweep::{Condition, Event, EventTolerance};
 use eigentol::tolerance::{FirstOrder, MonteCarlo, Outcome};
 use eigentol::{Campbell, Description, Modes};
+use eigentol_figures::Style;
 
 use super::verdicts::NOTHING_VARIES;
 use crate::Error;
@@ -35,13 +36,17 @@ type Line = (Option<bool>, String);
 fn all(content: &Content) -> Vec<Line> {
     let mut lines = vec![equilibrium(content)];
     if let Ok(modes) = &content.modes {
-        lines.extend(frequencies(modes, content.spread.as_ref()));
+        lines.extend(frequencies(content, modes));
     }
     match &content.spread {
         None => lines.push((None, NOTHING_VARIES.to_owned())),
-        Some(spread) => lines.extend(tolerances(spread)),
+        Some(spread) => lines.extend(tolerances(spread, &content.brief_style)),
     }
-    lines.extend(content.along.as_ref().map_or_else(Vec::new, along));
+    let along = content
+        .along
+        .as_ref()
+        .map(|own| along(own, &content.brief_style));
+    lines.extend(along.unwrap_or_default());
     lines
 }
 
@@ -60,30 +65,29 @@ fn equilibrium(content: &Content) -> Line {
 }
 
 /// Each mode with its spread and what most of it comes from.
-fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
-    let first = spread
+fn frequencies(content: &Content, modes: &Modes) -> Vec<Line> {
+    let first = (content.spread.as_ref())
         .and_then(|own| own.summary.as_ref().ok())
         .map(|own| &own.first);
+    let style = &content.brief_style;
+    let (scale, unit) = style.frequency(None);
     let each = modes.modes.iter().enumerate().take(MODES);
     let mut lines: Vec<Line> = each
         .map(|(r, mode)| {
-            let number_of_mode = r + 1;
+            let name = style.mode(r);
             let text = match mode.frequency() {
                 Some(omega) => {
-                    let spread = first.map_or_else(String::new, |first| spread_of(first, r));
+                    let spread = first.map_or_else(String::new, |first| spread_of(first, r, scale));
                     format!(
-                        "Mode {number_of_mode} at {} rad/s{spread}: it {}.",
-                        number(omega),
+                        "{name} at {} {unit}{spread}: it {}",
+                        number(scale * omega),
                         mode.behaviour
                     )
                 }
-                None => format!(
-                    "Mode {number_of_mode} does not oscillate: it {}.",
-                    mode.behaviour
-                ),
+                None => format!("{name} does not oscillate: it {}", mode.behaviour),
             };
             let news = mode.behaviour.grows().then_some(false);
-            (news, text)
+            (news, sentence(&text))
         })
         .collect();
     if modes.modes.len() > MODES {
@@ -97,7 +101,7 @@ fn frequencies(modes: &Modes, spread: Option<&Spreads>) -> Vec<Line> {
 }
 
 /// ` +- 0.2 (3 sigma), mostly by l (97 %)`.
-fn spread_of(first: &FirstOrder, mode: usize) -> String {
+fn spread_of(first: &FirstOrder, mode: usize, scale: f64) -> String {
     let Some(own) = first.modes.get(mode).filter(|own| !own.clustered) else {
         return String::new();
     };
@@ -118,12 +122,12 @@ fn spread_of(first: &FirstOrder, mode: usize) -> String {
     });
     format!(
         " \u{b1} {} ({} sigma){cause}",
-        digits(spread.band, 3),
+        digits(scale * spread.band, 3),
         first.sigma_level
     )
 }
 
-fn tolerances(spread: &Spreads) -> Vec<Line> {
+fn tolerances(spread: &Spreads, style: &Style) -> Vec<Line> {
     let mut lines = Vec::new();
     match &spread.summary {
         Ok(summary) if summary.trusted() => {
@@ -134,10 +138,9 @@ fn tolerances(spread: &Spreads) -> Vec<Line> {
         }
         Ok(summary) => {
             let doubted = summary.trust.iter().filter(|own| !own.trusted());
-            let doubted: Vec<String> = doubted.map(|own| (own.mode + 1).to_string()).collect();
-            let plural = if doubted.len() > 1 { "s" } else { "" };
+            let doubted: Vec<String> = doubted.map(|own| style.mode(own.mode)).collect();
             let text = format!(
-                "The first-order spread of mode{plural} {} is not to be trusted. See Tolerances.",
+                "The first-order spread of {} is not to be trusted. See Tolerances.",
                 doubted.join(", ")
             );
             lines.push((Some(false), text));
@@ -185,18 +188,18 @@ fn word(outcome: Outcome) -> &'static str {
     }
 }
 
-fn along(along: &Along) -> Vec<Line> {
+fn along(along: &Along, style: &Style) -> Vec<Line> {
     let Ok(campbell) = &along.campbell else {
         return Vec::new();
     };
     let bad = campbell.critical.iter().chain(&campbell.flutter_onsets);
     let bad: Vec<Line> = bad
-        .map(|event| (Some(false), happening(campbell, event)))
+        .map(|event| (Some(false), happening(campbell, event, style)))
         .collect();
     let met = campbell
         .crossings
         .iter()
-        .map(|event| (None, happening(campbell, event)));
+        .map(|event| (None, happening(campbell, event, style)));
     let mut lines: Vec<Line> = bad.into_iter().chain(met).collect();
     let more = lines.len().saturating_sub(EVENTS);
     lines.truncate(EVENTS);
@@ -209,8 +212,8 @@ fn along(along: &Along) -> Vec<Line> {
     lines
 }
 
-/// `Frequency 2 is 1 times speed at speed = 2045 rpm +- 27 (3 sigma).`
-fn happening(campbell: &Campbell, event: &EventTolerance) -> String {
+/// `The frequency of mode 2 is 1 times speed at speed = 2045 rpm +- 27 (3 sigma).`
+fn happening(campbell: &Campbell, event: &EventTolerance, style: &Style) -> String {
     let d: &Description = &campbell.description;
     let Some(info) = d.inputs.get(event.input.index()) else {
         return String::new();
@@ -222,13 +225,13 @@ fn happening(campbell: &Campbell, event: &EventTolerance) -> String {
             ..
         } => {
             format!(
-                "frequency {} is {} times {}",
-                mode + 1,
+                "the frequency of {} is {} times {}",
+                style.mode(mode),
                 line.ratio,
                 info.name
             )
         }
-        Event::Crossing { mode, .. } => format!("mode {} begins or ceases to grow", mode + 1),
+        Event::Crossing { mode, .. } => format!("{} begins or ceases to grow", style.mode(mode)),
         _ => "the equilibrium loses its stiffness".to_owned(),
     };
     let spread = match &event.spread {

@@ -11,6 +11,7 @@ use crate::charts::charts;
 use crate::content::Content;
 use crate::html::Html;
 use crate::tables::table;
+use crate::words::capital;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let Some(spread) = &content.spread else {
@@ -35,10 +36,8 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     }
     let count = found.modes.len();
     let figures = (0..count.min(MODES)).map(|mode| {
-        let style = content
-            .brief_style
-            .clone()
-            .title(format!("Mode {}", mode + 1));
+        let style = &content.brief_style;
+        let style = style.clone().title(capital(&style.mode(mode)));
         let mut histogram = Histogram::new(found, mode);
         if let Ok(summary) = &spread.summary {
             histogram = histogram.first_order(&summary.first);

@@ -55,7 +55,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 /// The mechanism in space.
 fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), Error> {
     let modes = content.modes.as_ref().ok();
-    let json = serde_json::to_string(&View::new(pictures, modes))?;
+    let json = serde_json::to_string(&View::new(pictures, modes, &content.brief_style))?;
     html.element("div", &[("class", "mechanism")], |html| {
         html.leaf("div", &[("class", "drawing")], "");
         html.data("scene", &json);
@@ -69,7 +69,7 @@ fn view(html: &mut Html, content: &Content, pictures: &Pictures) -> Result<(), E
         if let Err(error) = picture {
             refused(
                 html,
-                &format!("mode {} is not shown in motion", mode + 1),
+                &format!("{} is not shown in motion", content.brief_style.mode(mode)),
                 error,
             );
         }

@@ -1,7 +1,7 @@
 //! Which variables the spread of each mode comes from.
 
 use eigentol::FirstOrder;
-use eigentol_figures::shares;
+use eigentol_figures::{Style, shares};
 use eigentol_tables::{Table, tables};
 
 use super::verdicts::NOTHING_VARIES;
@@ -11,6 +11,7 @@ use crate::charts::charts;
 use crate::content::Content;
 use crate::html::Html;
 use crate::tables::table;
+use crate::words::capital;
 
 pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let first = match &content.spread {
@@ -30,14 +31,15 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
     let count = first.modes.len();
     let of = |mode: usize| {
         let style = content.brief_style.clone();
-        shares(first, mode, &style.title(format!("Mode {}", mode + 1)))
+        let name = style.mode(mode);
+        shares(first, mode, &style.title(capital(&name)))
     };
     charts(html, (0..count.min(MODES)).map(of))?;
     beyond(html, count, "contributions of");
     table(
         html,
         "Shares in the variance of each frequency",
-        &by_variable(first),
+        &by_variable(first, &content.brief_style),
         &[],
     )?;
     for own in tables(first) {
@@ -54,7 +56,7 @@ pub(super) fn section(html: &mut Html, content: &Content) -> Result<(), Error> {
 }
 
 /// A row for each variable, a column for each mode; nothing of the members of a cluster, which have no spread of their own.
-fn by_variable(first: &FirstOrder) -> Table {
+fn by_variable(first: &FirstOrder, style: &Style) -> Table {
     let design = first.description.design.iter();
     let mut table = Table::new("shares");
     table.texts(
@@ -69,8 +71,7 @@ fn by_variable(first: &FirstOrder) -> Table {
                 .filter(|_| !mode.clustered)
                 .map(|share| 100.0 * share)
         };
-        let name = format!("mode {}", r + 1);
-        table.numbers(name, "%", (0..design.len()).map(share));
+        table.numbers(style.mode(r), "%", (0..design.len()).map(share));
     }
     table
 }

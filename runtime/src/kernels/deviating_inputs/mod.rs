@@ -112,7 +112,7 @@ fn deviation_of(input: &InputInfo) -> DesignInfo {
     let tolerance = if input.tolerance.relative {
         ToleranceInfo::NONE
     } else {
-        input.tolerance
+        input.tolerance.clone()
     };
     DesignInfo {
         name: input.name.clone(),

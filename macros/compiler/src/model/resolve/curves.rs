@@ -3,25 +3,16 @@
 use proc_macro2::Ident;
 
 use super::functions::{count, is_function};
+use super::lists::Listed;
 use super::resolver::Resolver;
 use super::typed::{Place, Quantity, Typed};
 use super::values::{DECIMAL_POINT, decimal_commas};
 use crate::base::spline::Spline;
 use crate::model::expression::{Expr, Function};
-use crate::model::mechanism::{Curve, CurveArgument, Unit};
+use crate::model::mechanism::{Curve, CurveArgument};
 use crate::model::rules::physical::{Demand, Requirement};
 use crate::model::simplify;
 use crate::syntax::ast::{self, ItemKind, Value, ValueKind};
-use crate::syntax::print;
-
-/// One coordinate of all points of a curve.
-struct Points {
-    /// SI.
-    numbers: Vec<f64>,
-    quantity: Quantity,
-    /// As declared.
-    unit: Unit,
-}
 
 impl Resolver<'_> {
     pub(super) fn curves(&mut self) {
@@ -44,14 +35,17 @@ impl Resolver<'_> {
             let message = format!("`{text}` is a function already; a curve needs another name");
             self.diagnostics.error(name, message);
         }
-        let (x, y) = (self.points_along(arguments), self.points_along(values));
+        let (x, y) = (
+            self.listed(arguments, Place::Points),
+            self.listed(values, Place::Points),
+        );
         let (
-            Points {
+            Listed {
                 numbers: x,
                 quantity: argument,
                 unit,
             },
-            Points {
+            Listed {
                 numbers: y,
                 quantity: value,
                 ..
@@ -91,54 +85,6 @@ impl Resolver<'_> {
             unit,
             value: value.dimension(),
         })
-    }
-
-    /// Numbers in brackets.
-    fn points_along(&mut self, list: &Value) -> Option<Points> {
-        let ValueKind::Vector(elements, unit) = &list.bare().kind else {
-            self.diagnostics.error_with_help(
-                list.extent,
-                "the points of a curve are listed in brackets",
-                "write `curve stiffness: [1000, 2000, 3000] rpm -> [5, 6, 6.5] MN/m;`",
-            );
-            return None;
-        };
-        let scale = self.optional_unit(unit.as_ref());
-        let numbers: Vec<_> = elements
-            .iter()
-            .map(|element| self.number_among_points(element))
-            .collect();
-        let numbers: Vec<(f64, Quantity)> = numbers.into_iter().collect::<Option<_>>()?;
-        let (numbers, quantities): (Vec<f64>, Vec<Quantity>) = numbers.into_iter().unzip();
-        let common = self.common_quantity(&quantities, elements, "points of a curve")?;
-        let (quantity, scale) = match scale? {
-            None => (common, 1.0),
-            Some((dimension, scale)) => {
-                let product = common.dimension().times(dimension);
-                (self.in_range(product, list.extent)?, scale)
-            }
-        };
-        let unit = match unit {
-            Some(unit) if common.dimension().is_none() => Unit {
-                symbol: print::unit(unit),
-                scale,
-            },
-            None if !elements.is_empty() => self.display_unit(&elements[0], quantity.dimension()),
-            _ => Unit::si(quantity.dimension()),
-        };
-        Some(Points {
-            numbers: numbers.into_iter().map(|x| x * scale).collect(),
-            quantity,
-            unit,
-        })
-    }
-
-    fn number_among_points(&mut self, element: &Value) -> Option<(f64, Quantity)> {
-        match self.scalar(element, Place::Points)? {
-            (Expr::Number(number), quantity) => Some((number, quantity)),
-            // Names are refused, and numbers are combined at once.
-            _ => None,
-        }
     }
 
     /// The value of a curve. Where the argument does not depend on the motion it has to lie between the first and the last point.

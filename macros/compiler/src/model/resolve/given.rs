@@ -9,7 +9,7 @@ use super::resolver::Resolver;
 use super::scope::Scope;
 use crate::base::diagnostics::Diagnostics;
 use crate::model::mechanism::Tolerance;
-use crate::syntax::ast::{Ast, Item, ItemKind, Unit};
+use crate::syntax::ast::{Ast, Item, ItemKind, Limits, Unit};
 use crate::syntax::parse::parse;
 use crate::syntax::print;
 
@@ -55,23 +55,27 @@ pub fn value(text: TokenStream, unit: TokenStream, what: &str) -> Result<f64, Di
 }
 
 /// The tolerance of a quantity of this unit that is written as `text`: `3%`, `0.1 mm uniform`, `+0.2 -0.1 mm`, with or without the
-/// sign `+/-` of a half-width. Limits are SI, or fractions of the value.
+/// sign `+/-` of a half-width, or `one of [1.9, 2.1] mm`. Limits are SI, or fractions of the value, which is `nominal`, SI.
 ///
 /// ```
 /// use eigentol_compiler::model::resolve::given;
 ///
 /// let tokens = |text: &str| text.parse().unwrap();
-/// let tolerance = given::tolerance(tokens("3% uniform"), tokens("mm")).unwrap();
+/// let tolerance = given::tolerance(tokens("3% uniform"), tokens("mm"), 0.02).unwrap();
 /// assert_eq!((tolerance.lower, tolerance.upper, tolerance.relative), (-0.03, 0.03, true));
-/// assert_eq!(given::tolerance(tokens("+0.2 0 mm"), tokens("m")).unwrap().upper, 2e-4);
-/// let error = given::tolerance(tokens("3 kg"), tokens("mm")).unwrap_err();
+/// assert_eq!(given::tolerance(tokens("+0.2 0 mm"), tokens("m"), 0.02).unwrap().upper, 2e-4);
+/// let error = given::tolerance(tokens("3 kg"), tokens("mm"), 0.02).unwrap_err();
 /// assert!(error.to_string().contains("must be a length (mm), this is a mass (kg)"), "{error}");
 /// ```
 ///
 /// # Errors
 /// What is wrong with the text.
-pub fn tolerance(text: TokenStream, unit: TokenStream) -> Result<Tolerance, Diagnostics> {
-    let half_width = !text.to_string().starts_with(['+', '-']);
+pub fn tolerance(
+    text: TokenStream,
+    unit: TokenStream,
+    nominal: f64,
+) -> Result<Tolerance, Diagnostics> {
+    let half_width = !text.to_string().starts_with(['+', '-', 'o']);
     let sign = half_width.then(|| quote!(+/-));
     let ast = parse(quote!(mechanism Given { input given: #unit #sign #text; }))?;
     let [
@@ -85,7 +89,13 @@ pub fn tolerance(text: TokenStream, unit: TokenStream) -> Result<Tolerance, Diag
     };
     resolved(&ast, |resolver| {
         let expected = resolver.expected_in(&input.unit)?;
-        resolver.input_tolerance(input.tolerance.as_ref(), Some(expected))
+        match &input.tolerance {
+            // What has a value may have others.
+            Some(own) if matches!(own.limits, Limits::Values(_)) => {
+                resolver.design_tolerance(Some(own), Some((nominal, expected)))
+            }
+            own => resolver.input_tolerance(own.as_ref(), Some(expected)),
+        }
     })
 }
 
@@ -176,19 +186,32 @@ mod tests {
     fn tolerances() {
         use crate::model::mechanism::Law;
 
-        let found = tolerance(tokens("0.1mm"), tokens("m")).unwrap();
+        let found = tolerance(tokens("0.1mm"), tokens("m"), 1.0).unwrap();
         assert_eq!(
             (found.lower, found.upper, found.relative),
             (-1e-4, 1e-4, false)
         );
-        let found = tolerance(tokens("+2% -1% uniform"), tokens("m")).unwrap();
+        let found = tolerance(tokens("+2% -1% uniform"), tokens("m"), 1.0).unwrap();
         assert_eq!(
             (found.lower, found.upper, found.relative),
             (-0.01, 0.02, true)
         );
         assert_eq!(found.law, Law::Uniform);
-        let found = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"));
+        let found = tolerance(tokens("+/- 1 deg beta(2, 3)"), tokens("rad"), 1.0);
         assert!(matches!(found.unwrap().law, Law::Beta { .. }));
+        let found = tolerance(
+            tokens("one of [20, 25, 22] mm weighted [1, 3, 1]"),
+            tokens("mm"),
+            0.021,
+        )
+        .unwrap();
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
+        assert!(near(found.lower, -1e-3) && near(found.upper, 4e-3));
+        let Law::OneOf(values) = found.law else {
+            panic!("a list of values")
+        };
+        assert!(values[1] == (1.0, 3.0) && values[0] == (0.0, 1.0));
+        assert!(near(values[2].0, 0.4) && values[2].1 == 1.0);
     }
 
     #[test]
@@ -204,7 +227,7 @@ mod tests {
             ("3% unifrom", "did you mean `uniform`?"),
             ("", "expected a value"),
         ] {
-            let found = message(tolerance(tokens(text), tokens("mm")));
+            let found = message(tolerance(tokens(text), tokens("mm"), 1.0));
             assert!(found.contains(expected), "{text}: {found}");
         }
     }

@@ -5,7 +5,7 @@ use crate::base::span::Extent;
 use crate::model::mechanism::Tolerance;
 
 /// A design variable as resolved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Nominal {
     pub(super) dimension: Dimension,
     pub(super) value: f64,

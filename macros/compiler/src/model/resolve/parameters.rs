@@ -47,7 +47,7 @@ impl Resolver<'_> {
                 continue;
             };
             let nominal = self.nominal(design);
-            self.design.push(nominal);
+            self.design.push(nominal.clone());
             self.used_design.push(false);
             if let Some(nominal) = nominal {
                 variables.push(DesignVariable {

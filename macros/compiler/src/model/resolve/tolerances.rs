@@ -2,8 +2,9 @@
 
 use super::bare::bare_number;
 use super::expected::Expected;
+use super::lists::Listed;
 use super::resolver::Resolver;
-use super::typed::Quantity;
+use super::typed::{Place, Quantity};
 use crate::base::dimension::Dimension;
 use crate::base::span::Extent;
 use crate::model::mechanism::{Law, Tolerance};
@@ -50,6 +51,9 @@ impl Resolver<'_> {
         let Some(declared) = tolerance else {
             return Some(Tolerance::NONE);
         };
+        if let ast::Limits::Values(of) = &declared.limits {
+            return self.values(of, declared.extent, nominal?);
+        }
         let expected = nominal.as_ref().map(|(_, expected)| expected);
         let help = "; a sum as the nominal value needs parentheses";
         let limits = self.limits(declared, expected, help);
@@ -58,7 +62,7 @@ impl Resolver<'_> {
         let limits = self.at(value, limits?, declared.extent)?;
         let tolerance = limits.with(law?);
         let mean = value + tolerance.middle();
-        self.positive_mean(declared, tolerance.law, mean, &dimension.si_symbol())?;
+        self.positive_mean(declared, &tolerance.law, mean, &dimension.si_symbol())?;
         Some(tolerance)
     }
 
@@ -77,7 +81,7 @@ impl Resolver<'_> {
         self.representable(&[tolerance.upper - tolerance.lower], declared.extent)?;
         if tolerance.relative {
             let mean = 1.0 + tolerance.middle();
-            self.positive_mean(declared, tolerance.law, mean, "times the value")?;
+            self.positive_mean(declared, &tolerance.law, mean, "times the value")?;
         }
         Some(tolerance)
     }
@@ -113,7 +117,71 @@ impl Resolver<'_> {
                 }
                 Some(limits)
             }
+            ast::Limits::Values(_) => {
+                self.diagnostics.error_with_help(
+                    tolerance.extent,
+                    "an input has no value of its own, so it has no list of them",
+                    "give limits about the value that it will have: `+/- 1% uniform`",
+                );
+                None
+            }
         }
+    }
+
+    /// The tolerance of what has one of some values.
+    fn values(
+        &mut self,
+        of: &ast::Values,
+        extent: Extent,
+        (value, expected): (f64, Expected),
+    ) -> Option<Tolerance> {
+        let Listed {
+            numbers, quantity, ..
+        } = self.listed(&of.values, Place::Values)?;
+        self.expect(quantity, expected, "a value that it may have", &of.values)?;
+        if numbers.is_empty() {
+            let message = "no value is listed";
+            self.diagnostics.error(of.values.extent, message);
+            return None;
+        }
+        let weights = match &of.weights {
+            None => vec![1.0; numbers.len()],
+            Some(list) => self.weights(list, numbers.len())?,
+        };
+        let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (lower, upper) = (least - value, greatest - value);
+        self.representable(&[lower, upper, greatest - least], extent)?;
+        let place = |number: f64| match greatest > least {
+            true => (number - least) / (greatest - least),
+            false => 0.0,
+        };
+        let limits = Limits {
+            lower,
+            upper,
+            relative: false,
+        };
+        let places = numbers.into_iter().map(place).zip(weights);
+        Some(limits.with(Law::OneOf(places.collect())))
+    }
+
+    /// How often each of so many values occurs.
+    fn weights(&mut self, list: &Value, count: usize) -> Option<Vec<f64>> {
+        let Listed {
+            numbers, quantity, ..
+        } = self.listed(list, Place::Values)?;
+        self.expect(quantity, Dimension::NONE, "a weight", list)?;
+        let message = if numbers.len() != count {
+            format!("{} weights for {count} values: each has one", numbers.len())
+        } else if numbers.iter().any(|weight| *weight < 0.0) {
+            "a weight is not negative".to_owned()
+        } else if numbers.iter().all(|weight| *weight == 0.0) {
+            "all weights are zero, so that no value occurs".to_owned()
+        } else {
+            return Some(numbers);
+        };
+        self.diagnostics.error(list.extent, message);
+        None
     }
 
     /// A deviation has the dimension of what deviates; a bare number may also be meant in percent.
@@ -263,7 +331,7 @@ impl Resolver<'_> {
     fn positive_mean(
         &mut self,
         declared: &ast::Tolerance,
-        law: Law,
+        law: &Law,
         mean: f64,
         unit: &str,
     ) -> Option<()> {

@@ -98,6 +98,8 @@ pub(super) enum Place {
     Nominal,
     /// The points of a curve: numbers only.
     Points,
+    /// The values that something may have: numbers only.
+    Values,
     /// Anything about the mechanism itself: numbers, design variables, inputs and constants.
     Parameter,
     /// The law of a tension: also the distance of its ends and the rate of that.
@@ -115,7 +117,7 @@ pub(super) enum Place {
 impl Place {
     /// Names of values may be used here.
     pub(super) fn knows_names(self) -> bool {
-        !matches!(self, Place::Nominal | Place::Points)
+        !matches!(self, Place::Nominal | Place::Points | Place::Values)
     }
 
     /// Coordinates and points may be used here.

@@ -465,6 +465,7 @@ fn of_numbers_only(place: Place) -> Option<(&'static str, &'static str)> {
             "the points of a curve are",
             "multiply the curve where it is used: `factor * stiffness(speed)`",
         )),
+        Place::Values => Some(("listed values are", "write the numbers themselves")),
         _ => None,
     }
 }

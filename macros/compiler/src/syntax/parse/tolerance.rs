@@ -1,9 +1,9 @@
-//! Tolerances: `+/- 3%`, `+0.1 -0.05 mm`, and the law after either.
+//! Tolerances: `+/- 3%`, `+0.1 -0.05 mm`, and the law after either; `one of [1.9, 2.0, 2.1] mm`.
 
 use proc_macro2::{Delimiter, Ident};
 
 use super::super::ast::{
-    Deviation, Deviations, Law, LawKind, Limits, Measure, Tolerance, Unit, Value, ValueKind,
+    Deviation, Deviations, Law, LawKind, Limits, Measure, Tolerance, Unit, Value, ValueKind, Values,
 };
 use super::super::print;
 use super::super::tokens::{Parsed, Tokens};
@@ -12,6 +12,15 @@ use super::words::{KEYWORDS, LAWS, suggested_law};
 use crate::base::diagnostics::Diagnostic;
 use crate::base::span::Extent;
 use crate::base::units;
+
+/// How the values that something may have are written.
+const VALUES: &str = "write `one of [1.9, 2.0, 2.1] mm`, or `one of [1.9, 2.0] mm weighted [1, 6]`";
+
+/// Words behind a number that are no units.
+const NO_UNITS: [&str; 9] = {
+    let [a, b, c, d, e, f, g] = LAWS;
+    [a, b, c, d, e, f, g, "one", "weighted"]
+};
 
 /// What to do about the token after what could be read, where it looks like a tolerance or its law.
 pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
@@ -29,7 +38,7 @@ pub(super) fn help(tokens: &Tokens) -> Option<&'static str> {
 
 /// Reads a value up to a tolerance: two numbers with signs at its end are limits, not terms of a sum.
 pub(super) fn nominal(tokens: &mut Tokens) -> Parsed<Value> {
-    tokens.no_units = &LAWS;
+    tokens.no_units = &NO_UNITS;
     let nominal = value_before(tokens, |tokens| {
         let mut ahead = *tokens;
         tokens.peek_plus_minus() || deviations(&mut ahead).is_some()
@@ -40,12 +49,27 @@ pub(super) fn nominal(tokens: &mut Tokens) -> Parsed<Value> {
 
 /// Reads a tolerance if there is one.
 pub(super) fn tolerance(tokens: &mut Tokens) -> Parsed<Option<Tolerance>> {
-    tokens.no_units = &LAWS;
+    tokens.no_units = &NO_UNITS;
     let limits = limits(tokens);
     tokens.no_units = &[];
     let Some((limits, extent)) = limits? else {
         return Ok(None);
     };
+    if let Limits::Values(_) = limits {
+        if let Some(word) = tokens
+            .peek_ident()
+            .filter(|word| LAWS.contains(&word.to_string().as_str()))
+        {
+            let message = "the list says how they are distributed";
+            let help = format!("leave `{word}` away, or give limits in place of the list");
+            return Err(Box::new(Diagnostic::new(&word, message).with_help(help)));
+        }
+        return Ok(Some(Tolerance {
+            limits,
+            extent,
+            law: None,
+        }));
+    }
     match &limits {
         Limits::HalfWidth(Value {
             kind: ValueKind::Number(_, Some(unit)),
@@ -74,6 +98,13 @@ fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
         }
     }
     let start = tokens.span();
+    if !is_half_width && tokens.peek_word("one") {
+        let values = values(tokens)?;
+        return Ok(Some((
+            Limits::Values(Box::new(values)),
+            Extent::from(start).to(tokens.last),
+        )));
+    }
     let limits = if is_half_width {
         match percentage(tokens) {
             Some(percent) => Limits::Percent(percent),
@@ -87,6 +118,21 @@ fn limits(tokens: &mut Tokens) -> Parsed<Option<(Limits, Extent)>> {
         }
     };
     Ok(Some((limits, Extent::from(start).to(tokens.last))))
+}
+
+/// `one of LIST`, and how often each occurs.
+fn values(tokens: &mut Tokens) -> Parsed<Values> {
+    tokens.expect_word("one")?;
+    let of = tokens.expect_word("of").and_then(|_| value(tokens));
+    let weights = |tokens: &mut Tokens| match tokens.word("weighted") {
+        Some(_) => value(tokens).map(Some),
+        None => Ok(None),
+    };
+    let read = of.and_then(|values| {
+        let weights = weights(tokens)?;
+        Ok(Values { values, weights })
+    });
+    read.map_err(|error| Box::new(error.with_help(VALUES)))
 }
 
 /// A number and `%`. It may be negative here, so that a rule can say what is wrong with it.
