@@ -57,6 +57,15 @@ fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// A count: `10000` or `1e4`.
+pub(crate) fn whole(text: &str) -> Result<usize, String> {
+    let number = text.parse::<f64>().ok();
+    let whole = number.filter(|own| own.fract() == 0.0 && (0.0..1e15).contains(own));
+    whole
+        .map(|own| own as usize)
+        .ok_or_else(|| "write a whole number: `10000` or `1e4`".to_owned())
+}
+
 impl Point {
     /// Reads the files and sets everything.
     pub(crate) fn question(&self) -> Result<Question, Failure> {

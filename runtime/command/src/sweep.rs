@@ -5,7 +5,7 @@ use eigentol::Input;
 use eigentol_interpreter::{Interpreted, value};
 
 use crate::failure::Failure;
-use crate::point::{Question, input};
+use crate::point::{Question, input, whole};
 
 /// Points of a sweep unless said otherwise.
 const POINTS: usize = 51;
@@ -25,7 +25,7 @@ pub(crate) struct Sweep {
 #[derive(Args, Debug)]
 pub(crate) struct Points {
     /// Number of values, ends included [default: 51]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
     points: Option<usize>,
 }
 

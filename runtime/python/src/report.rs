@@ -22,6 +22,7 @@ impl Study {
     /// `frequency_unit` is the unit of frequencies in them, `"Hz"` or `"rad/s"`.
     ///
     /// Raises OSError when the file cannot be written. What an analysis refuses is said in the report.
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     #[pyo3(signature = (path, sweep=None, orders=vec![], title=None, mode_names=vec![], frequency_unit=None))]
     fn report(
         &self,

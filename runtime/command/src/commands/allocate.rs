@@ -10,7 +10,7 @@ use eigentol_interpreter::Interpreted;
 
 use crate::failure::Failure;
 use crate::output::Output;
-use crate::point::{Point, Question, design, parameter, unknown, written};
+use crate::point::{Point, Question, design, parameter, unknown, whole, written};
 use crate::progress;
 use crate::study_file::{self, Choose, Require, Written};
 use crate::verdict::Verdict;
@@ -21,7 +21,7 @@ pub(crate) struct Allocate {
     #[command(flatten)]
     point: Point,
     /// Samples that check the result [default: 3000]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
     samples: Option<usize>,
     #[command(flatten)]
     output: Output,

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::picture::Wording;
 use crate::place::Place;
-use crate::point::Point;
+use crate::point::{Point, whole};
 use crate::progress;
 use crate::sweep::{Points, Sweep};
 use crate::verdict::Verdict;
@@ -24,7 +24,7 @@ pub(crate) struct Report {
     #[arg(long = "order", value_name = "NUMBERS", value_delimiter = ',')]
     orders: Vec<f64>,
     /// Number of Monte Carlo samples [default: 3000]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
     #[arg(long, value_name = "NUMBER")]

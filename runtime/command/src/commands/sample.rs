@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::Output;
 use crate::parts::{self, Shard};
-use crate::point::Point;
+use crate::point::{Point, whole};
 use crate::progress;
 use crate::verdict::Verdict;
 
@@ -24,7 +24,7 @@ pub(crate) struct Sample {
     #[command(flatten)]
     point: Point,
     /// Number of samples of the whole run [default: 3000]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = whole)]
     samples: Option<usize>,
     /// Seed of the samples [default: 0]
     #[arg(long, value_name = "NUMBER")]

@@ -128,6 +128,14 @@ fn values_with_wrong_units() {
         let code = if value.starts_with("m=") { 1 } else { 2 };
         refused(&["modes", PENDULUM, "--set", value], code, parts);
     }
+    for count in ["many", "1.5", "-3", "1e99"] {
+        let arguments = ["--samples", count];
+        refused(
+            &pendulum("sample", &arguments),
+            2,
+            &[if count == "-3" { "-3" } else { "`1e4`" }],
+        );
+    }
     for (tolerance, part) in [
         ("l=3 kg", "this tolerance must be a length"),
         ("l=3% unifrom", "did you mean `uniform`?"),

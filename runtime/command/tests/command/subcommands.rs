@@ -109,6 +109,12 @@ fn tolerances_are_given_as_declarations_give_them() {
 }
 
 #[test]
+fn counts_may_have_a_power_of_ten() {
+    let samples = |count: &str| answer(&pendulum("sample", &["--samples", count]));
+    assert_eq!(samples("1e2"), samples("100"));
+}
+
+#[test]
 fn campbell() {
     let sweep = [
         "--sweep",
