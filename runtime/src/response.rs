@@ -6,7 +6,7 @@ use crate::kernels::{BatchKernels, DirectionalKernels, Kernels};
 use crate::sensitivity::{Quantity, output_sensitivities, sensitivities};
 use crate::sweep::{Range, critical_sensitivity, critical_state};
 use crate::tolerance::{Outcome, Solution};
-use crate::{Equilibrium, Error, Modes, Output};
+use crate::{Equilibrium, Error, Modes, Output, Watch};
 
 /// A number that a design gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +49,7 @@ pub struct Responses<'a> {
     nominal: &'a Equilibrium,
     modes: &'a Modes,
     wanted: Vec<Response>,
+    watch: Watch<'a>,
 }
 
 /// What the next evaluation uses again.
@@ -94,7 +95,27 @@ impl<'a> Responses<'a> {
             nominal,
             modes,
             wanted,
+            watch: Watch::default(),
         })
+    }
+
+    /// Lets `watch` see each design, and end the evaluation with [`Error::Stopped`].
+    #[must_use]
+    pub fn watched(mut self, watch: Watch<'a>) -> Self {
+        self.watch = watch;
+        self
+    }
+
+    /// Whether the work may go on.
+    pub(crate) fn go_on(&self) -> Result<(), Error> {
+        match self.watch.stopped() {
+            true => Err(Error::Stopped),
+            false => Ok(()),
+        }
+    }
+
+    pub(crate) fn watch(&self) -> Watch<'a> {
+        self.watch
     }
 
     /// The same of a mechanism that can be evaluated at several designs side by side: samples of frequencies of undamped modes are
@@ -147,7 +168,7 @@ impl<'a> Responses<'a> {
     /// The responses to a design, SI.
     ///
     /// # Errors
-    /// [`Error::WrongLength`] for a design of another mechanism. What fails is an outcome and has no values.
+    /// [`Error::WrongLength`] for a design of another mechanism, [`Error::Stopped`]. What fails is an outcome and has no values.
     pub fn at(&self, room: &mut Workspace, design: &[f64]) -> Result<Realisation, Error> {
         self.evaluate(room, design, false)
     }
@@ -171,6 +192,8 @@ impl<'a> Responses<'a> {
         slopes: bool,
     ) -> Result<Realisation, Error> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
+        self.go_on()?;
+        self.watch.advance(1);
         solved.solve(self.mechanism, self.nominal, self.modes, design);
         let stable = solved.outcome == Outcome::Stable;
         let mut found = Realisation {

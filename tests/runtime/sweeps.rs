@@ -1,6 +1,8 @@
 //! Sweeps whose values are solved side by side against sweeps whose values are solved one by one: the same states, modes,
 //! labels, derivatives and critical states up to rounding, the same bits with every set of instructions.
 
+use std::ops::ControlFlow;
+
 use eigentol::kernels::{BatchKernels, Kernels};
 use eigentol::scalar::Instructions;
 use eigentol::sensitivity::sensitivities;
@@ -182,6 +184,7 @@ fn derivatives(
             let kept = points.next().map(|point| format!("{point:?}"));
             assert_eq!(Some(format!("{point:?}")), kept);
             all.push(slopes.clone());
+            ControlFlow::Continue(())
         };
         sensitivity_sweep(m, (u, b), start, following, (input, values), each)
             .expect("an input of the mechanism");
@@ -394,6 +397,7 @@ fn derivatives_along_a_sweep_are_what_differences_show() {
     let each = |_: &SweepPoint, found: &Result<Sensitivities, Error>| {
         let found = found.as_ref().expect("derivatives");
         slopes.push([0, 1].map(|r| found.modes[r].lambda_by_design.clone()));
+        ControlFlow::Continue(())
     };
     let along = (Double::omega.any(), &values[..]);
     sensitivity_sweep(
@@ -452,6 +456,7 @@ fn a_bar_along_its_speeds_is_the_closed_form() {
         let omega = modes.modes[0].lambda.sqrt();
         near(by_length.unwrap_or(0.0), w * w / (l * u * u * omega), 0.0);
         seen += 1;
+        ControlFlow::Continue(())
     };
     let b = nominal(&Single);
     let along = (Single::omega.any(), &values[..]);

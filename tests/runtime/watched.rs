@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use eigentol::allocation::{Choices, Cost, HalfWidth};
 use eigentol::branches::BranchEnd;
-use eigentol::requirement::Requirement;
+use eigentol::propagation::{Points, Sampler};
+use eigentol::requirement::{Requirement, SamplingSettings};
 use eigentol::response::Response;
 use eigentol::{Error, Quantity, Study, mechanism};
 
@@ -20,6 +21,7 @@ mechanism! {
         body bar: rod(mass: m, length: l, along: -z);
         joint spin: revolute(z) from ground to shaft, driven at omega;
         joint theta: revolute(y) from shaft to bar;
+        output angle = theta;
     }
 }
 
@@ -27,6 +29,8 @@ const FREQUENCY: Response = Response::Mode {
     mode: 0,
     quantity: Quantity::Frequency,
 };
+
+const ANGLE: Response = Response::Output(Pendulum::angle.any());
 
 fn pendulum() -> Study<Pendulum> {
     Study::new(Pendulum)
@@ -52,6 +56,51 @@ fn stopped_after(study: Study<Pendulum>, steps: usize) -> (Study<Pendulum>, Arc<
         }
     };
     (study.stop(flag).progress(progress), done)
+}
+
+/// What has no use by halves is an error, the rest is as far as it came.
+#[test]
+fn questions_about_responses_stop() {
+    type Question = fn(&Study<Pendulum>) -> Result<(), Error>;
+    let questions: [(&str, Question); 6] = [
+        ("propagate", |s| s.propagate(&[ANGLE]).map(drop)),
+        ("worst_case", |s| s.worst_case(&[ANGLE]).map(drop)),
+        ("controlled", |s| s.controlled(&[ANGLE]).map(drop)),
+        ("influence", |s| s.influence(&[ANGLE]).map(drop)),
+        ("reliability", |s| {
+            s.reliability(&[Requirement::at_least(ANGLE, 0.9)])
+                .map(drop)
+        }),
+        ("rare_failure", |s| {
+            s.rare_failure(
+                &[Requirement::at_least(ANGLE, 0.9)],
+                &SamplingSettings::default(),
+            )
+            .map(drop)
+        }),
+    ];
+    for (name, question) in questions {
+        let (study, done) = stopped_after(pendulum().samples(300), usize::MAX);
+        question(&study).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let all = done.load(Ordering::Relaxed);
+        assert!(all > 1, "{name}: {all}");
+        let (study, done) = stopped_after(pendulum().samples(300).threads(1), all / 2);
+        assert!(matches!(question(&study), Err(Error::Stopped)), "{name}");
+        assert_eq!(done.load(Ordering::Relaxed), all / 2, "{name}");
+    }
+    // Frequencies go in vectors.
+    let (study, _) = stopped_after(pendulum(), 0);
+    assert!(matches!(study.propagate(&[FREQUENCY]), Err(Error::Stopped)));
+    let sampler = Sampler::new(Points::Random).samples(3000).threads(1);
+    let (study, done) = stopped_after(pendulum(), 500);
+    let part = study.sample_responses(&[ANGLE], &sampler).unwrap();
+    let ranges = part.ranges();
+    let count = ranges.iter().map(|own| own.end - own.start).sum::<u64>();
+    assert!((500..3000).contains(&count) && count as usize == done.load(Ordering::Relaxed));
+    let (study, _) = stopped_after(pendulum(), 10);
+    let mut seen = 0;
+    let counted = study.sensitivity_sweep(Pendulum::omega, &speeds(), |_, _| seen += 1);
+    assert!(counted.is_ok() && seen == 10, "{seen}");
 }
 
 #[test]

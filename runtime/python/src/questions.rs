@@ -235,14 +235,14 @@ impl Study {
         responses: Vec<Bound<'_, PyTuple>>,
     ) -> PyResult<Propagation> {
         let wanted = self.wanted(responses)?;
-        self.ask(py, |study| study.propagate(&wanted))
+        self.ask_stoppably(py, |study| study.propagate(&wanted))
             .map(Propagation)
     }
 
     /// Which variables the scatter of responses comes from; tuples as `propagate` takes them.
     fn influence(&self, py: Python<'_>, responses: Vec<Bound<'_, PyTuple>>) -> PyResult<Influence> {
         let wanted = self.wanted(responses)?;
-        self.ask(py, |study| study.influence(&wanted))
+        self.ask_stoppably(py, |study| study.influence(&wanted))
             .map(Influence)
     }
 
@@ -253,7 +253,7 @@ impl Study {
         responses: Vec<Bound<'_, PyTuple>>,
     ) -> PyResult<WorstCase> {
         let wanted = self.wanted(responses)?;
-        self.ask(py, |study| study.worst_case(&wanted))
+        self.ask_stoppably(py, |study| study.worst_case(&wanted))
             .map(WorstCase)
     }
 

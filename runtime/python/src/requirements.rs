@@ -98,7 +98,7 @@ impl Study {
         requirements: Vec<Bound<'_, PyAny>>,
     ) -> PyResult<Reliability> {
         let wanted = self.requirements(&requirements)?;
-        self.ask(py, |study| study.reliability(&wanted))
+        self.ask_stoppably(py, |study| study.reliability(&wanted))
             .map(Reliability)
     }
 
@@ -111,7 +111,7 @@ impl Study {
     ) -> PyResult<RareFailure> {
         let wanted = self.requirements(&requirements)?;
         let settings = SamplingSettings::default();
-        self.ask(py, |study| study.rare_failure(&wanted, &settings))
+        self.ask_stoppably(py, |study| study.rare_failure(&wanted, &settings))
             .map(RareFailure)
     }
 }

@@ -99,11 +99,11 @@ pub fn propagate(
             .samples(samples)
             .seed(effort.seed)
             .stream(effort.stream)
-            .threads(effort.threads);
-        with(
-            sampled(responses, tolerances, &sampler)?.propagation(),
-            reason,
-        )
+            .threads(effort.threads)
+            .stop(responses.watch().stop);
+        let samples = sampled(responses, tolerances, &sampler)?;
+        responses.go_on()?;
+        with(samples.propagation(), reason)
     };
     if effort.samples <= affordable {
         let spent = effort.samples * price;

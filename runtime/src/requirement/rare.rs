@@ -89,6 +89,7 @@ impl Requirements<'_> {
                     None => sums = Some(part),
                 }
             }
+            self.responses().go_on()?;
             first += number;
             let estimate = sums.as_ref().map(|sums| all.estimate(sums));
             if let Some(failure) = estimate.filter(|now| now.reached || first >= settings.samples) {

@@ -123,6 +123,7 @@ pub(crate) fn reliability_of(
         design_points: design_points(requirements, deviations, (*place, limit), settings),
     });
     let found: Vec<LimitReliability> = found.collect();
+    requirements.responses().go_on()?;
     let has_limit = |k: &usize| limits.iter().any(|(_, limit)| limit.requirement == *k);
     Ok(Reliability {
         system: system(&found)?,

@@ -6,7 +6,7 @@ use super::limit::Limit;
 use crate::kernels::DirectionalKernels;
 use crate::response::{Realisation, Response, Responses};
 use crate::tolerance::Tolerances;
-use crate::{Equilibrium, Error, Modes};
+use crate::{Equilibrium, Error, Modes, Watch};
 
 /// Requirements of the designs near a nominal one, to be met all at once.
 ///
@@ -44,6 +44,13 @@ impl<'a> Requirements<'a> {
             deviations: Deviations::new(tolerances, &nominal.design)?,
             wanted,
         })
+    }
+
+    /// Lets `watch` see each design, and end the evaluation with [`Error::Stopped`].
+    #[must_use]
+    pub fn watched(mut self, watch: Watch<'a>) -> Self {
+        self.responses = self.responses.watched(watch);
+        self
     }
 
     /// The requirements in order.

@@ -95,7 +95,7 @@ impl<M: BatchKernels> Study<M> {
         &self,
         input: Input<M>,
         values: &[impl Into<Value> + Copy],
-        each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+        mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
     ) -> Result<(), Error> {
         let Self {
             mechanism,
@@ -105,6 +105,11 @@ impl<M: BatchKernels> Study<M> {
         let start = settings.assembled_start(mechanism)?;
         let values = settings.values_si(input.any(), values)?;
         let (following, along) = (settings.following(), (input.any(), &values[..]));
+        let watch = settings.watch();
+        let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
+            each(point, slopes);
+            go_on(ControlFlow::Continue(()), watch)
+        };
         sweep::sensitivity_sweep(mechanism, point, &start, following, along, each)
     }
 

@@ -2,13 +2,13 @@
 
 use super::deviating::deviating;
 use super::{Solved, Study};
-use crate::Error;
 use crate::kernels::{CurvatureKernels, SummaryKernels};
 use crate::propagation::{
     self, Controlled, Effort, Influence, Points, Propagation, Sampler, Samples, WorstCase,
 };
 use crate::response::{Response, Responses};
 use crate::tolerance::Tolerances;
+use crate::{Error, Watch};
 
 impl<M: SummaryKernels> Study<M> {
     /// How tolerances spread any responses, several at once with their covariance, by the method that answers best for what it costs
@@ -117,9 +117,13 @@ impl<M: SummaryKernels> Solved<'_, M> {
     /// As [`Study::propagate`].
     pub fn propagate(&self, wanted: &[Response]) -> Result<Propagation, Error> {
         let effort = self.effort();
-        self.about(wanted, |mechanism, responses, tolerances| {
-            propagation::propagate(mechanism, responses, tolerances, effort)
-        })
+        self.about(
+            wanted,
+            self.study.settings.watch(),
+            |mechanism, responses, tolerances| {
+                propagation::propagate(mechanism, responses, tolerances, effort)
+            },
+        )
     }
 
     /// See [`Study::sample_responses`].
@@ -131,8 +135,14 @@ impl<M: SummaryKernels> Solved<'_, M> {
         wanted: &[Response],
         sampler: &Sampler<'_>,
     ) -> Result<Samples, Error> {
-        self.about(wanted, |_, responses, tolerances| {
-            propagation::sampled(responses, tolerances, sampler)
+        let watch = self.study.settings.watch();
+        let sampler = Sampler {
+            progress: sampler.progress.or(watch.progress),
+            stop: sampler.stop.or(watch.stop),
+            ..sampler.clone()
+        };
+        self.about(wanted, Watch::default(), |_, responses, tolerances| {
+            propagation::sampled(responses, tolerances, &sampler)
         })
     }
 
@@ -141,9 +151,11 @@ impl<M: SummaryKernels> Solved<'_, M> {
     /// # Errors
     /// As [`Study::worst_case`].
     pub fn worst_case(&self, wanted: &[Response]) -> Result<WorstCase, Error> {
-        self.about(wanted, |_, responses, tolerances| {
-            propagation::worst_case(responses, tolerances)
-        })
+        self.about(
+            wanted,
+            self.study.settings.watch(),
+            |_, responses, tolerances| propagation::worst_case(responses, tolerances),
+        )
     }
 
     /// See [`Study::controlled`].
@@ -157,9 +169,13 @@ impl<M: SummaryKernels> Solved<'_, M> {
             .seed(effort.seed)
             .stream(effort.stream)
             .threads(effort.threads);
-        self.about(wanted, |mechanism, responses, tolerances| {
-            propagation::controlled(mechanism, responses, tolerances, &sampler)
-        })
+        self.about(
+            wanted,
+            self.study.settings.watch(),
+            |mechanism, responses, tolerances| {
+                propagation::controlled(mechanism, responses, tolerances, &sampler)
+            },
+        )
     }
 
     /// See [`Study::influence`].
@@ -168,9 +184,11 @@ impl<M: SummaryKernels> Solved<'_, M> {
     /// As [`Study::influence`].
     pub fn influence(&self, wanted: &[Response]) -> Result<Influence, Error> {
         let effort = self.effort();
-        self.about(wanted, |_, responses, tolerances| {
-            propagation::influence(responses, tolerances, effort)
-        })
+        self.about(
+            wanted,
+            self.study.settings.watch(),
+            |_, responses, tolerances| propagation::influence(responses, tolerances, effort),
+        )
     }
 
     /// What the settings allow.
@@ -187,15 +205,17 @@ impl<M: SummaryKernels> Solved<'_, M> {
     fn about<R>(
         &self,
         wanted: &[Response],
+        watch: Watch<'_>,
         question: impl FnOnce(&dyn CurvatureKernels, &Responses<'_>, &Tolerances) -> Result<R, Error>,
     ) -> Result<R, Error> {
         if let Some(wide) = deviating!(self.study, SummaryKernels) {
-            return self.in_study(&wide).about(wanted, question);
+            return self.in_study(&wide).about(wanted, watch, question);
         }
         let mechanism = &self.study.mechanism;
         let tolerances = self.study.settings.tolerances()?;
         let (at, modes) = (&self.equilibrium, &self.modes);
         let responses = Responses::side_by_side(mechanism, at, modes, wanted.to_vec())?;
+        let responses = responses.watched(watch);
         question(mechanism, &responses, tolerances)
     }
 }

@@ -83,6 +83,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             return self.in_study(&wide).reliability(wanted);
         }
         self.requirements(wanted)?
+            .watched(self.study.settings.watch())
             .reliability(&FormSettings::default())
     }
 
@@ -117,7 +118,7 @@ impl<M: DirectionalKernels> Solved<'_, M> {
             stream: own.stream,
             ..settings.clone()
         };
-        let requirements = self.requirements(wanted)?;
+        let requirements = self.requirements(wanted)?.watched(own.watch());
         let about = requirements.reliability(&FormSettings::default())?;
         requirements.rare_failure(&about, &settings, own.threads)
     }

@@ -10,7 +10,8 @@ use crate::kernels::BatchKernels;
 use crate::sensitivity::Sensitivities;
 use crate::{Error, Input};
 
-/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and shows them to `each` in order:
+/// Solves equilibrium, modes and their total derivatives at each of `values` of one input, and shows them to `each` in order, until
+/// that breaks off:
 /// the fastest way to derivatives along an input, because neighbouring values are solved side by side and nothing is kept.
 ///
 /// Arguments as for [`sweep`](crate::sweep::sweep), which keeps its points and looks for critical states between
@@ -24,15 +25,19 @@ pub fn sensitivity_sweep(
     start: &[f64],
     following: impl Into<Following>,
     (input, values): (Input, &[f64]),
-    mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+    mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>) -> ControlFlow<()>,
 ) -> Result<(), Error> {
     check_input(input, &mechanism.description())?;
     let mut tracker = Tracker::new(mechanism, (u, b), start, following.into(), input);
-    follow(&mut tracker, mechanism, values, true, |station| {
-        if let Some(slopes) = station.slopes {
-            each(station.point, slopes);
-        }
-        ControlFlow::Continue(())
-    });
+    follow(
+        &mut tracker,
+        mechanism,
+        values,
+        true,
+        |station| match station.slopes {
+            Some(slopes) => each(station.point, slopes),
+            None => ControlFlow::Continue(()),
+        },
+    );
     Ok(())
 }

@@ -4,6 +4,7 @@
 use std::error::Error as StdError;
 use std::ffi::c_int;
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 use eigentol::equilibrium::equilibrium;
@@ -141,8 +142,12 @@ fn sweeps() -> Vec<Sweep> {
 fn follow(
     sweep: &Sweep,
     vectors: Option<Instructions>,
-    each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
+    mut each: impl FnMut(&SweepPoint, &Result<Sensitivities, Error>),
 ) {
+    let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
+        each(point, slopes);
+        ControlFlow::Continue(())
+    };
     let following = Following::from(Policy::Stable).vectors(vectors);
     let along = (DoublePendulum::omega.any(), &sweep.speeds[..]);
     let values = (&[0.0][..], &sweep.design[..]);

@@ -1,5 +1,7 @@
 //! Sweeps of an input that deviates.
 
+use std::ops::ControlFlow;
+
 use super::{Double, OMEGA, Single, all_deviate, frequency_slopes};
 use crate::common::close;
 use eigentol::kernels::BatchKernels;
@@ -24,6 +26,7 @@ fn swept(
     let mut all = Vec::new();
     let each = |point: &SweepPoint, slopes: &Result<Sensitivities, Error>| {
         all.push((point.clone(), slopes.clone()));
+        ControlFlow::Continue(())
     };
     sensitivity_sweep(
         machine,
