@@ -20,7 +20,7 @@ fn target() -> (PathBuf, bool) {
 fn succeed(command: &mut Command) -> String {
     let output = command.output().unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?}: {err}");
+    assert!(output.status.success(), "{err}\n{command:?}");
     String::from_utf8(output.stdout).unwrap()
 }
 
