@@ -9,7 +9,9 @@ mod advance;
 pub(crate) mod algebra;
 mod block;
 pub(crate) mod closed;
+mod complex;
 mod continuity;
+pub(crate) mod general;
 mod newton;
 mod reading;
 pub(crate) mod room;
@@ -17,4 +19,4 @@ mod slopes;
 mod state;
 
 pub(crate) use advance::Workspace;
-pub(crate) use block::{Block, KERNELS, POSITIVE, possible};
+pub(crate) use block::{Block, KERNELS, POSITIVE, possible, small};

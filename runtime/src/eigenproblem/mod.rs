@@ -6,6 +6,8 @@ mod refine;
 mod residual;
 pub(crate) mod symmetric;
 
-pub(crate) use general::{Eigenproblem, Near, Root, roots_near, roots_of};
+pub(crate) use general::{
+    Eigenproblem, Near, Reference, ReferencePair, Root, roots_near, roots_of,
+};
 pub(crate) use jacobi::diagonalise;
 pub(crate) use symmetric::{INACCURATE, Pairs, Trouble};

@@ -11,7 +11,7 @@ use crate::kernels::Linear;
 use crate::{Complex, Modes};
 
 /// Share of the assurance that a difference of eigenvalues can cost: it decides between modes of equal shape.
-const EIGENVALUE_SHARE: f64 = 0.05;
+pub(crate) const EIGENVALUE_SHARE: f64 = 0.05;
 /// Beyond this assurance a mode is recognised without looking at the others of its set.
 const CERTAIN: f64 = 0.6;
 

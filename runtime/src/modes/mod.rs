@@ -14,8 +14,10 @@ mod mode;
 mod pencil;
 mod whirl;
 
+pub(crate) use assurance::{
+    EIGENVALUE_SHARE, match_with_assurance, merged, near, near_another, position,
+};
 pub use assurance::{assurance, clusters, match_modes};
-pub(crate) use assurance::{match_with_assurance, merged, near, near_another, position};
 pub(crate) use constrained::{Normalisation, free_pairs};
 pub use mode::{Behaviour, Mode};
 pub(crate) use pencil::{pencil_slope_times, pencil_times, transposed};

@@ -76,7 +76,7 @@ pub struct Mode {
 
 impl Mode {
     /// As what predicts the mode of a problem near by.
-    pub(super) fn near(&self) -> Near<'_> {
+    pub(crate) fn near(&self) -> Near<'_> {
         Near {
             s: self.s,
             right: &self.shape,

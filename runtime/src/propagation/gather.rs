@@ -14,6 +14,7 @@ use super::sampler::Sampler;
 use super::space::{Point, Space};
 use crate::Error;
 use crate::algebra::Vector;
+use crate::sensitivity::Quantity;
 use crate::tolerance::gather::{Part, Work};
 use crate::tolerance::side_by_side::{Lanes, SideBySide};
 use crate::tolerance::{Counts, Outcome};
@@ -35,8 +36,8 @@ pub(super) struct Task<'a, M> {
     pub(super) scales: Vec<Scale>,
     /// Unknowns of the mechanism, which the stack of a thread depends on.
     pub(super) unknowns: usize,
-    /// Where every response is the frequency of a mode that can be solved side by side: these modes.
-    pub(super) side_by_side: Option<(SideBySide<'a>, Vec<usize>)>,
+    /// Where every response is a quantity of a mode that can be solved side by side: these.
+    pub(super) side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
 }
 
 /// What one thread works in.
@@ -91,7 +92,7 @@ impl<M: Model> Task<'_, M> {
         let solve = |room: &mut Room<M>, part: &mut Part<'_, ()>| {
             let sequence = &sequences[part.group];
             match &self.side_by_side {
-                Some((lanes, modes)) => self.solve_together(room, sequence, part, (lanes, modes)),
+                Some((lanes, wanted)) => self.solve_together(room, sequence, part, (lanes, wanted)),
                 None => self.solve(room, sequence, part),
             }
         };
@@ -128,7 +129,7 @@ impl<M: Model> Task<'_, M> {
         room: &mut Room<M>,
         sequence: &Sequence,
         Part { chunk, samples, .. }: &mut Part<'_, ()>,
-        (side_by_side, modes): (&SideBySide<'_>, &[usize]),
+        (side_by_side, wanted): (&SideBySide<'_>, &[(usize, Quantity)]),
     ) -> Result<(), Error> {
         let Some(lanes) = &mut room.lanes else {
             return Ok(());
@@ -145,11 +146,11 @@ impl<M: Model> Task<'_, M> {
                 };
                 rows.push(self.space.standard(normals(probabilities)));
             }
-            side_by_side.solve(lanes, &rows, |k, design, frequencies| {
-                let outcome = match frequencies {
+            side_by_side.solve(lanes, &rows, |k, design, eigenvalues| {
+                let outcome = match eigenvalues {
                     Some(all) => {
-                        for (value, mode) in values.iter_mut().zip(modes) {
-                            *value = all.get(*mode).copied();
+                        for (value, (mode, quantity)) in values.iter_mut().zip(wanted) {
+                            *value = all.get(*mode).and_then(|s| quantity.of_stable(*s));
                         }
                         Outcome::Stable
                     }

@@ -96,20 +96,17 @@ pub fn sampled(
     })
 }
 
-/// How to solve samples side by side, where all responses are frequencies of undamped modes.
+/// How to solve samples side by side, where all responses are quantities of modes.
 fn side_by_side<'a>(
     responses: &Responses<'a>,
     tolerances: &'a Tolerances,
-) -> Option<(SideBySide<'a>, Vec<usize>)> {
+) -> Option<(SideBySide<'a>, Vec<(usize, Quantity)>)> {
     let (at, modes) = (responses.nominal(), responses.modes());
     let wanted = responses.wanted().iter().map(|response| match response {
-        Response::Mode {
-            mode,
-            quantity: Quantity::Frequency | Quantity::NaturalFrequency,
-        } => Some(*mode),
+        Response::Mode { mode, quantity } => Some((*mode, *quantity)),
         _ => None,
     });
-    let wanted = wanted.collect::<Option<Vec<usize>>>()?;
+    let wanted = wanted.collect::<Option<Vec<_>>>()?;
     let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
     Some((lanes, wanted))
 }

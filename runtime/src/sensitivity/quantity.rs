@@ -38,6 +38,15 @@ impl Quantity {
         }
     }
 
+    /// The value for the eigenvalue of a mode that decays or keeps its amplitude, as [`Self::of`] has it.
+    pub(crate) fn of_stable(self, s: Complex) -> Option<f64> {
+        match self {
+            Self::Frequency | Self::NaturalFrequency if s.im <= 0.0 => None,
+            Self::DampingRatio if s.re == 0.0 => Some(0.0),
+            _ => Some(self.value(s)),
+        }
+    }
+
     /// The value for an eigenvalue that is not zero.
     pub(crate) fn value(self, s: Complex) -> f64 {
         match self {

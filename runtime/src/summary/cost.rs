@@ -1,8 +1,8 @@
 //! What a sample costs: a count of operations, so that how many are drawn is the same on every machine.
 
 use crate::Description;
-use crate::batched::possible;
 use crate::modes::{Family, Modes};
+use crate::tolerance::side_by_side_possible;
 
 /// What an elementary function costs, in additions and multiplications.
 const FUNCTION: f64 = 40.0;
@@ -13,8 +13,7 @@ const SIDE_BY_SIDE: f64 = 0.25;
 
 /// Whether samples may be solved side by side.
 pub(super) fn together(modes: &Modes) -> bool {
-    let kernels = ["residual_and_stiffness", "linear"];
-    modes.family == Family::Undamped && possible(&modes.description, &kernels)
+    side_by_side_possible(&modes.description, modes.family)
 }
 
 /// Operations of a sample: equilibrium and modes, and what it takes to look at them.
@@ -25,7 +24,8 @@ pub(super) fn operations(modes: &Modes, together: bool) -> f64 {
         STEPS * kernel(description, "residual_and_stiffness") + kernel(description, "linear");
     // Of n^3: reduction, iterations and vectors of a symmetric pencil, or of a general one of twice the size, left and right.
     match (together, modes.family) {
-        (true, _) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),
+        (true, Family::Undamped) => 200.0 + SIDE_BY_SIDE * (kernels + 16.0 * n.powi(3)),
+        (true, Family::General) => 400.0 + SIDE_BY_SIDE * (kernels + 160.0 * n.powi(3)),
         (false, Family::Undamped) => 2_000.0 + kernels + 30.0 * n.powi(3),
         (false, Family::General) => 6_000.0 + kernels + 240.0 * n.powi(3),
     }

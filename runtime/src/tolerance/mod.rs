@@ -40,5 +40,6 @@ pub use sample::Sample;
 pub use spread::Spread;
 pub use tolerances::Tolerances;
 
+pub(crate) use batched::possible as side_by_side_possible;
 pub(crate) use sample::Solution;
 pub(crate) use sampling::Draw;

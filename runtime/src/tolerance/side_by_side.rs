@@ -1,18 +1,17 @@
 //! Designs from given points of the standard normal space, solved side by side.
 
 use super::Tolerances;
-use super::batched::{Memory, TOGETHER, TaylorModel};
+use super::batched::{Memory, Size, TOGETHER, TaylorModel};
 use super::normal_sampling::GREATEST_NORMAL;
 use crate::algebra::Vector;
 use crate::kernels::BatchKernels;
 use crate::scalar::{Instructions, WIDTH};
-use crate::{Equilibrium, Error, Modes};
+use crate::{Complex, Equilibrium, Error, Modes};
 
 /// Solves designs about a nominal state in vectors.
 pub(crate) struct SideBySide<'a> {
     prepared: TaylorModel<'a>,
-    /// Unknowns and design variables.
-    size: (usize, usize),
+    size: Size,
 }
 
 /// What one thread solves designs in.
@@ -32,25 +31,23 @@ impl<'a> SideBySide<'a> {
         let vectors = Instructions::best();
         Some(Self {
             prepared: TaylorModel::new(mechanism, nominal, modes, tolerances, vectors)?,
-            size: (nominal.coordinates.len(), nominal.design.len()),
+            size: Size::of(nominal, modes),
         })
     }
 
     pub(crate) fn room(&self) -> Lanes {
-        let (n, p) = self.size;
-        Lanes(Memory::new(TOGETHER, n, p))
+        Lanes(Memory::new(TOGETHER, self.size))
     }
 
     /// Solves at most [`Self::MOST`] designs, each of the standard normal numbers of a row. `each` is told the position of one, its
-    /// design, and its frequencies, rad/s, in the order of the nominal modes: `None` where it has to be solved by itself.
+    /// design, and its eigenvalues, 1/s, in the order of the nominal modes: `None` where it has to be solved by itself.
     pub(crate) fn solve(
         &self,
         Lanes(memory): &mut Lanes,
         rows: &[Vector],
-        mut each: impl FnMut(usize, &[f64], Option<&[f64]>) -> Result<(), Error>,
+        mut each: impl FnMut(usize, &[f64], Option<&[Complex]>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let (n, p) = self.size;
-        let mut together = memory.batches::<TOGETHER>(n, p);
+        let mut together = memory.batches::<TOGETHER>(self.size);
         let count = rows.len().div_ceil(WIDTH).min(TOGETHER);
         for (batch, rows) in together.iter_mut().zip(rows.chunks(WIDTH)) {
             batch.members = rows.len();
@@ -62,19 +59,20 @@ impl<'a> SideBySide<'a> {
             }
         }
         self.prepared.solve(&mut together[..count]);
-        let (mut design, mut frequencies) = (Vector::zeros(p), Vector::zeros(n));
+        let mut design = Vector::zeros(self.size.design);
+        let mut eigenvalues = vec![Complex::ZERO; self.size.modes];
         for (k, row) in rows.iter().enumerate() {
             let (batch, member) = (&together[k / WIDTH], k % WIDTH);
             for (own, all) in design.iter_mut().zip(&*batch.design) {
                 *own = all.0[member];
             }
-            for (own, all) in frequencies.iter_mut().zip(&*batch.frequencies) {
-                *own = all.0[member];
+            for (own, s) in eigenvalues.iter_mut().zip(batch.eigenvalues(member)) {
+                *own = s;
             }
             // What designs can be was asked for numbers that are no greater.
             let usual = row.iter().all(|z| z.abs() < GREATEST_NORMAL);
             let solved = usual && batch.accepted >> member & 1 == 1;
-            each(k, &design, solved.then_some(&frequencies[..]))?;
+            each(k, &design, solved.then_some(&eigenvalues[..]))?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use eigentol_statistics::summary::{LARGEST, Plan};
 
-use super::batched::{Memory, Solved, TOGETHER, TaylorModel};
+use super::batched::{Memory, Size, Solved, TOGETHER, TaylorModel};
 use super::gather::Part;
 use super::sample::Solution;
 use super::sampling::{Batches, Draw};
@@ -88,10 +88,9 @@ impl<'a> Solver<'a> {
     }
 
     pub(super) fn room(&self) -> Room {
-        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
         let count = self.prepared.as_ref().map_or(0, |_| TOGETHER);
         Room {
-            together: Memory::new(count, n, p),
+            together: Memory::new(count, Size::of(self.nominal, self.modes)),
             alone: Solution::about(self.nominal, self.modes),
         }
     }
@@ -121,9 +120,9 @@ impl<'a> Solver<'a> {
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {
         let samples = part.samples.clone();
-        let (n, p) = (self.nominal.coordinates.len(), self.nominal.design.len());
-        let mut draw = Batches::from(self.sequence, samples.start, p);
-        let mut together = room.together.batches::<TOGETHER>(n, p);
+        let size = Size::of(self.nominal, self.modes);
+        let mut draw = Batches::from(self.sequence, samples.start, size.design);
+        let mut together = room.together.batches::<TOGETHER>(size);
         let mut next = samples.start;
         while next < samples.end {
             let left = (samples.end - next) as usize;
@@ -153,10 +152,22 @@ impl<'a> Solver<'a> {
         let accepted = batch.accepted.count_ones() as usize;
         part.chunk
             .count(Outcome::Stable as usize, accepted as u64)?;
-        for (r, frequencies) in batch.frequencies.iter().enumerate() {
-            let having = u64::from(batch.accepted);
-            part.chunk
-                .set_some(first, r, &frequencies.0[..batch.members], having)?;
+        let having = u64::from(batch.accepted);
+        let (count, damped) = (self.modes.modes.len(), self.modes.family == Family::General);
+        let all = batch.frequencies.iter().zip(&*batch.rates);
+        for (r, (frequencies, rates)) in all.enumerate() {
+            if self.modes.modes[r].frequency().is_none() {
+                continue;
+            }
+            let set = &mut part.chunk;
+            set.set_some(first, r, &frequencies.0[..batch.members], having)?;
+            if damped {
+                let ratios = Batch::from_fn(|k| {
+                    let s = Complex::new(rates.0[k], frequencies.0[k]);
+                    Quantity::DampingRatio.of_stable(s).unwrap_or(0.0)
+                });
+                set.set_some(first, count + r, &ratios.0[..batch.members], having)?;
+            }
         }
         if accepted == batch.members && !self.keep_samples {
             return Ok(());
@@ -207,15 +218,18 @@ impl<'a> Solver<'a> {
 
 /// A sample that passed the checks of its batch.
 fn accepted_member(solved: &Solved<'_>, member: usize) -> Sample {
-    let frequencies = member_of(solved.frequencies, member);
-    let eigenvalue = |omega: &f64| Some(Complex::new(0.0, *omega));
+    let eigenvalues: Vec<Complex> = solved.eigenvalues(member).collect();
+    let all = |quantity: Quantity| {
+        let values = eigenvalues.iter().map(|s| quantity.of_stable(*s));
+        values.collect()
+    };
     Sample {
         design: member_of(solved.design, member),
         outcome: Outcome::Stable,
         coordinates: Some(member_of(solved.coordinates, member)),
-        eigenvalues: frequencies.iter().map(eigenvalue).collect(),
-        damping_ratios: vec![Some(0.0); frequencies.len()],
-        frequencies: frequencies.into_iter().map(Some).collect(),
+        damping_ratios: all(Quantity::DampingRatio),
+        frequencies: all(Quantity::Frequency),
+        eigenvalues: eigenvalues.into_iter().map(Some).collect(),
     }
 }
 

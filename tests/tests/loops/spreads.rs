@@ -3,7 +3,11 @@
 
 use eigentol::Mechanism;
 use eigentol_oracle::truth::Truth;
-use eigentol_tests::loops::{FiveBar, FourBar, Governor, SliderCrank};
+use eigentol_tests::loops::{
+    FiveBar, FourBar, GearedCoasting, GearedMotor, GearedRotors, Governor, PorterGovernor,
+    SliderCrank,
+};
+use eigentol_tests::sampled::{Compared, compare};
 
 use super::common::{Case, assert_close, complex};
 use super::study::study;
@@ -65,4 +69,38 @@ fn second_order_and_samples() {
     check(SliderCrank, "slider_crank");
     check(FiveBar, "five_bar");
     check(FourBar, "four_bar_crossed");
+}
+
+/// Samples of every point in vectors and one by one.
+fn in_vectors<M: Mechanism + Copy>(machine: M, name: &'static str) -> Vec<(String, Compared)> {
+    let case = Case::new(name);
+    let points = case.points().into_iter();
+    let compared = points.map(|point| {
+        let study = study(machine, &case, &point).samples(300).seed(6);
+        (point.what.clone(), compare(&study, &point.what))
+    });
+    compared.collect()
+}
+
+#[test]
+fn samples_in_vectors_are_those_alone() {
+    let all = [
+        in_vectors(Governor, "governor"),
+        in_vectors(PorterGovernor, "porter_governor"),
+        in_vectors(SliderCrank, "slider_crank"),
+        in_vectors(FiveBar, "five_bar"),
+        in_vectors(FourBar, "four_bar_open"),
+        in_vectors(FourBar, "four_bar_crossed"),
+        in_vectors(GearedRotors, "geared_rotors"),
+        in_vectors(GearedCoasting, "geared_coasting"),
+        in_vectors(GearedMotor, "geared_motor"),
+    ];
+    let all = all.concat();
+    println!("{all:#?}");
+    let sum = |of: fn(&Compared) -> usize| all.iter().map(|(_, own)| of(own)).sum::<usize>();
+    let (samples, in_vectors) = (sum(|own| own.samples), sum(|own| own.in_vectors));
+    assert!(
+        samples > 3000 && 10 * in_vectors > 8 * samples,
+        "{in_vectors} of {samples}"
+    );
 }

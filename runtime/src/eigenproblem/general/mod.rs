@@ -26,18 +26,20 @@ mod pair;
 mod pencil;
 mod powers;
 mod prediction;
+mod reference;
 mod scaled_pencil;
 mod scaling;
 mod schur;
 mod scratch;
 mod solver;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use num_complex::Complex64;
 
 pub(crate) use driver::{solve as roots_of, solve_near as roots_near};
 pub(crate) use prediction::Near;
+pub(crate) use reference::{Reference, ReferencePair};
 pub(crate) use scaled_pencil::Eigenproblem;
 
 use super::symmetric::Trouble;

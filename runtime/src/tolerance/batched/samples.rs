@@ -2,14 +2,19 @@
 
 use crate::batched::room::Room;
 use crate::kernels::BatchLinear;
+use crate::modes::Family;
 use crate::scalar::{Batch, WIDTH};
 use crate::tolerance::sampling::Bits;
+use crate::{Complex, Equilibrium, Modes};
 
 /// Samples of one batch. Matrices stand row by row.
 pub(in crate::tolerance) struct Solved<'a> {
     pub(in crate::tolerance) design: &'a mut [Batch],
     pub(in crate::tolerance) coordinates: &'a mut [Batch],
+    /// `Im s` of each nominal mode.
     pub(in crate::tolerance) frequencies: &'a mut [Batch],
+    /// `Re s`; zero for undamped modes.
+    pub(in crate::tolerance) rates: &'a mut [Batch],
     /// Bit `k`: sample `k` passed every check. Of others only the design means anything.
     pub(in crate::tolerance) accepted: u32,
     /// Random bits, by pair of design variables.
@@ -25,10 +30,10 @@ pub(in crate::tolerance) struct Solved<'a> {
     /// One for those at whose equilibrium Newton's method came to rest.
     pub(super) resting: Batch,
     pub(super) residual: &'a mut [Batch],
-    /// In coordinates on the way to the equilibrium, between the nominal modes there.
+    /// In coordinates on the way to the equilibrium, between the undamped nominal modes there.
     pub(super) stiffness: &'a mut [Batch],
     pub(super) mass: &'a mut [Batch],
-    /// Without damping.
+    /// Without damping where modes are undamped.
     pub(super) linear: BatchLinear<'a>,
 }
 
@@ -38,12 +43,40 @@ pub(in crate::tolerance) struct Memory {
     bits: Vec<[Bits; 2]>,
 }
 
-impl Memory {
-    /// For `count` batches of samples of a mechanism with `n` unknowns and `p` design variables.
-    pub(in crate::tolerance) fn new(count: usize, n: usize, p: usize) -> Self {
-        let pairs = p.div_ceil(2);
+/// How much a batch takes.
+#[derive(Clone, Copy)]
+pub(in crate::tolerance) struct Size {
+    pub(in crate::tolerance) unknowns: usize,
+    pub(in crate::tolerance) design: usize,
+    pub(in crate::tolerance) modes: usize,
+    pub(in crate::tolerance) damped: bool,
+}
+
+impl Size {
+    /// Of samples about a nominal state.
+    pub(in crate::tolerance) fn of(nominal: &Equilibrium, modes: &Modes) -> Self {
         Self {
-            numbers: vec![Batch::default(); count * (p + 2 * pairs + 3 * n + 4 * n * n)],
+            unknowns: nominal.coordinates.len(),
+            design: nominal.design.len(),
+            modes: modes.modes.len(),
+            damped: modes.family == Family::General,
+        }
+    }
+
+    /// Elements of a damping matrix.
+    fn damping(self) -> usize {
+        self.unknowns * self.unknowns * usize::from(self.damped)
+    }
+}
+
+impl Memory {
+    /// For `count` batches of samples.
+    pub(in crate::tolerance) fn new(count: usize, size: Size) -> Self {
+        let (n, p) = (size.unknowns, size.design);
+        let pairs = p.div_ceil(2);
+        let of_each = p + 2 * pairs + 2 * n + 2 * size.modes + 4 * n * n + size.damping();
+        Self {
+            numbers: vec![Batch::default(); count * of_each],
             bits: vec![[[0; WIDTH]; 2]; count * pairs],
         }
     }
@@ -51,16 +84,17 @@ impl Memory {
     /// The batches.
     pub(in crate::tolerance) fn batches<const COUNT: usize>(
         &mut self,
-        n: usize,
-        p: usize,
+        size: Size,
     ) -> [Solved<'_>; COUNT] {
+        let (n, p) = (size.unknowns, size.design);
         let pairs = p.div_ceil(2);
         let mut room = Room::new(&mut self.numbers);
         let mut bits = self.bits.chunks_mut(pairs.max(1));
         core::array::from_fn(|_| Solved {
             design: room.take(p),
             coordinates: room.take(n),
-            frequencies: room.take(n),
+            frequencies: room.take(size.modes),
+            rates: room.take(size.modes),
             accepted: 0,
             bits: bits.next().unwrap_or_default(),
             members: 0,
@@ -73,7 +107,7 @@ impl Memory {
             mass: room.take(n * n),
             linear: BatchLinear {
                 mass: room.take(n * n),
-                damping: &mut [],
+                damping: room.take(size.damping()),
                 stiffness: room.take(n * n),
             },
         })
@@ -81,6 +115,12 @@ impl Memory {
 }
 
 impl Solved<'_> {
+    /// Eigenvalues of a member, 1/s, in the order of the nominal modes.
+    pub(in crate::tolerance) fn eigenvalues(&self, member: usize) -> impl Iterator<Item = Complex> {
+        let both = self.rates.iter().zip(&*self.frequencies);
+        both.map(move |(re, im)| Complex::new(re.0[member], im.0[member]))
+    }
+
     /// Whether all samples have come to rest.
     pub(super) fn rests(&self) -> bool {
         self.resting.0[..self.members]

@@ -1,8 +1,8 @@
 //! Some batches of samples, through each stage together.
 
-use super::TaylorModel;
 use super::samples::Solved;
-use super::stages;
+use super::statics::Statics;
+use super::{TaylorModel, equilibrium, modes, stages};
 use crate::batched::algebra::for_size;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
@@ -89,7 +89,7 @@ fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved
         for batch in &mut *batches {
             if !batch.rests() {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    stages::improve::<V>(n, prepared, batch, at);
+                    equilibrium::improve::<V>(n, prepared, batch, at);
                 }
             }
         }
@@ -100,22 +100,25 @@ fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved
         prepared
             .kernels
             .linear_batch(prepared.instructions, point, linear);
-        for at in (0..WIDTH).step_by(V::WIDTH) {
-            stages::between_modes::<V>(n, prepared, batch, at);
+        if let Statics::Potential(potential) = &prepared.statics {
+            for at in (0..WIDTH).step_by(V::WIDTH) {
+                equilibrium::between_modes::<V>(n, potential, batch, at);
+            }
         }
     }
     for batch in &mut *batches {
         batch.accepted = 0;
-        let members = (1_u32 << batch.members) - 1;
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let (lambda, flag) = stages::modes::<V>(n, prepared, batch, at);
-            let frequencies = &mut batch.frequencies[..n];
-            for r in 0..n {
-                lambda[r].sqrt().store(&mut frequencies[r], at);
-            }
-            let accepted = V::bits(one.at_most(flag));
-            batch.accepted |= accepted << at;
+            let held = equilibrium::held::<V>(n, prepared, batch, at);
+            let flag = match (&prepared.reference, &prepared.statics) {
+                (Some(reference), _) => modes::general(n, (prepared, reference), batch, held, at),
+                (None, Statics::Potential(potential)) => {
+                    modes::undamped(n, potential, batch, held, at)
+                }
+                (None, Statics::Forces(_)) => V::constant(0.0),
+            };
+            batch.accepted |= V::bits(one.at_most(flag)) << at;
         }
-        batch.accepted &= members;
+        batch.accepted &= (1_u32 << batch.members) - 1;
     }
 }

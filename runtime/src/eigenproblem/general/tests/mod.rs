@@ -4,7 +4,7 @@ mod checks;
 mod closed_forms;
 mod hard;
 mod known;
-mod near;
+pub(crate) mod near;
 mod parts;
 mod torture;
 

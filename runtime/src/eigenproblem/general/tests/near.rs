@@ -10,7 +10,7 @@ use crate::eigenproblem::general::prediction::predict;
 use crate::eigenproblem::general::{Eigenproblem, Near, roots_near};
 
 /// Gyroscopic, damped, circulatory, with eigenvalues that meet or vanish.
-fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
+pub(crate) fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
     let any = Matrix::from_fn(n, n, |_, _| uniform(rng));
     let stiffness = symmetric(&any, 1.0);
     match kind {
@@ -22,7 +22,7 @@ fn pencil(n: usize, rng: &mut ChaCha8Rng, kind: u32) -> Linear {
 }
 
 /// The same with every element changed by up to this share, symmetric parts and signs kept.
-fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
+pub(crate) fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
     let n = pencil.mass.row_count();
     let factors = Matrix::from_fn(n, n, |_, _| 0.5 * share * uniform(rng));
     let factor = |i: usize, j: usize| 1.0 + factors[i][j] + factors[j][i];
@@ -34,7 +34,7 @@ fn moved(pencil: &Linear, rng: &mut ChaCha8Rng, share: f64) -> Linear {
     )
 }
 
-fn near(roots: &[Root]) -> Vec<Near<'_>> {
+pub(crate) fn near(roots: &[Root]) -> Vec<Near<'_>> {
     fn near(root: &Root) -> Near<'_> {
         Near {
             s: root.s,
@@ -46,7 +46,7 @@ fn near(roots: &[Root]) -> Vec<Near<'_>> {
 }
 
 /// Every root with its error, conjugates written out.
-fn with_errors(roots: &[Root]) -> Vec<(Complex64, f64)> {
+pub(crate) fn with_errors(roots: &[Root]) -> Vec<(Complex64, f64)> {
     let both = |root: &Root| {
         let conjugate = (root.s.im > 0.0).then(|| root.s.conj());
         let values = [Some(root.s), conjugate].into_iter().flatten();

@@ -1,0 +1,524 @@
+//! Damped modes, one state in each lane: every eigenvalue of `Q(s) = s^2 M + s C + K` with its vectors, by inverse iteration
+//! from the pair of a pencil near by. What decides whether a pair is accepted are the residuals of its vectors, not the way
+//! that led there.
+
+#[cfg(test)]
+mod tests;
+
+use num_complex::Complex64;
+
+use super::algebra::{LARGEST, Square, keep};
+use super::complex::Complex;
+use crate::eigenproblem::{INACCURATE, Reference, ReferencePair};
+use crate::modes::EIGENVALUE_SHARE;
+use crate::scalar::Lanes;
+
+/// A farther step is none that vectors near by predict, relative.
+const NEAR: f64 = 0.1;
+/// Inverse iterations, each of which multiplies the errors of the vectors by the distance of the eigenvalue.
+const STEPS: usize = 4;
+/// Eigenvalues closer than this many errors, or than this share of their size, the solver for one state tells apart.
+const FAR: f64 = 8.0;
+const APART: f64 = 1e-4;
+/// Greatest accepted error of an eigenvalue, relative.
+const ACCURATE: f64 = 1e-9;
+/// Stands in for a pivot that is nothing.
+const TINY: f64 = 1e-100;
+/// By how much a mode must be more like its own predecessor than like any other.
+const OWN: f64 = 1e-6;
+/// Most eigenvalues with `Im s >= 0`.
+const MOST: usize = 2 * LARGEST;
+
+type Vector<V> = [Complex<V>; LARGEST];
+type Matrix<V> = [Vector<V>; LARGEST];
+
+/// The three matrices, in the units of a [`Reference`].
+pub(crate) struct Pencil<V> {
+    n: usize,
+    /// `M`, `C`, `K`.
+    matrices: [Square<V>; 3],
+}
+
+/// Products of the three matrices with a vector, and the sums of absolute terms in them.
+struct Products<V> {
+    sums: [Vector<V>; 3],
+    terms: [[V; LARGEST]; 3],
+}
+
+/// What a pair of vectors says about an eigenvalue.
+struct Measure<V> {
+    /// Step that Newton's method would take.
+    newton: Complex<V>,
+    /// Estimated error of the eigenvalue but for what `newton` tells, and but for [`Self::product`].
+    doubt: V,
+    /// `|psi^T Q'(s) phi|^2`
+    slope: V,
+    /// Product of the sizes of both residuals.
+    product: V,
+    /// The residuals of both vectors are rounding.
+    accurate: V,
+}
+
+/// A pair in every lane.
+#[derive(Clone, Copy)]
+struct Pair<V> {
+    s: Complex<V>,
+    error: V,
+    /// `phi` and `M phi`.
+    right: Vector<V>,
+    weighed: Vector<V>,
+}
+
+/// Eigenvalues, 1/s, in the order of those near by.
+pub(crate) type Eigenvalues<V> = [Complex<V>; MOST];
+
+impl<V: Lanes> Pencil<V> {
+    /// From the matrices of a mechanism.
+    #[inline(always)]
+    pub(crate) fn new(n: usize, mut matrices: [Square<V>; 3], reference: &Reference) -> Self {
+        let (units, by_rate) = (&reference.units[..n], 1.0 / reference.rate);
+        let mut factor = 1.0;
+        for matrix in &mut matrices {
+            for i in 0..n {
+                for j in 0..n {
+                    matrix[i][j] = matrix[i][j] * V::constant(units[i] * units[j] * factor);
+                }
+            }
+            factor *= by_rate;
+        }
+        Self { n, matrices }
+    }
+
+    /// All eigenvalues, and how far each may be off, 1/s. The flag says that each is accurate, clear of all others, of the axes,
+    /// and belongs to the mode near by of its place and to no other, by shape and, where modes are `damped`, by eigenvalue.
+    #[inline(always)]
+    pub(crate) fn eigenvalues(
+        &self,
+        reference: &Reference,
+        damped: bool,
+    ) -> (Eigenvalues<V>, [V; MOST], V) {
+        let (zero, n) = (V::constant(0.0), self.n);
+        let none = Complex::constant(Complex64::ZERO);
+        let blank = Pair {
+            s: none,
+            error: zero,
+            right: [none; LARGEST],
+            weighed: [none; LARGEST],
+        };
+        let mut found = [blank; MOST];
+        let mut sizes = [zero; MOST];
+        let mut flag = V::constant(1.0);
+        let pairs = &reference.pairs[..reference.pairs.len().min(MOST)];
+        for (r, known) in pairs.iter().enumerate() {
+            let (pair, size, own) = self.pair(known);
+            flag = keep(flag, V::constant(1.0).at_most(own));
+            (found[r], sizes[r]) = (pair, size);
+        }
+        let found = &found[..pairs.len()];
+        flag = told_apart(found, flag);
+        flag = recognised((n, damped), pairs, found, &sizes, flag);
+        let (mut all, mut errors) = ([none; MOST], [zero; MOST]);
+        let rate = V::constant(reference.rate);
+        for (r, pair) in found.iter().enumerate() {
+            (all[r], errors[r]) = (pair.s.times(rate), pair.error * rate);
+        }
+        (all, errors, flag)
+    }
+
+    /// The pair that a known one has become, `phi^H M phi` of the known vector, and the flag.
+    #[inline(always)]
+    fn pair(&self, known: &ReferencePair) -> (Pair<V>, V, V) {
+        let (zero, one, n) = (V::constant(0.0), V::constant(1.0), self.n);
+        let mut right = [Complex::constant(Complex64::ZERO); LARGEST];
+        let mut left = right;
+        for i in 0..n {
+            right[i] = Complex::constant(known.right[i]);
+            left[i] = Complex::constant(known.left[i]);
+        }
+        let (mut of_right, mut of_left) = (self.times(&right), self.transposed_times(&left));
+        let size = inner(n, &right, &of_right.sums[0]).re;
+        let start = Complex::constant(known.s);
+        // Newton's method on the Rayleigh functional with the known vectors.
+        let step = of_right.step(n, start, &left);
+        let mut s = start - step;
+        let near = V::constant(NEAR * NEAR * known.s.norm_sqr());
+        let mut flag = keep(one, step.square().at_most(near));
+        let (mut done, mut error) = (zero, zero);
+        let mut kept = Pair {
+            s,
+            error,
+            right,
+            weighed: of_right.sums[0],
+        };
+        for _ in 0..STEPS {
+            let (factors, neighbour) = self.factors(s, known);
+            right = factors.solve(&of_right.slope(n, s));
+            left = factors.solve_transposed(&of_left.slope(n, s));
+            scale(n, &mut right);
+            scale(n, &mut left);
+            (of_right, of_left) = (self.times(&right), self.transposed_times(&left));
+            s = s - of_right.step(n, s, &left);
+            let now = of_right.measure(n, s, &left, &of_left);
+            let root = now.slope.sqrt();
+            error = now.doubt
+                + V::constant(2.0) * now.newton.square().sqrt()
+                + now.product / (neighbour * root)
+                + V::constant(f64::EPSILON) * s.square().sqrt();
+            // A lane that is done stays as it is, so that none depends on the others.
+            let open = done.at_most(zero);
+            kept.s = Complex::choose(open, s, kept.s);
+            kept.error = V::choose(open, error, kept.error);
+            for i in 0..n {
+                kept.right[i] = Complex::choose(open, right[i], kept.right[i]);
+                kept.weighed[i] = Complex::choose(open, of_right.sums[0][i], kept.weighed[i]);
+            }
+            done = V::choose(open, now.accurate, done);
+            if V::every(one.at_most(done)) {
+                break;
+            }
+        }
+        flag = keep(flag, one.at_most(done));
+        let rate = kept.s.square().sqrt();
+        flag = keep(flag, kept.error.at_most(V::constant(ACCURATE) * rate));
+        (kept, size, flag)
+    }
+
+    #[inline(always)]
+    fn times(&self, x: &Vector<V>) -> Products<V> {
+        self.products(
+            x,
+            #[inline(always)]
+            |matrix, i, j| matrix[i][j],
+        )
+    }
+
+    #[inline(always)]
+    fn transposed_times(&self, x: &Vector<V>) -> Products<V> {
+        self.products(
+            x,
+            #[inline(always)]
+            |matrix, i, j| matrix[j][i],
+        )
+    }
+
+    #[inline(always)]
+    fn products(
+        &self,
+        x: &Vector<V>,
+        element: impl Fn(&Square<V>, usize, usize) -> V,
+    ) -> Products<V> {
+        let (zero, n) = (V::constant(0.0), self.n);
+        let mut products = Products {
+            sums: [[Complex { re: zero, im: zero }; LARGEST]; 3],
+            terms: [[zero; LARGEST]; 3],
+        };
+        let mut bounds = [zero; LARGEST];
+        for j in 0..n {
+            bounds[j] = x[j].bound();
+        }
+        for (k, matrix) in self.matrices.iter().enumerate() {
+            for i in 0..n {
+                let first = element(matrix, i, 0);
+                let mut sum = x[0].times(first);
+                let mut terms = bounds[0] * first.abs();
+                for j in 1..n {
+                    let factor = element(matrix, i, j);
+                    sum = sum + x[j].times(factor);
+                    terms = terms + bounds[j] * factor.abs();
+                }
+                products.sums[k][i] = sum;
+                products.terms[k][i] = terms;
+            }
+        }
+        products
+    }
+
+    /// Triangular factors of `Q(s)`, and its least pivot besides the last.
+    #[inline(always)]
+    fn factors<'k>(&self, s: Complex<V>, known: &'k ReferencePair) -> (Factors<'k, V>, V) {
+        let n = self.n;
+        let square = s * s;
+        let [mass, damping, stiffness] = &self.matrices;
+        let mut q = [[Complex::constant(Complex64::ZERO); LARGEST]; LARGEST];
+        let (rows, columns) = (&known.rows[..n], &known.columns[..n]);
+        for (q, &i) in q[..n].iter_mut().zip(rows) {
+            for (q, &j) in q[..n].iter_mut().zip(columns) {
+                let (m, c) = (mass[i][j], damping[i][j]);
+                *q = Complex {
+                    re: square.re * m + (s.re * c + stiffness[i][j]),
+                    im: square.im * m + s.im * c,
+                };
+            }
+        }
+        let tiny = V::constant(TINY);
+        let replacement = Complex::constant(Complex64::new(TINY, 0.0));
+        let mut neighbour = V::constant(f64::MAX);
+        for k in 0..n {
+            let (pivot, size) = (q[k][k], q[k][k].bound());
+            let pivot = Complex::choose(size.at_most(tiny), replacement, pivot);
+            let inverse = pivot.inverse();
+            q[k][k] = inverse;
+            if k + 1 < n {
+                neighbour = V::choose(size.at_most(neighbour), size, neighbour);
+            }
+            for i in k + 1..n {
+                let factor = q[i][k] * inverse;
+                q[i][k] = factor;
+                for j in k + 1..n {
+                    q[i][j] = q[i][j] - factor * q[k][j];
+                }
+            }
+        }
+        let factors = Factors {
+            n,
+            factors: q,
+            rows,
+            columns,
+        };
+        (factors, neighbour)
+    }
+}
+
+/// `L` below the diagonal, `U` above, inverse pivots on it; rows and columns in the order of elimination.
+struct Factors<'k, V> {
+    n: usize,
+    factors: Matrix<V>,
+    rows: &'k [usize],
+    columns: &'k [usize],
+}
+
+impl<V: Lanes> Factors<'_, V> {
+    #[inline(always)]
+    fn solve(&self, right: &Vector<V>) -> Vector<V> {
+        let (n, q) = (self.n, &self.factors);
+        let mut x = *right;
+        for i in 0..n {
+            let mut sum = right[self.rows[i]];
+            for j in 0..i {
+                sum = sum - q[i][j] * x[j];
+            }
+            x[i] = sum;
+        }
+        for i in (0..n).rev() {
+            let mut sum = x[i];
+            for j in i + 1..n {
+                sum = sum - q[i][j] * x[j];
+            }
+            x[i] = sum * q[i][i];
+        }
+        let mut result = x;
+        for i in 0..n {
+            result[self.columns[i]] = x[i];
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn solve_transposed(&self, right: &Vector<V>) -> Vector<V> {
+        let (n, q) = (self.n, &self.factors);
+        let mut x = *right;
+        for i in 0..n {
+            let mut sum = right[self.columns[i]];
+            for j in 0..i {
+                sum = sum - q[j][i] * x[j];
+            }
+            x[i] = sum * q[i][i];
+        }
+        for i in (0..n).rev() {
+            let mut sum = x[i];
+            for j in i + 1..n {
+                sum = sum - q[j][i] * x[j];
+            }
+            x[i] = sum;
+        }
+        let mut result = x;
+        for i in 0..n {
+            result[self.rows[i]] = x[i];
+        }
+        result
+    }
+}
+
+impl<V: Lanes> Products<V> {
+    /// Component `i` of `Q(s) x`.
+    #[inline(always)]
+    fn value(&self, s: Complex<V>, i: usize) -> Complex<V> {
+        let [mass, damping, stiffness] = &self.sums;
+        s * (s * mass[i] + damping[i]) + stiffness[i]
+    }
+
+    /// `(2 s M + C) x`
+    #[inline(always)]
+    fn slope(&self, n: usize, s: Complex<V>) -> Vector<V> {
+        let [mass, damping, _] = &self.sums;
+        let twice = s + s;
+        let mut slope = *damping;
+        for i in 0..n {
+            slope[i] = slope[i] + twice * mass[i];
+        }
+        slope
+    }
+
+    /// `psi^T Q(s) phi` over `psi^T (2 s M + C) phi`, the products those with `phi`.
+    #[inline(always)]
+    fn step(&self, n: usize, s: Complex<V>, left: &Vector<V>) -> Complex<V> {
+        let slopes = self.slope(n, s);
+        let (mut value, mut slope) = (left[0] * self.value(s, 0), left[0] * slopes[0]);
+        for i in 1..n {
+            value = value + left[i] * self.value(s, i);
+            slope = slope + left[i] * slopes[i];
+        }
+        value * slope.inverse()
+    }
+
+    #[inline(always)]
+    fn measure(
+        &self,
+        n: usize,
+        s: Complex<V>,
+        left: &Vector<V>,
+        of_left: &Products<V>,
+    ) -> Measure<V> {
+        let zero = V::constant(0.0);
+        let none = Complex { re: zero, im: zero };
+        let slopes = self.slope(n, s);
+        let (mut value, mut slope, mut terms) = (none, none, zero);
+        for i in 0..n {
+            value = value + left[i] * self.value(s, i);
+            slope = slope + left[i] * slopes[i];
+            terms = terms + left[i].bound() * self.terms(s, i);
+        }
+        let relative = V::constant((n as f64 + 4.0) * f64::EPSILON);
+        let square = slope.square();
+        let (right_sum, right_accurate) = self.residual(n, s);
+        let (left_sum, left_accurate) = of_left.residual(n, s);
+        Measure {
+            newton: value * slope.inverse(),
+            doubt: relative * terms / square.sqrt(),
+            slope: square,
+            product: right_sum * left_sum,
+            accurate: right_accurate * left_accurate,
+        }
+    }
+
+    /// The sum of the components of `Q(s) x`, and whether the greatest is rounding of the terms in it.
+    #[inline(always)]
+    fn residual(&self, n: usize, s: Complex<V>) -> (V, V) {
+        let zero = V::constant(0.0);
+        let (mut sum, mut most, mut greatest) = (zero, zero, zero);
+        for i in 0..n {
+            let own = self.value(s, i).bound();
+            let terms = self.terms(s, i);
+            sum = sum + own;
+            most = V::choose(own.at_most(most), most, own);
+            greatest = V::choose(terms.at_most(greatest), greatest, terms);
+        }
+        let accurate = most.at_most(greatest * V::constant(INACCURATE));
+        (sum, keep(V::constant(1.0), accurate))
+    }
+
+    /// Sum of the absolute terms in component `i` of `Q(s) x`.
+    #[inline(always)]
+    fn terms(&self, s: Complex<V>, i: usize) -> V {
+        let size = s.bound();
+        let [mass, damping, stiffness] = &self.terms;
+        size * (size * mass[i] + damping[i]) + stiffness[i]
+    }
+}
+
+/// `x^H y`
+#[inline(always)]
+fn inner<V: Lanes>(n: usize, x: &Vector<V>, y: &Vector<V>) -> Complex<V> {
+    let mut sum = x[0].conjugate() * y[0];
+    for i in 1..n {
+        sum = sum + x[i].conjugate() * y[i];
+    }
+    sum
+}
+
+/// Makes the greatest component about one.
+#[inline(always)]
+fn scale<V: Lanes>(n: usize, x: &mut Vector<V>) {
+    let mut most = x[0].bound();
+    for i in 1..n {
+        let own = x[i].bound();
+        most = V::choose(own.at_most(most), most, own);
+    }
+    let factor = V::constant(1.0) / most;
+    for x in &mut x[..n] {
+        *x = x.times(factor);
+    }
+}
+
+/// Keeps the flag where every eigenvalue is clear of all others and their conjugates, and either real or clear of being so.
+#[inline(always)]
+fn told_apart<V: Lanes>(found: &[Pair<V>], mut flag: V) -> V {
+    let zero = V::constant(0.0);
+    for (i, own) in found.iter().enumerate() {
+        let apart = V::constant(FAR) * own.error;
+        let share = V::constant(APART) * own.s.square().sqrt();
+        let clear = V::choose(share.at_most(apart), apart, share);
+        let least = clear * clear;
+        let real = keep(V::constant(1.0), own.s.im.abs().at_most(zero));
+        let size = V::constant(0.5) * clear;
+        let oscillates = keep(V::constant(1.0), size.at_most(own.s.im));
+        flag = keep(flag, V::constant(1.0).at_most(real + oscillates));
+        for (j, other) in found.iter().enumerate() {
+            if i != j {
+                let distance = (own.s - other.s).square();
+                let mirrored = (own.s - other.s.conjugate()).square();
+                flag = keep(flag, least.at_most(distance));
+                flag = keep(flag, least.at_most(mirrored));
+            }
+        }
+    }
+    flag
+}
+
+/// Keeps the flag where each mode is more like the known one of its place than like any other, as
+/// [`assurance`](crate::modes::assurance) measures it: then this is how modes are matched one by one.
+#[inline(always)]
+fn recognised<V: Lanes>(
+    (n, damped): (usize, bool),
+    known: &[ReferencePair],
+    found: &[Pair<V>],
+    sizes: &[V; MOST],
+    mut flag: V,
+) -> V {
+    let (zero, one) = (V::constant(0.0), V::constant(1.0));
+    if known.len() == 1 {
+        return flag;
+    }
+    let mut table = [[zero; MOST]; MOST];
+    for (j, pair) in found.iter().enumerate() {
+        let size = inner(n, &pair.right, &pair.weighed).re;
+        let rate = pair.s.square().sqrt();
+        for (i, known) in known.iter().enumerate() {
+            let mut product = Complex::constant(known.right[0].conj()) * pair.weighed[0];
+            for k in 1..n {
+                product = product + Complex::constant(known.right[k].conj()) * pair.weighed[k];
+            }
+            let shapes = product.square() / (sizes[i] * size);
+            if !damped {
+                table[i][j] = shapes;
+                continue;
+            }
+            let own = Complex::constant(known.s);
+            let own_rate = V::constant(known.s.norm());
+            let turned = (own.conjugate() * pair.s).re / (own_rate * rate);
+            let phase = V::constant(0.5) + V::constant(0.5) * turned;
+            let distance = (own - pair.s).square().sqrt() / (own_rate + rate);
+            table[i][j] = shapes * phase * (one - V::constant(EIGENVALUE_SHARE) * distance);
+        }
+    }
+    for i in 0..known.len() {
+        for j in 0..known.len() {
+            if i != j {
+                let margin = V::constant(OWN);
+                flag = keep(flag, (table[i][j] + margin).at_most(table[i][i]));
+                flag = keep(flag, (table[j][i] + margin).at_most(table[i][i]));
+            }
+        }
+    }
+    flag
+}

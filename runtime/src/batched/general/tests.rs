@@ -1,0 +1,142 @@
+//! Modes in lanes against those of the solver for one state.
+
+use num_complex::Complex64;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::*;
+use crate::algebra;
+use crate::eigenproblem::general::tests::near::{moved, near, pencil, with_errors};
+use crate::eigenproblem::{Eigenproblem, roots_of};
+use crate::kernels::Linear;
+use crate::scalar::{Batch, Instructions, Task, WIDTH};
+
+/// Matrices of eight states, row by row.
+struct Lanes8<'a> {
+    n: usize,
+    matrices: [Vec<Batch>; 3],
+    reference: &'a Reference,
+}
+
+/// Eigenvalues with their errors by lane, and the flags.
+type Found = (Vec<Vec<(Complex64, f64)>>, [bool; WIDTH]);
+
+impl Task for &Lanes8<'_> {
+    type Output = Found;
+
+    fn run<V: Lanes>(self) -> Found {
+        let count = self.reference.pairs.len();
+        let mut all = vec![Vec::new(); WIDTH];
+        let mut flags = [false; WIDTH];
+        for at in (0..WIDTH).step_by(V::WIDTH) {
+            let matrices = [0, 1, 2]
+                .map(|k| crate::batched::algebra::load_matrix(self.n, &self.matrices[k], at));
+            let pencil: Pencil<V> = Pencil::new(self.n, matrices, self.reference);
+            let (found, errors, flag) = pencil.eigenvalues(self.reference, true);
+            let numbers = |x: V| {
+                let mut batch = Batch::default();
+                x.store(&mut batch, at);
+                batch.0
+            };
+            for r in 0..count {
+                let (re, im) = (numbers(found[r].re), numbers(found[r].im));
+                let error = numbers(errors[r]);
+                for k in at..at + V::WIDTH {
+                    all[k].push((Complex64::new(re[k], im[k]), error[k]));
+                }
+            }
+            let own = numbers(flag);
+            for k in at..at + V::WIDTH {
+                flags[k] = own[k] == 1.0;
+            }
+        }
+        (all, flags)
+    }
+}
+
+fn batches(n: usize, of: [&algebra::Matrix; WIDTH]) -> Vec<Batch> {
+    let elements = (0..n * n).map(|k| Batch::from_fn(|lane| of[lane].as_flattened()[k]));
+    elements.collect()
+}
+
+/// Solves eight pencils with every set of instructions, which must give the same bits.
+fn solved(reference: &Reference, here: &[Linear; WIDTH]) -> Found {
+    let n = here[0].mass.row_count();
+    let task = Lanes8 {
+        n,
+        matrices: [
+            batches(n, here.each_ref().map(|one| &one.mass)),
+            batches(n, here.each_ref().map(|one| &one.damping)),
+            batches(n, here.each_ref().map(|one| &one.stiffness)),
+        ],
+        reference,
+    };
+    let bits = |(all, flags): &Found| {
+        let accepted = all.iter().zip(flags).filter(|(_, flag)| **flag);
+        let numbers = accepted.flat_map(|(own, _)| own.iter());
+        let numbers: Vec<_> = numbers
+            .flat_map(|(s, error)| [s.re, s.im, *error].map(f64::to_bits))
+            .collect();
+        (numbers, *flags)
+    };
+    let found = Instructions::SCALAR.run(&task);
+    for set in Instructions::available() {
+        assert!(bits(&set.run(&task)) == bits(&found), "{set:?}");
+    }
+    found
+}
+
+/// Compares random pencils; returns how many of those moved by the least shares were accepted, of how many.
+fn compare(rounds: usize) -> (usize, usize) {
+    let mut rng = ChaCha8Rng::seed_from_u64(30);
+    let (mut accepted, mut of) = (0, 0);
+    for round in 0..rounds {
+        let (n, kind) = (1 + round % LARGEST, (round / LARGEST % 4) as u32);
+        let share = [1e-9, 1e-4, 0.02, 0.3][round / 4 / LARGEST % 4];
+        let there = pencil(n, &mut rng, kind);
+        let here = [(); WIDTH].map(|()| moved(&there, &mut rng, share));
+        let Ok(known) = roots_of(Eigenproblem::Quadratic(&there)) else {
+            continue;
+        };
+        let Some(reference) = Reference::new(&there, n, &near(&known)) else {
+            continue;
+        };
+        let (found, flags) = solved(&reference, &here);
+        for (here, (found, flag)) in here.iter().zip(found.iter().zip(flags)) {
+            if share < 1e-3 {
+                of += 1;
+                accepted += usize::from(flag);
+            }
+            if !flag {
+                continue;
+            }
+            let wanted = roots_of(Eigenproblem::Quadratic(here))
+                .unwrap_or_else(|_| panic!("round {round}: accepted, but not found alone"));
+            let mut left = with_errors(&wanted);
+            for &(s, error) in found {
+                let both = [Some(s), (s.im > 0.0).then(|| s.conj())];
+                for s in both.into_iter().flatten() {
+                    let same = |other: &(Complex64, f64)| {
+                        (s - other.0).norm() <= error + other.1 + 1e-13 * s.norm()
+                    };
+                    let place = left.iter().position(same);
+                    left.remove(place.unwrap_or_else(|| panic!("round {round}: {s} {left:?}")));
+                }
+            }
+            assert!(left.is_empty(), "round {round}: {left:?}");
+        }
+    }
+    (accepted, of)
+}
+
+#[test]
+fn modes_in_lanes_are_those_alone() {
+    let (accepted, of) = compare(1500);
+    assert!(10 * accepted > 6 * of, "{accepted} of {of}");
+}
+
+#[test]
+#[ignore = "takes minutes without optimisation"]
+fn modes_in_lanes_are_those_alone_in_great_number() {
+    compare(100_000);
+}

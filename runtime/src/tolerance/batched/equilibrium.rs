@@ -1,0 +1,238 @@
+//! The equilibrium of a sample: steps to it, and whether it is the one that the nominal equilibrium has become.
+
+use super::statics::{Forces, Potential, Statics};
+use super::{Solved, TaylorModel};
+use crate::batched::POSITIVE;
+use crate::batched::algebra::{self, LARGEST, Row, Square, congruent, keep, load_matrix};
+use crate::batched::closed::{self, Solver};
+use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
+use crate::scalar::Lanes;
+
+/// A correction this small, relative to the coordinate and a millimetre or milliradian, is the last: it takes the nominal change
+/// of the stiffness, so that what remains is a share of it like that of the tolerances.
+const LAST_CORRECTION: f64 = 1e-12;
+/// Least pivot of the stiffness between the nominal position and its mirror image about the equilibrium.
+const CLEARLY_POSITIVE: f64 = 1e-3;
+/// Greatest displacement from the nominal position, in displacements of one standard deviation.
+pub(super) const FAR: f64 = 6.0;
+/// Greatest change of the stiffness, relative to the nominal one: as great a change into the other direction leaves it regular.
+const CHANGED: f64 = 0.5;
+
+/// A step of Newton's method; a sample fails where the stiffness is not like the nominal one on the way.
+#[inline(always)]
+pub(super) fn improve<V: Lanes>(
+    n: usize,
+    prepared: &TaylorModel<'_>,
+    batch: &mut Solved<'_>,
+    at: usize,
+) {
+    let one = V::constant(1.0);
+    let mut q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let stiffness = load_matrix(n, batch.stiffness, at);
+    let residual = algebra::load(n, batch.residual, at);
+    let (step, last, regular) = match &prepared.statics {
+        Statics::Potential(potential) => potential.step(n, &q, &stiffness, &residual),
+        Statics::Forces(forces) => {
+            let motions = prepared.motions.min(n);
+            forces.step((n, motions), &q, &stiffness, &residual)
+        }
+    };
+    // Samples at rest stay where they are, so that none depends on the others.
+    let rested = V::load(&batch.resting, at);
+    let moving = rested.at_most(V::constant(0.0));
+    let flag = V::load(&batch.flags, at);
+    let flag = keep(flag, one.at_most(V::choose(moving, regular, one)));
+    flag.store(&mut batch.flags, at);
+    for i in 0..n {
+        q[i] = V::choose(moving, q[i] - step[i], q[i]);
+    }
+    algebra::store(n, &q, batch.coordinates, at);
+    V::choose(moving, last, rested).store(&mut batch.resting, at);
+}
+
+/// The flag of samples at rest near the nominal equilibrium, with a stiffness that is like the nominal one all the way.
+#[inline(always)]
+pub(super) fn held<V: Lanes>(
+    n: usize,
+    prepared: &TaylorModel<'_>,
+    batch: &Solved<'_>,
+    at: usize,
+) -> V {
+    let one = V::constant(1.0);
+    let q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let at_rest = one.at_most(V::load(&batch.resting, at));
+    let mut flag = keep(V::load(&batch.flags, at), at_rest);
+    let mut displacement = [V::constant(0.0); LARGEST];
+    for k in 0..prepared.motions.min(n) {
+        displacement[k] = q[k] - V::constant(prepared.nominal.coordinates[k]);
+        let far = V::constant(FAR * prepared.reach[k]);
+        flag = keep(flag, displacement[k].abs().at_most(far));
+    }
+    let regular = match &prepared.statics {
+        Statics::Potential(potential) => {
+            let stiffness = load_matrix(n, batch.stiffness, at);
+            potential.definite_all_the_way(n, &stiffness, &displacement)
+        }
+        Statics::Forces(forces) => {
+            let stiffness = load_matrix(n, batch.linear.stiffness, at);
+            forces.relative(n, &stiffness).1
+        }
+    };
+    keep(flag, one.at_most(regular))
+}
+
+/// Mass and stiffness at the equilibrium, between the undamped nominal modes.
+#[inline(always)]
+pub(super) fn between_modes<V: Lanes>(
+    n: usize,
+    potential: &Potential,
+    batch: &mut Solved<'_>,
+    at: usize,
+) {
+    for (from, to) in [
+        (&*batch.linear.mass, &mut *batch.mass),
+        (&*batch.linear.stiffness, &mut *batch.stiffness),
+    ] {
+        let matrix: Square<V> = load_matrix(n, from, at);
+        let matrix = congruent(n, &matrix, &potential.shapes);
+        let to = &mut to[..n * n];
+        for i in 0..n {
+            for j in 0..=i {
+                matrix[i][j].store(&mut to[i * n + j], at);
+            }
+        }
+    }
+}
+
+impl Potential {
+    /// A step, whether it is the last, and whether the stiffness is positive definite.
+    #[inline(always)]
+    fn step<V: Lanes>(
+        &self,
+        n: usize,
+        q: &Row<V>,
+        stiffness: &Square<V>,
+        residual: &Row<V>,
+    ) -> (Row<V>, V, V) {
+        let (solver, positive) = Solver::new(n, stiffness, POSITIVE);
+        let mut step = solver.solve(n, residual);
+        let correction = solver.solve(n, &curved(n, &self.curvature, &step));
+        let mut last = V::constant(1.0);
+        for i in 0..n {
+            let scale = V::constant(LAST_CORRECTION) * (q[i].abs() + V::constant(SMALL_MOTION));
+            last = keep(last, correction[i].abs().at_most(scale));
+            step[i] = step[i] + correction[i];
+        }
+        (step, last, positive)
+    }
+
+    /// Whether the stiffness, between the nominal modes, is positive definite here and, as far as its derivative tells, from the
+    /// nominal position to its mirror image: then so it is all the way.
+    #[inline(always)]
+    fn definite_all_the_way<V: Lanes>(
+        &self,
+        n: usize,
+        stiffness: &Square<V>,
+        displacement: &Row<V>,
+    ) -> V {
+        let mut nearby = *stiffness;
+        let stiffening = &self.stiffening[..n];
+        for k in 0..n {
+            let twice = displacement[k] * V::constant(2.0);
+            for i in 0..n {
+                for j in 0..=i {
+                    nearby[i][j] = nearby[i][j] - V::constant(stiffening[k][i][j]) * twice;
+                }
+            }
+        }
+        closed::definite(n, &nearby, CLEARLY_POSITIVE)
+    }
+}
+
+impl Forces {
+    /// A step, whether it is the last, and whether the stiffness is like the nominal one.
+    #[inline(always)]
+    fn step<V: Lanes>(
+        &self,
+        (n, motions): (usize, usize),
+        q: &Row<V>,
+        stiffness: &Square<V>,
+        residual: &Row<V>,
+    ) -> (Row<V>, V, V) {
+        let (mut relative, regular) = self.relative(n, stiffness);
+        let mut step = *residual;
+        for i in 0..n {
+            step[i] = residual[0] * V::constant(self.inverse[i][0]);
+            for k in 1..n {
+                step[i] = step[i] + residual[k] * V::constant(self.inverse[i][k]);
+            }
+        }
+        // Near the identity: elimination needs no exchange.
+        for k in 0..n {
+            let inverse = V::constant(1.0) / relative[k][k];
+            for i in k + 1..n {
+                let factor = relative[i][k] * inverse;
+                for j in k + 1..n {
+                    relative[i][j] = relative[i][j] - factor * relative[k][j];
+                }
+                step[i] = step[i] - factor * step[k];
+            }
+            relative[k][k] = inverse;
+        }
+        for i in (0..n).rev() {
+            for j in i + 1..n {
+                step[i] = step[i] - relative[i][j] * step[j];
+            }
+            step[i] = step[i] * relative[i][i];
+        }
+        let mut last = V::constant(1.0);
+        for i in 0..n {
+            step[i] = step[i] * V::constant(self.units[i]);
+        }
+        for i in 0..motions {
+            let scale = V::constant(LAST_STEP) * (q[i].abs() + V::constant(SMALL_MOTION));
+            last = keep(last, step[i].abs().at_most(scale));
+        }
+        (step, last, regular)
+    }
+
+    /// The nominal inverse times a stiffness, in units of the coordinates, and whether it is near the identity.
+    #[inline(always)]
+    fn relative<V: Lanes>(&self, n: usize, stiffness: &Square<V>) -> (Square<V>, V) {
+        let zero = V::constant(0.0);
+        let mut product = [[zero; LARGEST]; LARGEST];
+        let mut flag = V::constant(1.0);
+        for i in 0..n {
+            let mut change = zero;
+            for j in 0..n {
+                let mut sum = stiffness[0][j] * V::constant(self.inverse[i][0]);
+                for k in 1..n {
+                    sum = sum + stiffness[k][j] * V::constant(self.inverse[i][k]);
+                }
+                let sum = sum * V::constant(self.units[j]);
+                product[i][j] = sum;
+                let identity = if i == j { 1.0 } else { 0.0 };
+                change = change + (sum - V::constant(identity)).abs();
+            }
+            flag = keep(flag, change.at_most(V::constant(CHANGED)));
+        }
+        (product, flag)
+    }
+}
+
+/// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
+/// in `k` and `j` twice.
+#[inline(always)]
+fn curved<V: Lanes>(n: usize, curvature: &[Square<f64>], step: &Row<V>) -> Row<V> {
+    let mut rest = [V::constant(0.0); LARGEST];
+    let curvature = &curvature[..n];
+    for k in 0..n {
+        for j in 0..=k {
+            let product = step[k] * step[j];
+            for i in 0..n {
+                rest[i] = rest[i] + V::constant(curvature[k][j][i]) * product;
+            }
+        }
+    }
+    rest
+}

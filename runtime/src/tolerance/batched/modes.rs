@@ -1,0 +1,81 @@
+//! The modes of a sample, each recognised as a nominal one.
+
+use super::statics::Potential;
+use super::{Solved, TaylorModel};
+use crate::DampingKind;
+use crate::batched::algebra::{LARGEST, Square, keep, load_matrix};
+use crate::batched::closed;
+use crate::batched::general::Pencil;
+use crate::eigenproblem::Reference;
+use crate::scalar::Lanes;
+
+/// Least and greatest `lambda` relative to the nominal one: what changes more may have changed on its way too.
+const WEAKENED: f64 = 0.5;
+const STIFFENED: f64 = 2.0;
+/// A motion decays or grows clearly when `Re s` is so many errors and so much of `|s|` from zero.
+const CLEAR: f64 = 8.0;
+const SLOW: f64 = 1e-12;
+
+/// Undamped modes in the nominal order; keeps the flags of samples all of whose modes are recognised.
+#[inline(always)]
+pub(super) fn undamped<V: Lanes>(
+    n: usize,
+    potential: &Potential,
+    batch: &mut Solved<'_>,
+    mut flag: V,
+    at: usize,
+) -> V {
+    let mass: Square<V> = load_matrix(n, batch.mass, at);
+    let stiffness: Square<V> = load_matrix(n, batch.stiffness, at);
+    let (lambda, recognised) = closed::eigenvalues(n, &stiffness, &mass);
+    flag = keep(flag, V::constant(1.0).at_most(recognised));
+    let frequencies = &mut batch.frequencies[..n];
+    for r in 0..n {
+        let nominal = potential.lambda[r];
+        flag = keep(flag, V::constant(WEAKENED * nominal).at_most(lambda[r]));
+        flag = keep(flag, lambda[r].at_most(V::constant(STIFFENED * nominal)));
+        lambda[r].sqrt().store(&mut frequencies[r], at);
+    }
+    flag
+}
+
+/// Damped or constrained modes in the nominal order; keeps the flags of samples whose equilibrium is stable beyond doubt and all
+/// of whose modes are recognised.
+#[inline(always)]
+pub(super) fn general<V: Lanes>(
+    n: usize,
+    (prepared, reference): (&TaylorModel<'_>, &Reference),
+    batch: &mut Solved<'_>,
+    mut flag: V,
+    at: usize,
+) -> V {
+    let linear = &batch.linear;
+    let description = &prepared.nominal.description;
+    let damped = description.damping != DampingKind::Zero;
+    let mut matrices = [[[V::constant(0.0); LARGEST]; LARGEST]; 3];
+    matrices[0] = load_matrix(n, linear.mass, at);
+    if damped {
+        matrices[1] = load_matrix(n, linear.damping, at);
+    }
+    matrices[2] = load_matrix(n, linear.stiffness, at);
+    let pencil: Pencil<V> = Pencil::new(n, matrices, reference);
+    let (all, errors, found) = pencil.eigenvalues(reference, damped);
+    flag = keep(flag, V::constant(1.0).at_most(found));
+    // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
+    let conservative =
+        description.symmetric_stiffness && description.damping != DampingKind::General;
+    let modes = batch.frequencies.iter_mut().zip(&mut *batch.rates);
+    for ((frequency, rate), (s, error)) in modes.zip(all.iter().zip(&errors)) {
+        s.im.store(frequency, at);
+        if conservative {
+            flag = keep(flag, s.re.abs().at_most(*error));
+            V::constant(0.0).store(rate, at);
+        } else {
+            let size = s.square().sqrt();
+            let least = V::constant(CLEAR) * *error + V::constant(SLOW) * size;
+            flag = keep(flag, least.at_most(-s.re));
+            s.re.store(rate, at);
+        }
+    }
+    flag
+}

@@ -1,0 +1,127 @@
+//! How the nominal state answers to the design, to first and second order.
+
+use super::statics::between;
+use crate::Equilibrium;
+use crate::algebra::{Lu, Matrix, Vector, all_finite, all_finite_matrix};
+use crate::batched::algebra::{LARGEST, Square};
+use crate::kernels::Kernels;
+
+/// Design variables up to which second derivatives of the equilibrium shorten Newton's method.
+pub(super) const FEW: usize = 8;
+/// Displacement (rad or m) for differences where the equilibrium does not move.
+const SMALL: f64 = 1e-4;
+/// Change of the stiffness of a mode that may come of second derivatives over the displacement of one standard deviation,
+/// relative to it: [`FAR`](super::equilibrium::FAR) of these leave three quarters of it.
+const STRAIGHT: f64 = 0.007;
+
+/// The nominal state and its neighbours.
+pub(super) struct Nominal<'a> {
+    pub(super) mechanism: &'a dyn Kernels,
+    pub(super) state: &'a Equilibrium,
+}
+
+impl Nominal<'_> {
+    /// `dq*/db = -Khat^-1 dg/db` of the varied variables at a state next to an equilibrium.
+    pub(super) fn slopes(&self, q: &[f64], b: &[f64], varied: &[usize]) -> Option<Vec<Vector>> {
+        let inputs = &self.state.inputs;
+        let (_, stiffness) = self.mechanism.residual_and_stiffness(q, inputs, b);
+        let (_, by_design) = self.mechanism.residual_partials(q, inputs, b);
+        let factors = Lu::new(&stiffness)?;
+        let slope = |&j: &usize| {
+            let right = Vector::from_fn(q.len(), |i| -by_design[i][j]);
+            factors.solve(&right)
+        };
+        let slopes: Vec<Vector> = varied.iter().map(slope).collect();
+        slopes
+            .iter()
+            .all(|slope| all_finite(slope))
+            .then_some(slopes)
+    }
+
+    /// Half of `d2q*/db_j db_k` for equal variables, all of it for others, `j <= k`: secants of the slopes over one standard
+    /// deviation along the equilibria.
+    pub(super) fn curvatures(
+        &self,
+        varied: &[usize],
+        first: &[Vector],
+        deviations: &[f64],
+    ) -> Option<Vec<Square<f64>>> {
+        let mut second = Vec::new();
+        if varied.len() > FEW {
+            return Some(second);
+        }
+        for (k, &variable) in varied.iter().enumerate() {
+            let step = deviations[variable];
+            let at = |step: f64| {
+                let mut b = self.state.design.clone();
+                b[variable] += step;
+                let nominal = self.state.coordinates.iter();
+                let q: Vector = nominal
+                    .zip(&first[k])
+                    .map(|(q, slope)| q + step * slope)
+                    .collect();
+                self.slopes(&q, &b, varied)
+            };
+            let (above, below) = (at(step)?, at(-step)?);
+            let mut rows = [[0.0; LARGEST]; LARGEST];
+            for (j, row) in rows.iter_mut().enumerate().take(k + 1) {
+                let share = if j == k { 0.25 } else { 0.5 };
+                for (i, value) in row.iter_mut().enumerate().take(first[k].len()) {
+                    *value = share * (above[j][i] - below[j][i]) / step;
+                }
+            }
+            second.push(rows);
+        }
+        let finite = second.iter().flatten().all(|row| all_finite(row));
+        finite.then_some(second)
+    }
+
+    /// How far one standard deviation of every varied variable moves each coordinate, all in one sense; something where the
+    /// equilibrium does not move.
+    pub(super) fn reach(&self, varied: &[usize], first: &[Vector], deviations: &[f64]) -> Vector {
+        Vector::from_fn(self.state.coordinates.len(), |k| {
+            let motions = first.iter().zip(varied);
+            motions.fold(SMALL, |sum, (slope, &j)| {
+                sum + (slope[k] * deviations[j]).abs()
+            })
+        })
+    }
+
+    /// `dKhat/dq_k` by differences over this displacement; `None` where the stiffness of a mode bends on the way.
+    pub(super) fn stiffening(
+        &self,
+        reach: &[f64],
+        shapes: &Matrix,
+        lambda: &[f64],
+    ) -> Option<Vec<Matrix>> {
+        let Equilibrium {
+            coordinates,
+            inputs,
+            design,
+            ..
+        } = self.state;
+        let n = coordinates.len();
+        let here = &self.state.linear.stiffness;
+        let mut slopes = Vec::with_capacity(n);
+        for k in 0..n {
+            let at = |step: f64| {
+                let mut q = coordinates.clone();
+                q[k] += step;
+                self.mechanism.residual_and_stiffness(&q, inputs, design).1
+            };
+            let (above, below) = (at(reach[k]), at(-reach[k]));
+            let slope =
+                Matrix::from_fn(n, n, |i, j| (above[i][j] - below[i][j]) / (2.0 * reach[k]));
+            let bend = Matrix::from_fn(n, n, |i, j| 0.5 * (above[i][j] + below[i][j]) - here[i][j]);
+            let bend = between(&bend, shapes);
+            let straight = (0..n).all(|r| {
+                (0..n).all(|s| bend[r][s].abs() <= STRAIGHT * (lambda[r] * lambda[s]).sqrt())
+            });
+            if !straight || !all_finite_matrix(&slope) {
+                return None;
+            }
+            slopes.push(slope);
+        }
+        Some(slopes)
+    }
+}

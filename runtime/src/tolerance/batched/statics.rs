@@ -1,0 +1,133 @@
+//! How the nominal equilibrium vouches for those near it.
+
+use super::nominal::Nominal;
+use crate::algebra::{Lu, Matrix, Vector, form};
+use crate::batched::algebra::{Row, Square, small};
+use crate::constraints::Structure;
+use crate::eigenproblem::Reference;
+use crate::modes::{Family, free_pairs};
+use crate::{Equilibrium, Modes};
+
+/// Greatest error of an eigenvalue by rounding, relative, as the nominal matrices tell it.
+const ROUNDING: f64 = 1e-10;
+
+/// By what the stiffness of a sample is compared with the nominal one.
+pub(super) enum Statics {
+    /// Forces with a potential, and no constraints: it stays positive definite.
+    Potential(Potential),
+    /// Other forces, reactions among them: it stays regular.
+    Forces(Forces),
+}
+
+pub(super) struct Potential {
+    /// Undamped nominal modes, one in each row.
+    pub(super) shapes: Square<f64>,
+    /// Their `lambda`, 1/s^2.
+    pub(super) lambda: Row<f64>,
+    /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
+    /// residual.
+    pub(super) curvature: Vec<Square<f64>>,
+    /// `dKhat/dq_k` between the nominal modes.
+    pub(super) stiffening: Vec<Square<f64>>,
+}
+
+pub(super) struct Forces {
+    /// Inverse of the nominal stiffness, its rows divided by [`Self::units`].
+    pub(super) inverse: Square<f64>,
+    /// Of the unknowns: of motions with kinetic energies of one size, of reactions.
+    pub(super) units: Row<f64>,
+}
+
+impl Statics {
+    /// `None` where the nominal state is not clear enough. `reach` is how far one standard deviation of every variable moves each
+    /// coordinate.
+    pub(super) fn new(
+        nominal: &Nominal<'_>,
+        (modes, reference): (&Modes, Option<&Reference>),
+        reach: &[f64],
+    ) -> Option<Self> {
+        let state = nominal.state;
+        let open = Structure::of(&state.description).open();
+        if let Some(reference) =
+            reference.filter(|_| !open || !state.description.symmetric_stiffness)
+        {
+            return Forces::new(state, &reference.units).map(Self::Forces);
+        }
+        let (shapes, lambda) = match modes.family {
+            Family::Undamped => (
+                modes.real_shapes(),
+                modes.modes.iter().map(|mode| mode.lambda).collect(),
+            ),
+            Family::General => {
+                let pairs = free_pairs(&state.linear, &modes.description).ok()?;
+                (pairs.shapes, pairs.lambda)
+            }
+        };
+        if !lambda.iter().all(|&value| value > 0.0) || !well_conditioned(state, &shapes, &lambda) {
+            return None;
+        }
+        let slopes = nominal.stiffening(reach, &shapes, &lambda)?;
+        Some(Self::Potential(Potential {
+            curvature: slopes.iter().enumerate().map(quadratic_terms).collect(),
+            stiffening: slopes
+                .iter()
+                .map(|slope| small(&between(slope, &shapes)))
+                .collect(),
+            shapes: small(&shapes),
+            lambda: row(&lambda),
+        }))
+    }
+}
+
+impl Forces {
+    fn new(state: &Equilibrium, units: &[f64]) -> Option<Self> {
+        let n = units.len();
+        let factors = Lu::new(&state.linear.stiffness)?;
+        let columns = (0..n).map(|j| {
+            let unit = Vector::from_fn(n, |i| if i == j { 1.0 } else { 0.0 });
+            factors.solve(&unit)
+        });
+        let columns: Vec<Vector> = columns.collect();
+        let inverse = Matrix::from_fn(n, n, |i, j| columns[j][i] / units[i]);
+        Some(Self {
+            inverse: small(&inverse),
+            units: row(units),
+        })
+    }
+}
+
+/// As a row of a small size.
+pub(super) fn row(values: &[f64]) -> Row<f64> {
+    core::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
+}
+
+/// Whether `phi^T Khat phi` gives every eigenvalue to enough digits.
+fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> bool {
+    let n = lambda.len();
+    let linear = &nominal.linear;
+    shapes.iter().zip(lambda).all(|(shape, lambda)| {
+        let terms = (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let size = linear.stiffness[i][j].abs() + lambda * linear.mass[i][j].abs();
+                (shape[i] * shape[j]).abs() * size
+            });
+        terms.sum::<f64>() * f64::EPSILON <= ROUNDING * lambda
+    })
+}
+
+/// `1/2 dKhat/dq_k`, row `j < k` standing for row `k` of `j` too.
+fn quadratic_terms((k, slope): (usize, &Matrix)) -> Square<f64> {
+    let mut terms = small(slope);
+    for (j, row) in terms.iter_mut().enumerate() {
+        let share = if j == k { 0.5 } else { 1.0 };
+        row.iter_mut().for_each(|slope| *slope *= share);
+    }
+    terms
+}
+
+/// A symmetric matrix between the modes.
+pub(super) fn between(matrix: &Matrix, shapes: &Matrix) -> Matrix {
+    let n = shapes.row_count();
+    Matrix::from_fn(n, n, |r, s| form(&shapes[r], matrix, &shapes[s]))
+}

@@ -1,0 +1,87 @@
+//! Samples in vectors against samples one by one.
+
+use eigentol::modes::Family;
+use eigentol::scalar::Instructions;
+use eigentol::tolerance::Sample;
+use eigentol::{Mechanism, MonteCarlo, Study};
+
+/// How many samples were compared, and how many of them differ in their last bits: those that were solved in vectors.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Compared {
+    /// Compared with those solved one by one.
+    pub samples: usize,
+    /// Of these, solved in vectors.
+    pub in_vectors: usize,
+}
+
+/// Samples of damped and of undamped modes with every set of instructions, which must give the same bits, and one by one, which
+/// must give the same numbers. Nothing is compared where the study has no samples or none in vectors.
+///
+/// # Panics
+/// Where something differs.
+pub fn compare<M: Mechanism + Copy>(study: &Study<M>, name: &str) -> Compared {
+    let mut compared = Compared::default();
+    for family in [Family::General, Family::Undamped] {
+        let study = study.clone().family(family).keep_samples(true);
+        let run = |vectors| study.clone().vectors(vectors).monte_carlo();
+        let (Ok(alone), Ok(own)) = (run(None), run(Some(Instructions::SCALAR))) else {
+            continue;
+        };
+        if !own.side_by_side {
+            continue;
+        }
+        for set in Instructions::available() {
+            assert!(run(Some(set)).as_ref() == Ok(&own), "{name}: {set:?}");
+        }
+        assert_eq!(own.counts, alone.counts, "{name}");
+        let all = |run: &MonteCarlo| run.all.clone().expect("samples are kept");
+        for (k, (own, alone)) in all(&own).iter().zip(&all(&alone)).enumerate() {
+            same(own, alone, &format!("{name}, {family:?}, sample {k}"));
+            compared.samples += 1;
+            compared.in_vectors += usize::from(own != alone);
+        }
+    }
+    compared
+}
+
+fn near(a: f64, b: f64, scale: f64, what: &str) {
+    assert!((a - b).abs() <= 1e-9 * scale, "{what}: {a} {b}");
+}
+
+fn same(own: &Sample, alone: &Sample, what: &str) {
+    assert_eq!(own.design, alone.design, "{what}");
+    assert_eq!(own.outcome, alone.outcome, "{what}");
+    assert_eq!(
+        own.coordinates.is_some(),
+        alone.coordinates.is_some(),
+        "{what}"
+    );
+    if let (Some(a), Some(b)) = (&own.coordinates, &alone.coordinates) {
+        let size = b.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+        for (a, b) in a.iter().zip(b) {
+            near(*a, *b, size, what);
+        }
+    }
+    assert_eq!(own.eigenvalues.len(), alone.eigenvalues.len(), "{what}");
+    for (a, b) in own.eigenvalues.iter().zip(&alone.eigenvalues) {
+        assert_eq!(a.is_some(), b.is_some(), "{what}");
+        if let (Some(a), Some(b)) = (a, b) {
+            near(a.re, b.re, b.norm(), what);
+            near(a.im, b.im, b.norm(), what);
+        }
+    }
+    for (own, alone) in [
+        (&own.frequencies, &alone.frequencies),
+        (&own.damping_ratios, &alone.damping_ratios),
+    ] {
+        for (a, b) in own.iter().zip(alone) {
+            assert_eq!(a.is_some(), b.is_some(), "{what}");
+            near(
+                a.unwrap_or(0.0),
+                b.unwrap_or(0.0),
+                b.unwrap_or(0.0).abs().max(1.0),
+                what,
+            );
+        }
+    }
+}

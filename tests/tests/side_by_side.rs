@@ -1,0 +1,36 @@
+//! Samples of every machine of the corpus in vectors are those that are solved one by one.
+
+use eigentol::{Coordinate, Input, Mechanism, Study};
+use eigentol_tests::corpus::{self, Visitor};
+use eigentol_tests::resolved::operating_points;
+use eigentol_tests::sampled::{Compared, compare};
+
+struct Machines(Vec<(&'static str, Compared)>);
+
+impl Visitor for Machines {
+    fn visit<M: Mechanism + Copy>(&mut self, name: &'static str, _: &'static str, machine: M) {
+        for operation in operating_points(name) {
+            let mut study = Study::new(machine).policy(operation.policy).samples(400);
+            for (k, &value) in operation.inputs.iter().enumerate() {
+                study = study.input(Input::new(k), value);
+            }
+            for (k, &value) in operation.start.iter().enumerate() {
+                study = study.guess(Coordinate::new(k), value);
+            }
+            self.0.push((name, compare(&study, name)));
+        }
+    }
+}
+
+#[test]
+fn samples_in_vectors_are_those_alone() {
+    let mut machines = Machines(Vec::new());
+    corpus::visit(&mut machines);
+    println!("{:#?}", machines.0);
+    let sum = |of: fn(&Compared) -> usize| machines.0.iter().map(|(_, own)| of(own)).sum::<usize>();
+    let (samples, in_vectors) = (sum(|own| own.samples), sum(|own| own.in_vectors));
+    assert!(
+        samples > 8000 && 10 * in_vectors > 8 * samples,
+        "{in_vectors} of {samples}"
+    );
+}
