@@ -6,13 +6,13 @@
 use crate::algebra::Matrix;
 use crate::scalar::{Batch, Lanes};
 
-/// Largest mechanism whose states are solved side by side.
+/// Most unknowns of a mechanism whose sweeps are solved side by side.
 pub(crate) const LARGEST: usize = 8;
 
 /// One number for each unknown; those from `n` on mean nothing.
-pub(crate) type Row<V> = [V; LARGEST];
+pub(crate) type Row<V, const N: usize = LARGEST> = [V; N];
 /// A matrix of size `n`.
-pub(crate) type Square<V> = [Row<V>; LARGEST];
+pub(crate) type Square<V, const N: usize = LARGEST> = [Row<V, N>; N];
 
 /// Calls `work` with the size; as a constant where that is small, so that it is compiled for it.
 #[inline(always)]
@@ -25,9 +25,24 @@ pub(crate) fn for_size(n: usize, mut work: impl FnMut(usize)) {
     }
 }
 
+/// The same for at most `N` unknowns.
+#[inline(always)]
+pub(crate) fn for_size_up_to<const N: usize>(n: usize, mut work: impl FnMut(usize)) {
+    match n {
+        1 if N <= FEW => work(1),
+        2 if N <= FEW => work(2),
+        3 if N <= FEW => work(3),
+        FEW if N <= FEW => work(FEW),
+        n => work(n.min(N)),
+    }
+}
+
+/// Up to so many unknowns code is compiled for each number.
+const FEW: usize = 4;
+
 /// A matrix as one of a small size.
-pub(crate) fn small(matrix: &Matrix) -> Square<f64> {
-    let mut rows = [[0.0; LARGEST]; LARGEST];
+pub(crate) fn small<const N: usize>(matrix: &Matrix) -> Square<f64, N> {
+    let mut rows = [[0.0; N]; N];
     for (to, from) in rows.iter_mut().zip(matrix.iter()) {
         to[..from.len()].copy_from_slice(from);
     }
@@ -36,9 +51,9 @@ pub(crate) fn small(matrix: &Matrix) -> Square<f64> {
 
 /// The first entries of each batch.
 #[inline(always)]
-pub(crate) fn load<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Row<V> {
+pub(crate) fn load<V: Lanes, const N: usize>(n: usize, from: &[Batch], at: usize) -> Row<V, N> {
     let from = &from[..n];
-    let mut row = [V::constant(0.0); LARGEST];
+    let mut row = [V::constant(0.0); N];
     for i in 0..n {
         row[i] = V::load(&from[i], at);
     }
@@ -47,8 +62,12 @@ pub(crate) fn load<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Row<V> {
 
 /// The same of a matrix, row by row.
 #[inline(always)]
-pub(crate) fn load_matrix<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Square<V> {
-    let mut rows = [[V::constant(0.0); LARGEST]; LARGEST];
+pub(crate) fn load_matrix<V: Lanes, const N: usize>(
+    n: usize,
+    from: &[Batch],
+    at: usize,
+) -> Square<V, N> {
+    let mut rows = [[V::constant(0.0); N]; N];
     let from = &from[..n * n];
     for i in 0..n {
         for j in 0..n {
@@ -60,7 +79,12 @@ pub(crate) fn load_matrix<V: Lanes>(n: usize, from: &[Batch], at: usize) -> Squa
 
 /// Writes the first entries.
 #[inline(always)]
-pub(crate) fn store<V: Lanes>(n: usize, row: &Row<V>, to: &mut [Batch], at: usize) {
+pub(crate) fn store<V: Lanes, const N: usize>(
+    n: usize,
+    row: &Row<V, N>,
+    to: &mut [Batch],
+    at: usize,
+) {
     let to = &mut to[..n];
     for i in 0..n {
         row[i].store(&mut to[i], at);
@@ -86,10 +110,14 @@ pub(crate) fn keep<V: Lanes>(flag: V, mask: V::Mask) -> V {
 /// `matrix = L D L^T`: `L` below the diagonal, inverse pivots on it. The flag says that every pivot is positive, at least the share
 /// `least` of its diagonal element.
 #[inline(always)]
-pub(crate) fn factor<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> (Square<V>, V) {
+pub(crate) fn factor<V: Lanes, const N: usize>(
+    n: usize,
+    matrix: &Square<V, N>,
+    least: f64,
+) -> (Square<V, N>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut factor = [[zero; LARGEST]; LARGEST];
-    let mut pivots = [zero; LARGEST];
+    let mut factor = [[zero; N]; N];
+    let mut pivots = [zero; N];
     let mut flag = one;
     for i in 0..n {
         let mut pivot = matrix[i][i];
@@ -114,7 +142,11 @@ pub(crate) fn factor<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> (Squ
 
 /// Solves `L D L^T x = right`.
 #[inline(always)]
-pub(crate) fn solve<V: Lanes>(n: usize, factor: &Square<V>, right: &Row<V>) -> Row<V> {
+pub(crate) fn solve<V: Lanes, const N: usize>(
+    n: usize,
+    factor: &Square<V, N>,
+    right: &Row<V, N>,
+) -> Row<V, N> {
     let mut x = *right;
     for i in 0..n {
         for j in 0..i {
@@ -133,11 +165,15 @@ pub(crate) fn solve<V: Lanes>(n: usize, factor: &Square<V>, right: &Row<V>) -> R
 /// `basis^T matrix basis` of a symmetric matrix; the vectors of the basis are the rows of `basis`. Below and on the
 /// diagonal.
 #[inline(always)]
-pub(crate) fn congruent<V: Lanes>(n: usize, matrix: &Square<V>, basis: &Square<f64>) -> Square<V> {
+pub(crate) fn congruent<V: Lanes, const N: usize>(
+    n: usize,
+    matrix: &Square<V, N>,
+    basis: &Square<f64, N>,
+) -> Square<V, N> {
     let zero = V::constant(0.0);
-    let mut result = [[zero; LARGEST]; LARGEST];
+    let mut result = [[zero; N]; N];
     for r in 0..n {
-        let mut image = [zero; LARGEST];
+        let mut image = [zero; N];
         for i in 0..n {
             // Sums start from their first term: a sum with zero is an operation too.
             image[i] = matrix[i][0] * V::constant(basis[r][0]);
@@ -159,27 +195,27 @@ pub(crate) fn congruent<V: Lanes>(n: usize, matrix: &Square<V>, basis: &Square<f
 /// the identity, both nearly diagonal, given below and on the diagonal. The flag says that the rotations came to rest and
 /// that each eigenvector is near enough.
 #[inline(always)]
-pub(crate) fn eigenvalues<V: Lanes>(
+pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     n: usize,
-    stiffness: &Square<V>,
-    mass: &Square<V>,
-) -> (Row<V>, V) {
+    stiffness: &Square<V, N>,
+    mass: &Square<V, N>,
+) -> (Row<V, N>, V) {
     let (lambda, _, flag) = rotated(n, stiffness, mass, RECOGNISED);
     (lambda, flag)
 }
 
 /// As [`eigenvalues`], with the vectors, one in each row, `phi^T mass phi = 1`; the flag wants them nearer, [`CLEAR`].
 #[inline(always)]
-pub(crate) fn eigenpairs<V: Lanes>(
+pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
     n: usize,
-    stiffness: &Square<V>,
-    mass: &Square<V>,
-) -> (Row<V>, Square<V>, V) {
+    stiffness: &Square<V, N>,
+    mass: &Square<V, N>,
+) -> (Row<V, N>, Square<V, N>, V) {
     let (lambda, images, flag) = rotated(n, stiffness, mass, CLEAR);
     let (factor, _) = factor(n, mass, 0.0);
-    let mut vectors = [[V::constant(0.0); LARGEST]; LARGEST];
+    let mut vectors = [[V::constant(0.0); N]; N];
     for r in 0..n {
-        let mut image = [V::constant(0.0); LARGEST];
+        let mut image = [V::constant(0.0); N];
         for i in 0..n {
             image[i] = images[i][r];
         }
@@ -191,15 +227,15 @@ pub(crate) fn eigenpairs<V: Lanes>(
 /// Eigenvalues, and in each column `mass phi` of the vector that belongs to it; the flag as above, for a squared cosine of
 /// `least`.
 #[inline(always)]
-fn rotated<V: Lanes>(
+fn rotated<V: Lanes, const N: usize>(
     n: usize,
-    stiffness: &Square<V>,
-    mass: &Square<V>,
+    stiffness: &Square<V, N>,
+    mass: &Square<V, N>,
     least: f64,
-) -> (Row<V>, Square<V>, V) {
+) -> (Row<V, N>, Square<V, N>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
     // mass = L L^T; the rows of `vectors` are those of L, rotated later.
-    let mut vectors = [[zero; LARGEST]; LARGEST];
+    let mut vectors = [[zero; N]; N];
     let mut flag = one;
     for i in 0..n {
         for j in 0..=i {
@@ -262,7 +298,7 @@ fn rotated<V: Lanes>(
         let share = vectors[r][r] * vectors[r][r];
         flag = keep(flag, (mass[r][r] * V::constant(least)).at_most(share));
     }
-    let mut lambda = [zero; LARGEST];
+    let mut lambda = [zero; N];
     for (r, lambda) in lambda[..n].iter_mut().enumerate() {
         *lambda = a[r][r];
     }
@@ -272,10 +308,10 @@ fn rotated<V: Lanes>(
 /// Rotates in the plane of `p` and `q` by the small angle that makes `a_pq` zero; nothing moves where it counts as zero already,
 /// which the mask returned says, so that lanes do not wait for each other with effect.
 #[inline(always)]
-fn rotate<V: Lanes>(
+fn rotate<V: Lanes, const N: usize>(
     n: usize,
-    a: &mut Square<V>,
-    vectors: &mut Square<V>,
+    a: &mut Square<V, N>,
+    vectors: &mut Square<V, N>,
     p: usize,
     q: usize,
 ) -> V::Mask {

@@ -38,17 +38,13 @@ pub(crate) struct Block<'a> {
     pub(super) flags: Batch,
 }
 
-/// Whether the mechanism's kind allows it: undamped modes of a potential, no constraints, few coordinates.
+/// Whether the mechanism's kind allows it: generated code, undamped modes of a potential, no constraints, few coordinates.
 pub(crate) fn possible(description: &Description, kernels: &[&str]) -> bool {
-    small(description, kernels)
+    let n = description.coordinates.len();
+    (1..=LARGEST).contains(&n)
         && Structure::of(description).open()
         && matches!(description.damping, DampingKind::Zero)
         && description.symmetric_stiffness
-}
-
-/// Whether a mechanism has these kernels and few unknowns.
-pub(crate) fn small(description: &Description, kernels: &[&str]) -> bool {
-    (1..=LARGEST).contains(&description.coordinates.len())
         && kernels
             .iter()
             .all(|name| description.kernel(name).is_some())

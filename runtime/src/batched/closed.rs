@@ -1,6 +1,6 @@
 //! The same as [`algebra`](super::algebra) for matrices of size one and two, by formulas with few divisions and roots.
 
-use super::algebra::{self, LARGEST, Row, Square, keep};
+use super::algebra::{self, Row, Square, keep};
 use crate::scalar::Lanes;
 
 /// Greatest squared tangent of the rotation and greatest squared coupling of the masses, relative to these: the squared cosine
@@ -9,16 +9,16 @@ const TURNED: f64 = 0.25;
 const COUPLED: f64 = 0.01;
 
 /// A matrix ready to solve with.
-pub(crate) enum Solver<V: Lanes> {
+pub(crate) enum Solver<V: Lanes, const N: usize> {
     /// Of size two: the matrix and the inverse of its determinant.
     Two(V, V, V, V),
-    Factor(Square<V>),
+    Factor(Square<V, N>),
 }
 
-impl<V: Lanes> Solver<V> {
+impl<V: Lanes, const N: usize> Solver<V, N> {
     /// The flag says that the matrix is positive definite, pivots at least the share `least`.
     #[inline(always)]
-    pub(crate) fn new(n: usize, matrix: &Square<V>, least: f64) -> (Self, V) {
+    pub(crate) fn new(n: usize, matrix: &Square<V, N>, least: f64) -> (Self, V) {
         if n == 2 {
             let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
             let inverse = V::constant(1.0) / (a * d - b * b);
@@ -31,7 +31,7 @@ impl<V: Lanes> Solver<V> {
 
     /// Solves `matrix x = right`.
     #[inline(always)]
-    pub(crate) fn solve(&self, n: usize, right: &Row<V>) -> Row<V> {
+    pub(crate) fn solve(&self, n: usize, right: &Row<V, N>) -> Row<V, N> {
         match self {
             Self::Two(a, b, d, inverse) => {
                 let mut x = *right;
@@ -46,7 +46,7 @@ impl<V: Lanes> Solver<V> {
 
 /// Flag of positive definite matrices, given below and on the diagonal, with pivots of at least the share `least`.
 #[inline(always)]
-pub(crate) fn definite<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> V {
+pub(crate) fn definite<V: Lanes, const N: usize>(n: usize, matrix: &Square<V, N>, least: f64) -> V {
     if n == 2 {
         let (a, b, d) = (matrix[0][0], matrix[1][0], matrix[1][1]);
         let flag = keep(V::constant(1.0), V::constant(0.0).at_most(a));
@@ -59,13 +59,13 @@ pub(crate) fn definite<V: Lanes>(n: usize, matrix: &Square<V>, least: f64) -> V 
 
 /// As [`algebra::eigenvalues`].
 #[inline(always)]
-pub(crate) fn eigenvalues<V: Lanes>(
+pub(crate) fn eigenvalues<V: Lanes, const N: usize>(
     n: usize,
-    stiffness: &Square<V>,
-    mass: &Square<V>,
-) -> (Row<V>, V) {
+    stiffness: &Square<V, N>,
+    mass: &Square<V, N>,
+) -> (Row<V, N>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut lambda = [zero; LARGEST];
+    let mut lambda = [zero; N];
     if n == 1 {
         lambda[0] = stiffness[0][0] / mass[0][0];
         (lambda, keep(one, V::constant(0.5).at_most(mass[0][0])))
@@ -103,14 +103,14 @@ pub(crate) fn eigenvalues<V: Lanes>(
 /// `phi^T mass phi = 1`. The flag says that each is clearly the unit vector of its place: squared cosine at least
 /// [`algebra::CLEAR`].
 #[inline(always)]
-pub(crate) fn eigenpairs<V: Lanes>(
+pub(crate) fn eigenpairs<V: Lanes, const N: usize>(
     n: usize,
-    stiffness: &Square<V>,
-    mass: &Square<V>,
-) -> (Row<V>, Square<V>, V) {
+    stiffness: &Square<V, N>,
+    mass: &Square<V, N>,
+) -> (Row<V, N>, Square<V, N>, V) {
     let (zero, one) = (V::constant(0.0), V::constant(1.0));
-    let mut lambda = [zero; LARGEST];
-    let mut vectors = [[zero; LARGEST]; LARGEST];
+    let mut lambda = [zero; N];
+    let mut vectors = [[zero; N]; N];
     if n == 1 {
         let inverse = one / mass[0][0];
         lambda[0] = stiffness[0][0] * inverse;

@@ -7,7 +7,7 @@ mod tests;
 
 use num_complex::Complex64;
 
-use super::algebra::{LARGEST, Square, keep};
+use super::algebra::{Square, keep};
 use super::complex::Complex;
 use crate::eigenproblem::{INACCURATE, Reference, ReferencePair};
 use crate::modes::EIGENVALUE_SHARE;
@@ -26,23 +26,21 @@ const ACCURATE: f64 = 1e-9;
 const TINY: f64 = 1e-100;
 /// By how much a mode must be more like its own predecessor than like any other.
 const OWN: f64 = 1e-6;
-/// Most eigenvalues with `Im s >= 0`.
-const MOST: usize = 2 * LARGEST;
 
-type Vector<V> = [Complex<V>; LARGEST];
-type Matrix<V> = [Vector<V>; LARGEST];
+type Vector<V, const N: usize> = [Complex<V>; N];
+type Matrix<V, const N: usize> = [Vector<V, N>; N];
 
 /// The three matrices, in the units of a [`Reference`].
-pub(crate) struct Pencil<V> {
+pub(crate) struct Pencil<V, const N: usize> {
     n: usize,
     /// `M`, `C`, `K`.
-    matrices: [Square<V>; 3],
+    matrices: [Square<V, N>; 3],
 }
 
 /// Products of the three matrices with a vector, and the sums of absolute terms in them.
-struct Products<V> {
-    sums: [Vector<V>; 3],
-    terms: [[V; LARGEST]; 3],
+struct Products<V, const N: usize> {
+    sums: [Vector<V, N>; 3],
+    terms: [[V; N]; 3],
 }
 
 /// What a pair of vectors says about an eigenvalue.
@@ -61,21 +59,23 @@ struct Measure<V> {
 
 /// A pair in every lane.
 #[derive(Clone, Copy)]
-struct Pair<V> {
+struct Pair<V, const N: usize> {
     s: Complex<V>,
     error: V,
+    /// `phi^H M phi` of the known vector.
+    size: V,
     /// `phi` and `M phi`.
-    right: Vector<V>,
-    weighed: Vector<V>,
+    right: Vector<V, N>,
+    weighed: Vector<V, N>,
 }
 
-/// Eigenvalues, 1/s, in the order of those near by.
-pub(crate) type Eigenvalues<V> = [Complex<V>; MOST];
+/// Eigenvalues in the order of those near by, and how far each may be off, 1/s; as many as there are, one row behind the other.
+pub(crate) type Eigenvalues<V, const N: usize> = [[(Complex<V>, V); N]; 2];
 
-impl<V: Lanes> Pencil<V> {
+impl<V: Lanes, const N: usize> Pencil<V, N> {
     /// From the matrices of a mechanism.
     #[inline(always)]
-    pub(crate) fn new(n: usize, mut matrices: [Square<V>; 3], reference: &Reference) -> Self {
+    pub(crate) fn new(n: usize, mut matrices: [Square<V, N>; 3], reference: &Reference) -> Self {
         let (units, by_rate) = (&reference.units[..n], 1.0 / reference.rate);
         let mut factor = 1.0;
         for matrix in &mut matrices {
@@ -89,47 +89,48 @@ impl<V: Lanes> Pencil<V> {
         Self { n, matrices }
     }
 
-    /// All eigenvalues, and how far each may be off, 1/s. The flag says that each is accurate, clear of all others, of the axes,
+    /// All eigenvalues. The flag says that each is accurate, clear of all others, of the axes,
     /// and belongs to the mode near by of its place and to no other, by shape and, where modes are `damped`, by eigenvalue.
     #[inline(always)]
     pub(crate) fn eigenvalues(
         &self,
         reference: &Reference,
         damped: bool,
-    ) -> (Eigenvalues<V>, [V; MOST], V) {
+    ) -> (Eigenvalues<V, N>, V) {
         let (zero, n) = (V::constant(0.0), self.n);
         let none = Complex::constant(Complex64::ZERO);
         let blank = Pair {
             s: none,
             error: zero,
-            right: [none; LARGEST],
-            weighed: [none; LARGEST],
+            size: zero,
+            right: [none; N],
+            weighed: [none; N],
         };
-        let mut found = [blank; MOST];
-        let mut sizes = [zero; MOST];
+        let mut found = [[blank; N]; 2];
+        let found = found.as_flattened_mut();
         let mut flag = V::constant(1.0);
-        let pairs = &reference.pairs[..reference.pairs.len().min(MOST)];
-        for (r, known) in pairs.iter().enumerate() {
-            let (pair, size, own) = self.pair(known);
+        let pairs = &reference.pairs[..reference.pairs.len().min(found.len())];
+        let found = &mut found[..pairs.len()];
+        for (found, known) in found.iter_mut().zip(pairs) {
+            let (pair, own) = self.pair(known);
             flag = keep(flag, V::constant(1.0).at_most(own));
-            (found[r], sizes[r]) = (pair, size);
+            *found = pair;
         }
-        let found = &found[..pairs.len()];
         flag = told_apart(found, flag);
-        flag = recognised((n, damped), pairs, found, &sizes, flag);
-        let (mut all, mut errors) = ([none; MOST], [zero; MOST]);
+        flag = recognised((n, damped), pairs, found, flag);
+        let mut all = [[(none, zero); N]; 2];
         let rate = V::constant(reference.rate);
-        for (r, pair) in found.iter().enumerate() {
-            (all[r], errors[r]) = (pair.s.times(rate), pair.error * rate);
+        for (to, pair) in all.as_flattened_mut().iter_mut().zip(&*found) {
+            *to = (pair.s.times(rate), pair.error * rate);
         }
-        (all, errors, flag)
+        (all, flag)
     }
 
-    /// The pair that a known one has become, `phi^H M phi` of the known vector, and the flag.
+    /// The pair that a known one has become, and the flag.
     #[inline(always)]
-    fn pair(&self, known: &ReferencePair) -> (Pair<V>, V, V) {
+    fn pair(&self, known: &ReferencePair) -> (Pair<V, N>, V) {
         let (zero, one, n) = (V::constant(0.0), V::constant(1.0), self.n);
-        let mut right = [Complex::constant(Complex64::ZERO); LARGEST];
+        let mut right = [Complex::constant(Complex64::ZERO); N];
         let mut left = right;
         for i in 0..n {
             right[i] = Complex::constant(known.right[i]);
@@ -147,6 +148,7 @@ impl<V: Lanes> Pencil<V> {
         let mut kept = Pair {
             s,
             error,
+            size,
             right,
             weighed: of_right.sums[0],
         };
@@ -180,11 +182,11 @@ impl<V: Lanes> Pencil<V> {
         flag = keep(flag, one.at_most(done));
         let rate = kept.s.square().sqrt();
         flag = keep(flag, kept.error.at_most(V::constant(ACCURATE) * rate));
-        (kept, size, flag)
+        (kept, flag)
     }
 
     #[inline(always)]
-    fn times(&self, x: &Vector<V>) -> Products<V> {
+    fn times(&self, x: &Vector<V, N>) -> Products<V, N> {
         self.products(
             x,
             #[inline(always)]
@@ -193,7 +195,7 @@ impl<V: Lanes> Pencil<V> {
     }
 
     #[inline(always)]
-    fn transposed_times(&self, x: &Vector<V>) -> Products<V> {
+    fn transposed_times(&self, x: &Vector<V, N>) -> Products<V, N> {
         self.products(
             x,
             #[inline(always)]
@@ -204,15 +206,15 @@ impl<V: Lanes> Pencil<V> {
     #[inline(always)]
     fn products(
         &self,
-        x: &Vector<V>,
-        element: impl Fn(&Square<V>, usize, usize) -> V,
-    ) -> Products<V> {
+        x: &Vector<V, N>,
+        element: impl Fn(&Square<V, N>, usize, usize) -> V,
+    ) -> Products<V, N> {
         let (zero, n) = (V::constant(0.0), self.n);
         let mut products = Products {
-            sums: [[Complex { re: zero, im: zero }; LARGEST]; 3],
-            terms: [[zero; LARGEST]; 3],
+            sums: [[Complex { re: zero, im: zero }; N]; 3],
+            terms: [[zero; N]; 3],
         };
-        let mut bounds = [zero; LARGEST];
+        let mut bounds = [zero; N];
         for j in 0..n {
             bounds[j] = x[j].bound();
         }
@@ -235,11 +237,11 @@ impl<V: Lanes> Pencil<V> {
 
     /// Triangular factors of `Q(s)`, and its least pivot besides the last.
     #[inline(always)]
-    fn factors<'k>(&self, s: Complex<V>, known: &'k ReferencePair) -> (Factors<'k, V>, V) {
+    fn factors<'k>(&self, s: Complex<V>, known: &'k ReferencePair) -> (Factors<'k, V, N>, V) {
         let n = self.n;
         let square = s * s;
         let [mass, damping, stiffness] = &self.matrices;
-        let mut q = [[Complex::constant(Complex64::ZERO); LARGEST]; LARGEST];
+        let mut q = [[Complex::constant(Complex64::ZERO); N]; N];
         let (rows, columns) = (&known.rows[..n], &known.columns[..n]);
         for (q, &i) in q[..n].iter_mut().zip(rows) {
             for (q, &j) in q[..n].iter_mut().zip(columns) {
@@ -280,16 +282,16 @@ impl<V: Lanes> Pencil<V> {
 }
 
 /// `L` below the diagonal, `U` above, inverse pivots on it; rows and columns in the order of elimination.
-struct Factors<'k, V> {
+struct Factors<'k, V, const N: usize> {
     n: usize,
-    factors: Matrix<V>,
+    factors: Matrix<V, N>,
     rows: &'k [usize],
     columns: &'k [usize],
 }
 
-impl<V: Lanes> Factors<'_, V> {
+impl<V: Lanes, const N: usize> Factors<'_, V, N> {
     #[inline(always)]
-    fn solve(&self, right: &Vector<V>) -> Vector<V> {
+    fn solve(&self, right: &Vector<V, N>) -> Vector<V, N> {
         let (n, q) = (self.n, &self.factors);
         let mut x = *right;
         for i in 0..n {
@@ -314,7 +316,7 @@ impl<V: Lanes> Factors<'_, V> {
     }
 
     #[inline(always)]
-    fn solve_transposed(&self, right: &Vector<V>) -> Vector<V> {
+    fn solve_transposed(&self, right: &Vector<V, N>) -> Vector<V, N> {
         let (n, q) = (self.n, &self.factors);
         let mut x = *right;
         for i in 0..n {
@@ -339,7 +341,7 @@ impl<V: Lanes> Factors<'_, V> {
     }
 }
 
-impl<V: Lanes> Products<V> {
+impl<V: Lanes, const N: usize> Products<V, N> {
     /// Component `i` of `Q(s) x`.
     #[inline(always)]
     fn value(&self, s: Complex<V>, i: usize) -> Complex<V> {
@@ -349,7 +351,7 @@ impl<V: Lanes> Products<V> {
 
     /// `(2 s M + C) x`
     #[inline(always)]
-    fn slope(&self, n: usize, s: Complex<V>) -> Vector<V> {
+    fn slope(&self, n: usize, s: Complex<V>) -> Vector<V, N> {
         let [mass, damping, _] = &self.sums;
         let twice = s + s;
         let mut slope = *damping;
@@ -361,7 +363,7 @@ impl<V: Lanes> Products<V> {
 
     /// `psi^T Q(s) phi` over `psi^T (2 s M + C) phi`, the products those with `phi`.
     #[inline(always)]
-    fn step(&self, n: usize, s: Complex<V>, left: &Vector<V>) -> Complex<V> {
+    fn step(&self, n: usize, s: Complex<V>, left: &Vector<V, N>) -> Complex<V> {
         let slopes = self.slope(n, s);
         let (mut value, mut slope) = (left[0] * self.value(s, 0), left[0] * slopes[0]);
         for i in 1..n {
@@ -376,8 +378,8 @@ impl<V: Lanes> Products<V> {
         &self,
         n: usize,
         s: Complex<V>,
-        left: &Vector<V>,
-        of_left: &Products<V>,
+        left: &Vector<V, N>,
+        of_left: &Products<V, N>,
     ) -> Measure<V> {
         let zero = V::constant(0.0);
         let none = Complex { re: zero, im: zero };
@@ -428,7 +430,7 @@ impl<V: Lanes> Products<V> {
 
 /// `x^H y`
 #[inline(always)]
-fn inner<V: Lanes>(n: usize, x: &Vector<V>, y: &Vector<V>) -> Complex<V> {
+fn inner<V: Lanes, const N: usize>(n: usize, x: &Vector<V, N>, y: &Vector<V, N>) -> Complex<V> {
     let mut sum = x[0].conjugate() * y[0];
     for i in 1..n {
         sum = sum + x[i].conjugate() * y[i];
@@ -438,7 +440,7 @@ fn inner<V: Lanes>(n: usize, x: &Vector<V>, y: &Vector<V>) -> Complex<V> {
 
 /// Makes the greatest component about one.
 #[inline(always)]
-fn scale<V: Lanes>(n: usize, x: &mut Vector<V>) {
+fn scale<V: Lanes, const N: usize>(n: usize, x: &mut Vector<V, N>) {
     let mut most = x[0].bound();
     for i in 1..n {
         let own = x[i].bound();
@@ -452,7 +454,7 @@ fn scale<V: Lanes>(n: usize, x: &mut Vector<V>) {
 
 /// Keeps the flag where every eigenvalue is clear of all others and their conjugates, and either real or clear of being so.
 #[inline(always)]
-fn told_apart<V: Lanes>(found: &[Pair<V>], mut flag: V) -> V {
+fn told_apart<V: Lanes, const N: usize>(found: &[Pair<V, N>], mut flag: V) -> V {
     let zero = V::constant(0.0);
     for (i, own) in found.iter().enumerate() {
         let apart = V::constant(FAR) * own.error;
@@ -478,47 +480,77 @@ fn told_apart<V: Lanes>(found: &[Pair<V>], mut flag: V) -> V {
 /// Keeps the flag where each mode is more like the known one of its place than like any other, as
 /// [`assurance`](crate::modes::assurance) measures it: then this is how modes are matched one by one.
 #[inline(always)]
-fn recognised<V: Lanes>(
+fn recognised<V: Lanes, const N: usize>(
     (n, damped): (usize, bool),
     known: &[ReferencePair],
-    found: &[Pair<V>],
-    sizes: &[V; MOST],
+    found: &[Pair<V, N>],
     mut flag: V,
 ) -> V {
-    let (zero, one) = (V::constant(0.0), V::constant(1.0));
     if known.len() == 1 {
         return flag;
     }
-    let mut table = [[zero; MOST]; MOST];
-    for (j, pair) in found.iter().enumerate() {
-        let size = inner(n, &pair.right, &pair.weighed).re;
-        let rate = pair.s.square().sqrt();
-        for (i, known) in known.iter().enumerate() {
-            let mut product = Complex::constant(known.right[0].conj()) * pair.weighed[0];
-            for k in 1..n {
-                product = product + Complex::constant(known.right[k].conj()) * pair.weighed[k];
-            }
-            let shapes = product.square() / (sizes[i] * size);
-            if !damped {
-                table[i][j] = shapes;
-                continue;
-            }
-            let own = Complex::constant(known.s);
-            let own_rate = V::constant(known.s.norm());
-            let turned = (own.conjugate() * pair.s).re / (own_rate * rate);
-            let phase = V::constant(0.5) + V::constant(0.5) * turned;
-            let distance = (own - pair.s).square().sqrt() / (own_rate + rate);
-            table[i][j] = shapes * phase * (one - V::constant(EIGENVALUE_SHARE) * distance);
-        }
+    let mut own = [[V::constant(0.0); N]; 2];
+    let own = &mut own.as_flattened_mut()[..found.len()];
+    let measured = own_sizes(n, found);
+    let measured = &measured.as_flattened()[..found.len()];
+    for (j, own) in own.iter_mut().enumerate() {
+        let (size, rate) = measured[j];
+        let assurance = assurance(
+            (n, damped),
+            &known[j],
+            &found[j],
+            found[j].size * size,
+            rate,
+        );
+        *own = assurance - V::constant(OWN);
     }
-    for i in 0..known.len() {
-        for j in 0..known.len() {
+    for i in 0..found.len() {
+        for j in 0..found.len() {
             if i != j {
-                let margin = V::constant(OWN);
-                flag = keep(flag, (table[i][j] + margin).at_most(table[i][i]));
-                flag = keep(flag, (table[j][i] + margin).at_most(table[i][i]));
+                let (size, rate) = measured[j];
+                let scale = found[i].size * size;
+                let other = assurance((n, damped), &known[i], &found[j], scale, rate);
+                flag = keep(flag, other.at_most(own[i]));
+                flag = keep(flag, other.at_most(own[j]));
             }
         }
     }
     flag
+}
+
+/// `phi^H M phi` and `|s|` of each.
+#[inline(always)]
+fn own_sizes<V: Lanes, const N: usize>(n: usize, found: &[Pair<V, N>]) -> [[(V, V); N]; 2] {
+    let zero = V::constant(0.0);
+    let mut sizes = [[(zero, zero); N]; 2];
+    for (sizes, pair) in sizes.as_flattened_mut().iter_mut().zip(found) {
+        let size = inner(n, &pair.right, &pair.weighed).re;
+        *sizes = (size, pair.s.square().sqrt());
+    }
+    sizes
+}
+
+/// How much a found mode is the known one; `scale` is the product of `phi^H M phi` of both, `rate` its own `|s|`.
+#[inline(always)]
+fn assurance<V: Lanes, const N: usize>(
+    (n, damped): (usize, bool),
+    known: &ReferencePair,
+    found: &Pair<V, N>,
+    scale: V,
+    rate: V,
+) -> V {
+    let mut product = Complex::constant(known.right[0].conj()) * found.weighed[0];
+    for k in 1..n {
+        product = product + Complex::constant(known.right[k].conj()) * found.weighed[k];
+    }
+    let shapes = product.square() / scale;
+    if !damped {
+        return shapes;
+    }
+    let own = Complex::constant(known.s);
+    let own_rate = V::constant(known.s.norm());
+    let turned = (own.conjugate() * found.s).re / (own_rate * rate);
+    let phase = V::constant(0.5) + V::constant(0.5) * turned;
+    let distance = (own - found.s).square().sqrt() / (own_rate + rate);
+    shapes * phase * (V::constant(1.0) - V::constant(EIGENVALUE_SHARE) * distance)
 }

@@ -1,6 +1,6 @@
 //! Newton's method in every lane.
 
-use super::algebra::{self, for_size, keep, load_matrix};
+use super::algebra::{self, Square, for_size, keep, load_matrix};
 use super::block::{Block, POSITIVE};
 use super::closed::Solver;
 use super::state::Scratch;
@@ -69,7 +69,7 @@ impl Task for Step<'_, '_> {
             #[inline(always)]
             |n| {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let stiffness = load_matrix::<V>(n, scratch.stiffness, at);
+                    let stiffness: Square<V> = load_matrix(n, scratch.stiffness, at);
                     let (solver, positive) = Solver::new(n, &stiffness, POSITIVE);
                     let step = solver.solve(n, &algebra::load(n, scratch.residual, at));
                     // Lanes at rest stay where they are, so that none depends on the others.

@@ -131,7 +131,7 @@ impl Task for FromPartials<'_, '_> {
 #[inline(always)]
 fn from_partials<V: Lanes>(n: usize, partials: &Partials<'_>, block: &mut Block<'_>, at: usize) {
     let Partials { matrices, residual } = partials;
-    let stiffness = load_matrix::<V>(n, block.linear.stiffness, at);
+    let stiffness: Square<V> = load_matrix(n, block.linear.stiffness, at);
     let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
     let (inputs, design) = (block.inputs.len(), block.design.len());
     let mut finite = Finite::new();
@@ -194,7 +194,7 @@ impl Task for Adjoint<'_, '_> {
             #[inline(always)]
             |n| {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    let stiffness = load_matrix::<V>(n, block.linear.stiffness, at);
+                    let stiffness: Square<V> = load_matrix(n, block.linear.stiffness, at);
                     let (solver, _) = Solver::new(n, &stiffness, POSITIVE);
                     let right = algebra::load(n, gradients.direct.coordinates, at);
                     let w = solver.solve(n, &right);

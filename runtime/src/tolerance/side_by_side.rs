@@ -1,7 +1,7 @@
 //! Designs from given points of the standard normal space, solved side by side.
 
 use super::Tolerances;
-use super::batched::{Memory, Size, TOGETHER, TaylorModel};
+use super::batched::{Memory, Prepared, Size, TOGETHER};
 use super::normal_sampling::GREATEST_NORMAL;
 use crate::algebra::Vector;
 use crate::kernels::BatchKernels;
@@ -10,7 +10,7 @@ use crate::{Complex, Equilibrium, Error, Modes};
 
 /// Solves designs about a nominal state in vectors.
 pub(crate) struct SideBySide<'a> {
-    prepared: TaylorModel<'a>,
+    prepared: Prepared<'a>,
     size: Size,
 }
 
@@ -30,7 +30,7 @@ impl<'a> SideBySide<'a> {
     ) -> Option<Self> {
         let vectors = Instructions::best();
         Some(Self {
-            prepared: TaylorModel::new(mechanism, nominal, modes, tolerances, vectors)?,
+            prepared: Prepared::new(mechanism, (nominal, modes), tolerances, vectors)?,
             size: Size::of(nominal, modes),
         })
     }

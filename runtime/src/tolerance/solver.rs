@@ -2,7 +2,7 @@
 
 use eigentol_statistics::summary::{LARGEST, Plan};
 
-use super::batched::{Memory, Size, Solved, TOGETHER, TaylorModel};
+use super::batched::{Memory, Prepared, Size, Solved, TOGETHER};
 use super::gather::Part;
 use super::sample::Solution;
 use super::sampling::{Batches, Draw};
@@ -36,7 +36,7 @@ pub(super) struct Solver<'a> {
     /// Seed and stream.
     pub(super) sequence: (u64, u64),
     pub(super) keep_samples: bool,
-    prepared: Option<TaylorModel<'a>>,
+    prepared: Option<Prepared<'a>>,
 }
 
 impl<'a> Solver<'a> {
@@ -49,7 +49,7 @@ impl<'a> Solver<'a> {
         keep_samples: bool,
     ) -> Self {
         let prepared = vectors
-            .and_then(|vectors| TaylorModel::new(mechanism, nominal, modes, tolerances, vectors));
+            .and_then(|vectors| Prepared::new(mechanism, (nominal, modes), tolerances, vectors));
         Self {
             mechanism,
             nominal,
@@ -115,7 +115,7 @@ impl<'a> Solver<'a> {
     /// Solves samples in batches, and alone those that no batch can vouch for.
     fn together(
         &self,
-        prepared: &TaylorModel<'_>,
+        prepared: &Prepared<'_>,
         room: &mut Room,
         part: &mut Part<'_, Numbered>,
     ) -> Result<(), Error> {

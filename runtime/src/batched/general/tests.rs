@@ -6,6 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::*;
 use crate::algebra;
+use crate::batched::algebra::{LARGEST, load_matrix};
 use crate::eigenproblem::general::tests::near::{moved, near, pencil, with_errors};
 use crate::eigenproblem::{Eigenproblem, roots_of};
 use crate::kernels::Linear;
@@ -29,18 +30,18 @@ impl Task for &Lanes8<'_> {
         let mut all = vec![Vec::new(); WIDTH];
         let mut flags = [false; WIDTH];
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let matrices = [0, 1, 2]
-                .map(|k| crate::batched::algebra::load_matrix(self.n, &self.matrices[k], at));
-            let pencil: Pencil<V> = Pencil::new(self.n, matrices, self.reference);
-            let (found, errors, flag) = pencil.eigenvalues(self.reference, true);
+            let matrices = [0, 1, 2].map(|k| load_matrix(self.n, &self.matrices[k], at));
+            let pencil: Pencil<V, LARGEST> = Pencil::new(self.n, matrices, self.reference);
+            let (found, flag) = pencil.eigenvalues(self.reference, true);
+            let found = found.as_flattened();
             let numbers = |x: V| {
                 let mut batch = Batch::default();
                 x.store(&mut batch, at);
                 batch.0
             };
             for r in 0..count {
-                let (re, im) = (numbers(found[r].re), numbers(found[r].im));
-                let error = numbers(errors[r]);
+                let (s, error) = found[r];
+                let (re, im, error) = (numbers(s.re), numbers(s.im), numbers(error));
                 for k in at..at + V::WIDTH {
                     all[k].push((Complex64::new(re[k], im[k]), error[k]));
                 }

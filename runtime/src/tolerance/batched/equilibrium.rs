@@ -3,7 +3,7 @@
 use super::statics::{Forces, Potential, Statics};
 use super::{Solved, TaylorModel};
 use crate::batched::POSITIVE;
-use crate::batched::algebra::{self, LARGEST, Row, Square, congruent, keep, load_matrix};
+use crate::batched::algebra::{self, Row, Square, congruent, keep, load_matrix};
 use crate::batched::closed::{self, Solver};
 use crate::equilibrium::{LAST_STEP, SMALL_MOTION};
 use crate::scalar::Lanes;
@@ -20,14 +20,14 @@ const CHANGED: f64 = 0.5;
 
 /// A step of Newton's method; a sample fails where the stiffness is not like the nominal one on the way.
 #[inline(always)]
-pub(super) fn improve<V: Lanes>(
+pub(super) fn improve<V: Lanes, const N: usize>(
     n: usize,
-    prepared: &TaylorModel<'_>,
+    prepared: &TaylorModel<'_, N>,
     batch: &mut Solved<'_>,
     at: usize,
 ) {
     let one = V::constant(1.0);
-    let mut q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let mut q: Row<V, N> = algebra::load(n, batch.coordinates, at);
     let stiffness = load_matrix(n, batch.stiffness, at);
     let residual = algebra::load(n, batch.residual, at);
     let (step, last, regular) = match &prepared.statics {
@@ -52,17 +52,17 @@ pub(super) fn improve<V: Lanes>(
 
 /// The flag of samples at rest near the nominal equilibrium, with a stiffness that is like the nominal one all the way.
 #[inline(always)]
-pub(super) fn held<V: Lanes>(
+pub(super) fn held<V: Lanes, const N: usize>(
     n: usize,
-    prepared: &TaylorModel<'_>,
+    prepared: &TaylorModel<'_, N>,
     batch: &Solved<'_>,
     at: usize,
 ) -> V {
     let one = V::constant(1.0);
-    let q: Row<V> = algebra::load(n, batch.coordinates, at);
+    let q: Row<V, N> = algebra::load(n, batch.coordinates, at);
     let at_rest = one.at_most(V::load(&batch.resting, at));
     let mut flag = keep(V::load(&batch.flags, at), at_rest);
-    let mut displacement = [V::constant(0.0); LARGEST];
+    let mut displacement = [V::constant(0.0); N];
     for k in 0..prepared.motions.min(n) {
         displacement[k] = q[k] - V::constant(prepared.nominal.coordinates[k]);
         let far = V::constant(FAR * prepared.reach[k]);
@@ -83,9 +83,9 @@ pub(super) fn held<V: Lanes>(
 
 /// Mass and stiffness at the equilibrium, between the undamped nominal modes.
 #[inline(always)]
-pub(super) fn between_modes<V: Lanes>(
+pub(super) fn between_modes<V: Lanes, const N: usize>(
     n: usize,
-    potential: &Potential,
+    potential: &Potential<N>,
     batch: &mut Solved<'_>,
     at: usize,
 ) {
@@ -93,7 +93,7 @@ pub(super) fn between_modes<V: Lanes>(
         (&*batch.linear.mass, &mut *batch.mass),
         (&*batch.linear.stiffness, &mut *batch.stiffness),
     ] {
-        let matrix: Square<V> = load_matrix(n, from, at);
+        let matrix: Square<V, N> = load_matrix(n, from, at);
         let matrix = congruent(n, &matrix, &potential.shapes);
         let to = &mut to[..n * n];
         for i in 0..n {
@@ -104,16 +104,16 @@ pub(super) fn between_modes<V: Lanes>(
     }
 }
 
-impl Potential {
+impl<const N: usize> Potential<N> {
     /// A step, whether it is the last, and whether the stiffness is positive definite.
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
         n: usize,
-        q: &Row<V>,
-        stiffness: &Square<V>,
-        residual: &Row<V>,
-    ) -> (Row<V>, V, V) {
+        q: &Row<V, N>,
+        stiffness: &Square<V, N>,
+        residual: &Row<V, N>,
+    ) -> (Row<V, N>, V, V) {
         let (solver, positive) = Solver::new(n, stiffness, POSITIVE);
         let mut step = solver.solve(n, residual);
         let correction = solver.solve(n, &curved(n, &self.curvature, &step));
@@ -132,8 +132,8 @@ impl Potential {
     fn definite_all_the_way<V: Lanes>(
         &self,
         n: usize,
-        stiffness: &Square<V>,
-        displacement: &Row<V>,
+        stiffness: &Square<V, N>,
+        displacement: &Row<V, N>,
     ) -> V {
         let mut nearby = *stiffness;
         let stiffening = &self.stiffening[..n];
@@ -149,16 +149,16 @@ impl Potential {
     }
 }
 
-impl Forces {
+impl<const N: usize> Forces<N> {
     /// A step, whether it is the last, and whether the stiffness is like the nominal one.
     #[inline(always)]
     fn step<V: Lanes>(
         &self,
         (n, motions): (usize, usize),
-        q: &Row<V>,
-        stiffness: &Square<V>,
-        residual: &Row<V>,
-    ) -> (Row<V>, V, V) {
+        q: &Row<V, N>,
+        stiffness: &Square<V, N>,
+        residual: &Row<V, N>,
+    ) -> (Row<V, N>, V, V) {
         let (mut relative, regular) = self.relative(n, stiffness);
         let mut step = *residual;
         for i in 0..n {
@@ -198,9 +198,9 @@ impl Forces {
 
     /// The nominal inverse times a stiffness, in units of the coordinates, and whether it is near the identity.
     #[inline(always)]
-    fn relative<V: Lanes>(&self, n: usize, stiffness: &Square<V>) -> (Square<V>, V) {
+    fn relative<V: Lanes>(&self, n: usize, stiffness: &Square<V, N>) -> (Square<V, N>, V) {
         let zero = V::constant(0.0);
-        let mut product = [[zero; LARGEST]; LARGEST];
+        let mut product = [[zero; N]; N];
         let mut flag = V::constant(1.0);
         for i in 0..n {
             let mut change = zero;
@@ -223,8 +223,12 @@ impl Forces {
 /// `1/2 d2g/dq2 step step`, which a Newton step leaves of the residual: `curvature` holds `1/2 dKhat/dq_k`, off its diagonal
 /// in `k` and `j` twice.
 #[inline(always)]
-fn curved<V: Lanes>(n: usize, curvature: &[Square<f64>], step: &Row<V>) -> Row<V> {
-    let mut rest = [V::constant(0.0); LARGEST];
+fn curved<V: Lanes, const N: usize>(
+    n: usize,
+    curvature: &[Square<f64, N>],
+    step: &Row<V, N>,
+) -> Row<V, N> {
+    let mut rest = [V::constant(0.0); N];
     let curvature = &curvature[..n];
     for k in 0..n {
         for j in 0..=k {

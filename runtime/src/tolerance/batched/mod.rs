@@ -14,13 +14,15 @@
 mod equilibrium;
 mod modes;
 mod nominal;
+mod prepared;
 mod samples;
 mod solve;
 mod stages;
 mod statics;
 mod taylor_model;
 
+pub(super) use prepared::Prepared;
+pub(crate) use prepared::possible;
 pub(super) use samples::{Memory, Size, Solved};
 pub(super) use solve::TOGETHER;
-pub(super) use taylor_model::TaylorModel;
-pub(crate) use taylor_model::possible;
+use taylor_model::TaylorModel;

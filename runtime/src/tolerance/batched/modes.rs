@@ -3,7 +3,7 @@
 use super::statics::Potential;
 use super::{Solved, TaylorModel};
 use crate::DampingKind;
-use crate::batched::algebra::{LARGEST, Square, keep, load_matrix};
+use crate::batched::algebra::{Square, keep, load_matrix};
 use crate::batched::closed;
 use crate::batched::general::Pencil;
 use crate::eigenproblem::Reference;
@@ -18,15 +18,15 @@ const SLOW: f64 = 1e-12;
 
 /// Undamped modes in the nominal order; keeps the flags of samples all of whose modes are recognised.
 #[inline(always)]
-pub(super) fn undamped<V: Lanes>(
+pub(super) fn undamped<V: Lanes, const N: usize>(
     n: usize,
-    potential: &Potential,
+    potential: &Potential<N>,
     batch: &mut Solved<'_>,
     mut flag: V,
     at: usize,
 ) -> V {
-    let mass: Square<V> = load_matrix(n, batch.mass, at);
-    let stiffness: Square<V> = load_matrix(n, batch.stiffness, at);
+    let mass: Square<V, N> = load_matrix(n, batch.mass, at);
+    let stiffness: Square<V, N> = load_matrix(n, batch.stiffness, at);
     let (lambda, recognised) = closed::eigenvalues(n, &stiffness, &mass);
     flag = keep(flag, V::constant(1.0).at_most(recognised));
     let frequencies = &mut batch.frequencies[..n];
@@ -42,9 +42,9 @@ pub(super) fn undamped<V: Lanes>(
 /// Damped or constrained modes in the nominal order; keeps the flags of samples whose equilibrium is stable beyond doubt and all
 /// of whose modes are recognised.
 #[inline(always)]
-pub(super) fn general<V: Lanes>(
+pub(super) fn general<V: Lanes, const N: usize>(
     n: usize,
-    (prepared, reference): (&TaylorModel<'_>, &Reference),
+    (prepared, reference): (&TaylorModel<'_, N>, &Reference),
     batch: &mut Solved<'_>,
     mut flag: V,
     at: usize,
@@ -52,20 +52,20 @@ pub(super) fn general<V: Lanes>(
     let linear = &batch.linear;
     let description = &prepared.nominal.description;
     let damped = description.damping != DampingKind::Zero;
-    let mut matrices = [[[V::constant(0.0); LARGEST]; LARGEST]; 3];
+    let mut matrices = [[[V::constant(0.0); N]; N]; 3];
     matrices[0] = load_matrix(n, linear.mass, at);
     if damped {
         matrices[1] = load_matrix(n, linear.damping, at);
     }
     matrices[2] = load_matrix(n, linear.stiffness, at);
-    let pencil: Pencil<V> = Pencil::new(n, matrices, reference);
-    let (all, errors, found) = pencil.eigenvalues(reference, damped);
+    let pencil: Pencil<V, N> = Pencil::new(n, matrices, reference);
+    let (all, found) = pencil.eigenvalues(reference, damped);
     flag = keep(flag, V::constant(1.0).at_most(found));
     // Without dissipation the eigenvalues of a motion that stays bounded are imaginary.
     let conservative =
         description.symmetric_stiffness && description.damping != DampingKind::General;
     let modes = batch.frequencies.iter_mut().zip(&mut *batch.rates);
-    for ((frequency, rate), (s, error)) in modes.zip(all.iter().zip(&errors)) {
+    for ((frequency, rate), (s, error)) in modes.zip(all.as_flattened()) {
         s.im.store(frequency, at);
         if conservative {
             flag = keep(flag, s.re.abs().at_most(*error));

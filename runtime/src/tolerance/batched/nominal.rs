@@ -3,7 +3,7 @@
 use super::statics::between;
 use crate::Equilibrium;
 use crate::algebra::{Lu, Matrix, Vector, all_finite, all_finite_matrix};
-use crate::batched::algebra::{LARGEST, Square};
+use crate::batched::algebra::Row;
 use crate::kernels::Kernels;
 
 /// Design variables up to which second derivatives of the equilibrium shorten Newton's method.
@@ -40,12 +40,12 @@ impl Nominal<'_> {
 
     /// Half of `d2q*/db_j db_k` for equal variables, all of it for others, `j <= k`: secants of the slopes over one standard
     /// deviation along the equilibria.
-    pub(super) fn curvatures(
+    pub(super) fn curvatures<const N: usize>(
         &self,
         varied: &[usize],
         first: &[Vector],
         deviations: &[f64],
-    ) -> Option<Vec<Square<f64>>> {
+    ) -> Option<Vec<[Row<f64, N>; FEW]>> {
         let mut second = Vec::new();
         if varied.len() > FEW {
             return Some(second);
@@ -63,7 +63,7 @@ impl Nominal<'_> {
                 self.slopes(&q, &b, varied)
             };
             let (above, below) = (at(step)?, at(-step)?);
-            let mut rows = [[0.0; LARGEST]; LARGEST];
+            let mut rows = [[0.0; N]; FEW];
             for (j, row) in rows.iter_mut().enumerate().take(k + 1) {
                 let share = if j == k { 0.25 } else { 0.5 };
                 for (i, value) in row.iter_mut().enumerate().take(first[k].len()) {

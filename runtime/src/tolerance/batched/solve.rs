@@ -3,7 +3,7 @@
 use super::samples::Solved;
 use super::statics::Statics;
 use super::{TaylorModel, equilibrium, modes, stages};
-use crate::batched::algebra::for_size;
+use crate::batched::algebra::for_size_up_to;
 use crate::kernels::BatchPoint;
 use crate::scalar::{Batch, Lanes, Task, WIDTH};
 
@@ -13,9 +13,9 @@ const STEPS: usize = 6;
 /// processor can work on the next batch.
 pub(in crate::tolerance) const TOGETHER: usize = 4;
 
-impl TaylorModel<'_> {
+impl<const N: usize> TaylorModel<'_, N> {
     /// Solves the members of some batches from their random bits.
-    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>]) {
+    pub(super) fn solve(&self, batches: &mut [Solved<'_>]) {
         self.instructions.run(Work {
             prepared: self,
             batches,
@@ -31,35 +31,39 @@ impl TaylorModel<'_> {
     }
 }
 
-struct Work<'a, 'b> {
-    prepared: &'a TaylorModel<'a>,
+struct Work<'a, 'b, const N: usize> {
+    prepared: &'a TaylorModel<'a, N>,
     batches: &'a mut [Solved<'b>],
 }
 
-impl Task for Work<'_, '_> {
+impl<const N: usize> Task for Work<'_, '_, N> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { prepared, batches } = self;
-        for_size(
+        for_size_up_to::<N>(
             prepared.nominal.coordinates.len(),
             #[inline(always)]
-            |n| through::<V>(n, prepared, batches),
+            |n| through::<V, N>(n, prepared, batches),
         );
     }
 }
 
 #[inline(always)]
-fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved<'_>]) {
+fn through<V: Lanes, const N: usize>(
+    n: usize,
+    prepared: &TaylorModel<'_, N>,
+    batches: &mut [Solved<'_>],
+) {
     let one = V::constant(1.0);
     for batch in &mut *batches {
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            stages::draw::<V>(prepared, batch, at);
+            stages::draw::<V, N>(prepared, batch, at);
         }
         stages::distribute(prepared, batch.design);
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            stages::predict::<V>(n, prepared, batch, at);
+            stages::predict::<V, N>(n, prepared, batch, at);
         }
         batch.resting = Batch::all(0.0);
         let all = prepared.all_possible && batch.members == WIDTH;
@@ -89,7 +93,7 @@ fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved
         for batch in &mut *batches {
             if !batch.rests() {
                 for at in (0..WIDTH).step_by(V::WIDTH) {
-                    equilibrium::improve::<V>(n, prepared, batch, at);
+                    equilibrium::improve::<V, N>(n, prepared, batch, at);
                 }
             }
         }
@@ -102,14 +106,14 @@ fn through<V: Lanes>(n: usize, prepared: &TaylorModel<'_>, batches: &mut [Solved
             .linear_batch(prepared.instructions, point, linear);
         if let Statics::Potential(potential) = &prepared.statics {
             for at in (0..WIDTH).step_by(V::WIDTH) {
-                equilibrium::between_modes::<V>(n, potential, batch, at);
+                equilibrium::between_modes::<V, N>(n, potential, batch, at);
             }
         }
     }
     for batch in &mut *batches {
         batch.accepted = 0;
         for at in (0..WIDTH).step_by(V::WIDTH) {
-            let held = equilibrium::held::<V>(n, prepared, batch, at);
+            let held = equilibrium::held::<V, N>(n, prepared, batch, at);
             let flag = match (&prepared.reference, &prepared.statics) {
                 (Some(reference), _) => modes::general(n, (prepared, reference), batch, held, at),
                 (None, Statics::Potential(potential)) => {

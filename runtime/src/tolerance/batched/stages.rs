@@ -2,14 +2,18 @@
 
 use super::nominal::FEW;
 use super::{Solved, TaylorModel};
-use crate::batched::algebra::{self, LARGEST};
+use crate::batched::algebra;
 use crate::kernels::Kernels;
 use crate::scalar::{Batch, Lanes, WIDTH};
 use crate::tolerance::normal_sampling::standard_normal_pair;
 
 /// `b = b_mean + L z`, `z` standard normal; of other distributions the normal numbers behind them.
 #[inline(always)]
-pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved<'_>, at: usize) {
+pub(super) fn draw<V: Lanes, const N: usize>(
+    prepared: &TaylorModel<'_, N>,
+    batch: &mut Solved<'_>,
+    at: usize,
+) {
     let (design, standard) = (&mut batch.design[..], &mut batch.standard[..]);
     let pairs = batch.bits.iter().zip(standard.chunks_exact_mut(2));
     for (([radius, angle], normal), drawn) in pairs.zip(&prepared.drawn) {
@@ -37,7 +41,7 @@ pub(super) fn draw<V: Lanes>(prepared: &TaylorModel<'_>, batch: &mut Solved<'_>,
 }
 
 /// Values that are not normal, from the standard normal numbers in their places.
-pub(super) fn distribute(prepared: &TaylorModel<'_>, design: &mut [Batch]) {
+pub(super) fn distribute<const N: usize>(prepared: &TaylorModel<'_, N>, design: &mut [Batch]) {
     let Some((joint, moved)) = &prepared.joint else {
         return;
     };
@@ -50,7 +54,11 @@ pub(super) fn distribute(prepared: &TaylorModel<'_>, design: &mut [Batch]) {
 }
 
 /// Ones for the members whose bodies can exist.
-pub(super) fn possible(prepared: &TaylorModel<'_>, design: &[Batch], members: usize) -> Batch {
+pub(super) fn possible<const N: usize>(
+    prepared: &TaylorModel<'_, N>,
+    design: &[Batch],
+    members: usize,
+) -> Batch {
     let mut flags = Batch([0.0; WIDTH]);
     let mut own = prepared.nominal.design.clone();
     for sample in 0..members {
@@ -66,15 +74,15 @@ pub(super) fn possible(prepared: &TaylorModel<'_>, design: &[Batch], members: us
 
 /// The equilibrium as the derivatives of the nominal one predict it.
 #[inline(always)]
-pub(super) fn predict<V: Lanes>(
+pub(super) fn predict<V: Lanes, const N: usize>(
     n: usize,
-    prepared: &TaylorModel<'_>,
+    prepared: &TaylorModel<'_, N>,
     batch: &mut Solved<'_>,
     at: usize,
 ) {
     let coordinates = &prepared.nominal.coordinates[..n];
     let (design, nominal) = (&batch.design[..], &prepared.nominal.design[..]);
-    let mut q = [V::constant(0.0); LARGEST];
+    let mut q = [V::constant(0.0); N];
     for i in 0..n {
         q[i] = V::constant(coordinates[i]);
     }
@@ -82,7 +90,7 @@ pub(super) fn predict<V: Lanes>(
     let varied = prepared.varied.iter().zip(&prepared.first);
     for (k, (&variable, first)) in varied.enumerate() {
         let change = V::load(&design[variable], at) - V::constant(nominal[variable]);
-        let mut slope = [V::constant(0.0); LARGEST];
+        let mut slope = [V::constant(0.0); N];
         for i in 0..n {
             slope[i] = V::constant(first[i]);
         }

@@ -12,33 +12,33 @@ use crate::{Equilibrium, Modes};
 const ROUNDING: f64 = 1e-10;
 
 /// By what the stiffness of a sample is compared with the nominal one.
-pub(super) enum Statics {
+pub(super) enum Statics<const N: usize> {
     /// Forces with a potential, and no constraints: it stays positive definite.
-    Potential(Potential),
+    Potential(Potential<N>),
     /// Other forces, reactions among them: it stays regular.
-    Forces(Forces),
+    Forces(Forces<N>),
 }
 
-pub(super) struct Potential {
+pub(super) struct Potential<const N: usize> {
     /// Undamped nominal modes, one in each row.
-    pub(super) shapes: Square<f64>,
+    pub(super) shapes: Square<f64, N>,
     /// Their `lambda`, 1/s^2.
-    pub(super) lambda: Row<f64>,
+    pub(super) lambda: Row<f64, N>,
     /// `1/2 dKhat/dq_k` by `k` and row, rows beside the diagonal twice, the rows after `k` not used: the quadratic terms of the
     /// residual.
-    pub(super) curvature: Vec<Square<f64>>,
+    pub(super) curvature: Vec<Square<f64, N>>,
     /// `dKhat/dq_k` between the nominal modes.
-    pub(super) stiffening: Vec<Square<f64>>,
+    pub(super) stiffening: Vec<Square<f64, N>>,
 }
 
-pub(super) struct Forces {
+pub(super) struct Forces<const N: usize> {
     /// Inverse of the nominal stiffness, its rows divided by [`Self::units`].
-    pub(super) inverse: Square<f64>,
+    pub(super) inverse: Square<f64, N>,
     /// Of the unknowns: of motions with kinetic energies of one size, of reactions.
-    pub(super) units: Row<f64>,
+    pub(super) units: Row<f64, N>,
 }
 
-impl Statics {
+impl<const N: usize> Statics<N> {
     /// `None` where the nominal state is not clear enough. `reach` is how far one standard deviation of every variable moves each
     /// coordinate.
     pub(super) fn new(
@@ -79,7 +79,7 @@ impl Statics {
     }
 }
 
-impl Forces {
+impl<const N: usize> Forces<N> {
     fn new(state: &Equilibrium, units: &[f64]) -> Option<Self> {
         let n = units.len();
         let factors = Lu::new(&state.linear.stiffness)?;
@@ -97,7 +97,7 @@ impl Forces {
 }
 
 /// As a row of a small size.
-pub(super) fn row(values: &[f64]) -> Row<f64> {
+pub(super) fn row<const N: usize>(values: &[f64]) -> Row<f64, N> {
     core::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
 }
 
@@ -117,7 +117,7 @@ fn well_conditioned(nominal: &Equilibrium, shapes: &Matrix, lambda: &[f64]) -> b
 }
 
 /// `1/2 dKhat/dq_k`, row `j < k` standing for row `k` of `j` too.
-fn quadratic_terms((k, slope): (usize, &Matrix)) -> Square<f64> {
+fn quadratic_terms<const N: usize>((k, slope): (usize, &Matrix)) -> Square<f64, N> {
     let mut terms = small(slope);
     for (j, row) in terms.iter_mut().enumerate() {
         let share = if j == k { 0.5 } else { 1.0 };

@@ -2,11 +2,10 @@
 
 use eigentol_statistics::Joint;
 
-use super::nominal::Nominal;
+use super::nominal::{FEW, Nominal};
 use super::statics::{Statics, row};
 use crate::algebra::{Matrix, Vector, largest};
-use crate::batched::algebra::{Row, Square};
-use crate::batched::small;
+use crate::batched::algebra::Row;
 use crate::constraints::Structure;
 use crate::eigenproblem::Reference;
 use crate::kernels::BatchKernels;
@@ -14,15 +13,12 @@ use crate::modes::Family;
 use crate::scalar::{Batch, Instructions};
 use crate::tolerance::Tolerances;
 use crate::tolerance::normal_sampling::GREATEST_NORMAL;
-use crate::{DampingKind, Description, Equilibrium, Mode, Modes, Stability};
-
-/// The kernels that samples need.
-const KERNELS: [&str; 2] = ["residual_and_stiffness", "linear"];
+use crate::{Equilibrium, Mode, Modes, Stability};
 
 /// The nominal state in the form that samples need.
-pub(in crate::tolerance) struct TaylorModel<'a> {
+pub(in crate::tolerance) struct TaylorModel<'a, const N: usize> {
     pub(super) kernels: &'a dyn BatchKernels,
-    pub(in crate::tolerance) instructions: Instructions,
+    pub(super) instructions: Instructions,
     pub(super) nominal: &'a Equilibrium,
     /// Where values are not normal: functions of a standard normal number each, and what is added to them.
     pub(super) joint: Option<(&'a Joint, Vector)>,
@@ -39,10 +35,10 @@ pub(in crate::tolerance) struct TaylorModel<'a> {
     /// Design variables that vary.
     pub(super) varied: Vec<usize>,
     /// `dq*/db` by varied variable.
-    pub(super) first: Vec<Row<f64>>,
+    pub(super) first: Vec<Row<f64, N>>,
     /// Coefficient of `db_j db_k` in `q*` by `k` and `j <= k`, positions in `varied`; empty without.
-    pub(super) second: Vec<Square<f64>>,
-    pub(super) statics: Statics,
+    pub(super) second: Vec<[Row<f64, N>; FEW]>,
+    pub(super) statics: Statics<N>,
     /// How many of the unknowns are coordinates.
     pub(super) motions: usize,
     /// The nominal pairs, where modes are damped or constrained.
@@ -50,21 +46,20 @@ pub(in crate::tolerance) struct TaylorModel<'a> {
     /// No design that can be drawn breaks a physical requirement: samples need not ask.
     pub(super) all_possible: bool,
     /// Displacements that one standard deviation of every variable causes.
-    pub(super) reach: Row<f64>,
+    pub(super) reach: Row<f64, N>,
 }
 
-impl<'a> TaylorModel<'a> {
+impl<'a, const N: usize> TaylorModel<'a, N> {
     /// `None` where the mechanism is not of the kind that is solved in vectors, the nominal state is not a clear minimum with
     /// all of its modes, or nothing varies.
-    pub(in crate::tolerance) fn new(
+    pub(super) fn new(
         kernels: &'a dyn BatchKernels,
-        nominal: &'a Equilibrium,
-        modes: &Modes,
+        (nominal, modes): (&'a Equilibrium, &Modes),
         tolerances: &'a Tolerances,
         instructions: Instructions,
     ) -> Option<Self> {
         let n = nominal.coordinates.len();
-        if !possible(&nominal.description, modes.family) || nominal.stability != Stability::Stable {
+        if nominal.stability != Stability::Stable {
             return None;
         }
         let structure = Structure::of(&nominal.description);
@@ -140,16 +135,4 @@ impl<'a> TaylorModel<'a> {
             first: first.iter().map(|slope| row(slope)).collect(),
         })
     }
-}
-
-/// Whether samples of a mechanism may be solved in vectors for modes of this family: few unknowns, no constraints but on positions,
-/// undamped modes of a potential, or general modes with some damping.
-pub(crate) fn possible(description: &Description, family: Family) -> bool {
-    let undamped = description.damping == DampingKind::Zero;
-    small(description, &KERNELS)
-        && Structure::of(description).holonomic()
-        && match family {
-            Family::Undamped => undamped && description.symmetric_stiffness,
-            Family::General => !undamped,
-        }
 }

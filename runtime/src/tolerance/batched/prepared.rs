@@ -1,0 +1,76 @@
+//! Samples in vectors of as many unknowns as there are.
+
+use super::samples::Solved;
+use super::taylor_model::TaylorModel;
+use crate::constraints::Structure;
+use crate::kernels::BatchKernels;
+use crate::modes::Family;
+use crate::scalar::Instructions;
+use crate::tolerance::Tolerances;
+use crate::{DampingKind, Description, Equilibrium, Modes};
+
+/// Most unknowns of a mechanism whose samples are solved side by side.
+const MOST: usize = 16;
+/// The kernels that samples need.
+const KERNELS: [&str; 2] = ["residual_and_stiffness", "linear"];
+
+/// The nominal state in the form that samples need, its matrices no larger than they must be.
+pub(in crate::tolerance) enum Prepared<'a> {
+    Four(Box<TaylorModel<'a, 4>>),
+    Eight(Box<TaylorModel<'a, 8>>),
+    Sixteen(Box<TaylorModel<'a, MOST>>),
+}
+
+impl<'a> Prepared<'a> {
+    /// `None` where the mechanism is not of the kind that is solved in vectors, the nominal state is not clearly stable with all of
+    /// its modes, or nothing varies.
+    pub(in crate::tolerance) fn new(
+        kernels: &'a dyn BatchKernels,
+        (nominal, modes): (&'a Equilibrium, &Modes),
+        tolerances: &'a Tolerances,
+        instructions: Instructions,
+    ) -> Option<Self> {
+        if !possible(&nominal.description, modes.family) {
+            return None;
+        }
+        let state = (nominal, modes);
+        match nominal.coordinates.len() {
+            ..=4 => {
+                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                Some(Self::Four(Box::new(model)))
+            }
+            ..=8 => {
+                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                Some(Self::Eight(Box::new(model)))
+            }
+            _ => {
+                let model = TaylorModel::new(kernels, state, tolerances, instructions)?;
+                Some(Self::Sixteen(Box::new(model)))
+            }
+        }
+    }
+
+    /// Solves the members of some batches from their random bits.
+    pub(in crate::tolerance) fn solve(&self, batches: &mut [Solved<'_>]) {
+        match self {
+            Self::Four(model) => model.solve(batches),
+            Self::Eight(model) => model.solve(batches),
+            Self::Sixteen(model) => model.solve(batches),
+        }
+    }
+}
+
+/// Whether samples of a mechanism may be solved in vectors for modes of this family: few unknowns, no constraints but on positions,
+/// undamped modes of a potential, or general modes with some damping.
+pub(crate) fn possible(description: &Description, family: Family) -> bool {
+    let undamped = description.damping == DampingKind::Zero;
+    (1..=MOST).contains(&description.coordinates.len())
+        && KERNELS
+            .iter()
+            .all(|name| description.kernel(name).is_some())
+        && Structure::of(description).holonomic()
+        && match family {
+            Family::Undamped => undamped && description.symmetric_stiffness,
+            Family::General => !undamped,
+        }
+}
