@@ -118,8 +118,8 @@ impl<'a> Responses<'a> {
         self.watch
     }
 
-    /// The same of a mechanism that can be evaluated at several designs side by side: samples of frequencies of undamped modes are
-    /// then solved in the vectors of the processor where [`monte_carlo`](crate::tolerance::monte_carlo) does so.
+    /// The same of a mechanism that can be evaluated at several designs side by side: samples of quantities of modes are then
+    /// solved in the vectors of the processor where [`monte_carlo`](crate::tolerance::monte_carlo) does so.
     ///
     /// # Errors
     /// As [`Self::new`].

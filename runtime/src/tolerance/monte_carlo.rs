@@ -34,10 +34,10 @@ pub struct Sampling<'a> {
     pub threads: usize,
     /// Return every sample, not only the statistics.
     pub keep_samples: bool,
-    /// Solve several samples side by side with these vector instructions where the mechanism allows it: generated code, no
-    /// constraints, undamped modes, at most eight coordinates. Statistics are those of the samples one by one up to
-    /// rounding, and do not depend on which instructions are taken; `None` takes the samples one by one. The result says
-    /// which it was ([`MonteCarlo::side_by_side`]).
+    /// Solve several samples side by side with these vector instructions where the mechanism allows it: at most sixteen unknowns, no
+    /// constraints on velocities. Samples that are not clearly what the nominal state has become are solved alone. Statistics are
+    /// those of the samples one by one up to rounding, and do not depend on which instructions are taken; `None` takes the
+    /// samples one by one. The result says which it was ([`MonteCarlo::side_by_side`]).
     pub vectors: Option<Instructions>,
     /// Which of the samples to take now; all unless set. Results of other ranges are added by [`PartialMonteCarlo::merge`].
     pub range: Option<Range<u64>>,
