@@ -114,6 +114,13 @@ impl<'a> Responses<'a> {
         }
     }
 
+    /// Counts a design that is evaluated, where the work may go on.
+    pub(crate) fn counted(&self) -> Result<(), Error> {
+        self.go_on()?;
+        self.watch.advance(1);
+        Ok(())
+    }
+
     pub(crate) fn watch(&self) -> Watch<'a> {
         self.watch
     }
@@ -192,8 +199,7 @@ impl<'a> Responses<'a> {
         slopes: bool,
     ) -> Result<Realisation, Error> {
         crate::arguments::check_count("design variables", design, self.nominal.design.len())?;
-        self.go_on()?;
-        self.watch.advance(1);
+        self.counted()?;
         solved.solve(self.mechanism, self.nominal, self.modes, design);
         let stable = solved.outcome == Outcome::Stable;
         let mut found = Realisation {

@@ -2,15 +2,15 @@
 
 use super::expansion::{Expansion, expansions};
 use super::gather::{Gathered, Scale, Task};
-use super::model::Model;
+use super::model::{DesignRoom, Designs, Evaluated, Model, Take};
 use super::moments;
 use super::result::{Estimated, Method};
 use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::Vector;
 use crate::kernels::CurvatureKernels;
-use crate::response::{Response, Responses, Workspace};
-use crate::tolerance::{Counts, Outcome, Tolerances};
+use crate::response::{Response, Responses};
+use crate::tolerance::{Counts, Tolerances};
 use crate::{Description, Error, Shared};
 
 /// Mean and standard deviation of a response, corrected by those of its Taylor model. SI.
@@ -100,13 +100,12 @@ pub fn controlled(
     let task = Task {
         scales: scales.collect(),
         model: &Pairs {
-            responses,
+            designs: Designs::new(responses, &space),
             nominal: space.nominal,
             controls: &controls,
         },
         space: &space,
         unknowns: at.coordinates.len(),
-        side_by_side: None,
     };
     let samples = task.gather(sampler)?;
     let spreads = controls.iter().enumerate();
@@ -248,35 +247,44 @@ fn corrected(samples: &Gathered, place: usize, known: f64) -> Result<Option<Corr
 
 /// Responses of the mechanism beside those of their models.
 struct Pairs<'a> {
-    responses: &'a Responses<'a>,
+    designs: Designs<'a>,
     nominal: &'a [f64],
     controls: &'a [Option<Control<'a>>],
 }
 
 impl Model for Pairs<'_> {
-    type Room = Workspace;
+    type Room = DesignRoom;
 
-    fn room(&self) -> Workspace {
-        self.responses.room()
+    fn room(&self) -> DesignRoom {
+        self.designs.room()
     }
 
     fn evaluate(
         &self,
-        room: &mut Workspace,
-        design: &[f64],
-        values: &mut [Option<f64>],
-    ) -> Result<Outcome, Error> {
-        let found = self.responses.at(room, design)?;
-        let moved = design.iter().zip(self.nominal);
-        let x: Vector = moved.map(|(value, nominal)| value - nominal).collect();
-        let all = self.controls.iter().zip(&found.values);
-        for ((control, value), places) in all.zip(values.chunks_exact_mut(QUANTITIES)) {
-            if let (Some(control), Some(f)) = (control, value) {
-                let g = control.value(&x);
-                let square = |value: f64| (value - control.mean).powi(2);
-                places.copy_from_slice(&[Some(*f), Some(g), Some(square(*f)), Some(square(g))]);
+        room: &mut DesignRoom,
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error> {
+        let mut values = vec![None; QUANTITIES * self.controls.len()];
+        self.designs.evaluate(room, points, &mut |k, found| {
+            let moved = found.design.iter().zip(self.nominal);
+            let x: Vector = moved.map(|(value, nominal)| value - nominal).collect();
+            let all = self.controls.iter().zip(found.values);
+            values.fill(None);
+            for ((control, value), places) in all.zip(values.chunks_exact_mut(QUANTITIES)) {
+                if let (Some(control), Some(f)) = (control, value) {
+                    let g = control.value(&x);
+                    let square = |value: f64| (value - control.mean).powi(2);
+                    places.copy_from_slice(&[Some(*f), Some(g), Some(square(*f)), Some(square(g))]);
+                }
             }
-        }
-        Ok(found.outcome)
+            take(
+                k,
+                Evaluated {
+                    values: &values,
+                    ..found
+                },
+            )
+        })
     }
 }

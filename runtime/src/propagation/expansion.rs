@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::model::Model;
+use super::model::{Evaluated, Model, Take};
+use super::space::Space;
 use crate::Error;
 use crate::algebra::{Matrix, Vector, dot, form};
 use crate::kernels::CurvatureKernels;
@@ -64,31 +65,46 @@ pub(super) fn expansions(
 
 /// Every expansion to first order, then every one to second order.
 pub(super) struct Polynomials<'a> {
-    pub(super) nominal: &'a [f64],
+    pub(super) space: &'a Space<'a>,
     pub(super) expansions: &'a [Option<Expansion>],
 }
 
 impl Model for Polynomials<'_> {
-    type Room = Vec<f64>;
+    /// A design, the step to it, and what the expansions give there.
+    type Room = (Vector, Vector, Vec<Option<f64>>);
 
-    fn room(&self) -> Vec<f64> {
-        Vec::new()
+    fn room(&self) -> Self::Room {
+        let nominal = Vector::from(self.space.nominal);
+        let values = vec![None; 2 * self.expansions.len()];
+        (nominal.clone(), nominal, values)
     }
 
     fn evaluate(
         &self,
-        x: &mut Vec<f64>,
-        design: &[f64],
-        values: &mut [Option<f64>],
-    ) -> Result<Outcome, Error> {
-        x.clear();
-        let moved = design.iter().zip(self.nominal);
-        x.extend(moved.map(|(value, nominal)| value - nominal));
-        let (first, second) = values.split_at_mut(self.expansions.len());
-        for (k, own) in self.expansions.iter().enumerate() {
-            first[k] = own.as_ref().map(|own| own.first_order(x));
-            second[k] = own.as_ref().and_then(|own| own.second_order(x));
+        (design, x, values): &mut Self::Room,
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error> {
+        let outcome = Outcome::Stable;
+        for (k, z) in points.iter().enumerate() {
+            self.space.design(z, design);
+            for ((x, value), nominal) in x.iter_mut().zip(&*design).zip(self.space.nominal) {
+                *x = value - nominal;
+            }
+            let (first, second) = values.split_at_mut(self.expansions.len());
+            for (k, own) in self.expansions.iter().enumerate() {
+                first[k] = own.as_ref().map(|own| own.first_order(x));
+                second[k] = own.as_ref().and_then(|own| own.second_order(x));
+            }
+            take(
+                k,
+                Evaluated {
+                    design,
+                    outcome,
+                    values,
+                },
+            )?;
         }
-        Ok(Outcome::Stable)
+        Ok(())
     }
 }

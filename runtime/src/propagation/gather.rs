@@ -8,15 +8,13 @@ use eigentol_statistics::summary::{
     Chunk, Comoments, Covariance, Moments, Partial, Plan, Sketch, Statistics,
 };
 
-use super::model::Model;
+use super::model::{Evaluated, Model, TOGETHER};
 use super::result::{Estimated, QUANTILES, Quantile, ResponseSpread};
 use super::sampler::Sampler;
-use super::space::{Point, Space};
+use super::space::Space;
 use crate::Error;
 use crate::algebra::Vector;
-use crate::sensitivity::Quantity;
 use crate::tolerance::gather::{Part, Work};
-use crate::tolerance::side_by_side::{Lanes, SideBySide};
 use crate::tolerance::{Counts, Outcome};
 
 /// What is known of some samples, by randomisation: responses, then the design variables that vary.
@@ -36,16 +34,6 @@ pub(super) struct Task<'a, M> {
     pub(super) scales: Vec<Scale>,
     /// Unknowns of the mechanism, which the stack of a thread depends on.
     pub(super) unknowns: usize,
-    /// Where every response is a quantity of a mode that can be solved side by side: these.
-    pub(super) side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
-}
-
-/// What one thread works in.
-struct Room<M: Model> {
-    model: M::Room,
-    point: Point,
-    lanes: Option<Lanes>,
-    values: Vec<Option<f64>>,
 }
 
 impl<M: Model> Task<'_, M> {
@@ -83,83 +71,36 @@ impl<M: Model> Task<'_, M> {
             progress: sampler.progress,
             stop: sampler.stop,
         };
-        let room = || Room::<M> {
-            model: self.model.room(),
-            point: self.space.point(),
-            lanes: (self.side_by_side.as_ref()).map(|(lanes, _)| lanes.room()),
-            values: vec![None; self.scales.len()],
-        };
-        let solve = |room: &mut Room<M>, part: &mut Part<'_, ()>| {
+        let room = || self.model.room();
+        let solve = |room: &mut M::Room, part: &mut Part<'_, ()>| {
             let sequence = &sequences[part.group];
-            match &self.side_by_side {
-                Some((lanes, wanted)) => self.solve_together(room, sequence, part, (lanes, wanted)),
-                None => self.solve(room, sequence, part),
-            }
+            self.solve(room, sequence, part)
         };
         let (parts, _) = work.gather(&plan, &groups, room, solve)?;
         Ok(Gathered { parts })
     }
 
-    /// One sample after the other.
+    /// Some samples at a time.
     fn solve(
         &self,
-        room: &mut Room<M>,
+        room: &mut M::Room,
         sequence: &Sequence,
         Part { chunk, samples, .. }: &mut Part<'_, ()>,
     ) -> Result<(), Error> {
         let mut walk = sequence.from(samples.start);
         let variables = self.space.variables();
-        for sample in samples.clone() {
-            let Some(probabilities) = walk.next_point() else {
-                break;
-            };
-            let design = self.space.design(&mut room.point, normals(probabilities));
-            room.values.fill(None);
-            let outcome = self
-                .model
-                .evaluate(&mut room.model, design, &mut room.values)?;
-            take(chunk, sample, outcome, &room.values, &variables, design)?;
-        }
-        Ok(())
-    }
-
-    /// Samples side by side, and alone those that cannot be.
-    fn solve_together(
-        &self,
-        room: &mut Room<M>,
-        sequence: &Sequence,
-        Part { chunk, samples, .. }: &mut Part<'_, ()>,
-        (side_by_side, wanted): (&SideBySide<'_>, &[(usize, Quantity)]),
-    ) -> Result<(), Error> {
-        let Some(lanes) = &mut room.lanes else {
-            return Ok(());
-        };
-        let mut walk = sequence.from(samples.start);
-        let variables = self.space.variables();
-        let (model, values) = (&mut room.model, &mut room.values);
-        let mut rows: Vec<Vector> = Vec::with_capacity(SideBySide::MOST);
-        for first in samples.clone().step_by(SideBySide::MOST) {
-            rows.clear();
-            while rows.len() < SideBySide::MOST && first + (rows.len() as u64) < samples.end {
+        let mut points: Vec<Vector> = Vec::with_capacity(TOGETHER);
+        for first in samples.clone().step_by(TOGETHER) {
+            points.clear();
+            let most = TOGETHER.min((samples.end - first) as usize);
+            while points.len() < most {
                 let Some(probabilities) = walk.next_point() else {
                     break;
                 };
-                rows.push(self.space.standard(normals(probabilities)));
+                points.push(self.space.standard(normals(probabilities)));
             }
-            side_by_side.solve(lanes, &rows, |k, design, eigenvalues| {
-                let outcome = match eigenvalues {
-                    Some(all) => {
-                        for (value, (mode, quantity)) in values.iter_mut().zip(wanted) {
-                            *value = all.get(*mode).and_then(|s| quantity.of_stable(*s));
-                        }
-                        Outcome::Stable
-                    }
-                    None => {
-                        values.fill(None);
-                        self.model.evaluate(model, design, values)?
-                    }
-                };
-                take(chunk, first + k as u64, outcome, values, &variables, design)
+            self.model.evaluate(room, &points, &mut |k, found| {
+                take(chunk, first + k as u64, &found, &variables)
             })?;
         }
         Ok(())
@@ -167,7 +108,7 @@ impl<M: Model> Task<'_, M> {
 }
 
 /// Standard normal numbers of probabilities.
-fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
+pub(super) fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
     probabilities.iter().map(|p| normal::quantile(*p))
 }
 
@@ -175,12 +116,14 @@ fn normals(probabilities: &[f64]) -> impl Iterator<Item = f64> {
 fn take(
     chunk: &mut Chunk,
     sample: u64,
-    outcome: Outcome,
-    values: &[Option<f64>],
+    Evaluated {
+        design,
+        outcome,
+        values,
+    }: &Evaluated<'_>,
     variables: &[usize],
-    design: &[f64],
 ) -> Result<(), Error> {
-    chunk.count(outcome as usize, 1)?;
+    chunk.count(*outcome as usize, 1)?;
     for (k, value) in values.iter().enumerate() {
         chunk.set(sample, k, *value)?;
     }

@@ -1,22 +1,19 @@
 //! Which variables the scatter of responses comes from.
 
-use eigentol_statistics::normal;
 use eigentol_statistics::sensitivity::{
     Bootstrap, Estimate, Estimator, SaltelliDesign, Sample, sobol_indices,
 };
 use eigentol_statistics::sequence::Sequence;
 
 use super::choice::Effort;
+use super::gather::normals;
 use super::limits::limits;
-use super::model::Model;
+use super::model::{DesignRoom, Designs, Model, TOGETHER};
 use super::space::Space;
 use crate::algebra::Vector;
 use crate::response::{Response, Responses};
 use crate::tolerance::{Counts, Outcome, Tolerances, pool};
 use crate::{Description, Error, Shared};
-
-/// Evaluations that a thread does at a time.
-const PIECE: usize = 64;
 
 /// How one response depends on one variable.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,24 +172,24 @@ fn table(responses: &Responses<'_>, space: &Space<'_>, effort: Effort) -> Result
     let points = Points::new(table.blocks, d, rows, effort)?;
     let at = responses.nominal();
     let number = rows as usize * table.blocks;
-    let room = || (responses.room(), space.point());
-    let work = |(room, point): &mut (_, _), piece: usize| {
-        let range = piece * PIECE..number.min((piece + 1) * PIECE);
-        let mut found = Vec::new();
-        let mut solve = |probabilities: &[f64]| {
-            let z = probabilities.iter().map(|p| normal::quantile(*p));
-            let design = space.design(point, z);
-            let mut values = vec![None; responses.wanted().len()];
-            let outcome = responses.evaluate(room, design, &mut values)?;
-            let design: Vec<f64> = variables.iter().map(|&i| design[i]).collect();
-            found.push((outcome, values, design));
+    let designs = Designs::new(responses, space);
+    let work = |room: &mut DesignRoom, piece: usize| {
+        let range = piece * TOGETHER..number.min((piece + 1) * TOGETHER);
+        let mut own = Vec::with_capacity(range.len());
+        points.each(range, &mut |probabilities| {
+            own.push(space.standard(normals(probabilities)));
+        });
+        let mut found = Vec::with_capacity(own.len());
+        designs.evaluate(room, &own, &mut |_, one| {
+            let design: Vec<f64> = variables.iter().map(|&i| one.design[i]).collect();
+            found.push((one.outcome, one.values.to_vec(), design));
             Ok(())
-        };
-        points.each(range, &mut solve)?;
+        })?;
         Ok::<Vec<(Outcome, Vec<Option<f64>>, Vec<f64>)>, Error>(found)
     };
+    let room = || designs.room();
     let size = (at.coordinates.len(), at.design.len());
-    for piece in pool::run(effort.threads, size, number.div_ceil(PIECE), room, work)? {
+    for piece in pool::run(effort.threads, size, number.div_ceil(TOGETHER), room, work)? {
         for (outcome, values, design) in piece? {
             table.counts.add(outcome, 1);
             table.values.push(values);
@@ -229,26 +226,22 @@ impl Points {
         })
     }
 
-    fn each(
-        &self,
-        range: core::ops::Range<usize>,
-        take: &mut dyn FnMut(&[f64]) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+    fn each(&self, range: core::ops::Range<usize>, take: &mut dyn FnMut(&[f64])) {
+        let first = range.start as u64;
         match self {
             Self::Rows(design) => {
-                let mut walk = design.from(range.start as u64);
+                let mut walk = design.from(first);
                 for _ in range {
-                    walk.next_point().map_or(Ok(()), &mut *take)?;
+                    walk.next_point().map(&mut *take);
                 }
             }
             Self::Plain(sequence) => {
-                let mut walk = sequence.from(range.start as u64);
+                let mut walk = sequence.from(first);
                 for _ in range {
-                    walk.next_point().map_or(Ok(()), &mut *take)?;
+                    walk.next_point().map(&mut *take);
                 }
             }
         }
-        Ok(())
     }
 }
 

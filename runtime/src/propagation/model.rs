@@ -1,40 +1,151 @@
-//! What is evaluated at designs.
+//! What is evaluated at points of the standard normal space.
 
+use super::space::Space;
 use crate::Error;
-use crate::response::{Responses, Workspace};
-use crate::tolerance::Outcome;
+use crate::algebra::Vector;
+use crate::response::{Response, Responses, Workspace};
+use crate::sensitivity::Quantity;
+use crate::tolerance::side_by_side::{Lanes, SideBySide};
+use crate::tolerance::{Outcome, Tolerances};
 
-/// Responses of a design: those of the mechanism, or of a model of it.
+/// A design, SI, with what becomes of it.
+pub(super) struct Evaluated<'a> {
+    pub(super) design: &'a [f64],
+    pub(super) outcome: Outcome,
+    pub(super) values: &'a [Option<f64>],
+}
+
+/// Takes the design of a point, by position.
+pub(super) type Take<'a> = dyn FnMut(usize, Evaluated<'_>) -> Result<(), Error> + 'a;
+
+/// Responses of designs: those of the mechanism, or of a model of it.
 pub(super) trait Model: Sync {
     /// What a thread works in.
     type Room;
 
     fn room(&self) -> Self::Room;
 
-    /// The outcome of a design, SI; writes its responses.
+    /// Evaluates the designs of at most [`TOGETHER`] points, each of one standard normal number for each design variable.
     fn evaluate(
         &self,
         room: &mut Self::Room,
-        design: &[f64],
-        values: &mut [Option<f64>],
-    ) -> Result<Outcome, Error>;
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error>;
 }
 
-impl Model for Responses<'_> {
-    type Room = Workspace;
+/// Most points that are evaluated at a time.
+pub(super) const TOGETHER: usize = SideBySide::MOST;
 
-    fn room(&self) -> Workspace {
-        self.workspace()
+/// The mechanism itself.
+pub(super) struct Designs<'a> {
+    responses: &'a Responses<'a>,
+    space: &'a Space<'a>,
+    /// Where every response is a quantity of a mode that can be solved side by side: these.
+    side_by_side: Option<(SideBySide<'a>, Vec<(usize, Quantity)>)>,
+}
+
+impl<'a> Designs<'a> {
+    pub(super) fn new(responses: &'a Responses<'a>, space: &'a Space<'a>) -> Self {
+        Self {
+            responses,
+            space,
+            side_by_side: side_by_side(responses, space.tolerances),
+        }
+    }
+
+    pub(super) fn side_by_side(&self) -> bool {
+        self.side_by_side.is_some()
+    }
+}
+
+fn side_by_side<'a>(
+    responses: &Responses<'a>,
+    tolerances: &'a Tolerances,
+) -> Option<(SideBySide<'a>, Vec<(usize, Quantity)>)> {
+    let (at, modes) = (responses.nominal(), responses.modes());
+    let wanted = responses.wanted().iter().map(|response| match response {
+        Response::Mode { mode, quantity } => Some((*mode, *quantity)),
+        _ => None,
+    });
+    let wanted = wanted.collect::<Option<Vec<_>>>()?;
+    let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
+    Some((lanes, wanted))
+}
+
+/// What designs are solved in.
+pub(super) struct DesignRoom {
+    alone: Workspace,
+    design: Vector,
+    lanes: Option<Lanes>,
+    values: Vec<Option<f64>>,
+}
+
+impl Model for Designs<'_> {
+    type Room = DesignRoom;
+
+    fn room(&self) -> DesignRoom {
+        let lanes = self.side_by_side.as_ref();
+        DesignRoom {
+            alone: self.responses.workspace(),
+            design: self.space.nominal.into(),
+            lanes: lanes.map(|(lanes, _)| lanes.room()),
+            values: vec![None; self.responses.wanted().len()],
+        }
     }
 
     fn evaluate(
         &self,
-        room: &mut Workspace,
-        design: &[f64],
-        values: &mut [Option<f64>],
-    ) -> Result<Outcome, Error> {
-        let found = self.at(room, design)?;
-        values.copy_from_slice(&found.values);
-        Ok(found.outcome)
+        room: &mut DesignRoom,
+        points: &[Vector],
+        take: &mut Take<'_>,
+    ) -> Result<(), Error> {
+        let responses = self.responses;
+        let DesignRoom {
+            alone,
+            design,
+            lanes,
+            values,
+        } = room;
+        let mut solve = |design: &[f64], values: &mut Vec<Option<f64>>| {
+            let found = responses.at(alone, design)?;
+            *values = found.values;
+            Ok::<Outcome, Error>(found.outcome)
+        };
+        let (Some(lanes), Some((side_by_side, wanted))) = (lanes, &self.side_by_side) else {
+            for (k, z) in points.iter().enumerate() {
+                self.space.design(z, design);
+                let outcome = solve(design, values)?;
+                take(
+                    k,
+                    Evaluated {
+                        design,
+                        outcome,
+                        values,
+                    },
+                )?;
+            }
+            return Ok(());
+        };
+        side_by_side.solve(lanes, points, |k, design, eigenvalues| {
+            let outcome = match eigenvalues {
+                Some(all) => {
+                    responses.counted()?;
+                    for (value, (mode, quantity)) in values.iter_mut().zip(wanted) {
+                        *value = all.get(*mode).and_then(|s| quantity.of_stable(*s));
+                    }
+                    Outcome::Stable
+                }
+                None => solve(design, values)?,
+            };
+            take(
+                k,
+                Evaluated {
+                    design,
+                    outcome,
+                    values,
+                },
+            )
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use eigentol_statistics::quadrature::{CompensatedSum, SparseGrid, TensorGrid};
 
-use super::model::Model;
+use super::model::{DesignRoom, Designs, Model, TOGETHER};
 use super::result::{Estimated, Method, Propagation, ResponseSpread};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
@@ -14,8 +14,6 @@ use crate::{Equilibrium, Error};
 const TENSOR: usize = 3;
 /// Designs that are solved before their sums are added up.
 const ROUND: usize = 4096;
-/// Designs that a thread solves at a time.
-const PIECE: usize = 16;
 
 /// A point of the standard normal space, its weight, and that in the coarser grid.
 type Node = (Vec<f64>, [f64; 2]);
@@ -54,20 +52,26 @@ pub fn quadrature(
         counts: Counts::default(),
         missing: vec![0; nominal.len()],
     };
+    let designs = Designs::new(responses, &space);
     grid.rounds(&mut |nodes| {
-        let room = || (responses.room(), space.point());
-        let solve = |(room, point): &mut (_, _), piece: usize| {
-            let own = &nodes[piece * PIECE..nodes.len().min((piece + 1) * PIECE)];
-            let each = own.iter().map(|(z, _)| {
-                let design = space.design(point, z.iter().copied());
-                let mut values = vec![None; nominal.len()];
-                let outcome = responses.evaluate(room, design, &mut values)?;
-                Ok((outcome, values, Vector::from(design)))
-            });
-            each.collect::<Result<Vec<_>, Error>>()
+        let solve = |room: &mut DesignRoom, piece: usize| {
+            let own = &nodes[piece * TOGETHER..nodes.len().min((piece + 1) * TOGETHER)];
+            let points = own.iter().map(|(z, _)| space.standard(z.iter().copied()));
+            let points: Vec<Vector> = points.collect();
+            let mut each = Vec::with_capacity(own.len());
+            designs.evaluate(room, &points, &mut |_, found| {
+                each.push((
+                    found.outcome,
+                    found.values.to_vec(),
+                    Vector::from(found.design),
+                ));
+                Ok(())
+            })?;
+            Ok::<Vec<(Outcome, Vec<Option<f64>>, Vector)>, Error>(each)
         };
+        let room = || designs.room();
         let size = (at.coordinates.len(), at.design.len());
-        let solved = pool::run(threads, size, nodes.len().div_ceil(PIECE), room, solve)?;
+        let solved = pool::run(threads, size, nodes.len().div_ceil(TOGETHER), room, solve)?;
         let solved = solved.into_iter().collect::<Result<Vec<_>, _>>()?;
         for ((_, weights), (outcome, values, design)) in nodes.iter().zip(solved.iter().flatten()) {
             found.add(*outcome, values);

@@ -3,16 +3,15 @@
 use core::ops::Range;
 
 use super::gather::{Gathered, Task};
+use super::model::Designs;
 use super::result::{Method, Propagation};
 use super::sampler::{Points, Sampler};
 use super::space::Space;
 use crate::algebra::{Matrix, Vector};
 use crate::response::{Response, Responses};
-use crate::sensitivity::Quantity;
 #[cfg(feature = "serde")]
 use crate::tolerance::Outcome;
 use crate::tolerance::run::{Format, Run};
-use crate::tolerance::side_by_side::SideBySide;
 use crate::tolerance::{Counts, Fingerprint, Tolerances};
 use crate::{Description, Error, Shared};
 
@@ -69,22 +68,21 @@ pub fn sampled(
     let nominal = responses.with_gradients(&mut responses.workspace(), &at.design)?;
     let slopes = nominal.gradients.iter().map(Option::as_deref);
     let scales = nominal.values.iter().zip(slopes);
+    let designs = Designs::new(responses, &space);
     let task = Task {
-        model: responses,
+        model: &designs,
         scales: scales
             .map(|(value, slopes)| tolerances.scale(*value, slopes))
             .collect(),
         unknowns: at.coordinates.len(),
         space: &space,
-        side_by_side: side_by_side(responses, tolerances),
     };
-    let side_by_side = task.side_by_side.is_some();
     Ok(Samples {
         format: Format,
         points: sampler.points,
         wanted: responses.wanted().to_vec(),
         run: Run {
-            fingerprint: fingerprint(responses, tolerances, sampler, side_by_side),
+            fingerprint: fingerprint(responses, tolerances, sampler, designs.side_by_side()),
             groups: sampler.groups(),
             of_each: sampler.of_each()?,
         },
@@ -94,21 +92,6 @@ pub fn sampled(
         inputs: at.inputs.clone(),
         description: at.description.clone(),
     })
-}
-
-/// How to solve samples side by side, where all responses are quantities of modes.
-fn side_by_side<'a>(
-    responses: &Responses<'a>,
-    tolerances: &'a Tolerances,
-) -> Option<(SideBySide<'a>, Vec<(usize, Quantity)>)> {
-    let (at, modes) = (responses.nominal(), responses.modes());
-    let wanted = responses.wanted().iter().map(|response| match response {
-        Response::Mode { mode, quantity } => Some((*mode, *quantity)),
-        _ => None,
-    });
-    let wanted = wanted.collect::<Option<Vec<_>>>()?;
-    let lanes = SideBySide::new(responses.batches()?, at, modes, tolerances)?;
-    Some((lanes, wanted))
 }
 
 /// What the samples are of.

@@ -11,12 +11,6 @@ pub(super) struct Space<'a> {
     dimensions: Vec<usize>,
 }
 
-/// A point of the space and its design.
-pub(super) struct Point {
-    z: Vector,
-    design: Vector,
-}
-
 impl<'a> Space<'a> {
     pub(super) fn new(nominal: &'a Equilibrium, tolerances: &'a Tolerances) -> Result<Self, Error> {
         tolerances.check_count(nominal.design.len())?;
@@ -38,13 +32,6 @@ impl<'a> Space<'a> {
         (0..sigmas.len()).filter(|&i| sigmas[i] > 0.0).collect()
     }
 
-    pub(super) fn point(&self) -> Point {
-        Point {
-            z: Vector::zeros(self.nominal.len()),
-            design: self.nominal.into(),
-        }
-    }
-
     /// One standard normal number for each design variable, from those that matter.
     pub(super) fn standard(&self, z: impl Iterator<Item = f64>) -> Vector {
         let mut all = Vector::zeros(self.nominal.len());
@@ -54,17 +41,8 @@ impl<'a> Space<'a> {
         all
     }
 
-    /// The design, SI, that belongs to one standard normal number for each dimension.
-    pub(super) fn design<'p>(
-        &self,
-        point: &'p mut Point,
-        z: impl Iterator<Item = f64>,
-    ) -> &'p [f64] {
-        for (&j, z) in self.dimensions.iter().zip(z) {
-            point.z[j] = z;
-        }
-        let Point { z, design } = point;
+    /// Writes the design, SI, that belongs to one standard normal number for each design variable.
+    pub(super) fn design(&self, z: &[f64], design: &mut [f64]) {
         self.tolerances.design_from_normal(self.nominal, z, design);
-        design
     }
 }

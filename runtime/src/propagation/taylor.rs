@@ -153,14 +153,10 @@ fn samples(space: &Space<'_>, expansions: &[Option<Expansion>]) -> Result<Gather
     };
     let scales: Vec<_> = expansions.iter().map(scale).collect();
     let task = Task {
-        model: &Polynomials {
-            nominal: space.nominal,
-            expansions,
-        },
+        model: &Polynomials { space, expansions },
         space,
         scales: [&scales[..], &scales].concat(),
         unknowns: 0,
-        side_by_side: None,
     };
     task.gather(&Sampler::new(Points::Sobol).samples(SAMPLES))
 }
